@@ -1,5 +1,5 @@
 /* apart.c: start values that satisfy the holds: positions by Newton's method with the smallest change, rates by one
- * such step. Coordinates that the scene gives a start change only if the others do not suffice. */
+ * such step. A coordinate whose start the scene sets changes only if changing the others does not suffice. */
 #include "apart.h"
 
 #include <math.h>
@@ -15,7 +15,8 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* A held expression is meant to be zero if its error is below this share of its terms. Above APART_LEAST it is reported. */
+/* A hold's expression counts as meant to be zero if its value is below this part of the sum of its terms' sizes. A value
+ * above the part APART_LEAST is reported. */
 #define OFF_MOST 0.5
 /* "A moment later" is this share of a step after the start. */
 #define SOON 1e-6
@@ -28,9 +29,9 @@ typedef struct apart {
     int n;
     int hold[HOLDS]; /* active holds at the start */
     int holds;
-    /* the expression changes its sign near the start, which that of a distance does not */
+    /* does the expression of this hold change its sign near the start? A distance does not: it is never negative */
     bool vanishes[HOLDS];
-    bool closes; /* an expression is slightly away from zero, within OFF_MOST */
+    bool closes; /* the expression of some hold is not zero, but its value is below OFF_MOST */
     double place[N];
     double rate[N];
 } apart;
@@ -52,7 +53,7 @@ static double along(const apart *a, int h, const double *x) {
     return sum;
 }
 
-/* The sum of the sizes of the terms of an expression, or of its rate. */
+/* The sum of the sizes of the terms of a hold's expression at positions x; if not `places`, of its rate at rates x. */
 static double terms(const apart *a, int h, const double *x, bool places) {
     double sum = 0.0;
     for (int i = 0; i < a->n; i++) {
@@ -73,7 +74,7 @@ static double off_zero(const apart *a, int h) {
     return is ? value : 0.0;
 }
 
-/* The expression's value at `place` + share times its row. */
+/* Moves a->place to from + share * row. Returns the value of the hold's expression there. */
 static double value_at(apart *a, int h, const double *from, const double *row, double share) {
     for (int i = 0; i < a->n; i++) {
         a->place[i] = from[i] + share * row[i];
@@ -82,7 +83,7 @@ static double value_at(apart *a, int h, const double *from, const double *row, d
     return law_of(a, h)[WH_LAW_FIRST];
 }
 
-/* Newton's method with the least change, of this expression alone. */
+/* Does this hold's expression change its sign at a zero near the start? The zero is found by Newton's method. */
 static bool has_zero(apart *a, int h) {
     double start[N];
     double row[N] = {0.0};
@@ -106,8 +107,8 @@ static bool has_zero(apart *a, int h) {
     return changes;
 }
 
-/* Solves n equations, rows of n + 1 entries. The last entry of a row is the right-hand side, and is replaced by the unknown. False:
- * the matrix is singular. */
+/* Solves n linear equations: matrix[n][n + 1], with the right-hand side in the last entry of each row. The solution replaces
+ * the right-hand side. Returns false if the matrix is singular. */
 static bool solve(int n, double *matrix) {
     int lead[HOLDS];
     if (gauss_reduce(matrix, n, n + 1, n, false, 1e-12, lead) < n) {
@@ -119,7 +120,7 @@ static bool solve(int n, double *matrix) {
     return true;
 }
 
-/* The smallest change of x, in the coordinates that `may` move, by which the expressions change by `by`. */
+/* Changes x as little as possible so that the expression of each hold h changes by by[h]. Only x[i] with may[i] change. */
 static bool move(const apart *a, const bool *may, const double *by, double *x) {
     double matrix[HOLDS * (HOLDS + 1)] = {0.0};
     const int n = a->holds;
@@ -176,7 +177,7 @@ static bool fit_rates(apart *a, const bool *may) {
     return move(a, may, by, a->rate);
 }
 
-/* Tries the coordinates without a start of their own first, then all. */
+/* First changes only the coordinates whose start the scene does not set. If that fails, it may change all. */
 static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     const apart before = *a;
     for (int all = 0; all < 2; all++) {
@@ -195,7 +196,7 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     return false;
 }
 
-/* The energy that stopping the holds takes: 1/2 w (J M^-1 J^T)^-1 w of their speeds w; NaN if they are redundant. */
+/* The energy lost when an impulse stops the holds' speeds w: 1/2 w (J M^-1 J^T)^-1 w; NaN if the holds are redundant. */
 static double lost_J(const apart *a) {
     double matrix[HOLDS * (HOLDS + 1)];
     const int n = a->holds;
@@ -223,7 +224,7 @@ static void say_values(FILE *out, const apart *a, const double *was_place, const
         const double was = primes == 0 ? was_place[i] : was_rate[i - a->n];
         const char *si = u->unit[primes].si;
         const bool has_unit = strcmp(si, "1") != 0;
-        /* the user replaces the scene's start by this text, so it includes unchanged values */
+        /* the text replaces the whole start of the scene, so it includes unchanged values */
         if (value != was || (u->start_at[primes].source != NULL && !u->driven)) {
             fprintf(out, "%s%s%s = %.17g%s%s%s", before, u->name, primes == 0 ? "" : "'", value,
                     has_unit ? " [" : "", has_unit ? si : "", has_unit ? "]" : "");

@@ -1,4 +1,4 @@
-/* apart.h: holds that the start of a run does not satisfy. A held expression that starts slightly away from zero stays
+/* apart.h: holds that the start of a run does not satisfy. An expression of a hold that starts slightly away from zero stays
  * there. If it has a rate, an impulse stops it and takes energy. The warning gives the error, and start values that
  * satisfy the holds. */
 #ifndef CHECK_APART_H

@@ -55,7 +55,7 @@ static void spread_enter(spread *s, double value, uint64_t before) {
     s->squares += off * (value - s->first - s->mean);
 }
 
-/* sqrt(8) standard deviations: the range of a sine. */
+/* The range of a sine with the same standard deviation: sqrt(8) standard deviations. */
 static double swing(const spread *s, uint64_t entries) {
     return entries > 0 ? number_root(8.0 * s->squares / (double)entries) : 0.0;
 }
@@ -76,11 +76,11 @@ double books_swing_J(const books *b) {
 
 /* --- round-off ---------------------------------------------------------------------------------*/
 
-/* The smallest normal float; and how often a step rounds each entry, at its stages and events. */
+/* FLOAT_LEAST: the smallest normal float. SUMS_OF_A_STEP: how often a step, with its stages and events, rounds each entry. */
 #define FLOAT_LEAST 0x1p-126
 #define SUMS_OF_A_STEP 8.0
 
-/* Relative change of a component for the difference quotient of the energy. */
+/* A component of the state is changed by this part of its value, to see how much the energy changes. */
 #define SLOPE_SHARE 0x1p-20
 
 static void evaluate_now(const books *b, const double *angle_rad, const double *real,
@@ -89,7 +89,7 @@ static void evaluate_now(const books *b, const double *angle_rad, const double *
     evaluator_run(b->evaluator, time_s, angle_rad, real, real + (im->coordinates - im->angles),
                   b->input, b->value);
     for (int i = 0; i < im->list[IMAGE_BOOKS]->results; i++) {
-        b->value[i] = number_shown(b->value[i]); /* a zero energy has no sign */
+        b->value[i] = number_shown(b->value[i]); /* -0 becomes 0 */
     }
 }
 
@@ -104,7 +104,7 @@ static double unit_rounding(const engine_kind *kind) {
     return kind == &engine_float ? 0x1p-24 : 0x1p-53;
 }
 
-/* The rounding of a component of the state in a step, and the increment for the energy's slope. */
+/* by: the round-off of a component of the state in one step. change: the change by which the energy's slope is measured. */
 typedef struct state_rounding {
     double by;
     double change;
@@ -113,7 +113,7 @@ typedef struct state_rounding {
 static state_rounding rounding_of_component(const image *im, const engine_kind *kind,
                                             const void *run, int i, double value) {
     const bool turns = kind == &engine_float && i < im->angles;
-    if (kind->unit != NULL) { /* round-off of the component, and of sums with it */
+    if (kind->unit != NULL) { /* fixed point: the component and its sums are rounded to this unit */
         const double unit = kind->unit(run, i);
         return (state_rounding){unit, number_most(SLOPE_SHARE * fabs(value), unit)};
     }
@@ -165,9 +165,9 @@ static double step_rounding_J(const books *b, const engine_kind *kind) {
     return sum_W * b->step_s;
 }
 
-/* Energy that a step's entries may lose to underflow. A run with contacts keeps its ledger in its own number format.
- * Values below the smallest normal float have an error of that size, or vanish, and all errors may have one sign.
- * Double has no such loss of any practical size. */
+/* Energy that the entries of a step may lose to underflow. A run with contacts keeps its ledger in its own number type. In
+ * float, values below the smallest normal number have an error of that size, or become zero, and all errors may have one
+ * sign. In double this loss is negligible. */
 static double step_lost_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     if (im->contacts == 0 || kind != &engine_float) {
@@ -188,7 +188,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
-/* A momentum is a sum of masses times rates, and of terms without rates. */
+/* Updates terms[]: a momentum is a sum of masses times rates, and of terms without rates (lean[]). */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -233,8 +233,8 @@ double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
-/* Error bound of the work of two steps. If the powers are smooth, it is the difference of Simpson's and the trapezoidal rule; if
- * not, the work of the change of the powers. */
+/* Error bound of the work of two steps. If the powers are smooth, it is the difference between Simpson's and the trapezoidal
+ * rule. Otherwise it is the work of the change of the powers. */
 static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
     const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
     const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
@@ -262,7 +262,7 @@ static void add_work(books *b, const double power_W[2]) {
 
 /* --- terms linear in the rates -------------------------------------------------------------------*/
 
-/* The kinetic energy at this state with every rate reversed. lean[] gets its momenta. */
+/* The kinetic energy at this state with every rate reversed. lean[] gets the momenta of the reversed state. */
 static double reversed_J(books *b, const double *angle_rad, const double *from) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -281,8 +281,8 @@ static void take_lean(books *b) {
     }
 }
 
-/* Tests random positions and rates near the start. A coordinate that is recovered from its momentum has no rate to
- * reverse. */
+/* Does a momentum have a part that stays the same if all rates are reversed? Tests three states other than the start. A
+ * coordinate that is recovered from its momentum has no rate to reverse. */
 static bool find_leans(books *b) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
@@ -311,14 +311,15 @@ static bool find_leans(books *b) {
 
 /* --- momenta that every motion conserves ---------------------------------------------------------------*/
 
-/* Largest mechanism that is tested. */
+/* Mechanisms with more coordinates are not tested. */
 enum { FRAME_MOST = 24 };
-/* The distance to another state near a state, in seconds of motion. Parts of the changes of momenta below FRAME_LEAST
- * are round-off. */
+/* FRAME_ASIDE_S: the changes of the momenta are taken over this time of motion before and after a state, s. FRAME_LEAST: a
+ * smaller part of the largest change is round-off. */
 #define FRAME_ASIDE_S 1e-5
 #define FRAME_LEAST 1e-6
 
-/* The rate of each momentum at random positions and rates; false if it is not finite. */
+/* change[]: the change of each momentum in a short motion through state number `draw`, whose positions and rates are random.
+ * Returns false if a change is not finite. */
 static bool momenta_change(books *b, int draw, double *change) {
     const image *im = b->image;
     double angle_rad[2][IMAGE_COMPONENTS_MAX];
@@ -351,8 +352,8 @@ static bool momenta_change(books *b, int draw, double *change) {
     return finite;
 }
 
-/* Eliminates the changes of the momenta at twice as many states as there are momenta. The remaining null vectors are
- * conserved sums; a momentum in one of them belongs to a frame. */
+/* Finds sums of momenta that are conserved, by elimination: null vectors of the changes of the momenta at random states,
+ * twice as many as there are momenta. frame[] is set for each momentum in such a sum. */
 static void find_frame(books *b) {
     const int n = b->image->count;
     const int rows = 2 * n;
@@ -375,8 +376,7 @@ static void find_frame(books *b) {
         leads[lead[r]] = true;
     }
     for (int c = 0; c < n && known; c++) {
-        for (int r = -1; r < rank && !leads[c];
-             r++) { /* momentum c minus its components along the momenta with a pivot */
+        for (int r = -1; r < rank && !leads[c]; r++) { /* the null vector with momentum c */
             const int i = r < 0 ? c : lead[r];
             const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
             b->frame[i] = b->frame[i] || share > FRAME_LEAST;
@@ -454,11 +454,11 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         b->undefined_s = b->time_s;
     }
     if (b->entries == 0 || ((b->entries & (b->entries - 1)) == 0 && b->entries % 3 == 1)) {
-        /* the start, 1, 4, 16, ...: seldom */
+        /* not at each step, because it takes long: at the start, and after 1, 4, 16, ... steps */
         look_at_rounding(b, kind, run);
     }
     b->entries++;
-    if (b->entries % 2 == 1) { /* Simpson's rule is complete */
+    if (b->entries % 2 == 1) { /* the number of steps is even, so Simpson's rule covers them all */
         const double error = books_account(b).left;
         b->most_J = number_most(b->most_J, fabs(error));
         if (fabs(error - b->kept_J) > fabs(b->jump_J)) {

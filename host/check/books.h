@@ -11,9 +11,9 @@
 
 #include "host/engine/engine.h"
 
-/* An account of the energy or of a momentum. Its residual is the level now, less the level at the start and the entries. An
- * entry is positive if it adds (a motor's work, a push along a coordinate), negative if it removes (a damper, an impact).
- * An exact solution has a zero residual. */
+/* An account of the energy or of a momentum. Its residual is the present level, minus the level at the start, minus the
+ * entries. An entry is positive if it adds (a motor's work, a push along a coordinate), negative if it removes (a damper, an
+ * impact). An exact solution has a zero residual. */
 typedef struct book_account {
     double level[2]; /* level at the start, and the present one */
     double left;     /* residual after the entries so far */
@@ -23,12 +23,12 @@ typedef struct book_account {
 book_account account_of(const double level[2]);
 void account_enter(book_account *a, double given);
 
-/* Mean and spread of a series, from its first value on, by Welford's recurrence. */
+/* Mean and spread of a series, by Welford's recurrence. `first` is its first value. */
 typedef struct spread {
     double first;
-    double mean;    /* mean of the values minus `first` */
-    double squares; /* sum of (value - mean)^2 */
-    bool pushed;    /* a rate whose acceleration was not always zero */
+    double mean;    /* mean of (value - first) */
+    double squares; /* sum of the squared deviations from the mean */
+    bool pushed;    /* for a rate: its acceleration was nonzero at some step */
 } spread;
 
 typedef struct books {
@@ -36,26 +36,26 @@ typedef struct books {
     double *input; /* [image->inputs] */
     evaluator *evaluator;
     double *value;        /* results of the image's books list */
-    double *momentum;     /* [count] at the start */
+    double *momentum;     /* [count] at the start of the run */
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change of a momentum since the start */
     double *terms;        /* [count] largest sampled sum of the sizes of a momentum's terms */
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
-    double moving_J[2];  /* kinetic_J without the part odd in the rates */
+    double moving_J[2];  /* kinetic_J without its part of odd order in the rates */
     double stored_J[2];
     double energy_J[2];   /* balanced: kinetic + stored, or the energy integral */
     double input_J;       /* work of the inputs so far */
     double loss_J;        /* losses since the start */
-    double power_W[2][2]; /* input and loss power at the last two even steps' ends */
+    double power_W[2][2]; /* input and loss power: [0] after 0, 2, 4, ... steps, [1] a step later */
     spread kinetic;       /* spread over the steps */
     spread stored;
     spread *rate; /* [count] */
     spread *push; /* [count] momenta without lean[] */
-    /* [count] the part of a conserved momentum, to which a common speed only adds its mean */
+    /* [count] does this momentum belong to a conserved sum? A common speed of its bodies then only changes the mean */
     bool *frame;
-    /* [count] part of a momentum that is even in the rates, and depends on the origin */
+    /* [count] the part of each momentum that stays the same if all rates are reversed; it depends on the origin */
     double *lean;
     bool leans;         /* a lean[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], in units of the unit round-off */
@@ -67,7 +67,7 @@ typedef struct books {
     double kept_J;      /* residual at the last even step */
     double most_J;      /* largest size of the residual at an even step */
     double jump_J;      /* largest change of the residual between two even steps */
-    double jump_s;      /* the end of that sudden change */
+    double jump_s;      /* the end of those two steps */
     bool negative;      /* the kinetic energy was negative, which no masses allow */
     double negative_s;  /* the first time */
     bool undefined;     /* an energy, a power or a momentum was not a finite number */
@@ -83,14 +83,14 @@ void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
 book_account books_account(const books *b);
-/* Root mean square of a momentum, without the mean if a common speed may have added it. */
+/* Root mean square of a momentum over the run. If a common speed may have added to its mean, the mean is subtracted. */
 double books_momentum(const books *b, int unknown);
 /* The largest swing of an energy (energy_residual.h). */
 double books_swing_J(const books *b);
-/* Energy change by the round-off of one step in numbers of this kind: of the state, of the accelerations and of the
- * integrated powers. *computing_J: the round-off of one evaluation of the energy in double. */
+/* Energy change by the round-off of one step in numbers of this kind. Counts the round-off of the state, of the accelerations
+ * and of the integrated powers. *computing_J: the round-off of one evaluation of the energy in double. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);
-/* Underflow in the ledger of a scene with contacts in float, over all steps; after books_rounding_J(). */
+/* Energy lost to underflow over all steps, in the ledger of a float run with contacts. Call books_rounding_J() first. */
 double books_lost_J(const books *b);
 
 #endif

@@ -32,8 +32,8 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
     kept_account_free(&kept);
 }
 
-/* Energy that the steps gave back had been lost before, so it counts as missing. If nothing had been lost, and the
- * steps only corrected round-off of the energy, it counts as excess. */
+/* Steps that give energy back (--stabilized) had lost it, or they give back too much. The larger of the two residuals counts:
+ * the one without the energy that was given back, or the one with it. */
 static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
                              energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);
@@ -44,8 +44,8 @@ static void enter_given_back(const image *im, const engine_kind *kind, const voi
     made->energy.left = fabs(lost_J) >= fabs(made->energy.left) ? lost_J : made->energy.left;
 }
 
-/* The balance next to the run does not see contact forces, and its rule fails across an impact. So with contacts
- * the entries are from the run's ledger. The levels are always those of the balance, which has them in double. */
+/* The balance (books.h) does not see contact forces, and its integration rule fails across an impact. So with contacts the
+ * entries are from the run's ledger. The levels are always those of the balance, which computes them in double. */
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run) {
     energy_residual made = {.jump_s = -1.0};
     if (b == NULL || (b->image->contacts > 0 && !b->image->ledger.kept)) {
@@ -75,7 +75,7 @@ energy_residual energy_residual_of(books *b, const engine_kind *kind, const void
         made.rounding_J += books_lost_J(b);
     }
     made.exact = b->image->settings.matrix == MATRIX_EXACT;
-    if (made.exact && made.left_J != 0.0) { /* exact motion, coarse rule */
+    if (made.exact && made.left_J != 0.0) { /* the integration of the powers is not exact */
         made.rounding_J += b->rule_J;
     }
     made.rounded = made.rounding_J / ENERGY_RESIDUAL_LIMIT > made.largest_J;
@@ -155,7 +155,7 @@ static void account_print_level(FILE *out, const char *text, const double level[
     fprintf(out, "  %-*s %.9g -> %.9g\n", ACCOUNT_WIDTH, text, level[0], level[1]);
 }
 
-/* `more` is printed after the number; may be "". */
+/* `more`: text after the number; may be "". */
 static void account_print_entry(FILE *out, const char *text, double given, const char *more) {
     fprintf(out, "  %-*s %+.9g%s\n", ACCOUNT_WIDTH, text, number_shown(given), more);
 }
@@ -166,7 +166,7 @@ static void account_print_end(FILE *out, double change, double left) {
     fprintf(out, "  %-*s %+.2e (numerical)\n", ACCOUNT_WIDTH, "residual", left);
 }
 
-/* The two energies, and the balanced energy if it differs from their sum. */
+/* Prints the two energies, and the balanced energy if it differs from their sum. */
 static void print_levels(FILE *out, const books *b) {
     fprintf(out, "energy balance [J]\n");
     account_print_level(out, "kinetic", b->kinetic_J);
@@ -211,7 +211,7 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
         account_print_end(out, b->energy_J[1] - b->energy_J[0], balance->left_J);
     } else if (!isfinite(a.left)) {
         fprintf(out, "  no balance: the energies are not finite numbers\n");
-    } else { /* the ledger is not available, and the balance does not see internal forces */
+    } else { /* without a ledger the work of contacts is unknown */
         account_print_entry(out, "work of inputs", b->input_J, "");
         account_print_entry(out, "losses", -b->loss_J, "");
         account_print_entry(out, contacts, a.left, ", with numerical errors of unknown size");
@@ -221,7 +221,7 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
 
 /* --- by statement ------------------------------------------------------------------------------------*/
 
-/* The entries of an account, without contacts that changed nothing. */
+/* Prints the entries of an account, except those of contacts that changed nothing. */
 static void print_entries(FILE *out, const kept_account *kept, const char *unknown) {
     char text[ACCOUNT_WIDTH + 1];
     for (int i = 0; i < kept->entries; i++) {

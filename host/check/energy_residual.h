@@ -14,14 +14,14 @@
  * All entries are changes: neither a constant in V nor a heavy clock that turns evenly counts. They are sums or means over
  * time, so that the moment of passing a singular position does not set the measure.
  *
- * Round-off does not count against a step: an entry is at least 1/ENERGY_RESIDUAL_LIMIT times the round-off. This is the
- * rounding of the state and of the accelerations to the run's numbers at each step. The rounding of the energy's own
- * evaluation at the start and at the end is added. Its terms are large if a sum such as V = k (x - b)^2/2 is multiplied out
- * and x is far from the origin.
+ * Round-off does not count against a step: the largest entry counts as at least 1/ENERGY_RESIDUAL_LIMIT times the round-
+ * off. This is the rounding of the state and of the accelerations to the run's numbers at each step. The rounding of the
+ * energy's own evaluation at the start and at the end is added. Its terms are large if a sum such as V = k (x - b)^2/2 is
+ * multiplied out and x is far from the origin.
  *
- * With --matrix exact a step of any length is the motion itself, but the integration of the powers is not. The difference of
- * two rules of integration then counts as round-off does. Energy given back by --stabilized counts as residual, because steps
- * had lost it. If they gave back more than was lost, the excess counts. A zero residual has the ratio 0. */
+ * With --matrix exact a step of any length is the motion itself, but the integration of the powers is not. The difference
+ * of two rules of integration then counts as round-off does. With --stabilized the residual is the larger of two: without
+ * the energy that the steps gave back, because they had lost it, or with it. A zero residual has the ratio 0. */
 #ifndef CHECK_ENERGY_RESIDUAL_H
 #define CHECK_ENERGY_RESIDUAL_H
 
@@ -37,24 +37,23 @@
 typedef struct energy_residual {
     bool known; /* false: no energies, energies that are not finite, or contacts without a ledger */
     book_account energy; /* the energy's account */
-    double inputs_J;     /* entries of the energy, by source; negative: taken */
+    double inputs_J;     /* work on the energy, by source; negative: taken from it */
     double losses_J;
     double contacts_J;
-    double left_J;    /* residual, signed: energy.left */
-    double largest_J; /* the largest entry, or the least value that round-off allows for it */
-    bool rounded;     /* largest_J is that least value */
-    double
-        rounding_J; /* round-off of a step times the root of the number of steps, plus that of the energy's evaluation */
-    double ratio;   /* |left| / largest, >= 0; infinite for a residual without entries */
-    bool stabilized; /* steps gave back (--stabilized) */
-    double lost_J;   /* size of the residual without the energy that the steps gave back */
-    bool saturated;  /* values were clamped to their range */
-    bool exact;      /* the steps are exact (--matrix exact) */
-    double jump_s;   /* time of a sudden change of the residual; below 0: it changed gradually */
+    double left_J;     /* residual, signed: energy.left */
+    double largest_J;  /* the largest entry, or the least value that round-off allows for it */
+    bool rounded;      /* largest_J is that least value */
+    double rounding_J; /* round-off of all steps, and of the evaluation of the energy */
+    double ratio;      /* |left| / largest, >= 0; infinite for a residual without entries */
+    bool stabilized;   /* the steps gave energy back (--stabilized) */
+    double lost_J;     /* size of the residual without the energy that the steps gave back */
+    bool saturated;    /* values were clamped to their range */
+    bool exact;        /* the steps are exact (--matrix exact) */
+    double jump_s;     /* time of a sudden change of the residual; below 0: it changed gradually */
 } energy_residual;
 
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run);
-/* Is the ratio above the limit? False if the residual is unknown. */
+/* Is the residual larger than its round-off, and the ratio above the limit? False if the residual is unknown. */
 bool energy_residual_lost(const energy_residual *b, double limit);
 /* The line of the summary; empty if unknown. */
 void energy_residual_print(FILE *out, const energy_residual *b);

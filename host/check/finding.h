@@ -23,7 +23,7 @@ typedef enum finding_id {
 #define FINDING_OF_SCENE FINDING_BIT(FINDING_APART)
 
 /* A warning means that the run cannot be trusted: `whirl run` and `whirl sweep` then end with exit status 1. After a
- * note the status is 0. In run_checks.c a small value turns a warning into a note. */
+ * note the status is 0. run_checks.c reports a small FINDING_MASS as a note. */
 typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
 
 /* --strict: STRICT_OFF keeps exit status 0, STRICT_FINDINGS depends on the findings. A positive value is a
@@ -31,7 +31,7 @@ typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity
 #define STRICT_OFF (-1.0)
 #define STRICT_FINDINGS 0.0
 
-/* The thresholds: a finding is reported if its value exceeds the limit of its row. */
+/* A finding is reported if its value exceeds the limit of its row. */
 typedef struct finding_row {
     const char *word;
     finding_severity severity;
@@ -43,21 +43,21 @@ typedef struct finding_row {
 
 extern const finding_row finding_rows[FINDINGS];
 
-/* Other thresholds of findings, besides their rows' limits. */
-/* accuracy: a run is reported if its error reaches RUN_CHECKS_TOLERANCE, as a part of a range, too early in the run. It
- * is not reported if the error grew as in a chaotic motion, for which no step helps. Such an error reaches
- * EARLY_TOLERANCE after BEGIN of the run, and TOLERANCE in less than GROWS times as long. */
+/* FINDING_ACCURACY: an error of RUN_CHECKS_TOLERANCE, as a part of a coordinate's range, is reported if it comes too early in
+ * the run. It is not reported if it grew as in a chaotic motion, for which no step helps: RUN_CHECKS_EARLY_TOLERANCE came
+ * after the part RUN_CHECKS_BEGIN of the run, and RUN_CHECKS_TOLERANCE in less than RUN_CHECKS_GROWS times as long. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
 #define RUN_CHECKS_BEGIN 0.02
-/* accuracy: a position's error that grows by this factor to HORIZON_TOLERANCE within SUDDEN_STEPS steps is reported at any
- * time, except in the first 2 SUDDEN_STEPS steps */
+/* FINDING_ACCURACY: a position's error is reported at any time if it grows RUN_CHECKS_SUDDEN-fold, to HORIZON_TOLERANCE,
+ * within RUN_CHECKS_SUDDEN_STEPS steps. The first 2 RUN_CHECKS_SUDDEN_STEPS steps do not count. */
 #define RUN_CHECKS_SUDDEN 30.0
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
-/* energy: limit of the residual at any time before the end, as a part of the largest entry. A plot does not show this much. */
+/* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry. A plot does not show this much. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* events: the last bounces before a rest are not reported, up to these parts of the largest entry and of the steps */
+/* Steps with too many events, as for the last bounces before a rest, are not reported below both limits: RUN_CHECKS_RESTS of
+ * the largest energy entry, RUN_CHECKS_RESTS_STEPS of all steps. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

@@ -221,7 +221,7 @@ typedef struct wish {
     bool in_double;
 } wish;
 
-/* The scene with the wish's settings; false if the end is not a whole number of steps. */
+/* *made: the scene with the settings `w`. Returns false if the end is not a whole number of steps. */
 static bool image_with(const image *im, const wish *w, image *made) {
     *made = *im;
     made->settings.method = w->method;
@@ -239,8 +239,8 @@ static bool image_with(const image *im, const wish *w, image *made) {
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
 }
 
-/* Is the run inaccurate almost from its begin on? A chaotic motion stays accurate for longer. A float run must be accurate to
- * its end; otherwise the same run is tried in double. */
+/* Is a trial inaccurate almost from its begin on? A chaotic motion stays accurate for longer. A trial in float must be
+ * accurate to its end; if it is not, the same settings are tried in double. */
 static bool is_off_at_once(const run_checks *v) {
     if (v->twins == NULL) {
         return false;
@@ -258,7 +258,7 @@ static bool does(const run_checks *v) {
            !is_off_at_once(v);
 }
 
-/* Returning false ends the trial: after a jump over a pole the remedy has failed. */
+/* Called after each step of a trial. False ends the trial: after a jump over a pole or through a contact it has failed. */
 static bool see(void *of, uint64_t step) {
     run_checks *v = of;
     (void)step;
@@ -298,7 +298,7 @@ static bool try(search *s, const wish *w) {
     return good;
 }
 
-/* Tries the run's number type, and if float fails also double. */
+/* Tries the settings with the number type of the run. If that is float and fails, tries double, too. */
 static bool try_either(search *s, wish *w) {
     if (try(s, w)) {
         return true;

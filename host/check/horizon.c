@@ -9,24 +9,23 @@
 #include "host/check/nonfinite.h"
 #include "host/number/functions.h"
 
-/* Factor on the round-off bound, for round-off that the bound leaves out: in the sums of a step and in library
- * functions. */
+/* Factor on the round-off bound. It allows for round-off that the bound does not include: in the sums of a step and in
+ * library functions. */
 #define ROUNDING_ROOM 8.0
-/* Least range of a rate, as a part of its size. For a rate of 34.56 rad/s that varies by 0.007, float cannot resolve a
- * thousandth of the variation. Positions have no such least range, because their origin is arbitrary. */
+/* Least range of a rate, as a part of its size: if a rate of 34.56 rad/s varies by 0.007, float cannot resolve a thousandth
+ * of the variation. Positions have no such least range, because their origin is arbitrary. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
-/* A position is constant up to round-off if it moves by less than this part of its distance from the origin, or of one
- * metre or radian. It is also constant compared with a position of the same unit that moves much further
- * (BESIDE_OTHERS). */
+/* A position counts as constant if it moves by less than the part STAYS of its distance from the origin, or of one metre or
+ * radian. It also does if it moves by less than BESIDE_OTHERS of the largest range of the positions with its unit. */
 #define STAYS 1e-9
 /* In float, a position that moves by less than this part of its distance from the origin is constant. */
 #define FLOAT_STAYS 3e-7
 #define BESIDE_OTHERS 1e-3
-/* A start computed by sums counts as round-off of zero if it is at most this part of a metre or radian. */
+/* A start that is computed by sums counts as zero if it is at most this part of a metre or radian. */
 #define STARTS 1e-12
-/* The bound is about twenty times the actual round-off. It is only eight times as large if the round-off is the same at all states,
- * as for a root of a nearly constant value. At that size the finer run has the same round-off as the run. */
+/* The round-off bound divided by the round-off of the finer run. It is about 20, but only 8 if the round-off is the same at
+ * all states, as for a root of a nearly constant value. In that case both runs have the same round-off. */
 #define BOUND_OVER 8.0
 
 static double size_of(const step_doubling_column *c) {
@@ -48,14 +47,15 @@ bool horizon_moves(const step_doubling *t, int k) {
     return !stays(t, k) || fabs(c->start) > (c->written ? 0.0 : STARTS * c->one);
 }
 
-/* The size with which round-off is compared: the value of a start that the scene gives, else at least one SI unit. */
+/* The size with which round-off is compared: the column's largest size, but at least one SI unit if it starts at zero. */
 static double least_size(const step_doubling_column *c) {
     const double least = c->written ? 0.0 : STARTS * c->one;
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* May both runs have the same round-off? A constant column has no range to compare the round-off with. It may be constant only for
- * lack of digits, if round-off might move it by more than its size, or by one metre or radian if it starts at zero. */
+/* May both runs have the same round-off in this column? `least`: the error to be detected. A constant column has no range to
+ * compare the round-off with. It may be constant only for lack of digits, if round-off might change it by more than its size,
+ * or by one metre or radian if it starts at zero. */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
@@ -141,10 +141,9 @@ void horizon_free(horizon *h) {
 /* Number of steps of the third run per step of the run. Above one, so that the third run is more accurate, and far from
  * simple ratios. */
 #define STEPS 1.41
-/* The third run may differ by this many times the difference between the run and the finer one, because of its steps
- * alone. */
+/* Because of its own step, the third run may differ by this many times the difference between the run and the finer one. */
 #define ITS_OWN 2.0
-/* Smaller differences do not count, SI. */
+/* A smaller difference does not count, in SI units. */
 #define ALIKE 1e-9
 
 static bool is_prime(uint64_t n) {
@@ -156,7 +155,7 @@ static bool is_prime(uint64_t n) {
     return n % 2U == 1U;
 }
 
-/* False: the third run's step is not a ratio of two 64-bit numbers. */
+/* The image of the third run. Returns false if its step is not a ratio of two 64-bit numbers. */
 static bool third_image(const step_doubling *t, uint64_t steps, image *im) {
     const image *run = t->shape->image;
     *im = t->finer;
@@ -185,7 +184,7 @@ static void compare(step_doubling *t, const horizon *h, const double *now, const
         const horizon_column *c = &h->column[k];
         const double off = fabs(other[k] - now[k]);
         const double range = number_most(c->range, off);
-        /* the run and the finer one agree up to this point */
+        /* up to now the run and the finer one agree within this error */
         const double within = h->tolerance * range;
         const double least = within + ITS_OWN * (number_least(c->off, within) + c->rounding) +
                              ALIKE * t->column[k].one;
@@ -200,7 +199,7 @@ static void compare(step_doubling *t, const horizon *h, const double *now, const
     }
 }
 
-/* The steps until which the finer run trusts every column. */
+/* The number of steps up to which the run is accurate in every column, according to the finer run. */
 static uint64_t trusted_steps(const step_doubling *t, const horizon *h) {
     const image *im = t->shape->image;
     double until_s = t->end_s;
@@ -229,7 +228,7 @@ static loop_end end_of(const step_doubling *t, const image *im, const budget *of
 void aliasing_find(step_doubling *t, budget *of) {
     const image *im = t->shape->image;
     if (t->status != WH_OK || im->steps == 0 || t->shape->kind->steps(t->run) != im->steps) {
-        return; /* the third run has failed, or was interrupted */
+        return; /* the run has failed, or was interrupted */
     }
     budget_begin(of);
     image third;

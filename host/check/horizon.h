@@ -25,9 +25,8 @@ typedef struct horizon_column {
      * 1e-9) of its largest magnitude. */
     double range;
     double rounding; /* bound on the round-off in the finer run */
-    double
-        off; /* largest difference of the two runs, in the same unit, including the finer run's own error */
-    double until_s; /* last comparison within the tolerance; the run's end if all are */
+    double off;      /* largest difference of both runs, plus the finer run's own error */
+    double until_s;  /* last comparison within the tolerance; the run's end if all are */
 } horizon_column;
 
 typedef struct horizon {
@@ -48,16 +47,17 @@ void horizon_free(horizon *h);
 
 /* === aliasing ==================================================================================== */
 
-/* Fills in t->aliased, or t->unaliased, after the end of the runs. `of`: the budget to charge. */
+/* Sets t->aliased, or t->unaliased if the budget is too small. Call it after both runs have ended. `of`: the budget to
+ * charge. */
 void aliasing_find(step_doubling *t, budget *of);
 
 /* === in words ================================================================================= */
 /* Prints each coordinate and rate, the run, and the quantities that stay correct afterwards. */
 void horizon_print(FILE *out, const horizon *h);
-/* One line, for a summary. `doubted`: a finding against the run may affect the finer run, too. */
+/* Prints one line for a summary. `doubted`: a finding against the run may affect the finer run, too. */
 void horizon_print_line(FILE *out, const horizon *h, bool doubted);
 extern const char *const horizon_words[];
-/* A header, and a row for each coordinate and rate. */
+/* Writes a header, and a row for each coordinate and rate. */
 void horizon_write(FILE *out, const horizon *h);
 
 #endif

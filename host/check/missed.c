@@ -56,7 +56,7 @@ static const form no_form = {{(double)NAN, (double)NAN},
                              {(double)NAN, (double)NAN},
                              {(double)NAN, (double)NAN}};
 
-/* A list of the image that reads places, rates and inputs. */
+/* `t`: a list of the image whose operations read only positions, rates and inputs. */
 static taylor_bounds *taylor_bounds_open(const image *im, const op_list *t) {
     taylor_bounds *a = alloc(1, sizeof *a);
     const int n = im->coordinates;
@@ -89,8 +89,8 @@ static void taylor_bounds_close(taylor_bounds *a) {
 
 /* --- forms ----------------------------------------------------------------------------------------------*/
 
-/* The intersection of two enclosures, or the one that is known. If it is empty because of round-off, the result is
- * `a`. */
+/* The intersection of two enclosures, or the known one if the other is unknown. If the intersection is empty because of
+ * round-off, the result is `a`. */
 static enclosure both(enclosure a, enclosure b) {
     if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
         return enclosure_is_finite(a) ? a : b;
@@ -151,7 +151,8 @@ static form over(const form *a, const form *b) {
     return q;
 }
 
-/* A function of u, from its slopes at the middle and on the part. */
+/* The form of a function of u. at, on: the function and its derivatives at the middle of the part, and bounds on them over
+ * the part. */
 static form chain(const form *u, slopes at, slopes on) {
     return (form){at.f[0], enclosure_mul(at.f[1], u->middle_slope), on.f[0],
                   enclosure_mul(on.f[1], u->slope),
@@ -262,7 +263,7 @@ static form call(function_id function, const form *u) {
     return chain(u, slopes_of(function, u->middle), slopes_of(function, u->value));
 }
 
-/* With n = x y' - y x' and q = x^2 + y^2 the slope is n / q. At the jump from -pi to pi it has no slope. */
+/* The angle of (x, y). With n = x y' - y x' and q = x^2 + y^2 its slope is n / q. At the jump from -pi to pi it has no slope. */
 static form angle_of(const form *y, const form *x) {
     const form n = {
         enclosure_sub(enclosure_mul(x->middle, y->middle_slope),
@@ -418,7 +419,7 @@ static void taylor_bounds_way(taylor_bounds *a, const double *from, const double
     a->glanced = false;
 }
 
-/* Bounds between two end values, widened by the bend. */
+/* Encloses a function with the values a and b at the ends, which deviates by at most `bend` from the straight line. */
 static enclosure between(double a, double b, double bend) {
     return (enclosure){enclosure_below(number_least(a, b) - bend),
                        enclosure_above(number_most(a, b) + bend)};
@@ -454,7 +455,8 @@ static void go(taylor_bounds *a, double low, double high) {
     }
 }
 
-/* Costs, in operations, of an operation's bounds, a coordinate's way, a form, and a function's form. */
+/* Costs in operations. BOUNDS: natural bounds of an operation. WAY: a coordinate on the path. FORM: a form of an operation.
+ * CALLED: a form of a function or power. */
 enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
 
 /* Natural bounds of one result on the whole path: a quick test. */
@@ -493,7 +495,7 @@ static enclosure taylor_bounds_value(const taylor_bounds *a, int result) {
     return a->of[a->list->result[result]].value;
 }
 
-/* on the part */
+/* The value at the middle of the part. */
 static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
     return a->of[a->list->result[result]].middle;
 }
@@ -507,18 +509,19 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 /* === what a step passes ========================================================================== */
 
-/* Most halvings of a step, and most parts of it for one contact. */
+/* HALVINGS: how often a path is halved at most. PARTS_MOST: most parts of a path that are tested for one contact or
+ * coordinate. */
 #define HALVINGS 24
 #define PARTS_MOST 400
-/* A negative margin is a mere touch if its size is below TOUCH times the margin at the ends, or times its change over
- * the step. It is round-off if it is below WIDTHS times the width of the bounds. */
+/* A negative margin is a mere touch if its size is below TOUCH times the larger margin at the ends, and below TOUCH times its
+ * change over the path. It is round-off if its size is below WIDTHS times the width of the bounds. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* An acceleration counts as hidden if it is HIDDEN times those at both ends, and would change the rate by the share
- * TURNS in a step. */
+/* An acceleration between the ends of a path counts as hidden if it exceeds HIDDEN times the sum of those at both ends. It
+ * must also be large enough to change the rate by the part TURNS within the path. */
 #define HIDDEN 2.0
 #define TURNS 0.05
-/* The slope of a gap has an edge if it changes by this share of its size in 2^-EDGE_HALVINGS of a step. */
+/* The slope of a gap has an edge if it changes by the part EDGE of its size within 2^-EDGE_HALVINGS of a path. */
 #define EDGE 0.05
 #define EDGE_HALVINGS 8
 
@@ -533,7 +536,7 @@ struct missed {
     double *to;             /* [angles + reals] state after the step */
     int *mode;              /* [contacts] modes before and after the step */
     int *mode_to;
-    double *most;              /* [coordinates] a larger acceleration is hidden from both ends */
+    double *most;              /* [coordinates] a larger acceleration counts as hidden */
     const engine_piece *piece; /* the present path */
     double size;               /* the larger of the margins at the ends of the path */
     int parts;                 /* number of parts tested so far */
@@ -552,12 +555,12 @@ static bool has_edges(const image *im) {
            op_list_has_kinks(im->list[IMAGE_SIGNALS]);
 }
 
-/* The result of the contacts' laws that is this row of contact k. */
+/* The index, in the results of the contacts' laws, of this row of contact k. */
 static int law_of(const image *im, int k, int row) {
     return k * (WH_LAW_ROWS + 2 * im->coordinates) + row;
 }
 
-/* A friction with undefined limits. */
+/* Is contact k a friction with a limit that is not constant? */
 static bool has_moving_limits(const image *im, int k) {
     const op_list *t = im->list[IMAGE_FORCES];
     return im->contact[k].kind == WH_FRICTION &&
@@ -613,10 +616,10 @@ static enclosure margin(const missed *m, int k, enclosure signal) {
 /* Is the condition met on a part of the path (1), excluded there (0), or undecided (-1)? */
 typedef int looking(missed *m, int k, double low, double high, double bar);
 
-/* The finest part: a thinner contact does not count. */
+/* Is this a finest part? A contact that lasts for less is not searched. */
 static bool is_finest(double low, double high) { return high - low <= 1.0 / (1 << HALVINGS); }
 
-/* `beyond`: the size of a negative margin at an end, which the error of a located event explains. */
+/* `beyond`: a negative margin up to this size is the error of a located event, and does not count. */
 static int look_contact(missed *m, int k, double low, double high, double beyond) {
     taylor_bounds_look(m->signals, 2 * k, low, high);
     const enclosure middle = margin(m, k, taylor_bounds_middle(m->signals, 2 * k));
@@ -671,7 +674,7 @@ static int passes(missed *m, looking *look, int k, double low, double high, doub
     return first > 0 || second > 0 ? 1 : first < 0 || second < 0 ? -1 : 0;
 }
 
-/* Combines two results: the first certain one counts. */
+/* Adds the result `passed` of contact or coordinate `what` to `found`. A certain result replaces an undecided one. */
 static missed_found or_this(missed_found found, int passed, int what) {
     return passed > 0 || (passed < 0 && found.what < 0)
                ? (missed_found){.what = what, .sure = passed > 0}
@@ -712,12 +715,11 @@ static double middle_of(taylor_bounds *a, int result) {
     return 0.5 * e.low + 0.5 * e.high;
 }
 
-/* The speed and load of friction k at the ends. Each is the sum of its row's parts:
- * the acceleration of its rate by a unit force, and the force that keeps it stuck without other contacts. */
+/* Friction k at the ends of the path: of each number the larger one. */
 typedef struct met {
-    double turns;
-    double load;
-    double rate;
+    double turns; /* the acceleration by a unit of its force */
+    double load;  /* the force that keeps it stuck; infinite if other contacts act */
+    double rate;  /* the sliding speed */
 } met;
 
 static met met_by(missed *m, int k) {
@@ -747,8 +749,8 @@ static met met_by(missed *m, int k) {
     return of;
 }
 
-/* Friction k slides at both ends of the step. Is its limit far larger between them, or so small that it could not
- * stick? */
+/* Friction k has the same mode at both ends of the path. If it slides, is its limit far larger between them? If it sticks, is
+ * its limit too small between them to keep it stuck? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -786,7 +788,7 @@ static int look_edge(missed *m, int i, double low, double high, double most) {
                                                               : -1;
 }
 
-/* Does the slope of stop k's gap jump on the path? A contact that stays on an edge all the time slides over no edge. */
+/* Does the slope of stop k's gap jump on the path? If the stop is on an edge at both ends, that is no jump. */
 static bool slope_jumps(missed *m, int k) {
     bool some = false;
     for (int c = 0; c < m->image->coordinates && !some; c++) {
@@ -802,8 +804,8 @@ static bool slope_jumps(missed *m, int k) {
     return some;
 }
 
-/* A resting stop is put back onto its face at the end of each step, even after it slid over an edge. So the path along its
- * rates at the begin is tested, too. */
+/* A body that rests on a stop is put back onto the stop's face at the end of each step, even after it slid over an edge. So
+ * the straight path along the rates at the begin is tested, too. */
 static missed_found edge_passed(missed *m) {
     const engine_piece *p = m->piece;
     const int n = m->image->coordinates;
@@ -839,8 +841,8 @@ static missed_found contact_passed(missed *m) {
     return found;
 }
 
-/* Finds a coordinate with an acceleration on the way that neither end shows. For a body at rest in balance the bounds
- * are only underflow. */
+/* Finds a coordinate with an acceleration on the path that neither end shows. If a body is at rest in balance, the bounds are
+ * only underflow, below DBL_MIN. */
 static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;

@@ -1,5 +1,5 @@
 /* missed.h: contacts and forces that are thinner than the path of one step. Examples are a latch between two places, a
- * crossing that is crossed back, a stop, a steep hill of potential energy, or a friction's narrow limit. Both ends of the
+ * crossing that is crossed back, a stop, a steep rise of the potential energy, or a friction's narrow limit. Both ends of the
  * step are outside, so the core does not notice them. A step of half the length does not either.
  *
  * The path of a step is the cubic through the positions and rates at its ends. A step with events has one path between
@@ -23,8 +23,8 @@ typedef struct missed missed;
 /* NULL without any contact or exponential force. */
 missed *missed_open(const image *im);
 void missed_close(missed *m); /* NULL is fine */
-/* `what`: the index of the contact that a step passed through, or the number of contacts plus the index of the coordinate with the
- * force, or -1. `sure`: false if undecided. */
+/* `what`: the index of the contact that a step passed through; or the number of contacts, plus the index of the coordinate
+ * whose force was missed; or -1. `sure`: false if that is undecided. */
 typedef struct missed_found {
     int what;
     bool sure;

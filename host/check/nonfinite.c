@@ -153,7 +153,7 @@ static bool *nodes_that_turn(const image *im) {
     return turning;
 }
 
-/* The state moved on by `ahead_s`. */
+/* The expressions at the state that the derivatives at the last good state lead to in the time `ahead_s`. */
 static blamed look(const nonfinite_at *at, double ahead_s) {
     const image *im = at->image;
     blamed v = blamed_open(im);

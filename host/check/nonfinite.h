@@ -29,17 +29,17 @@ int blamed_operands(const diagnostics_node *n, int of[static 2]);
 /* [node + 1]: true for this node and all nodes that it depends on. The caller frees it. */
 bool *blamed_parts(const image *im, int node);
 
-/* Largest angles, rad, with a sine in double and in float (core/angle.h). Float's turn angles have no such limit. */
+/* Largest angle with a sine, rad: in double, and in float (core/angle.h). Turn angles of float runs have no such limit. */
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
-/* Where a failure is searched in one run. The image is one to run: it has the expressions as written. */
+/* The state where a failure is searched. Use an image made for a run: only that has the expressions as written. */
 typedef struct nonfinite_at {
     const image *image;
     const double *angle_rad; /* [angles] the last good state */
     const double *real;      /* [reals] */
     bool turns;              /* angles are integers (float), so their sines exist for all values */
-    double ahead_steps;      /* distance of the evaluation: 0 for the state itself */
+    double ahead_steps;      /* steps from the state to the evaluation; 0: at the state */
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 

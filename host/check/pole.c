@@ -12,18 +12,18 @@
 
 /* === a pole on the way =========================================================================== */
 
-/* Halvings after which a share of the path has no more digits. */
+/* After this many halvings the located share of the path has no more digits. */
 enum { HALVINGS = 56 };
 /* Factor by which the distance is increased if round-off hides the growth of a value. */
 #define FARTHER 2.5
-/* A smooth expression has few zeros between a state and a pole. If the sign alternates more often, at distances that
- * grow by FURTHER, it is round-off. */
+/* A smooth expression has few zeros between a state and a pole. Its values are round-off if their sign alternates TURNS_MOST
+ * times, at distances that grow by FURTHER up to the part NEAR of the path on that side. */
 enum { TURNS_MOST = 4 };
 #define NEAR 0.2
 #define FURTHER 1.4
 /* A value touches zero if its minimum is at most this part of its values at both ends. */
 #define TOUCHES 1e-3
-/* The least point of an even value is found by golden sections, to the last digit of its place. */
+/* A value that touches zero is least there. The place is found by SECTIONS golden sections, to its last digit. */
 #define GOLDEN 0.6180339887498949
 enum { SECTIONS = 72 };
 /* Most parts into which rejected points split the path of a step. */
@@ -38,17 +38,17 @@ enum { GROWTH_POINTS = 10 };
 #define GROWTH_BEYOND 1e60
 
 typedef enum growth {
-    /* the growth is uneven, because of round-off or a zero; from a greater distance it may be even */
+    /* the growth is not steady, because of round-off or a zero; from a greater distance it may be steady */
     GROWTH_ROUGH,
-    GROWTH_NONE, /* even growth, but no pole: a limit, or one over a root */
-    GROWTH_POLE  /* even growth, as at a pole */
+    GROWTH_NONE, /* steady growth, but no pole: a limit, or one over a root */
+    GROWTH_POLE  /* steady growth, as at a pole */
 } growth;
 
-/* Least growth from one distance to the next that counts as a pole. 1/distance grows by 1.71, the distance to the power
- * -9/10 by 1.62. The ratio of distances is no power of two: numbers with the same digits have the same round-off, which
- * would look like even growth. */
+/* Least growth from one distance to the next that counts as a pole. One over the distance grows by 1.71, the distance to the
+ * power -9/10 by 1.62. The ratio of distances is no power of two: numbers with the same digits have the same round-off, which
+ * would look like steady growth. */
 #define GROWS 1.64
-/* Growth is even if its ratios differ by less than this factor. */
+/* Growth is steady if its ratios differ by less than this factor. */
 #define EVEN 1.1
 
 typedef struct part {
@@ -62,7 +62,7 @@ typedef struct looker {
     double *then; /* [signs] values at the end of the part */
     double *value;
     double *side;  /* [GROWTH_POINTS * values] */
-    bool *done;    /* [values] this value has no pole at the spot */
+    bool *done;    /* [values] this expression has no pole at the place */
     double *touch; /* [4 * signs] */
 } looker;
 
@@ -107,7 +107,7 @@ bool pole_may_touch(const double value[static 4]) {
     if (!(falls > 0.0 && rises > 0.0) || value[0] * value[3] < 0.0) {
         return false;
     }
-    /* crossing of the tangents */
+    /* share at which the tangents at both ends cross */
     const double share = (begin - end + rises) / (falls + rises);
     return begin - falls * share <= TOUCHES * number_least(begin, end);
 }
@@ -174,7 +174,7 @@ static part halve(const looker *l, int i, part p) {
     return p;
 }
 
-/* Does value i change its sign repeatedly at distances from `from` to `most` beside the zero? Then the sign is only
+/* Does expression i change its sign repeatedly at distances from `from` to `most` beside the zero? Then its values are only
  * round-off. */
 static bool is_rounding(const looker *l, int i, double zero_at, double from, double most) {
     double before = 0.0;
@@ -189,8 +189,8 @@ static bool is_rounding(const looker *l, int i, double zero_at, double from, dou
     return turns >= TURNS_MOST;
 }
 
-/* The value overflows at the distance `from` from the spot. Was it very large before, up to the end of the path? A
- * difference that cancels to zero was not. */
+/* Expression i overflows at the distance `from` from the place. Was it very large where it did not overflow yet? A difference
+ * that cancels to zero was not. */
 static bool overflows(const looker *l, int i, double zero_at, double from) {
     const double most = from < 0.0 ? zero_at : 1.0 - zero_at;
     double off = from;
@@ -201,22 +201,23 @@ static bool overflows(const looker *l, int i, double zero_at, double from) {
     return fabs(l->value[i]) > GROWTH_BEYOND;
 }
 
+/* A place on the path at which a value changes its sign or may touch zero: perhaps a pole. */
 typedef struct spot {
     part in;
     double zero_at;
-    double nearest; /* smallest useful distance from the spot */
-    int of;         /* the value that changes its sign at the spot */
+    double nearest; /* smallest distance from the place that the arguments resolve */
+    int of;         /* the value that changes its sign at the place */
     bool touches;   /* the value only touches zero */
 } spot;
 
-/* The number of nearest points; and the index of the point that is nine times as far from the spot as the nearest
- * one. */
+/* NEAREST: number of nearest points that are tested. NINE_TIMES: index of the point about nine times as far from the place as
+ * the nearest point. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
-/* Tolerance of the value at the place. */
+/* Relative tolerance of the extrapolated value at the place. */
 #define LEFT 0.05
 
-/* Does the value stay above zero at the spot, as y^2 + x^2 does? It does if its extrapolation without the square part
- * equals the value at the spot. */
+/* Does the value stay above zero at the place, as y^2 + x^2 does? It does if its samples near the place, without their part in
+ * the square of the distance, equal the value at the place. */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -232,13 +233,13 @@ static bool stands_off(double at_place, const double *over, double far) {
     return stands;
 }
 
-/* Is there a zero of the value at the spot? Decided from over[GROWTH_POINTS], the reciprocals of the value's sizes. */
+/* Is there a zero of the value at the place? Decided from over[GROWTH_POINTS], the reciprocals of the value's sizes. */
 static bool is_there(const spot *s, const double *over) {
     const growth kind = growth_of(over, 1);
     return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
 }
 
-/* The first value that grows like a pole at this point, when approached from the distance `far` on this side, or -1. */
+/* The first expression that grows like a pole at the place, when approached from the distance `far` on this side, or -1. */
 static int grows_from(const looker *l, const spot *s, double far) {
     const double zero_at = s->zero_at;
     const int values = l->way->values;
@@ -274,7 +275,8 @@ static bool all_done(const looker *l) {
     return done == l->way->values;
 }
 
-/* The first value with a pole at the spot, approached from one side. The nearest distances with even growth decide. */
+/* The first expression with a pole at the place, approached from one side, or -1. The nearest distances with steady growth
+ * decide. */
 static int pole_on_side(const looker *l, const spot *s, double side) {
     int found = -1;
     memset(l->done, 0, (size_t)l->way->values * sizeof *l->done);
@@ -293,8 +295,8 @@ static int pole_at(const looker *l, const spot *s) {
     return found >= 0 ? found : pole_on_side(l, s, 1.0);
 }
 
-/* The value with a pole at a sign change in this part, or at a possible touch of zero, or -1. *at is the located interval,
- * from `low` to `high`, or empty. */
+/* The expression with a pole at a sign change in this part, or where a value may touch zero, or -1. *at is the located
+ * interval, from `low` to `high`; it is the end of the part if nothing was located. */
 static int pole_in(const looker *l, part p, part *at) {
     l->way->at(l->way->of, p.low, l->sign, l->value);
     l->way->at(l->way->of, p.high, l->then, l->value);
@@ -354,7 +356,7 @@ int pole_on(const pole_way *w) {
  *
  * Watched are divisors, and bases of negative powers, down to their factors. If a system has moving factors of a highest
  * derivative, as in (k + s)*s' = -v*s, the divisors of its solution are watched, too. Values that depend on anything
- * outside the state, such as a rate recovered from a momentum, are not. */
+ * outside the state, such as a rate recovered from a momentum, are not watched. */
 
 typedef struct divisor {
     /* index in the list of diagnostic expressions; if `derived`, an operation of the list for the energy balance */
@@ -364,7 +366,7 @@ typedef struct divisor {
     bool leaps;    /* an event may change the value abruptly */
     bool bends;    /* the value is nonlinear in the state, and may touch zero */
     double before; /* value before the step */
-    double aside;  /* value at POLE_ASIDE of the step's way */
+    double aside;  /* value after the share POLE_ASIDE of the step's path */
     double now;    /* value after the step */
 } divisor;
 
@@ -393,7 +395,7 @@ enum {
     BENDS = 64U, /* depends on the state nonlinearly */
 };
 
-/* Positions are continuous at an event, unless a crossing sets them. */
+/* May an event change this value abruptly? Rates may jump; positions do so only if a crossing sets them. */
 static bool leaps(const image *im, const diagnostics_node *n) {
     bool set = n->b > 0;
     for (int i = 0; i < im->set_count; i++) {
@@ -466,7 +468,7 @@ static void find_factors(denominators *d) {
         const bool has_factors = n->code == DIAGNOSTICS_MUL || n->code == DIAGNOSTICS_DIV ||
                                  n->code == DIAGNOSTICS_NEG || n->code == DIAGNOSTICS_SAME ||
                                  n->code == DIAGNOSTICS_POW || is_size_or_root(n);
-        if (has_factors) { /* the divisors of a divisor have been marked above */
+        if (has_factors) { /* its own divisor has been marked above */
             d->is[i] &= (unsigned char)~DIVIDES;
             mark(d, n->a, DIVIDES);
             if (n->code == DIAGNOSTICS_MUL) {
@@ -569,7 +571,7 @@ static denominators denominators_open(const image *im) {
     find_order(&d);
     find_questions(&d);
     if (has_factors_that_move(&d)) {
-        d.field = vector_field_open(im, &engine_float); /* which wraps angles: of either number */
+        d.field = vector_field_open(im, &engine_float); /* engine_float: wraps angles always */
         find_derived(&d);
         d.slope = alloc(d.field->n, sizeof *d.slope);
     }
@@ -675,7 +677,7 @@ struct pole_crossing {
     bool blind; /* the state before this step is unknown */
     uint64_t unseen;
     missed *contacts;
-    int found; /* a question, or -1 */
+    int found; /* index of the question with the pole, or -1 */
     missed_found through;
     double found_s;
 };
@@ -843,7 +845,7 @@ void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *
 }
 
 void pole_crossing_pass(pole_crossing *j) {
-    if (j != NULL && !pole_crossing_some(j)) { /* the start is no step */
+    if (j != NULL && !pole_crossing_some(j)) {
         j->blind = true;
         j->unseen++;
     }

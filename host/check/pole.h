@@ -12,12 +12,13 @@
 
 typedef struct pole_crossing pole_crossing;
 
-/* NULL without any moving divisor or contact to miss. */
+/* Returns NULL if the scene has no moving divisor, and no contact or force that a step may miss. */
 pole_crossing *pole_crossing_open(const image *im);
 void pole_crossing_close(pole_crossing *j); /* NULL is fine */
 /* Enters the state after each step, the start included. The search ends at the first pole. */
 void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *run);
-/* Skips a step, and the next state; and the number of skipped steps. */
+/* Call pole_crossing_pass() in place of pole_crossing_enter() to skip a step. The next step is then not tested either,
+ * because its begin is unknown. pole_crossing_unseen(): number of steps that were not tested. */
 void pole_crossing_pass(pole_crossing *j);
 uint64_t pole_crossing_unseen(const pole_crossing *j);
 /* Has the run jumped over a pole or missed a contact? */
@@ -34,7 +35,7 @@ const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *b
  * Some values change their sign at a pole (divisors), others grow there (expressions). A sign change is located by halving. Each
  * expression is followed towards that place on both sides, down to the smallest distances at which it still changes smoothly.
  * Nearer there is only round-off. The place is a pole if an expression grows at least as fast as one over the distance. A limit,
- * an integrable singularity (one over a root), growth in leaps and growth that ends are no poles. After a rejected place the rest
+ * an integrable singularity (one over a root), growth in jumps and growth that ends are no poles. After a rejected place the rest
  * of the way is tested separately, because 1 + k/s changes its sign twice where s changes its sign once.
  *
  * A value that only touches zero, such as 1 - cos(q), changes no sign. If its size falls at the begin of a way and rises at the
@@ -45,8 +46,7 @@ typedef struct pole_way {
     void *of;
     int signs;
     int values;
-    const double
-        *nearest; /* [signs] smallest share of the path that the arguments of this value resolve */
+    const double *nearest; /* [signs] smallest share of the path that a value's arguments resolve */
     /* Evaluates sign[signs] and value[values] at this share of the way, 0 to 1. */
     void (*at)(void *of, double share, double *sign, double *value);
 } pole_way;
@@ -56,7 +56,7 @@ typedef struct pole_way {
 #define POLE_ASIDE 0x1p-20
 bool pole_may_touch(const double value[static 4]);
 
-/* The first value with a pole on the path, or -1. */
+/* The first expression with a pole on the path, or -1. */
 int pole_on(const pole_way *w);
 
 #endif

@@ -59,8 +59,9 @@ static void watch_events(run_checks *v) {
     v->energy_J = energy_J;
 }
 
-/* The remaining part of the budget, minus the share of the remaining steps. While it is below 0, checks that are less
- * important than the finer run are skipped. So these checks are spread over the whole run, not only over its begin. */
+/* The remaining budget as a part of BUDGET_LEAST, minus the part that is reserved for the remaining steps. While the result
+ * is below 0, checks that are less important than the finer run are skipped. So these checks are spread over the whole run,
+ * not only over its begin. */
 static double part_left(const run_checks *v) {
     const double come = (double)(v->image->steps - v->kind->steps(v->run));
     const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
@@ -132,7 +133,7 @@ static void judge_energy(run_checks *v) {
     const double way_J = v->image->contacts == 0 ? v->books->most_J : 0.0;
     const bool on_the_way =
         way_J > v->part * RUN_CHECKS_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
-    const bool in_doubt = v->kind->steps(v->run) % 2U == 1U || /* half of a pair is a trapezoid */
+    const bool in_doubt = v->kind->steps(v->run) % 2U == 1U || /* the last step is a trapezoid */
                           number_most(fabs(b->left_J), way_J) <= v->books->rule_J;
     const bool by_the_rule = v->image->contacts == 0 && in_doubt && is_right(v);
     const bool is_lost = energy_residual_lost(b, v->part * finding_rows[FINDING_ENERGY].limit);
@@ -143,7 +144,7 @@ static void judge_energy(run_checks *v) {
     }
 }
 
-/* A speed with less than this part of all energy is smaller than the round-off of the other speeds in float. */
+/* In float, a speed with a smaller part of all energy than this is smaller than the round-off of the other speeds. */
 #define FAINT 0x1p-48
 
 static bool is_faint(const run_checks *v, int unknown) {
@@ -166,7 +167,8 @@ static bool is_faint(const run_checks *v, int unknown) {
     return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
-/* In a float run, a turn angle moves by whole units; its error may always be two units. */
+/* Is the error of the column at most two units of a float turn angle? Turn angles move by whole units, so this error is
+ * always possible. */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
     const step_doubling_column *t = &v->twins->column[k];
     const int own = image_find_component(v->image, v->twins->shape->column[k].unknown, 0);
@@ -186,8 +188,8 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* Did the column's error, which reached a tolerance after until_s and a smaller one after early_s, grow no faster than a
- * power of time? In a chaotic motion errors grow faster, and no step helps. The accuracy line reports that. */
+/* The error of the column reached a tolerance after until_s, and a smaller tolerance after early_s. Did it grow no faster
+ * than a power of time? In a chaotic motion errors grow faster, and no step helps. The accuracy line reports that. */
 static bool is_off(const run_checks *v, int k, double until_s, double early_s) {
     (void)k;
     return early_s <= RUN_CHECKS_BEGIN * v->twins->end_s || until_s >= RUN_CHECKS_GROWS * early_s;
@@ -222,7 +224,7 @@ static int first_with(const run_checks *v, double tolerance, double early_tolera
     return found;
 }
 
-/* Does nothing if the comparison ended early, for example after too many events: there are other findings for that. */
+/* Errors after an early end of the comparison, as after too many events, are not reported: other findings report the end. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->twins;
     double until_s = 0.0;

@@ -14,7 +14,7 @@
 typedef struct finding {
     bool told;    /* the finding is reported */
     double value; /* measured, in the row's unit */
-    /* time at which the finding is true, or from which on it is; below 0: the whole run */
+    /* time from which on the finding is true, or the time of one event; below 0: the whole run */
     double at_s;
     int component; /* the component or contact concerned, or -1 */
 } finding;
@@ -28,15 +28,15 @@ typedef struct run_checks {
     budget *budget; /* shared by all checks: &own, or the caller's */
     double part;    /* factor of the limits of energy and accuracy: 1, and less for a remedy */
     books *books;   /* NULL for a system given by its equations */
-    pole_crossing *jumped; /* NULL: no pole */
+    pole_crossing *jumped; /* search for poles; NULL: the scene needs none */
     /* the comparison with a finer run; NULL: it would take too long */
     step_doubling *twins;
     uint64_t overruns;                       /* steps with too many events */
     double overran_s;                        /* begin of the first such step */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in such steps */
     double taken_J;                          /* energy change in such steps */
-    double energy_J;                         /* after the last step */
-    energy_residual balance;                 /* set by run_checks_end(), as found[] and `against` */
+    double energy_J;                         /* the energy after the last step */
+    energy_residual balance; /* set by run_checks_end(), like `found` and `against` */
     finding found[FINDINGS];
     unsigned against; /* the warnings, as bits */
 } run_checks;

@@ -50,7 +50,7 @@ typedef struct simulation {
     uint64_t output_rows; /* number of records and points in which an output was not finite */
 } simulation;
 
-/* True if the file is open or there is no file to open. */
+/* Returns true if the file is open, or if there is no file to open. */
 static bool open_records(const char *name, FILE **file) {
     if (name != NULL) {
         *file = atomic_file_open(name);
@@ -285,7 +285,7 @@ static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     }
     const books *b = sim->verdict->books;
     if (status == WH_OK && b != NULL && b->undefined &&
-        sim->output < 0) { /* cures do not apply to outputs */
+        sim->output < 0) { /* remedies do not apply to outputs */
         findings_say_failed(stderr, sim->verdict);
     }
     if (status != WH_OK || undefined) {
@@ -351,7 +351,7 @@ static bool close_records(simulation *sim, bool keep) {
     return atomic_file_close(sim->vcd, s->vcd, keep) && good;
 }
 
-/* The picture, or its data for the caller. */
+/* Draws the picture, or hands its data to the caller. */
 static bool finish_course(simulation *sim) {
     if (sim->plot != NULL) {
         sim->course.data = decimation_rows(sim->plot, &sim->course.rows);
@@ -375,7 +375,7 @@ FILE *simulation_summary(const simulation_settings *s) {
     return out;
 }
 
-/* For a reader: a sentence, the findings, then the numbers. */
+/* Prints the summary for people: a sentence, the findings, then the numbers. */
 static void print_summary(simulation *sim, wh_status status, simulation_result result,
                           const horizon *h) {
     const simulation_settings *s = sim->settings;

@@ -39,8 +39,7 @@ FILE *simulation_summary(const simulation_settings *s);
 typedef struct simulation_trust {
     unsigned fails; /* the findings that fail the run, as bits (run_checks_fails()) */
     bool dear;      /* the finer run would take too long */
-    double
-        left; /* remaining operations of the checks' budget; the rows of a summary take at most half of them */
+    double left;    /* remaining operations of the checks' budget; summary rows take at most half */
     bool still;     /* no coordinate moves */
     double until_s; /* the run is accurate until this time; below 0: unknown */
 } simulation_trust;

@@ -8,7 +8,7 @@
 #include "host/check/nonfinite.h"
 #include "host/number/functions.h"
 
-/* Evaluations for the search for events, per step. */
+/* Estimated evaluations per step in the search for events. */
 #define EVALUATIONS_OF_EVENTS 8.0
 
 /* --- other ways of folding constants ------------------------------------------------------------------*/
@@ -237,7 +237,7 @@ typedef struct rounded {
 /* Unit round-off of double. */
 #define UNIT 0x1p-53
 
-/* Is result i of a step's list a highest derivative that comes from solving the equations? */
+/* Is result i of the accelerations' list a highest derivative, which comes from solving the equations? */
 static bool is_solved_for(const image *im, int i) {
     if (im->form == WH_SECOND_ORDER) {
         return true;
@@ -285,7 +285,7 @@ static void rounded_close(rounded *r) {
     free(r->lost);
 }
 
-/* The index of the list's result that is this derivative, or -1. */
+/* The index of this derivative in the results of the list, or -1. */
 static int result_of(const image *im, int unknown, int primes) {
     if (im->form == WH_SECOND_ORDER) {
         return primes == 2 ? im->place[unknown] : -1;
@@ -293,7 +293,8 @@ static int result_of(const image *im, int unknown, int primes) {
     return image_find_component(im, unknown, primes - 1);
 }
 
-/* Sums the round-off of each derivative over the whole time, from the highest on, into the next lower one, in the columns' units. */
+/* Bounds the round-off of each column: that of its derivative, times the whole time. The highest derivatives come first,
+ * because the round-off of a derivative includes that of the next higher one. */
 static void take_rounding(step_doubling *t, const rounded *r) {
     for (int k = t->columns - 1; k > 0; k--) {
         const record_column *c = &t->shape->column[k];
@@ -307,8 +308,8 @@ static void take_rounding(step_doubling *t, const rounded *r) {
         }
         const int result = result_of(r->image, c->unknown, c->primes + 1);
         if (result >= 0) {
-            /* A state without a bound is a pole, or a root of nearly zero. If most states have a bound, the others are
-             * left out. */
+            /* A state without a bound is at a pole, or at a root of nearly zero. If most states have a bound, the others do
+             * not count. */
             slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));

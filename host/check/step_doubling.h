@@ -21,7 +21,7 @@ typedef struct step_doubling_wish {
     const image *plain;    /* from step_doubling_plain(); the image itself if that returns false */
     bool books;            /* keep the run's balance, and report its residual */
     bool watched;          /* the caller owns the run and its pole search `jumped` */
-    pole_crossing *jumped; /* NULL: no pole */
+    pole_crossing *jumped; /* NULL: the scene needs no search */
     void (*progress)(double share, void *told); /* called from time to time; or NULL */
     void *told;
 } step_doubling_wish;
@@ -33,7 +33,7 @@ typedef struct passage {
 } passage;
 
 typedef struct passages {
-    passage *passed; /* [count] rising in both */
+    passage *passed; /* [count] in rising order of time_s and of size */
     int count;
     int room;
     double most;
@@ -50,7 +50,7 @@ void passages_free(passages *p);
 double passages_until_s(const passages *p, double level);
 
 typedef struct step_doubling_column {
-    double start; /* this and the following, in the finer run and the column's unit */
+    double start; /* start to high: of the finer run, in the column's unit; see `otherwise` */
     double low;
     double high;
     double rounding; /* bound on the column's round-off in the finer run */
@@ -80,9 +80,8 @@ typedef struct step_doubling {
     uint64_t operations; /* operations of all steps of the finer run */
     double left_out;     /* factor on the difference that adds the finer run's own error */
     records *shape;      /* names and units of the columns: 0 is the time, outputs come last */
-    bool
-        otherwise; /* the finer run's constants are folded in another way. They are not more accurate, so ranges are the run's */
-    int columns;   /* the time and those that follow: coordinates and rates, no outputs */
+    bool otherwise;      /* constants of the finer run are folded otherwise; ranges are the run's */
+    int columns;         /* the time and those that follow: coordinates and rates, no outputs */
     step_doubling_column *column; /* [columns] */
     double end_s;                 /* end of the run's last completed step */
     wh_status status;             /* of the run's last step */
@@ -90,19 +89,14 @@ typedef struct step_doubling {
     bool unwrapped; /* the finer run failed at an angle beyond the range of double's sine */
     /* after this time the finer run has left its bounds; below 0: it has not */
     double finer_failed_s;
-    double
-        overrun_s; /* after this time one of the two runs had too many events in a step; below 0: neither */
-    double
-        jumped_s; /* in a step after this time one of the two jumped over a pole (host/check/pole.h); below 0: neither */
-    bool
-        missed; /* at jumped_s it passed through a contact or force (host/check/missed.h), not over a pole */
-    double
-        cut_s; /* the last comparison before a failure, overrun or jump: nothing is known after it; below 0: none */
+    double overrun_s; /* begin of a step of either run with too many events; below 0: none */
+    double jumped_s;  /* begin of a step of either run over a pole (pole.h); below 0: none */
+    bool missed;      /* at jumped_s it was a contact or force (missed.h), not a pole */
+    double cut_s;     /* after this time nothing is known (failure, overrun, jump); below 0: none */
     const double *finer_end;       /* [columns] the finer run's values at the last comparison */
     step_doubling_aliased aliased; /* set by aliasing_find() */
     bool unaliased;                /* the budget was too small for aliasing's third run */
-    budget
-        looks; /* the checks of step_doubling_run() may spend as many operations as both runs did */
+    budget looks; /* of the checks of step_doubling_run(): the operations of both runs */
     bool stopped;
     books *books; /* NULL: no balance */
     bool jumps;   /* does the finer run search for poles and missed contacts now? */

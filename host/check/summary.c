@@ -85,7 +85,7 @@ char *about_tables(const image *im) {
 
 /* === the opening sentence ===================================================================== */
 
-/* Sampled rows of a long run, and the most coordinates that are named. */
+/* ROWS: most sampled rows of a run. NAMED: most coordinates that the sentence names. */
 enum { ROWS = 100000, NAMED = 3 };
 #define STAYS 1e-6
 

@@ -1,7 +1,7 @@
 /* engine.h: running an image without a compiler: the interpreter of operation lists.
  *
  * There is one interpreter source, built in float (the boards' arithmetic, to the bit) and in double
- * (the reference); both step with core/step.h. The interface speaks double whichever is inside. */
+ * (the reference); both step with core/step.h. The interface has values in double in both cases. */
 #ifndef ENGINE_ENGINE_H
 #define ENGINE_ENGINE_H
 
@@ -46,7 +46,7 @@ typedef struct engine_kind {
     uint64_t (*steps)(const void *run);
     /* The component that diverged, angles first, or -1. */
     int (*fault)(const void *run);
-    /* Events since the start, and steps with more than WH_EVENTS_MAX moments. */
+    /* Events since the start. *overruns: number of steps with events at more than WH_EVENTS_MAX times. */
     uint64_t (*events)(const void *run, uint64_t *overruns);
     /* The events of the last step in their order, list[WH_EVENT_LOG]; returns their number. */
     int (*happened)(const void *run, engine_event *list);
@@ -56,9 +56,9 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the numerical drift); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* For component i, angles first: the sum of the round-off of its increments to whole units, at its largest since
-     * the start. *span is the sum of the exact increments. Both are SI. Without unit() only turn angles count, which
-     * move by 2^-32 turn in float. 0 in double, and with compensated sums. */
+    /* Increments of component i, angles first, are rounded to whole units. Returns the largest size, since the start, of the
+     * sum of these round-offs. *span: the range that the component would have covered without round-off. Both are SI. Without
+     * unit() only turn angles count, which move by 2^-32 turn in float. 0 in double, and with compensated sums. */
     double (*component_off)(const void *run, int i, double *span);
     /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);
@@ -69,7 +69,7 @@ typedef struct engine_kind {
     const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;
 
-/* Operations of lists that this process has evaluated so far: the same on every machine. Other work counts as the
+/* Number of list operations that this process has evaluated so far. It is the same on every machine. Other work counts as the
  * number of operations that would take as long, accurate to a third. */
 extern uint64_t engine_operations;
 /* Number of operations of one evaluation of the accelerations, including its share of the method and the contacts. */

@@ -5,7 +5,8 @@
 
 #include "host/base/alloc.h"
 
-/* Larger values are infinite in float. A quotient by such a value has lost all of its digits. */
+/* FLOAT_MOST: larger values are infinite in float. ALL_LOST: error of a quotient by infinity, relative, in units of
+ * round-off. */
 #define FLOAT_MOST 0x1.fffffep127
 #define ALL_LOST 0x1p24
 

@@ -58,7 +58,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
 
 /* === can it start? ============================================================================ */
 
-/* m or rad: round-off of the conversion of a start's units. */
+/* A start within this distance beyond a stop, m or rad, is only round-off of the conversion of units. */
 #define ROUNDING 1e-9
 
 static bool is_apart(const image_contact *stop, double gap, diags *errors) {

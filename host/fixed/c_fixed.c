@@ -197,7 +197,8 @@ static void gained(FILE *out, fixed_gain g, const char *x) {
     fprintf(out, ", %d)", g.by);
 }
 
-/* The limited sum of a component and the caller's next output; limits() ends it. */
+/* Writes the first half of a statement: component i plus the increment that the caller writes next, limited to the range.
+ * limits() writes the second half. */
 static void limited(FILE *out, int i) {
     fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ", i, i);
 }

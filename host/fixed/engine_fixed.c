@@ -78,9 +78,7 @@ static void fixed_loss_free(fixed_loss *l) {
 static void slopes(const fixed_loss *l, const double *at, double *slope) {
     const fixed_plan *p = l->plan;
     const int angles = p->image->angles;
-    const int moved = p->second
-                          ? p->coordinates
-                          : 0; /* first the components whose slope is a rate, then the rates */
+    const int moved = p->second ? p->coordinates : 0; /* components whose slope is a rate */
     for (int i = 0; i < moved; i++) {
         slope[i] = at[moved + i];
     }
@@ -248,8 +246,8 @@ typedef struct fixed_stages {
     int32_t given[4][IMAGE_COMPONENTS_MAX];
 } fixed_stages;
 
-/* The increment of a place at a stage, before rounding. Stages are not clamped to the ranges: the list has room for all stages of
- * steps that begin within the ranges (fixed_plan.c). */
+/* The increment of a position at a stage, before rounding. Stages are not clamped to the ranges: the list has room for all
+ * stages of steps that begin within the ranges (fixed_plan.c). */
 static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
     return stage == 1
                ? k->half_rate[i]
@@ -262,7 +260,7 @@ static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
     const int linears = p->coordinates - angles;
-    const int twice = stage == 3 ? 1 : 0; /* the last stage is a whole step on */
+    const int twice = stage == 3 ? 1 : 0; /* stage 3 is at the step's end, not in its middle */
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
         const int32_t more = wh_fixed_round(place_more(m, k, i, stage), m->guard - twice);
@@ -295,7 +293,7 @@ static int32_t limited(fixed_run *run, int at, int32_t x) {
     return wh_fixed_limit(x, f->low, f->high, &run->state.saturated);
 }
 
-/* (k1 + 2 k2 + 2 k3 + k4)/3, at the point of the state. */
+/* (k1 + 2 k2 + 2 k3 + k4)/3, with the binary point of the state. */
 static int32_t sixths(const fixed_mover *m, const fixed_stages *k, int i) {
     const int32_t middle = k->given[1][i] + k->given[2][i];
     return gained(m->third, k->given[0][i] + k->given[3][i] + 2 * middle);

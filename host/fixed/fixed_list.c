@@ -113,7 +113,7 @@ int fixed_point_of(double size, int digits) {
     return bits > BITS_MOST ? BITS_MOST : bits < BITS_LEAST ? BITS_LEAST : bits;
 }
 
-/* The operation's largest integer, as a double. */
+/* The largest size of the integers of an operation, as a double. */
 static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->range), o->bits); }
 
 static int least(int a, int b) { return a < b ? a : b; }
@@ -121,14 +121,15 @@ static int most(int a, int b) { return a > b ? a : b; }
 
 /* --- points ------------------------------------------------------------------------------------------*/
 
-/* Bits of a product. The largest product of the operands also has room, so that left shifts suffice. */
+/* Digits after the point of a product. There is also room for the product of the operands' largest sizes, so that left shifts
+ * suffice. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
     const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* Bits of a sum: at most those of the finer operand. The format must also have room for constants and compared
- * values. */
+/* Digits after the point of a sum: at most those of the finer operand. The format must also have room for constants and
+ * compared values. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -179,8 +180,7 @@ static void wish(int *wanted, int i, const fixed_op *o) {
     wanted[i] = most(wanted[i], bits);
 }
 
-/* Changes the digits of products and quotients to those of the sums that use them, so that they are rounded only
- * once. */
+/* Reduces the digits of products, quotients and sums to those that their users need, so that they are rounded only once. */
 static void lower(fixed_list *l) {
     int *wanted = alloc(l->count, sizeof *wanted);
     for (int i = 0; i < l->count; i++) {
@@ -453,8 +453,7 @@ static enclosure sines(enclosure a, double ahead_rad) {
     const double one = number_sine(a.low);
     const double other = number_sine(a.high);
     enclosure made = {enclosure_lesser(one, other), enclosure_larger(one, other)};
-    for (int side = -1; side <= 1;
-         side += 2) { /* maximum or minimum: at 0.25 or -0.25 of a turn, plus whole turns */
+    for (int side = -1; side <= 1; side += 2) { /* extremes: at +-0.25 turn plus whole turns */
         const double at = side * 0.25 * TURN;
         if (at + TURN * number_ceiling((a.low - at) / TURN) <= a.high) {
             *(side > 0 ? &made.high : &made.low) = side;
@@ -652,7 +651,7 @@ static int enter_product(fixed_list *l, int a, int b) {
     return enter(l, (fixed_op){.code = FIXED_PRODUCT, .a = {.op = a}, .b = {.op = b}});
 }
 
-/* Its fixed form; *lacks: the name of an operation that has none. */
+/* The fixed-point form of *o. *lacks: the name of an operation that has none. */
 static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     fixed_op made = {.code = FIXED_CONSTANT, .a = {.op = -1}, .b = {.op = -1}};
     switch (o->code) {

@@ -19,8 +19,8 @@
  * the progress on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
-/* Binary digits of a value. Values fill at most 2^29, so that twice their round-off fits. Results fill 2^28, since a
- * step adds six of them. The state fills 2^30. */
+/* Most binary digits of a value. FIXED_DIGITS: values of the list; twice a value still fits, with its round-off.
+ * FIXED_RESULT_DIGITS: results of the list, of which a step adds six. FIXED_KEPT_DIGITS: the state. */
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
@@ -54,8 +54,8 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: |b| has at least `zeros` leading zeros, and at most `spread` further ones (`more` in the formula). The
-     * further zeros also shift a; if a has no room for that, `by` is less (`follows`). */
+    /* FIXED_QUOTIENT: |b| has at least `zeros` leading zeros, and at most `spread` further ones (`more` in the formula). If a
+     * has room for it (`follows`), the further zeros also shift a. Otherwise they make `by` less. */
     int zeros;
     int spread;
     bool follows;
@@ -91,9 +91,9 @@ typedef struct fixed_leaves {
 /* The largest size of a value. Products of two such values are finite, so that all intervals are finite. */
 #define FIXED_SIZE_MOST 0x1p80
 
-/* Encloses all values in op[].range, cell by cell of the turn angles. `bits_known`: includes the rounding to op[].bits. Returns
- * the number of cells a turn, or a code: a denominator may be zero (reported), a value exceeds FIXED_SIZE_MOST, or the user
- * interrupted. */
+/* Encloses all values in op[].range, cell by cell of the turn angles. `bits_known`: includes the rounding to op[].bits.
+ * Returns the number of cells per turn, or a code. FIXED_HULL_ZERO: a denominator may be zero (reported).
+ * FIXED_HULL_UNBOUNDED: a value exceeds FIXED_SIZE_MOST. FIXED_HULL_STOPPED: the user interrupted. */
 enum { FIXED_HULL_ZERO = 0, FIXED_HULL_UNBOUNDED = -1, FIXED_HULL_STOPPED = -2 };
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors);

@@ -138,7 +138,7 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
     return gain->shift <= 31 - digits;
 }
 
-/* As above, for results of the list, with 15 digits: for stage increments of second order. */
+/* As above, for results of the list, with a factor of 15 digits: for the increments of a position at a stage. */
 static fixed_gain short_gain(double factor, int from, int to) {
     const int bits = fixed_factor_bits(factor) - 16;
     const double number = number_nearest(number_scaled(factor, bits));
@@ -176,7 +176,7 @@ static int kept_at(const fixed_plan *p, int i) {
 
 enum { GUARD_MOST = 8 };
 
-/* Sets the point of a mover's results: they are added to a state with `kept` digits after the point. */
+/* Sets how a mover's results are added to a state with `kept` digits after the point. */
 static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
     const double size = number_scaled(1.0, FIXED_RESULT_DIGITS);
     m->to_kept = accel->bits - kept;
@@ -191,8 +191,9 @@ static bool move_place(fixed_plan *p, int i) {
     const wh_fixed_format *rate = &p->format[kept_at(p, i)];
     const double unit = i < im->angles ? PHASE_PER_RAD : 1.0;
     const double half = 0.5 * im->step_s * unit;
-    const double by = half * (enclosure_size(p->range[kept_at(p, i)]) +
-                              2.0 * enclosure_size(accel->range)); /* half a step, at most */
+    const double by =
+        half * (enclosure_size(p->range[kept_at(p, i)]) +
+                2.0 * enclosure_size(accel->range)); /* the most that half a step adds */
     int bits = 0;
     if (i < im->angles) {
         if (2.0 * by >= 1073741824.0) {
@@ -273,8 +274,8 @@ static double most_added(const fixed_plan *p, int at) {
            (enclosure_size(p->range[linears + i]) + 2.0 * enclosure_size(result_of(p, i)->range));
 }
 
-/* Stages exceed the ranges by their increments, which depend on the stages. Iterates from zero until the stages are enclosed.
- * False: no iteration encloses them. */
+/* Widens the stages to the ranges plus the increments of a step. The increments depend on the stages, so this is repeated.
+ * Returns true if the stages had enough room already. */
 static bool widen_stages(fixed_plan *p) {
     const image *im = p->image;
     bool enough = true;
@@ -289,8 +290,8 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
-/* The ranges of all values with the present stages. False, reported: the values are too large within the ranges alone, or
- * after steps from there. */
+/* Finds the ranges of all values with the present stages. False, reported: some values are too large. ranges_alone: the
+ * stages do not exceed the ranges yet. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
     const fixed_leaves leaves = leaves_of(p);

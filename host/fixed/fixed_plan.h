@@ -20,18 +20,18 @@ typedef struct fixed_gain {
     int by;
 } fixed_gain;
 
-/* How RK4 moves a component. Second order: its rate v by h/2 of the acceleration, A (a result of the list), and itself by h/2
- * of the rate, W, and of the A's:
+/* How RK4 moves a component. Second order: a position q and its rate v. W is h/2 times the rate v. A1 to A4 are h/2 times the
+ * acceleration at the four stages (results of the list):
  *
  *     v2 = v + A1   v3 = v + A2   v4 = v + 2 A3   v+ = v + (A1 + 2 A2 + 2 A3 + A4)/3
  *     q2 = q + W    q3 = q + W + h/2 A1    q4 = q + 2 W + h A2    q+ = q + 2 W + h/3 (A1 + A2 + A3)
  *
- * First order: as v. A has `to_kept` more digits after the point than v. W and the terms added to it have `guard` more than
- * q. */
+ * First order: a component moves as v does. The A have `to_kept` more digits after the point than v. W and the terms added to
+ * it have `guard` more than q. */
 typedef struct fixed_mover {
     int to_kept;
     fixed_gain third;
-    int guard; /* this and the following, for second order only: gains of v, A and A1 + A2 + A3 */
+    int guard; /* from here on for second order only: digits, then gains of v, A and A1 + A2 + A3 */
     fixed_gain half_rate;
     fixed_gain half_accel; /* number and by of wh_fixed_mul_short() */
     fixed_gain third_accel;
@@ -55,7 +55,7 @@ typedef struct fixed_plan {
 } fixed_plan;
 
 /* For an image made with the default method. Returns NULL, and reports the reason, if the scene has no such step, or
- * after an interrupt. `progress` is shown on standard error. */
+ * after an interrupt. `progress`: show the progress on standard error. */
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 

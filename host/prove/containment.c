@@ -53,7 +53,7 @@ static void read_run(const reading *r, void *run) {
 
 /* --- the tolerances ----------------------------------------------------------------------------------- */
 
-/* Least range, as a part of a state's size, or of the range of another state with the same unit. */
+/* Least range of a state, as a part of its size, or of the range of another state with the same unit. */
 #define LITTLE 1e-3
 /* Replaces the range, SI, if no state with this unit moves. Even then the tube has a width. */
 #define STILL 1e-9
@@ -117,7 +117,7 @@ static void find_ranges(const containment_wish *w, const reading *r, containment
 
 /* --- record by record --------------------------------------------------------------------------------*/
 
-/* Are all states finished? */
+/* Has the proof ended for all states? */
 static bool all_closed(const containment_found *h) {
     for (int i = 0; i < h->states; i++) {
         if (h->state[i].open) {
@@ -309,8 +309,7 @@ typedef struct figure {
 static figure not_less(double x, int places) {
     figure f;
     const char *end;
-    double shown = enclosure_above(enclosure_above(x)); /* the conversion to its unit may have
-                                                         * rounded it */
+    double shown = enclosure_above(enclosure_above(x)); /* the conversion of units rounds, too */
     snprintf(f.text, sizeof f.text, "%.*e", places, x);
     while (x > 0.0 && decimal_read(f.text, &end) < x) {
         shown *= 1.001;

@@ -44,8 +44,7 @@ typedef struct containment_state {
     containment_verdict verdict;
     bool open;
     bool begun;   /* within the tolerance at the start: else nothing is proved */
-    double range; /* the largest minus the smallest value in the run, but at least a thousandth of
-                   * its size */
+    double range; /* range in the run, but at least a thousandth of the largest size */
     double
         within; /* allowed error: the requested one; else the tolerance times the state's range, or times a
                  * thousandth of the largest range of states with the same unit, if that is more */

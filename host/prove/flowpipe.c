@@ -349,9 +349,9 @@ void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more) {
 
 /* === the tube ================================================================================= */
 
-/* Bound on the remainder of a step, relative to the largest value of a state so far. This limits the step, */
+/* The length of a step is chosen so that its remainder is at most this part of the largest value of the state so far. */
 #define REMAINDER 0x1p-54
-/* but a step shorter than this is useless, s. */
+/* The tube ends if the step must be shorter than this, s. */
 #define STEP_LEAST_S 1e-9
 #define STEP_FIRST_S 0.01
 enum { TRIALS = 60, GENERATORS = 3000 };
@@ -369,8 +369,7 @@ struct flowpipe {
     enclosure *box;   /* [states] box of x along the state axes */
     double *axes;     /* [states * states] axes that turn with the motion */
     enclosure *along; /* [states] box of the deviation along these axes */
-    enclosure *turn;  /* [first + 1][states * states] coefficients of the derivatives times the axes
-                       */
+    enclosure *turn;  /* [first + 1][states * states] the derivatives' coefficients times axes */
     enclosure *stay;  /* [states] box that contains the motion during the whole step */
     double *largest;  /* [states] */
     double open_s;    /* length of the open step; 0: not open */
@@ -403,7 +402,7 @@ flowpipe *flowpipe_new(const exact_motion *m, int order) {
         t->along[i] = enclosure_sub(m->start[i], enclosure_of(t->centre[i]));
         t->box[i] = m->start[i];
     }
-    zonotope_map(t->off, t->turn, t->along); /* the set is empty: the map does not matter */
+    zonotope_map(t->off, t->turn, t->along); /* no generators yet, so any map serves */
     return t;
 }
 
@@ -434,7 +433,7 @@ static bool find(flowpipe *t, taylor *series, const enclosure *x) {
 
 /* --- enclosure of the motion over a step ------------------------------------------------------------- */
 
-/* sum of [0, h]^k x_k over k <= order, from the whole box. */
+/* The Taylor polynomial over the whole step, from the whole box: the sum of [0, h]^k x_k over k <= order. */
 static enclosure polynomial_over(const flowpipe *t, int i, enclosure span) {
     enclosure sum = taylor_of(t->all, i, t->order)[0];
     for (int k = t->order - 1; k >= 0; k--) {
@@ -596,7 +595,7 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
     t->products += 2.0 * (double)n * (double)n *
-                   (double)t->off->count; /* products here and in flowpipe_open() */
+                   (double)t->off->count; /* products of this step, also those in flowpipe_open() */
     for (int i = 0; i < n; i++) {
         /* derivatives cover the segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);

@@ -20,7 +20,8 @@ static const cost_figure *worst_of(const cost *c) {
     return is_known(&c->cycles_worst) ? &c->cycles_worst : &c->instructions_worst;
 }
 
-/* The value compared with a limit: the upper bound of a counted figure, the lower bound of a prediction that will be counted. */
+/* The value that is compared with a limit. `hopeful`: the figure is a prediction that will be counted, so its lower bound
+ * decides. Otherwise its upper bound does. */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
 static choice_row judged(const trials *t, const choice_wish *w, const table *made, int i) {
@@ -40,7 +41,7 @@ static choice_row judged(const trials *t, const choice_wish *w, const table *mad
     judge_limit(&row, CHOICE_LOAD, w->clock_Hz > 0.0 ? 1.0 : 0.0, cycles, row.load_most);
     judge_limit(&row, CHOICE_FLASH, w->flash_bytes, is_known(&c->flash_bytes),
                 bound_of(&c->flash_bytes, hopeful));
-    /* a program that does not fit without its stack never fits */
+    /* a program that does not fit even without its stack never fits */
     const double ram = bound_of(&c->ram_bytes, hopeful);
     const bool known = is_known(&c->ram_bytes) && (is_known(&c->stack_bytes) || ram > w->ram_bytes);
     judge_limit(&row, CHOICE_RAM, w->ram_bytes, known, ram + bound_of(&c->stack_bytes, hopeful));
@@ -148,7 +149,7 @@ static void drop_long(const trials *t, table *made) {
     made->count = kept;
 }
 
-/* A row of the answers that was not counted, or -1. */
+/* A row of the choice that was not counted, or -1. */
 static int uncounted(const table *made, const choice *c) {
     const bool found = c->fastest.row >= 0;
     const choice_row *const named[] = {found ? &c->fastest : &c->weaker,
@@ -200,7 +201,7 @@ static bool has_cycles(const cost *c) {
     return c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
 }
 
-/* "0.1 m", or "0.001 of the largest value". */
+/* Room for an error in words: "0.1 m", or "0.001 of the largest value". */
 enum { AMOUNT = 64 };
 static const char *amount(const trials *t, double error, char text[AMOUNT]) {
     const bool part = t->what.column < 0;
@@ -227,8 +228,7 @@ static void print_figure(FILE *out, const char *name, const cost_figure *f, cons
     }
 }
 
-/* The largest number of instructions that a step may take by declaration, in the unit of the row's steps; 0: not
- * known. */
+/* The largest number of cycles or instructions that a step may take, by the scene's declarations; 0: unknown. */
 static double declared_of(const table_row *row) {
     return has_cycles(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
 }
@@ -387,7 +387,7 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
         print_bytes(out, made, &c->larger);
         print_options(out, t, &made->row[c->larger.row]);
     }
-    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* all limits together */
+    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* clock and memory must grow */
         print_clock(out, w, &c->any);
         print_bytes(out, made, &c->any);
         print_options(out, t, &made->row[c->any.row]);

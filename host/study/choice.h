@@ -20,13 +20,13 @@ typedef struct choice_wish {
     double clock_Hz;    /* 0: not known, and no limit */
     double flash_bytes; /* 0: no limit */
     double ram_bytes;   /* limit of the RAM with the stack; 0: no limit */
-    bool
-        counts; /* the chosen rows will be counted, so a prediction may exceed a limit by its error bound */
+    bool counts; /* chosen rows will be counted: a prediction may exceed a limit by its error */
     const char *prices;                           /* the source of the prices, in words */
     void (*counting)(void *context, int counted); /* may be NULL */
 } choice_wish;
 
-/* A row compared with the limits. A load is the time of the longest steps, as a part of the period, or of a second without a rate. */
+/* A row compared with the limits. A load is the time of the longest steps in a period, as a part of the period. Without a
+ * rate the period is a second. */
 typedef struct choice_row {
     int row;      /* index of the row in the table, or -1 */
     double worst; /* upper bound on the cycles (or instructions) of a second of the longest steps */
@@ -49,7 +49,7 @@ typedef struct choice {
 choice choice_make(const trials *t, const table *made, const choice_wish *w);
 
 /* As above, but rows are counted until no row of the choice is a prediction. With contacts, a row that was not counted
- * is expected to take as many cycles an evaluation as the last counted row with the same number type. */
+ * is expected to take as many cycles per evaluation as the last counted row with the same number type. */
 measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
                             choice *c);
 

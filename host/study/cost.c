@@ -18,8 +18,8 @@
 const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
 const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
-/* Cycles per instruction of boards without counted cycles. The least is for a core that always issues as many instructions
- * at once as it can. The most is two to three times Arm's timing of such steps on a Cortex-M4 (1.2 to 1.7). */
+/* Cycles per instruction of boards without counted cycles. The least holds for a core that always issues as many instructions
+ * at once as it can. The most is two to three times the value of such steps on a Cortex-M4 by Arm's timing (1.2 to 1.7). */
 const cost_board cost_boards[] = {
     {"atmega328p", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 32768, 2048},
     {"atmega2560", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 262144, 8192},
@@ -178,7 +178,7 @@ static void add_libraries(cost_counts *c, const image *im) {
 typedef struct work {
     int stages;
     int places; /* distinct places of the stages */
-    int shares; /* nonzero coefficients: of stages in stages and places, and in the step's end */
+    int shares; /* nonzero coefficients of the stages, of their places, and of the end of the step */
     int turns;  /* rotations of a sine-cosine pair in a step */
 } work;
 

@@ -125,8 +125,7 @@ typedef struct cost_row {
     cost_quantity quantity;
     double within;  /* nine of ten counted steps are within this factor of the prediction */
     double longest; /* the longest step divided by the mean step; 1 for bytes */
-    double figure
-        [COST_CLASSES]; /* cost of one operation; COST_UNSEEN: no counted step has the class */
+    double figure[COST_CLASSES]; /* of one operation; COST_UNSEEN: no counted step has it */
 } cost_row;
 
 #define COST_UNSEEN (-1.0)

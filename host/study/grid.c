@@ -167,7 +167,7 @@ static const char *behind_number(const char *text) {
     return none ? NULL : end;
 }
 
-/* "10..60 [mm]": FROM is meant in TO's unit. */
+/* In "10..60 [mm]" the unit of TO is also that of FROM. */
 static void share_unit(range_text *r) {
     const char *rest = behind_number(r->from);
     const char *suffix = behind_number(r->to);
@@ -222,7 +222,7 @@ static const expr *read_end(const mechanism *of, const char *name, const char *t
     return change.value;
 }
 
-/* False, with a report, when the two ends are no numbers of one kind. */
+/* Sets both ends of the axis. Returns false, and reports the reason, unless both are finite numbers of the same kind. */
 static bool take_ends(const grid *g, const char *over, const expr *from, const expr *to,
                       axis *made) {
     const char *problem = NULL;

@@ -46,7 +46,7 @@ bool grid_varies_parameters(const grid *g);
  * a gap, so that their rows in the order of k are all the rows. */
 void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end);
 
-/* A number in as few digits as bring it back exactly. Returns text. */
+/* Writes a number with as few digits as are needed to read it back exactly. Returns text. */
 #define NUMBER_SIZE 40
 char *number_shortest(double value, char text[NUMBER_SIZE]);
 

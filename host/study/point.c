@@ -126,7 +126,8 @@ static size_t parenthesized(const char *text, bool *has_comma) {
     return 0;
 }
 
-/* "amplitude(x)" is a measure of the series of x; "max(x, y)" and "2*max(x, y)" are expressions. */
+/* The kind of a measure. That of "amplitude(x)" is its function, with x in inner[length]. "max(x, y)" and "2*max(x, y)" are
+ * plain expressions: MEASURE_FINAL. */
 static measure_kind kind_of(const char *text, const char **inner, size_t *length) {
     *inner = text;
     *length = strlen(text);
@@ -149,7 +150,7 @@ static measure_kind kind_of(const char *text, const char **inner, size_t *length
     return MEASURE_FINAL;
 }
 
-/* A name may have any number of primes, but the equations define it only up to its order. Each let is walked once. */
+/* Reports a name with more primes than its order, which the equations do not define. Each let is walked only once. */
 static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     if (tree == NULL) {
         return true;

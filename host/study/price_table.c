@@ -17,7 +17,7 @@
 
 /* === the table ================================================================================ */
 
-/* Finer steps stop if the error twice in succession is above this part of the error with the previous step. */
+/* Finer steps are no longer tried if twice in succession the error exceeds this part of the least error so far. */
 #define FALLS 0.7
 enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
@@ -224,9 +224,10 @@ void table_free(table *made) {
 /* === three rows =============================================================================== */
 
 enum { FIGURE_TEXT = 64 };
-/* Most records of the run, and its steps per record. */
+/* RECORDS_MOST: most records of the run. SPACING: a record's spacing is a multiple of this many steps. */
 enum { RECORDS_MOST = 20000, SPACING = 2 };
-/* Steps for each step of the run: of all rows together, and of the reference's two runs together. */
+/* Steps for each step of the run. ROWS_STEPS: of the three rows together. REFERENCE_STEPS: of the reference's two runs
+ * together. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
@@ -436,7 +437,7 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
     const bool runs = t->image[0]->contacts > 0;
-    /* the ranges are those of the run to the end */
+    /* the ranges for fixed point come from the run to the end */
     const bool ranged = runs || setting_is_fixed(s);
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                        runs ? " --whole-run" : "", t->wish.board->name, s->number->name,
@@ -794,7 +795,7 @@ enum {
 
 static double value_of(const char *text) { return decimal_read(text, NULL); }
 
-/* Raises a figure to the count at one more place, if that is larger. */
+/* Raises a figure to the count at one more point, if that is larger. */
 static void grow(cost_figure *f, cost_basis basis, const char *text) {
     const double value = value_of(text);
     if (f->basis == COST_NOT_KNOWN || value > f->value) {
@@ -864,7 +865,7 @@ static int count_step(const trials *t, const table_words *words, table_row *row)
     return status == 0 && !cost_measured(line, t->wish.board, &row->cost) ? 1 : status;
 }
 
-/* Do the counted figures of one row hold for another? */
+/* Do the counted figures of one row also apply to the other? `by_pace`: only if their steps have the same length. */
 static bool is_alike(const table_row *a, const table_row *b, bool by_pace) {
     return setting_order(&a->setting) == setting_order(&b->setting) &&
            (!by_pace || a->pace.steps * b->pace.records == b->pace.steps * a->pace.records);

@@ -8,7 +8,7 @@
 #include "host/study/trial.h"
 
 /* === the table ================================================================================ */
-/* The unit of the cost of a simulated second. Rows are sorted by this cost. */
+/* The unit of a row's price, the cost of a simulated second. Rows are sorted by price. */
 typedef enum table_unit {
     PRICE_CYCLES,
     PRICE_INSTRUCTIONS, /* on boards without counted cycles */
@@ -23,11 +23,10 @@ typedef struct table_price {
     double least, most;
 } table_price;
 
-/* With contacts, all steps of a run are counted, at each place of a range. */
+/* With contacts, all steps of a run are counted, at each point of the trials. */
 typedef struct counted_run {
-    double steps; /* number of counted steps of all points; 0: no whole runs were counted */
-    double
-        instructions_bound; /* declared upper bound for a step (docs/dev/events.md); 0: unknown */
+    double steps;              /* counted steps, all points together; 0: no whole run was counted */
+    double instructions_bound; /* declared bound for a step (docs/dev/events.md); 0: unknown */
     double cycles_bound;
 } counted_run;
 
@@ -38,7 +37,7 @@ typedef struct table_row {
     cost cost;
     counted_run run;
     table_price price;
-    bool counted;  /* its cost was counted, or could not be */
+    bool counted;  /* its cost was counted, not predicted */
     bool on_front; /* no row with at most this price has a smaller error */
 } table_row;
 
@@ -58,8 +57,7 @@ typedef struct table {
 typedef struct table_wish {
     double operations;  /* most that all trials may evaluate */
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
-    double
-        error; /* steps get finer until the error is half of this; 0: until round-off stops the gain */
+    double error;     /* steps get finer until half this error; 0: until round-off stops the gain */
     double rate_Hz;   /* rate of calls, each of which takes a whole number of steps; 0: any step */
     uint64_t periods; /* number of 1/rate_Hz in a record's spacing; 1 without a rate */
     int workers;
@@ -67,8 +65,8 @@ typedef struct table_wish {
     void *context;
 } table_wish;
 
-/* The tried paces, by rung. Each is finer than the one before by 2 to 2.5; with a rate they are 1, 2, 3, ... steps a period.
- * False: there are no more. */
+/* *pace: the pace of trial number `rung`, from 0 on. Each is finer than the one before by a factor of 2 to 2.5. With a rate
+ * they are 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
 bool table_pace(const table_wish *w, int rung, deviation_pace *pace);
 /* Steps a period; 0 without a rate. */
 uint64_t table_substeps(const table_wish *w, const table_row *row);
@@ -147,7 +145,7 @@ void table_json(FILE *out, const trials *t, const table *made, const table_words
 void table_json_begin(json *j, const char *command, const trials *t);
 void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words);
 
-/* Command lines that repeat a row: `whirl run ...` at a place of the ranges, and `whirl derive ... --as c` with the scene's own
+/* Command lines that repeat a row: `whirl run ...` at a point of the ranges, and `whirl derive ... --as c` with the scene's own
  * values, as in a product. Free them. */
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
                      const table_words *words);

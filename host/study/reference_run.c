@@ -58,7 +58,7 @@ static long double even_series(long double square, int from, int last, long doub
     return sum;
 }
 
-/* A quarter turn in three parts: the first two have 33 digits, so that up to 2^31 of them are exact. */
+/* A quarter turn in three parts. The first two have 33 binary digits, so that up to 2^31 times each of them is exact. */
 #define QUARTER_1 ((long double)UINT64_C(0x1921fb544) / 4294967296.0L)
 #define QUARTER_2 ((long double)UINT64_C(0x85a308d3) / 36893488147419103232.0L)
 #define QUARTER_3 2.02226624879595073239968462009475771647620240390820e-21L
@@ -787,12 +787,12 @@ int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps
 static const extrapolation_setting fine = {6, 16.0 * (double)LDBL_EPSILON};
 static const extrapolation_setting coarse = {5, 64.0 * (double)LDBL_EPSILON};
 
-/* A record is trusted while the two computations differ by less than this part of a column's largest value. In long double they
- * first differ by less than 1e-16. When the difference reaches the limit, the motion has amplified the round-off. */
+/* A record is trusted while the two computations differ by less than this part of a column's largest value. In long double
+ * they differ by less than 1e-16 at first. When the difference reaches the limit, the motion has amplified the round-off. */
 #define LIMIT_EXTRAPOLATED (LONG_IS_LONGER ? 1e-12 : 1e-9)
 #define LIMIT_FINE_STEPS 1e-6
-/* A component is only round-off if the two computations never agree to this part of its value up to the first record at which it
- * reaches this part of its largest value. The round-off comes from the motion, or from the list's constants. */
+/* A column is known if the two computations agree up to a record at which its value has reached this part of its largest
+ * value. Otherwise it is only round-off of the motion or of the list's constants. */
 #define KNOWN_BY 1e-6L
 
 typedef struct computed {
@@ -847,7 +847,7 @@ static void measure(reference *r, const computed *other, int until, int column) 
     }
 }
 
-/* Did the two computations agree about a column, with known largest value, before the motion may have separated them? */
+/* Is this column, whose largest value is set, known (KNOWN_BY)? */
 static bool is_known(const reference *r, const computed *other, int until, int column) {
     const long double enough = KNOWN_BY * r->column[column].largest;
     long double largest = 0.0L;
@@ -945,8 +945,7 @@ static reference *by_fine_steps(const reference_wish *w) {
     r->kind = REFERENCE_FINE_STEPS;
     r->limit = w->by.steps > 0 ? w->by.limit : LIMIT_FINE_STEPS;
     judge(r, &other);
-    for (int k = 1; k < r->columns && w->by.steps > 0;
-         k++) { /* the error of the finer computation, by its order */
+    for (int k = 1; k < r->columns && w->by.steps > 0; k++) { /* finer run's error, by its order */
         r->column[k].off /= (long double)number_scaled(1.0, w->by.order) - 1.0L;
     }
     free(other.row);
@@ -990,8 +989,8 @@ static bool knows(const reference *r) {
 reference *reference_new(const reference_wish *w) {
     const bool steps = w->image->contacts > 0 || w->by.steps > 0;
     reference *r = steps ? by_fine_steps(w) : by_extrapolation(w);
-    if (!r->stopped && r->broken) {          /* the extrapolations found no small step */
-        reference *other = by_fine_steps(w); /* kinks and jumps are passed by steps */
+    if (!r->stopped && r->broken) {          /* no step of the extrapolation was small enough */
+        reference *other = by_fine_steps(w); /* fixed steps also pass kinks and jumps */
         if (knows(other) && (other->records > r->records || !knows(r))) {
             reference *swap = r;
             r = other;

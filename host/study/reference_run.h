@@ -88,9 +88,8 @@ double extrapolation_operations(const extrapolation *e);
 typedef struct reference_steps {
     uint64_t steps; /* steps in a record's spacing, even; 0: compute the best reference instead */
     wh_method method;
-    int order; /* order of the method's error */
-    double
-        limit; /* trusted while the two runs differ by less than this part of a component's largest value */
+    int order;    /* order of the method's error */
+    double limit; /* trusted while both runs differ by less than this part of the largest value */
 } reference_steps;
 
 typedef struct reference_wish {
@@ -123,9 +122,8 @@ typedef struct reference {
     int records;              /* trusted records after the start */
     long double *row;         /* [wanted + 1][columns] in the units of the columns */
     reference_column *column; /* [columns] */
-    double
-        limit; /* a record is trusted while no column differs by more than this part of its largest value */
-    char *how; /* the two settings, in words */
+    double limit; /* trusted while columns differ by less than this part of the largest value */
+    char *how;    /* the two settings, in words */
     char *why; /* the reason for an early end of the trust, or for no reference at all; else "" */
     /* the reference is not trusted to the end because its steps are not small enough, not because the motions
      * diverge */
@@ -164,8 +162,8 @@ int fine_steps_run(const reference_wish *w, const records *shape, uint64_t steps
 
 /* === the deviation of a run =================================================================== */
 
-/* The ratio of steps and records: `steps` steps in `records` spacings, one of the two being 1. If a step is longer than a
- * spacing, only the records at its ends are compared. */
+/* A run takes `steps` steps in `records` spacings of the records. If a step is longer than a spacing, only the records at its
+ * ends are compared. */
 typedef struct deviation_pace {
     uint64_t steps;
     uint64_t records;
@@ -183,9 +181,8 @@ typedef struct deviation {
     double error; /* largest error of all records; if unusable, of the records before the stop */
     int column;   /* the column with that error */
     double known; /* the reference's own error in that column: errors near it are only bounds */
-    double operations; /* evaluated */
-    double
-        evaluations; /* evaluations of the accelerations, or of the matrix, per simulated second */
+    double operations;       /* evaluated */
+    double evaluations;      /* of the accelerations or the matrix, per simulated second */
     double evaluations_most; /* most evaluations in one step */
 } deviation;
 

@@ -100,7 +100,7 @@ static bool ends_whole(const char *line, ssize_t length) {
     return length >= 2 && line[length - 2] == '\r' && line[length - 1] == '\n';
 }
 
-/* The text of the swept fields, followed by a comma. */
+/* The swept fields of a row as text, followed by a comma. */
 static char *swept_text(const resumable_csv_settings *s, uint64_t row) {
     char *text = NULL;
     size_t length = 0;

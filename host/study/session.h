@@ -20,8 +20,7 @@
 typedef struct resumable_csv {
     FILE *out;
     const char *path;
-    bool
-        is_file; /* a regular file, which can be continued: not standard output, a pipe or a device */
+    bool is_file;    /* it can be continued: not standard output, a pipe or a device */
     uint64_t rows;   /* existing rows */
     uint64_t failed; /* rows with empty measures */
     char *beside;    /* FILE.sweep */

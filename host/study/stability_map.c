@@ -42,8 +42,8 @@ double map_row(const stability_map *m, uint64_t row) {
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
-/* Runs of a row. Their errors are relative to the range of each column in the first and finest run. A coarse run has
- * few samples, and its finer run may diverge, too, so neither has a useful range. */
+/* The runs of a row of the map. Their errors are compared with the range of each column in the first run, which has the
+ * shortest step. A coarse run has few samples, and its finer run may diverge, too, so neither has a useful range. */
 typedef struct row_runs {
     const map_wish *wish;
     stability_map *map;
@@ -68,7 +68,7 @@ static void take_ranges(row_runs *p, const horizon *h) {
     }
 }
 
-/* The run counts as out of bounds if the finer run is, at half the step. */
+/* Did the run or its finer run fail, or does the error of a highest derivative exceed MAP_BOUND times its range? */
 static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
     bool out = h->of->status != WH_OK || h->of->finer_failed_s >= 0.0;
     for (int k = 1; k < h->of->columns; k++) {
@@ -107,7 +107,8 @@ static void show_share(double share, void *told) {
     p->wish->progress((double)p->map->done + share, p->wish->told);
 }
 
-/* A refused image is a verdict, and `whirl run` gives the reason. After an interrupt the verdict is unknown. */
+/* Sets the verdict of a point. A refused image is a verdict, too; `whirl run` gives the reason. After an interrupt the
+ * verdict is unknown. */
 static void try_point(row_runs *p, uint64_t point) {
     const map_wish *w = p->wish;
     diags *unsaid = diags_new();

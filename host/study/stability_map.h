@@ -49,12 +49,11 @@ typedef struct map_wish {
 
 typedef struct stability_map {
     const grid *grid;
-    map_cell *cell; /* [grid->points] */
-    uint64_t done;  /* cells; fewer than points after an interrupt */
-    uint64_t
-        unlooked; /* cells whose runs were not checked for aliasing: the budget was too small */
-    int along;    /* the step's axis, or 1 if no axis is the step */
-    bool by_step; /* one axis is the step */
+    map_cell *cell;    /* [grid->points] */
+    uint64_t done;     /* cells; fewer than points after an interrupt */
+    uint64_t unlooked; /* cells not checked for aliasing, because the budget was too small */
+    int along;         /* the step's axis, or 1 if no axis is the step */
+    bool by_step;      /* one axis is the step */
 } stability_map;
 
 /* Runs the map row by row, each from its shortest step on. */

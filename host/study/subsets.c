@@ -19,8 +19,7 @@ static uint64_t bit(int k) { return (uint64_t)1 << (unsigned)k; }
 
 /* --- images ----------------------------------------------------------------------------------------*/
 
-/* The scene without some effects. The instance keeps the parameters of these effects, so that `set` and --set stay
- * valid. */
+/* The scene without the effects in `out`. Their parameters stay in the instance, so that `set` and --set stay valid. */
 static image *image_without(const subsets *s, uint64_t out, diags *errors) {
     instance *inst = instance_make(s->of, s->in, s->changes, errors);
     for (int k = 0; inst != NULL && k < s->effects; k++) {
@@ -151,8 +150,8 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Do the missing terms change a slope at the full run's state by more than round-off? The two may have their components in
- * different orders. */
+/* Do the missing terms change a slope by more than round-off, at the state of the full run? The two lists may have their
+ * components in different orders. */
 static bool terms_act(const lane *all, vector_field *less) {
     enum { MOST = 3 * IMAGE_COMPONENTS_MAX };
     vector_field *full = all->field;
@@ -311,7 +310,7 @@ static int effects_of(uint64_t mask) {
     return count;
 }
 
-/* Fewer effects, then a shorter longest step, then a shorter step. */
+/* Is `a` better? It is if it has fewer effects; if equal, a shorter longest step; if equal, a shorter step. */
 static bool is_better(const subset *a, const subset *b) {
     const int fewer = effects_of(a->out) - effects_of(b->out);
     const double longer = a->figure[SUBSET_WORST] - b->figure[SUBSET_WORST];
@@ -320,7 +319,8 @@ static bool is_better(const subset *a, const subset *b) {
                          : a->figure[SUBSET_STEP] < b->figure[SUBSET_STEP];
 }
 
-/* Effects that did not act stay: without them the run differs by round-off alone. */
+/* The best subset within the limits. Effects that did not act are never left out: that would change the run by
+ * round-off alone. */
 static const subset *best_of(const subsets *s, uint64_t acting) {
     const subset *best = s->list[0];
     for (int i = 1; i < s->count; i++) {

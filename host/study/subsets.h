@@ -19,7 +19,7 @@ enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 /* The scene without the effects of the bits in `out`. */
 typedef struct subset {
     uint64_t out;
-    const char *failed; /* the reason why no run reached the end; NULL: one did */
+    const char *failed; /* the reason why the run did not reach the end; NULL: it did */
     bool same;          /* its records have the same bits as those of the full run */
     int contacts;
     double *moved; /* [columns] largest difference over the run, in the column's unit */
@@ -51,8 +51,8 @@ void subsets_close(subsets *s);
  * diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
-/* Runs subsets of the effects that acted: all, or with *greedy one more effect left out at a time. Returns the one that
- * keeps the limits with the fewest effects; of several, the cheapest. */
+/* Runs scenes without some of the effects that acted: all combinations. If there are too many (*greedy), effects are left out
+ * one after another. Returns the subset that keeps the limits with the fewest effects; of several, the cheapest. */
 const subset *subsets_smallest(subsets *s, bool *greedy);
 
 #endif

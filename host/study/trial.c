@@ -232,7 +232,7 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 
 /* === trials =================================================================================== */
 
-/* Limit on the operations of each of the reference's two computations, for all points together: some seconds. */
+/* Limit on the operations of each of a reference's two computations, for all points together. It takes some seconds. */
 #define REFERENCE_OPERATIONS 6e8
 /* A run with a larger error, as a part of the largest value, is useless. */
 #define USABLE 1.0
@@ -448,7 +448,7 @@ static image *in_fixed_point(trials *t, image *im) {
     return im;
 }
 
-/* In fixed point an image is first priced and then run. It is stored in between. */
+/* The image of a point in fixed point. It is stored, because it is first priced and then run. */
 static image *kept(trials *t, int point, deviation_pace pace) {
     trial_planned *k = &t->planned[point];
     image *im = k->pace.steps == pace.steps && k->pace.records == pace.records ? k->image : NULL;
@@ -543,7 +543,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
 double trial_operations(const trials *t, const setting *s, deviation_pace pace) {
     const double steps = (double)t->records * (double)pace.steps / (double)pace.records;
     const double each = (double)t->image[0]->list[IMAGE_STEP]->count + 1.0;
-    const double runs = setting_is_fixed(s) ? 2.0 : 1.0; /* one for the ranges */
+    const double runs = setting_is_fixed(s) ? 2.0 : 1.0; /* a first run finds the ranges */
     return runs * steps * each * wh_methods[s->image.method].stages * t->points;
 }
 
@@ -588,7 +588,7 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     return dearest;
 }
 
-/* The run is in double to the end; it is needed only for undeclared ranges. */
+/* Finding undeclared ranges takes a run in double to the end. Would it take more than t->planned_most operations? */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace) {
     return setting_is_fixed(s) && t->planned_most > 0.0 &&
            trial_operations(t, s, pace) > t->planned_most;

@@ -67,7 +67,7 @@ typedef struct trial_source {
     void *context;
     /* number of points: 1 for the scene itself; or points of its ranges and the scene's own values */
     int points;
-    /* The image of a place, with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller frees it.
+    /* The image of a point, with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller frees it.
      * NULL without an image: reported, unless the scene refuses the setting (setting_may_be_refused()). */
     image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
     /* A point as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
@@ -95,18 +95,16 @@ typedef struct trials {
     trial_wish wish;
     int points;    /* number of the source's points with motion; all points if there is no motion */
     int *place;    /* [points] their numbers in the source */
-    char *still;   /* the options of the omitted places: " --set M=0,"; or NULL */
+    char *still;   /* the options of the omitted points: " --set M=0,"; or NULL */
     image **image; /* [points] of the references */
     reference **reference;  /* [points] */
-    trial_planned *planned; /* [points] in fixed point: priced and to be run */
+    trial_planned *planned; /* [points] images in fixed point, stored between pricing and running */
     int worst;              /* the point whose reference ends first, or is least accurate */
     int records;            /* records after the start for which all references are trusted */
     deviation_of_what what;
-    double
-        tolerated; /* for one column: a run with this error is usable, however small the values are */
-    double
-        planned_most; /* most operations of a run that finds the ranges for fixed point; 0: no limit */
-    bool reliable;    /* false: some reference is REFERENCE_NONE */
+    double tolerated;    /* for one column: an error that is usable even if values are smaller */
+    double planned_most; /* most operations to find ranges for fixed point; 0: no limit */
+    bool reliable;       /* false: some reference is REFERENCE_NONE */
     bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
     double operations; /* evaluated in trials so far */
@@ -114,15 +112,13 @@ typedef struct trials {
 
 /* The results of one setting at one step. */
 typedef struct trial_result {
-    bool ran;    /* false: stopped, or there is no image */
-    bool usable; /* at all points the run reached its end, with an error below the largest value */
-    double
-        error; /* the worst error, in the unit of `of` or as a part of the largest value, plus the reference's own error */
-    bool bound; /* `error` is only a bound, because the reference's own error is about as large */
-    int point;  /* the point with the worst error */
-    int column; /* the component with the worst error */
-    double
-        evaluations; /* evaluations of the accelerations per simulated second, at the place with most */
+    bool ran;     /* false: stopped, or there is no image */
+    bool usable;  /* at all points the run reached its end, with an error below the largest value */
+    double error; /* the worst error plus the reference's own, in trial_unit() */
+    bool bound;   /* `error` is only a bound, because the reference's own error is about as large */
+    int point;    /* the point with the worst error */
+    int column;   /* the component with the worst error */
+    double evaluations; /* of the accelerations, per simulated second; the most of all points */
     double evaluations_most; /* most evaluations in one step */
 } trial_result;
 
