@@ -16,7 +16,7 @@ static unsigned tests_before;
 void setUp(void) {}
 void tearDown(void) {}
 
-/* A suite that forgot its RUN_TESTs must not look like one that passed. */
+/* A suite without any test fails. */
 static void test_suite_ran_a_test(void) {
     TEST_ASSERT_TRUE_MESSAGE((unsigned)Unity.NumberOfTests > tests_before + 1U, suite_name);
 }
@@ -25,7 +25,7 @@ static void run_suite(const struct suite *each) {
     suite_name = each->name;
     tests_before = (unsigned)Unity.NumberOfTests;
     UnitySetTestFile(each->file);
-    if (TEST_PROTECT()) { /* what fails before its first test ends it, and would else go back to the one before */
+    if (TEST_PROTECT()) { /* an assertion that fails outside a test must end this suite, not jump into the one before */
         each->run();
     }
     UnitySetTestFile(__FILE__);

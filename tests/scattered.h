@@ -1,5 +1,5 @@
 /* scattered.h: the tests' scattered 64-bit numbers (xorshift; Marsaglia, Journal of Statistical Software 8 (2003) 14).
- * Each file that includes this has a sequence of its own, and sets scattered_state, not 0, before it draws. */
+ * Each file that includes this has its own sequence, and sets scattered_state, not 0, before it calls scattered(). */
 #ifndef TESTS_SCATTERED_H
 #define TESTS_SCATTERED_H
 

@@ -4,7 +4,7 @@
 
 #include "unity.h"
 
-/* Boards draw fewer cases than a PC. */
+/* Boards run fewer random cases than a PC. */
 #define WH_TEST_SMALL (!__STDC_HOSTED__)
 
 struct suite {
@@ -16,7 +16,7 @@ struct suite {
 extern const struct suite suites[]; /* [suite_count] */
 extern const unsigned suite_count;
 
-/* A test of a suite; tests/suites.sh makes the table of these lines. What a suite does first, or by itself, is its SUITE(name). */
+/* Heads of a suite and of its tests; tests/suites.sh makes the table from them. SUITE(name) runs before the tests. */
 #define SUITE(name) \
     void suite_##name(void); \
     void suite_##name(void)
@@ -24,7 +24,7 @@ extern const unsigned suite_count;
     void test_##suite##_##name(void); \
     void test_##suite##_##name(void)
 
-/* Reals of the build, compared as floats. */
+/* `wanted` and `found` are of the build's real type and compared as floats; `most` is the largest difference. */
 #define CHECK_NEAR(most, wanted, found) \
     TEST_ASSERT_FLOAT_WITHIN((float)(most), (float)(wanted), (float)(found))
 

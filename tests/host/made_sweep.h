@@ -22,7 +22,7 @@ void made_sweep_open(made_sweep *m, const char *text, const char *const *over, i
                      const char *const *asked, int count, const engine_kind *kind);
 void made_sweep_close(made_sweep *m);
 
-/* A body above a floor at x = 0, and its neighbours. */
+/* Text of a mechanism: a body above a floor at x = 0, free along y. */
 extern const char made_sweep_floor[];
 
 #endif

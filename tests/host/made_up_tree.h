@@ -9,7 +9,7 @@
 void tree_enter(void);
 void tree_leave(void);
 void tree_keep(const char *file, const char *text);
-/* Returns its contents (static) and deletes it. */
+/* Returns the contents of `file` in static memory, "" if there is no such file, and deletes it. */
 const char *tree_taken(const char *file);
 
 #endif

@@ -34,7 +34,7 @@ static void put(writer *w, const char *format, ...) {
     }
 }
 
-/* From 0.1 to about 10, of one to twenty digits. */
+/* Writes a number from 0.1 to about 10, with two to twenty digits. */
 static void number(writer *w) {
     const unsigned whole = draw(w, 10);
     const unsigned places = draw(w, 6);

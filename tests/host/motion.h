@@ -23,7 +23,7 @@ typedef struct stepping {
     const engine_kind *kind;
     wh_method method;
     bool compensated;
-    /* 0: the scene's own step. This is a double; the float engine rounds it once more */
+    /* 0: the scene's own step. The float engine rounds this double to float */
     double step_s;
     const char *set;   /* a parameter or an input, "M=1.5", or NULL */
     const char *start; /* a coordinate or a rate, "theta'=3", or NULL */
@@ -33,7 +33,7 @@ typedef struct stepping {
     image_matrix_of matrix;
 } stepping;
 
-/* RK4 with the scene's own step, or another. */
+/* RK4 in double or float. The names with _STEP take a step in s, the others have the scene's own. */
 #define IN_DOUBLE ((stepping){.kind = &engine_double, .method = WH_RK4})
 #define IN_DOUBLE_STEP(h) ((stepping){.kind = &engine_double, .method = WH_RK4, .step_s = (h)})
 #define IN_FLOAT ((stepping){.kind = &engine_float, .method = WH_RK4})
@@ -45,7 +45,7 @@ typedef struct stepping {
 
 /* Starts a scene of a built-in model. End it with motion_close(). */
 void motion_open(motion *m, const char *scene, stepping how);
-/* As above, for the first scene of a text. */
+/* Starts the first scene of a text, as motion_open() does. */
 void motion_open_text(motion *m, const char *text, stepping how);
 /* Starts the last scene of a built-in file such as "epicyclic.whirl", with the text `more` appended. */
 void motion_open_more(motion *m, const char *file, const char *more, stepping how);

@@ -15,7 +15,7 @@ typedef struct named_cure {
     bool tried; /* false if the hint says "not tried" */
 } named_cure;
 
-/* Writes all alternatives of standard error in order to list[NAMED_CURES] and returns their number. Hints read "A would
+/* Writes the alternatives of all hints in `err` in order to list[NAMED_CURES] and returns their number. Hints read "A would
  * do, or B (not tried)", "A should do (not tried: ...)" or "A resolves it; ..."; an A may be "A1 or A2". */
 int named_cures(const char *err, named_cure *list);
 

@@ -43,7 +43,7 @@ void expect_said(const char *wanted) {
     TEST_ASSERT_NOT_NULL(out);
     diags_flush(said, out);
     fclose(out);
-    /* and there is a hint */
+    /* no hint may be empty */
     const bool found = strstr(report, wanted) != NULL && strstr(report, "hint: \n") == NULL;
     if (!found) {
         printf("wanted: %s\ngot: %s\n", wanted, report);

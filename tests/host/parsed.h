@@ -20,7 +20,7 @@ void drop(void);
 
 double parameter(const char *name);
 
-/* Equal; or within a relative 4e-16. */
+/* expect_exactly(): the numbers are equal. expect_nearly(): they differ by at most a relative 4e-16. */
 void expect_exactly(double wanted, double got);
 void expect_nearly(double wanted, double got);
 

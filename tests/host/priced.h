@@ -14,7 +14,7 @@ typedef struct priced {
     overrides changes;
     grid grid;
     diags *errors;
-    /* Is there an image with this step (0: the scene's own)? NULL: for every setting that the scenes accept. */
+    /* Returns true if the setting has an image with this step (0: the scene's own). NULL: always true. */
     bool (*takes)(const setting *s, double step_s);
     int asked; /* number of images made so far */
     char place[32];
@@ -23,10 +23,10 @@ typedef struct priced {
     trials trial;
 } priced;
 
-/* Texts of scenes: a ball that bounces; a spring that hardens. */
+/* Texts of scenes: priced_ball bounces; priced_spring hardens. */
 extern const char *const priced_ball[1];
 extern const char *const priced_spring[1];
-/* With ranges for fixed point: second order, with a turn angle and an input, first order. */
+/* Texts with ranges for fixed point: of second order, with a turn angle and an input, and of first order. */
 enum { PRICED_SCENES = 3 };
 extern const char *const priced_scenes[PRICED_SCENES];
 

@@ -1,6 +1,6 @@
 /* quad_arms.h: planar mechanisms of point masses on arms, perhaps on a carriage, and spinning discs, in 113 bits.
  * D'Alembert's equations are derived by hand and integrated by the extrapolation of Gragg, Bulirsch and Stoer. The
- * reference shares nothing with the program: energies, algebra, lists or double parameters. */
+ * reference uses neither the program's energies nor its algebra, operation lists or double parameters. */
 #ifndef TESTS_HOST_QUAD_ARMS_H
 #define TESTS_HOST_QUAD_ARMS_H
 

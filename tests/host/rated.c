@@ -9,7 +9,7 @@ static double finer_s(double step_s) {
 }
 #define GRAVITY 9.81
 
-/* Three decimals, as in the text. */
+/* Draws a number with three decimals, the digits that the text of the scene shows. */
 static double of(dice *d, double low, double high) {
     return number_nearest(dice_between(d, low, high) * 1000.0) / 1000.0;
 }
@@ -99,7 +99,7 @@ static void draw_linear(dice *d, rated *r) {
     memcpy(r->start, r->linear.start, sizeof r->linear.start);
     char *step = strstr(r->text, "step ");
     TEST_ASSERT_NOT_NULL(step);
-    *step = '\0'; /* a text starts with its step; here another step follows */
+    *step = '\0'; /* cut before the step, so that callers can append another */
 }
 
 void rated_draw(dice *d, rated *r) {
@@ -159,7 +159,7 @@ long double *rated_motion(const rated *r, double spacing_s, int records) {
     TEST_ASSERT_NOT_NULL(row);
     const int each = (int)number_ceiling(spacing_s / finer_s(r->step_s) - 1e-9);
     linear spaced = r->linear;
-    char text[40]; /* the step as a decimal number, which is not the nearest double */
+    char text[40]; /* the step as the run reads it: the decimal itself, not its nearest double */
     snprintf(text, sizeof text, "%.9g", spacing_s);
     spaced.h = (quad)strtold(text, NULL);
     const long double h = strtold(text, NULL) / each;

@@ -1,5 +1,5 @@
-/* rated.h: random smooth scenes for the last rows of a run, with references. Linear ones use the exponential; others
- * use equations derived here, integrated in long double. */
+/* rated.h: random smooth scenes with references, for tests of the accuracy that a run reports. The reference of a linear
+ * scene is the matrix exponential. Other scenes have equations derived by hand, integrated in long double. */
 #ifndef TESTS_HOST_RATED_H
 #define TESTS_HOST_RATED_H
 

@@ -25,8 +25,8 @@ typedef struct rattle {
 
 rattle rattle_drawn(dice *d, rattle_kind kind);
 void rattle_write(const rattle *r, char text[static LINKAGE_TEXT]);
-/* Adds a body on its own spring, or one that a damper slows down; the step may be too coarse for it. With the energy
- * balance. */
+/* Writes the mechanism with another body, on a spring or slowed down by a damper, and with the energy balance. The step
+ * may be too coarse for that body. */
 void rattle_write_beside(const rattle *r, bool damped, double rate_radps, double size_m,
                          char text[static LINKAGE_TEXT]);
 /* Position at time t. Successive calls must have rising t. */

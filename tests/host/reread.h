@@ -41,7 +41,7 @@ typedef struct quantity {
     int unknown;
 } quantity;
 
-/* Value of ->poly; NaN if cancellation leaves it no reliable digit. */
+/* Value of of->poly; NaN if cancellation leaves it no reliable digit. */
 double poly_here(const quantity *of, const state *at, double *size);
 /* Are all parts of the expression in range? 1/(1 + x) would hide an infinite x, and sin(x) that a large x has no digits. */
 bool is_in_range(const poly *p, double most, state *s);

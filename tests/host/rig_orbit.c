@@ -40,7 +40,7 @@ static double bend(const rig_plant *p, double drive_Nm, double theta, double w) 
 static double speed_at[2U * STEPS + 1U]; /* at every half step of the angle */
 static double time_at[STEPS + 1U];
 
-/* w at the end of a turn that begins with w at angle `from`. Fills time_at and speed_at. */
+/* Returns the speed at the end of a turn that begins with speed w at angle `from`. Fills time_at and speed_at. */
 static double turn(const rig_plant *p, double drive_Nm, double from, double w) {
     const double h = 2.0 * PI / STEPS;
     time_at[0] = 0.0;
@@ -193,7 +193,7 @@ static double shown_at(const rig_orbit *orbit, const rig_noise *noise, double t_
     return (1.0 + noise->gain_off) * *follows_N;
 }
 
-/* Mean of a coarse converter's counts about that time, in the unit of the cell's counts. */
+/* Mean of the coarse converter's readings within 1 ms of t_s, in the unit of the cell's counts. */
 static int32_t mean_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
                        double on_top_N) {
     double sum = 0.0;
@@ -234,7 +234,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     int32_t mean[3] = {0};
     for (uint32_t i = 1; merge.turns + merge.left_out < turns && done < before + turns; i++) {
         const double now_s = i * period_s;
-        while (due_s <= now_s) { /* the timer drops fractions */
+        while (due_s <= now_s) { /* the timer drops fractions of a tick */
             wh_lockin_pulse(&lockin, marks % 2U, begin + (uint32_t)(due_s * 1e6),
                             marks / 2U * 4U + marks % 2U);
             marks++;

@@ -15,9 +15,9 @@ typedef struct rig_plant {
     double gravity_mps2;
     double tare_N;
     double fed_Nm; /* amplitude of the gravity compensation's torque; 0: off */
-    /* lag of the angle that the gravity compensation uses; the voltage is never below 0 */
+    /* lag of the angle that the gravity compensation uses; the motor's torque is never below 0 */
     double fed_late_rad;
-    double twice_Nm; /* a torque of twice the speed: twice_Nm cos(2 theta + twice_rad) */
+    double twice_Nm; /* a torque with two periods a turn: twice_Nm cos(2 theta + twice_rad) */
     double twice_rad;
 } rig_plant;
 
@@ -46,25 +46,25 @@ typedef struct rig_orbit {
 void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, rig_orbit *orbit);
 
 typedef struct rig_noise {
-    double cell_N;   /* standard deviation of the force of each sample, */
-    double jitter_s; /* and of the time of each pulse */
+    double cell_N;   /* standard deviation of a sample's force */
+    double jitter_s; /* standard deviation of a pulse's time */
     unsigned slower; /* factor on the sample period HAL_LOADCELL_PERIOD_TICKS; 0: one */
-    /* a converter coarser than the cell's counts, with its driver. A sample is the mean of this many conversions,
-     * evenly over its 2 ms, smoothed with its neighbours (hal/averaged.h). A conversion is an integer number of steps
-     * of this size, with noise of this size. 0: none */
+    /* A converter coarser than the cell's counts: a sample is the mean of `conversions` readings, spread evenly over
+     * 2 ms, and smoothed with its neighbours (hal/averaged.h). A reading is a multiple of conversion_N; its noise has
+     * the standard deviation conversion_counts, in such multiples. conversions 0: no such converter */
     unsigned conversions;
     double conversion_N;
     double conversion_counts;
     /* faults of the cell; 0: absent */
     double gain_off;  /* relative gain error */
     double hum_N;     /* amplitude of mains hum */
-    double hum_Hz;    /* 0: of 60 Hz */
-    double clips;     /* clips at this part of its peak, above or (negative) below; 0: never */
+    double hum_Hz;    /* frequency of the hum; 0: 60 Hz */
+    double clips;     /* clips at this part of the upper or (negative) lower peak; 0: never */
     double play_N;    /* hysteresis: the reading follows the force after a change of this size */
-    double bend;      /* shows F (1 - bend (F/peak)^2) */
+    double bend;      /* the cell shows F (1 - bend (F/peak)^2) for the force F */
     double frozen_s;  /* the cell freezes for this long in the middle of the recorded turns */
     double spikes;    /* share of samples with a spike */
-    double spike_N;   /* of this size */
+    double spike_N;   /* size of a spike */
     bool mute;        /* no force, only the noise and faults */
     double turned_by; /* both sensors' angular error, in turns */
 } rig_noise;

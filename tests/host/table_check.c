@@ -6,7 +6,7 @@
 #include "host/engine/engine.h"
 
 #define RAD_PER_PHASE (6.283185307179586477 / 4294967296.0)
-#define ROUNDS 0x1p-24 /* of a float: half a unit in the last place */
+#define ROUNDS 0x1p-24 /* largest relative error of rounding to float */
 
 static uint32_t scatter(uint32_t x) {
     x = (x ^ (x >> 16)) * UINT32_C(0x7feb352d);
@@ -26,7 +26,7 @@ static float *cells_of(const op_list_tables *t) {
     return cells;
 }
 
-/* Round-off of the number in a cell's middle, of the sum, and of the addend, which has three smaller roundings. */
+/* Bound on the error of function k: the table's own error, and round-off of value, addend and sum. */
 static double bound_of(const op_list_tables *t, int k) {
     double away = 0.0;
     for (int i = 0; i < 1 << t->bits; i++) {

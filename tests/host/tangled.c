@@ -25,7 +25,7 @@ int tangled_bodies(uint64_t seed) {
     return 2 + (int)(random_bits(&s) % (BODIES - 1));
 }
 
-/* Fisher and Yates. */
+/* Shuffles the statements (Fisher and Yates). */
 static void shuffle(statements *s, uint64_t order) {
     uint64_t seed = order * 0xd1342543de82ef95U + 3U;
     for (int i = s->count - 1; i > 0 && order != 0; i--) {

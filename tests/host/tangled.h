@@ -7,7 +7,7 @@
 
 typedef struct tangle {
     uint64_t seed;  /* same seed, same mechanism */
-    uint64_t order; /* order of its statements: 0: as drawn, otherwise a permutation */
+    uint64_t order; /* order of its statements: 0: as generated, else a seed of a permutation */
     int plain;      /* only impacts: stops without springs and loads */
     double step_s;
     double until_s;

@@ -1,4 +1,4 @@
-/* test_map.c: stability maps of drawn springs, dampers and decays, per method, compared with closed forms from both
+/* test_map.c: stability maps of random springs, dampers and decays, per method, compared with closed forms from both
  * sides. Limits: unbounded runs, tolerance, energy. Also interrupted maps. */
 #include "test.h"
 
@@ -81,9 +81,9 @@ static double longest(int order, double complex direction) {
     return low;
 }
 
-/* `order` selects the polynomial. Else the limit of an undamped oscillation: 2 for leapfrog and semi-implicit Euler
- * (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1). Nyström methods: from runs of 40,000 steps
- * (docs/stability.md). Over `steps`, 2 % beyond the limit, a run grows a hundredfold. */
+/* `order` is that of growth(); 0: `undamped` is the limit h w of an undamped oscillation. It is 2 for leapfrog and
+ * semi-implicit Euler (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1). Limits of Nyström methods
+ * come from runs of 40,000 steps (docs/stability.md). 2 % above the limit a run grows a hundredfold in `steps` steps. */
 static const struct {
     wh_method method;
     int order;
@@ -101,7 +101,7 @@ typedef struct tally {
     unsigned within, beyond;
 } tally;
 
-/* A scene of frequency w (in `unit` 1/s) at scale 1. Its longest stable step is `z`/w, times the root of the scale. */
+/* The map has no divergence below each place's limit, and only divergence above 1.02 of it. */
 static void hold_to(const map_asked *a, const double *limit_s, double known_to, tally *sum) {
     drawn_map m;
     open_map(&m, a);
@@ -125,8 +125,8 @@ static void hold_to(const map_asked *a, const double *limit_s, double known_to, 
     close_map(&m);
 }
 
-/* Steps from 0.7 to 1.3 of the limit at the first of three places; the last limit is 1.2 times it.
- * Order of steps and of axes is drawn. */
+/* Maps steps from 0.7 of the smallest limit to 1.3 of the largest. Random: whether steps rise or fall, and which axis
+ * comes first. */
 static void hold_drawn(dice *d, const char *text, wh_method method, const char *across,
                        const double *limit_s, double known_to, tally *sum) {
     char step[120];
@@ -151,7 +151,7 @@ TEST(map, springs_of_all_methods) {
     for (unsigned k = 0; k < cases; k++) {
         const wh_method method = rows[k % ROWS].method;
         const int order = rows[k % ROWS].order;
-        const bool must = order == 1 || order == 2; /* no other method is stable */
+        const bool must = order == 1 || order == 2; /* stable only with damping */
         const double zeta =
             order == 0 || (!must && dice_one_of(&d, 2) == 0) ? 0.0 : dice_between(&d, 0.1, 0.9);
         const double mass_kg = pow(10.0, dice_between(&d, -2.0, 2.0));
@@ -162,7 +162,7 @@ TEST(map, springs_of_all_methods) {
         double limit_s[PLACES];
         char text[600];
         char across[100];
-        for (int i = 0; i < PLACES; i++) { /* m, c and k are scaled alike by s: w is w/s */
+        for (int i = 0; i < PLACES; i++) { /* m has the factor s^2, c has s: the frequency is w/s */
             limit_s[i] = z / w * (1.0 + 0.1 * i);
         }
         snprintf(text, sizeof text,
@@ -219,8 +219,8 @@ TEST(map, pendulums_from_a_right_angle) {
     close_map(&m);
 }
 
-/* A run that grows 20-fold is bounded, one that grows 1e4-fold is not. If half the step is too long, too, both runs
- * grow in the same way; then the finest run of the row decides. */
+/* A run that grows 20-fold counts as bounded, one that grows 1e4-fold does not. If half the step is too long, too, the
+ * run and its half-step run grow alike. Then the run with the finest step of the row decides. */
 TEST(map, what_bounds_are) {
     dice d = dice_of("map bounds", 1424);
     for (unsigned k = 0; k < dice_cases(12); k++) {
@@ -250,10 +250,10 @@ TEST(map, what_bounds_are) {
     }
 }
 
-/* Runge-Kutta 4 has a phase error of (h w)^5/120 a step and an energy error of (h w)^6/72. Over w
- * T these are w T z^4/120 of the amplitude (half of it relative to the range) and w T z^5/72 of
- * the energy. The largest entry of its balance is the work on changes of speed. It is half the RMS
- * momentum times the swing of the rate: root 2 of the energy. */
+/* With z = h w, Runge-Kutta 4 has a phase error of z^5/120 and an energy error of z^6/72 in each step. In a run of
+ * length T these add up to w T z^4/120 of the amplitude (half of it relative to the range) and w T z^5/72 of the energy.
+ * The largest entry of the energy balance is the work on changes of speed. It is half the RMS momentum times the range of
+ * the rate: root 2 of the energy. */
 TEST(map, where_a_tolerance_and_the_energy_end) {
     dice d = dice_of("map tolerance", 1423);
     const unsigned cases = dice_cases(few_or_all(4, 32));

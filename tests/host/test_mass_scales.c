@@ -180,7 +180,7 @@ TEST(mass_scales, fewer_bodies_than_coordinates_are_refused) {
     }
 }
 
-/* The dependent rates are in sines: a body on a turning line, whose speed is a sum of two rates with one factor. */
+/* Two squares of speeds for three rates: a' and b' occur in one combination only, with sines as factors. */
 TEST(mass_scales, one_speed_through_sines_is_refused) {
     uint64_t seed = 31;
     for (int i = 0; i < 60; i++) {

@@ -171,7 +171,7 @@ TEST(matrix, entries_of_full_mass_matrices) {
             }
         }
         for (int i = of.coordinates; i < of.states;
-             i++) { /* no entry is better known than its row */
+             i++) { /* each entry may be as uncertain as the largest */
             for (int k = 0; k < of.columns; k++) {
                 size.rate[i][k] += most;
             }

@@ -1,4 +1,4 @@
-/* test_method.c: the first-order form of `whirl derive`, for mechanisms with drawn names. Each slope has its
+/* test_method.c: the first-order form of `whirl derive`, for mechanisms with random names. Each slope has its
  * component's name and a prime, and the letter of the components is not a coordinate's. Also the effects, the rows of
  * core/method.h, and the paths of RK4. */
 #include "core/step/ledger_step.h"
@@ -82,7 +82,7 @@ static void check_form(FILE *out, int count) {
     }
     TEST_ASSERT_EQUAL_INT(2 * count, all);
     TEST_ASSERT_EQUAL_INT(all, slopes);
-    for (int i = 0; i < count; i++) { /* no coordinate looks like a component */
+    for (int i = 0; i < count; i++) { /* no name is the letter and a number */
         TEST_ASSERT_EQUAL_INT(0, number_behind(letter, part[i]));
     }
 }
@@ -178,7 +178,7 @@ TEST(method_rows, rows_are_explicit) {
     }
 }
 
-/* If positions = b A, the method equals the one of the row applied to x' = f(x). */
+/* If the position weights are the product b A, the method equals the row's Runge-Kutta method applied to x' = f(x). */
 TEST(method_rows, runge_kutta_methods_have_the_positions_of_their_rates) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
@@ -262,7 +262,7 @@ TEST(method_rows, sentences_have_each_method_once) {
 }
 
 /* === rk4 ====================================================================================== */
-/* The paths of `rk4` compared with core/rk4.h: one step of each built-in scene without contacts, from drawn moments.
+/* The paths of `rk4` compared with core/rk4.h: one step of each built-in scene without contacts, from random moments.
  * Variants: sines rotated, looked up, with the balance of energy. */
 
 enum { DRAWS = 5, VALUES = 3 * IMAGE_COMPONENTS_MAX };
@@ -270,7 +270,7 @@ enum { DRAWS = 5, VALUES = 3 * IMAGE_COMPONENTS_MAX };
 static uint64_t seed;
 static int compared; /* steps */
 
-/* One step in numbers of this kind from a state (angles first, rad). False: refused. */
+/* One step in numbers of this kind from a state (angles first, rad). Returns false if the step is refused. */
 static bool step_from(const motion *m, const engine_kind *kind, const double *from, double *to) {
     for (int i = 0; i < m->image->angles; i++) {
         m->image->start_rad[i] = from[i];

@@ -8,7 +8,7 @@
 #define ROUNDING 4e-15L /* round-off of sums of a few shares, here in double */
 enum { ORDER_MAX = 6, TREES = 320, STAGES = WH_STAGES_MAX };
 
-/* A row in long double: rates of stage i by a, positions by node and reach. */
+/* A row in long double. Rates of stage i have the weights a[i], its position has node[i] and reach[i]. */
 typedef struct weights {
     int stages;
     long double a[STAGES][STAGES];

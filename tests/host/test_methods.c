@@ -10,7 +10,7 @@
 
 /* === methods ================================================================================== */
 
-/* A form and a mechanism for it. `until` is a power of two seconds; steps are its halves. */
+/* A form and a mechanism for it, whose scene ends at 1 s or 0.25 s. Steps are 2^-k s, so that they fit the end. */
 typedef struct form {
     const char *name;
     wh_form form;
@@ -131,7 +131,7 @@ TEST(methods, orders_are_those_of_the_names) {
             const int wanted = wh_methods[method].order;
             /* the error of a fifth-order method depends on where in a step the stop is hit, so it gets fewer halvings */
             const bool hits = strstr(f->name, "is hit") != NULL;
-            const int halvings = wanted < 5 ? 12 - 2 * wanted : hits ? 2 : 3; /* of a second */
+            const int halvings = wanted < 5 ? 12 - 2 * wanted : hits ? 2 : 3; /* log2 of 1 s/step */
             const int more = wanted < 5 ? 1 : 7 - halvings;
             const double order =
                 log2(distance(f, how, halvings) / distance(f, how, halvings + more)) / more;

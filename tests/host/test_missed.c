@@ -1,6 +1,6 @@
 /* test_missed.c: contacts and forces thinner than the path of a step. Hits on round posts follow closed forms
- * (core/contact/contact_step.h). Passing a latch, flat wall, edge or hill of potential energy gives a warning
- * (host/check/missed.h); a right run gives none. WHIRL_CASES=2000 WHIRL_SEED=... draws more or other cases. */
+ * (core/contact/contact_step.h). Passing a latch, flat wall, edge or barrier of potential energy gives a warning
+ * (host/check/missed.h); a right run gives none. WHIRL_CASES=2000 WHIRL_SEED=... takes more or other cases. */
 #include "command.h"
 #include "contacts.h"
 #include "hybrid.h"
@@ -22,7 +22,7 @@ typedef struct flight {
     double bounce_s; /* time of another body's bounce; 0: no other body */
 } flight;
 
-/* The place is at the origin or up to 2 m away; the body is alone or beside one that bounces. */
+/* Draws the place, at the origin or up to 2 m away on each axis, and whether another body bounces nearby. */
 static void flight_place(dice *d, flight *f) {
     const bool away = dice_one_of(d, 4) != 0;
     static const char names[] = "xy";
@@ -104,7 +104,7 @@ TEST(missed, posts) {
         const bool hits = fabs(aside_m) < r_m;
         const double at_m = hits ? -sqrt(r_m * r_m - aside_m * aside_m) : 0.0;
         const double hit_s = (at_m - f.start_m) / f.v_m_s;
-        const double nx = at_m / r_m; /* outwards */
+        const double nx = at_m / r_m; /* (nx, ny): normal of the post where it is hit */
         const double ny = aside_m / r_m;
         const double turn = hits ? 2.0 * f.v_m_s * nx : 0.0;
         const double left_s = f.until_s - hit_s;
@@ -125,7 +125,7 @@ TEST(missed, posts) {
     TEST_ASSERT_TRUE(thin * 3 > cases);
 }
 
-/* Is the energy balance violated (host/check/energy_residual.h)? For a hill that is far from start and end. */
+/* Returns true if the energy differs from that at the start by more than 1 %. Start and end are far from the barrier. */
 static bool is_unbalanced(const motion *m, const flight *f) {
     const double vx = motion_value(m, "x'");
     const double vy = motion_value(m, "y'");
@@ -152,7 +152,7 @@ static const char *const flats[] = {
 
 enum { FLATS = sizeof flats / sizeof flats[0] };
 
-/* Latches, walls and a hill higher than the body's energy are hit, or there is a warning. */
+/* Latches, walls and a potential barrier higher than the body's energy are hit, or there is a warning. */
 TEST(missed, flat_ones) {
     dice d = dice_of("missed", 2);
     const unsigned cases = dice_cases(few_or_all(112, 224));
@@ -184,7 +184,7 @@ TEST(missed, flat_ones) {
     TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
 }
 
-/* The remedy in a warning, pasted, gives a run without it: a shorter step, or an earlier end if no step suffices. */
+/* A run with the warning's remedy, a shorter step or an earlier end, has no such warning. */
 TEST(missed, ways_out) {
     dice d = dice_of("missed", 7);
     const unsigned cases = dice_cases(few_or_all(usual_or(26, 13), 130));
@@ -207,7 +207,7 @@ TEST(missed, ways_out) {
             jumps_run(text, number, words);
         }
         if (is_told &&
-            strstr(jumps_said.err, "[missed]") != NULL) { /* a float's cosh() overflows */
+            strstr(jumps_said.err, "[missed]") != NULL) { /* else cosh() overflowed (float) */
             TEST_ASSERT_TRUE_MESSAGE(jumps_named(cure, words), text);
             ways[strncmp(cure, "--until", 7) == 0]++;
             jumps_run(text, number, words);
@@ -217,8 +217,8 @@ TEST(missed, ways_out) {
     TEST_ASSERT_TRUE(ways[0] * 6 > cases && ways[1] > 0);
 }
 
-/* The path passes the tip of a weak conical potential, where its force has a pole, and then a hill of potential energy.
- * Either there is a warning, or the body turns back at the hill. */
+/* The path passes the apex of a weak conical potential, near which the force's direction jumps, and then a barrier of
+ * potential energy. Either there is a warning, or the body turns back at the barrier. */
 TEST(missed, hills_behind_a_tip) {
     dice d = dice_of("missed", 5);
     const unsigned cases = dice_cases(20);
@@ -253,8 +253,8 @@ static const char *const bumps[] = {
 
 enum { BUMPS = sizeof bumps / sizeof bumps[0] };
 
-/* Conditions along x that appear in a scene of its own speed v; %s is the bump. Friction: pressed while sliding,
- * released while sticking (y waits, pulled), a coefficient that jumps. Crossing: halves the speed. */
+/* Statements that act only in a narrow interval of x; %s is the bump. In order: a normal force that rises while y slides,
+ * one that vanishes while y sticks and a spring pulls it, coefficients that rise, and a crossing that stops y. */
 static const char *const narrow[] = {
     "friction y static 0.3 kinetic 0.2 normal 1 [mN] + 1e7 [N]*%s",
     "V = 1 [N/m]*$y^2/2\nfriction y static 0.9 kinetic 0.8 normal 10 [mN]*(1 - %s)",
@@ -393,7 +393,7 @@ TEST(missed, moving_ones) {
 
 /* --- right runs ---------------------------------------------------------------------------------------*/
 
-/* $w is wide relative to the path of a step; %s are drawn numbers. */
+/* $w is wide relative to the path of a step; %s are random numbers. */
 static const char *const rights[] = {
     "stop sqrt($x^2 + $y^2) >= 0.5*$w restitution %s",
     ("V = 9.81 [N]*$y + %s*100 [N/m]*$x^2/2\nstop $y >= -0.3 [m] restitution 0.6\n"

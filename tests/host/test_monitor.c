@@ -1,4 +1,4 @@
-/* test_monitor.c: telemetry as records, waves and counts (host/monitor/recording.h). Frames of drawn channels with
+/* test_monitor.c: telemetry as records, waves and counts (host/monitor/recording.h). Frames of random channels with
  * losses, clock wraps and restarts are compared with the test's own files. */
 #include "host/base/alloc.h"
 #include "host/monitor/recording.h"
@@ -30,7 +30,7 @@ typedef struct told {
     uint32_t ticks_of_0; /* the rig's clock at time 0 */
     bool begun;          /* a frame has arrived since the start */
     bool run_came;
-    bool headed; /* the records, */
+    bool headed; /* the header of the records is written */
     bool ring_headed;
     uint16_t next[SCHEMA_CHANNELS];
     uint16_t dropped[SCHEMA_CHANNELS];
@@ -39,7 +39,7 @@ typedef struct told {
     int64_t pulse_us[PULSES_MOST];
     unsigned pulse_of[PULSES_MOST];
     int pulse_long[PULSES_MOST]; /* us; 0: unknown */
-    bool tells_ends;             /* length of pulses; 100 us until the first end arrives */
+    bool tells_ends;             /* the rig reports ends of pulses; before the first: 100 us */
     bool has_ended;
     int64_t free_from_us[2]; /* end of the last pulse */
     int64_t trip_us;
@@ -126,7 +126,7 @@ static void drop(void) {
 
 /* --- frames -----------------------------------------------------------------------------------------------------*/
 
-/* Draws a field's bytes into at[] and its text in a record. Returns the value, NAN if invalid. */
+/* Writes random bytes of a field to at[] and its text in a record. Returns the value, NAN if invalid. */
 static double put_field(const schema_field *f, uint8_t *at, char *words) {
     const uint32_t usual = drawn_32() >> (32U - 8U * f->size);
     const bool none = f->size == 2 && dice_one_of(&die, 5) == 0;
@@ -189,7 +189,7 @@ static void send_run(void) {
         t.counts.lost_samples += lost;
     }
     const int64_t most_us =
-        c->period_ticks * 9 / 20; /* less than half a period, so that rounding finds it */
+        c->period_ticks * 9 / 20; /* less than half a period, so that rounding removes the jitter */
     const int64_t jitter_us =
         t.run_came ? (int64_t)dice_one_of(&die, 2U * (unsigned)most_us) - most_us : 0;
     const int64_t begin_us = t.time_us + jitter_us;
@@ -279,11 +279,11 @@ static void send_event(void) {
         t.trip_us = time_us;
         t.trip = payload[1];
     } else if (payload[0] == 3 && payload[1] < 2) {
-        return; /* after its beginning */
+        return; /* the end of a pulse is sent only after its beginning */
     }
     lose(RECORDING_EVENT);
     send(RECORDING_EVENT, time_us, payload, 2);
-    if (high_us > 0 && t.has_ended && dice_one_of(&die, 8) == 0) { /* lost until the next begins */
+    if (high_us > 0 && t.has_ended && dice_one_of(&die, 8) == 0) { /* end lost: length unknown */
         t.pulse_long[t.pulses - 1] = 0;
     } else if (high_us > 0) {
         payload[0] = 3;
@@ -459,7 +459,7 @@ TEST(recording, streams) {
 SUITE(recording) { die = dice_of("recording", 48); }
 
 /* === schema =================================================================================== */
-/* Schema lines of a rig (host/monitor/recording.h): drawn channels, states and rates are parsed as written. A line with
+/* Schema lines of a rig (host/monitor/recording.h): random channels, states and rates are parsed as written. A line with
  * a missing or wrong part is refused and changes nothing. */
 
 enum { LINE = 600, PIECES = 5 };

@@ -14,13 +14,12 @@
 
 enum { LATEX_UNKNOWNS = 16, LATEX_PLACES = 1 + LATEX_UNKNOWNS };
 
-/* value[0] + sum value[1 + i] * (highest derivative of unknown i). off[] bounds the errors from
+/* The number is value[0] + sum value[1 + i] * (highest derivative of unknown i). off[] bounds its errors:
+ * - of printed numbers: show_as_fraction() replaces a number within 1e-13 of a fraction;
+ * - of sums: the algebra treats a cancellation below 1e-14 of the parts as zero;
+ * - round-off, also of libm's functions.
  *
- * - printed numbers: show_as_fraction() replaces a number within 1e-13 of a fraction; - sums: the algebra treats a
- * cancellation below 1e-14 of the parts as zero; - round-off, also of libm's functions,
- *
- * carried on by slopes (running error analysis, as in host/engine/rounding.h). Small differences of large terms thus
- * have errors relative to the terms. */
+ * Slopes carry the errors on (running error analysis, as in host/engine/rounding.h). */
 typedef struct latex_number {
     double value[LATEX_PLACES];
     double off[LATEX_PLACES];
@@ -547,7 +546,7 @@ static void solve_named(named_file *f, const char *x, const char *A, const char 
     }
 }
 
-/* n equations, with so many components in all. */
+/* Runs a file with n equations and `components` components in all. */
 static void run_named(const char *what, const char *text, named_file *f, int n, int components,
                       double *slope) {
     for (const char *line = strstr(text, "\n  ") + 1; strncmp(line, "  ", 2) == 0;
@@ -762,10 +761,10 @@ TEST(octave, both_forms_compute_the_same) {
 
 enum { LATEX_RUNS_STATES = 3, SEED = 78, LATEX_RUNS_RESULTS_MAX = 256 };
 
-/* With a larger tolerance a comparison shows nothing, so the value does not count as compared. */
+/* A comparison with a larger relative tolerance shows nothing, so the value does not count as compared. */
 #define TELLING 1e-6
 
-/* errors of second order */
+/* factor on error bounds, for products of errors, which the slopes omit */
 #define SLACK 2.0
 
 typedef struct comparison {
@@ -773,9 +772,9 @@ typedef struct comparison {
     const derived *of;
     const image *image;
     state_values s;
-    double runs[UNKNOWNS]; /* highest derivatives of the list */
+    double runs[UNKNOWNS]; /* highest derivatives by the operation list */
     double off[UNKNOWNS];  /* error bounds of the values */
-    int asked;             /* highest derivatives at states */
+    int asked;             /* number of highest derivatives, over all states */
     int compared;          /* number of values with a useful tolerance */
     int closed;            /* number of them that are printed in closed form */
     double nearest;        /* largest error relative to its bound */
@@ -952,7 +951,7 @@ static void check_lets(comparison *c, const char *text) {
 
 /* --- the operation list ----------------------------------------------------------------------------- */
 
-/* The highest derivatives of a step at the state. False: one is not finite. */
+/* The highest derivatives of a step at the state. Returns false if one is not finite. */
 static bool run_there(comparison *c) {
     const image *im = c->image;
     const op_list *t = im->list[IMAGE_STEP];

@@ -88,7 +88,7 @@ static int by_size(const void *x, const void *y) {
     return (left > right) - (left < right);
 }
 
-/* A hash of each operation's computation, sorted. *phases: the same of the phases, in order. */
+/* A hash of each operation's computation, sorted. *phases is one hash of all phases, in order. */
 static uint64_t *computed_by(const op_list *t, uint64_t *phases) {
     uint64_t *sum = alloc((int64_t)t->count + 1, sizeof *sum);
     int operand[2];

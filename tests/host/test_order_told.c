@@ -1,5 +1,5 @@
 /* test_order_told.c: output of `whirl run` (summary, warnings, hints) is independent of the order of declarations.
- * Drawn scenes for every kind of warning have coordinates of very different size and run in all orders. Words must be
+ * Random scenes for every kind of warning have coordinates of very different size and run in all orders. Words must be
  * equal, and numbers too, except for reordered sums. */
 #include "command.h"
 #include "host/cli/commands.h"
@@ -8,7 +8,7 @@ static dice die;
 
 enum { DECLARED_MOST = 4, WORDS_MOST = 6, LINES_MOST = 80, TEXT_SIZE = 2000 };
 
-/* A number after @ is drawn within a tenth of it. */
+/* In the texts, a number after @ is replaced by a random one within a tenth of it. */
 typedef struct told_scene {
     const char *told; /* required in the output */
     const char *coordinates[DECLARED_MOST];

@@ -121,7 +121,7 @@ static void one_case(dice *d) {
     leave(&r, d);
     converse(&link, &r, d);
     TEST_ASSERT_TRUE(link.done);
-    /* the motor is off, by the rig's own list; old answers have another state */
+    /* the motor is off by the rig's own answer; stale answers have another state */
     TEST_ASSERT_TRUE(link.was_off);
     TEST_ASSERT_EQUAL(r.refuses_rate, link.rate_refused);
     TEST_ASSERT_EQUAL_STRING(r.refuses_rate ? "tel rate 125: ERR 116 not so many" : "",
@@ -150,12 +150,12 @@ TEST(dialogue, who_is_no_rig_is_not_met) {
 }
 
 /* === fault ==================================================================================== */
-/* Faults in the loop, compared with their words: missing and extra pulses and samples, inputs of the plant during and
- * after, times of orders. Also wrong words. */
+/* Faults in the loop do what their words say: missing and extra pulses and samples, inputs of the plant during a fault and
+ * after it, times of orders. Also refused words. */
 
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 2000U
-#define READS 500 /* a second of them */
+#define READS 500 /* one second, at PERIOD_TICKS */
 #define EVENTS_MAX 9000
 
 /* A rotor at two turns a second; every input that a fault knows is also an output. */

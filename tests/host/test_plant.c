@@ -93,7 +93,7 @@ TEST(plant, edges_of_an_angle) {
         const double level = (double)(speed > 0.0 ? low : high) + wish.place[0] * TURN_RAD / 360.0;
         double turns = (level - start) / TURN_RAD * (speed > 0.0 ? 1.0 : -1.0);
         turns -= floor(turns); /* the part of a turn to the first edge */
-        const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* within the second */
+        const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* edges in one second */
         TEST_ASSERT_INT_WITHIN(1, wanted, count); /* one more or less in the last moments */
         for (int i = 0; i < count; i++) {
             const double t = (turns + i) * TURN_RAD / fabs(speed);
@@ -145,7 +145,7 @@ TEST(plant, jitter) {
         sum += off;
         squares += off * off;
     }
-    /* of 159 edges: mean within four standard errors, standard deviation within three and a half */
+    /* 159 edges: the mean is within four of its standard errors, the deviation within three and a half */
     TEST_ASSERT_TRUE(fabs(sum / count) < 4.0 * 20e-6 / sqrt(count));
     TEST_ASSERT_TRUE(fabs(sqrt(squares / count) / 20e-6 - 1.0) < 0.2);
 }
@@ -269,7 +269,7 @@ static void add_push(void) {
         .kind = WH_SIGNAL_OUTPUT, .name = "push", .unit = "N", .low = -2.0F, .high = 2.0F});
 }
 
-/* A push of 1 N that arrives late leaves 1 kg slower by the delay, which lasts whole steps or up to the next step. */
+/* A push of 1 N on 1 kg acts from the first step at or after its delay. The final speed lacks that time. */
 TEST(plant, late_orders) {
     for (int late = 0; late <= 1000; late += 125) {
         const plant_wish wish = {.seed = 1};

@@ -149,7 +149,7 @@ TEST(envelope, at_every_moment_all_is_there) {
 enum { EYES = 4 };
 static const char *const eye_words[EYES] = {"full sight", "protanopia", "deuteranopia",
                                             "tritanopia"};
-/* for linear RGB */
+/* matrices that simulate each eye, for linear RGB */
 static const double eye[EYES][9] = {
     {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0},
     {0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116, 1.051998},

@@ -1,4 +1,4 @@
-/* test_pole.c: poles on a path (host/check/pole.h), for drawn products of powers. Exponents are integers or fractions.
+/* test_pole.c: poles on a path (host/check/pole.h), for random products of powers. Exponents are integers or fractions.
  * Also zeros nearby, one-sided poles, differences that are only round-off, and divisors with two changes of sign. */
 #include "command.h"
 #include "host/check/pole.h"
@@ -8,7 +8,7 @@ static dice die;
 
 enum { SIGNS = 2, VALUES = 2 };
 
-/* value[0] is smooth. value[1] = sum of c (x - zero)^zeros / |x - place|^order, on one side only if `side` is not 0. */
+/* value[0] is smooth. value[1] = (x - zero)^zeros / |x - place|^order + beside, on one side only if `side` is not 0. */
 typedef struct drawn {
     double place;
     double order;
@@ -16,7 +16,7 @@ typedef struct drawn {
     int zeros;
     double side;
     double beside; /* added constant */
-    bool touches;  /* the function that is zero at the pole is even, and not written as a square */
+    bool touches;  /* the divisor touches zero at the pole instead of crossing it */
     int asked;     /* points evaluated */
 } drawn;
 
@@ -51,7 +51,7 @@ TEST(pole, powers) {
         const bool near = dice_one_of(&die, 2) == 0;
         const bool upon = !near && dice_one_of(&die, 2) == 0;
         d.zeros = (int)dice_one_of(&die, 3);
-        d.beside = near ? 0.0 : d.beside; /* size next to which such a pole loses its digits */
+        d.beside = near ? 0.0 : d.beside; /* a constant would hide such a weak pole */
         d.zero = upon   ? d.place
                  : near ? d.place + exp(dice_between(&die, -18.0, -2.0))
                         : dice_between(&die, -3.0, -1.0);
@@ -92,7 +92,7 @@ TEST(pole, what_may_touch) {
             value[k] = size * ((share[k] - zero_at) * (share[k] - zero_at) + least);
         }
         const bool inside = zero_at > 0.0 && zero_at < 1.0;
-        /* undecidable near the minimum if its tangents meet below zero */
+        /* the tangents at both ends meet below zero, so the parabola may reach it */
         const bool may = inside && least - zero_at * (1.0 - zero_at) < 0.0;
         if (fabs(least - zero_at * (1.0 - zero_at)) > 0.01 && fabs(zero_at - 0.5) < 0.98 &&
             fabs(fabs(zero_at - 0.5) - 0.5) > 0.01) {
@@ -101,7 +101,7 @@ TEST(pole, what_may_touch) {
     }
 }
 
-/* Grows like a pole on average, but in jumps of 28 and 4.7 alternately; the even ratio is 11. */
+/* Each time x shrinks to a fifth, the value grows by 27 or 4.7 in turn. A pole of order 1.5 grows by 11 each time. */
 static void at_leaps(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = share - d->place;
@@ -158,7 +158,7 @@ static double difference_at(difference_kind which, double x) {
     case OF_LOG: return (call(FN_LOG, 1.0 + x) - x) / (x * x);
     case OF_SINE: return 1.0 / number_sine(x) - 1.0 / x;
     case OF_LANGEVIN:
-        return 1.0 / call(FN_TANH, x / 0.1) - 0.1 / x; /* two roundings of one number */
+        return 1.0 / call(FN_TANH, x / 0.1) - 0.1 / x; /* x/0.1 and 0.1/x are rounded separately */
     case DIFFERENCES: break;
     }
     return (double)NAN;
@@ -206,7 +206,7 @@ TEST(pole, what_has_no_digits) {
     }
 }
 
-/* A function approaches zero and turns away: y^2 + x^2, or 1 + y^2 - cos(x), which has fewer digits left. */
+/* A divisor comes near zero and rises again: y^2 + x^2, or 1 + y^2 - cos(x), which has fewer digits there. */
 static void at_standing(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = (share - d->place) * d->order;
@@ -241,7 +241,7 @@ TEST(pole, what_changes_twice) {
         drawn d = {.place = dice_between(&die, 0.3, 0.7),
                    .order = exp(dice_between(&die, -15.0, -1.5))};
         TEST_ASSERT_EQUAL_INT(1, pole_of(&d, at_twice, 1.0));
-        d.order = 1.0; /* after the end */
+        d.order = 1.0; /* the pole lies after the end of the path */
         TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_twice, 1.0));
     }
 }

@@ -14,7 +14,7 @@
 
 /* === price ==================================================================================== */
 
-/* Operations, and sine pairs, of the only output of seven numbers x0 ... x6 and two angles a and b. */
+/* Number of operations and of sine-cosine pairs for one output of seven numbers x0 ... x6 and two angles a and b. */
 typedef struct price {
     int operations;
     int waves;
@@ -80,7 +80,7 @@ TEST(price, equal_coefficients_are_taken_out) {
     }
 }
 
-/* The sum x0 (2 x1 + x2 (3 x3 + x4 (5 x5 + 7 x6))) is nested again as written. Also with another x0 in each part. */
+/* The algebra expands a product of nested sums, and the operation list must cost no more than the nested form. */
 TEST(price, factors_are_taken_out_again) {
     expect(price_of("x0*(2*x1 + 3*x2)"), 4, 0, "one factor");
     expect(price_of("x0*(2*x1 + x2*(3*x3 + 5*x4))"), 7, 0, "a factor inside");
@@ -91,7 +91,7 @@ TEST(price, factors_are_taken_out_again) {
     expect(price_of("x0*x1 + x0*x2 + x0*x3"), 3, 0, "no coefficients");
 }
 
-/* Odd powers of a root are computed from one root. */
+/* A function that occurs twice is computed once. */
 TEST(price, what_is_the_same_is_computed_once) {
     static const char *const of[] = {"exp(x0)",    "sqrt(x0)",    "atan2(x0, x1)", "abs(x0)",
                                      "log(x0*x1)", "max(x0, x1)", "sin(x0*x1)"};
@@ -145,7 +145,7 @@ TEST(price, powers_of_sines_are_put_back) {
 
 /* --- equations ----------------------------------------------------------------------------------------------- */
 
-/* Operations of a step of n equations; entries of matrix and right side are distinct states, but for the entry `number`. */
+/* Operations of a step of n equations. All entries of matrix and right side are distinct states, except entry `number`. */
 static int price_of_system(int n, int number) {
     char text[4000] = "mechanism m\n";
 #define PUT(...) snprintf(text + strlen(text), sizeof text - strlen(text), __VA_ARGS__)
@@ -217,7 +217,7 @@ TEST(price, decimals_cost_nothing) {
 }
 
 /* === price control ============================================================================ */
-/* y' = linear y + square y^2 over two spans: its solution, and the number of steps tried by `columns` rules. A step is
+/* y' = linear y + square y^2, extrapolated over two spans by `columns` columns: value, and number of steps. A step is
  * at most 3 times and at least a fifth of the previous one. It is chosen for 0.9 of the tolerance, and the last two
  * steps share the remaining time. At a pole no step is small enough. */
 TEST(price_control, steps_of_one_equation) {
@@ -422,12 +422,12 @@ TEST(price_dearest, no_finer_step_than_may_be_planned) {
     priced_close(&p);
 }
 
-/* If a matrix's step is too long, it has the price at the scene's step. If there is no matrix, the setting is not one of the
- * scene's own. */
+/* Accepts a matrix only if its step is below longest_s. */
 static bool no_long_matrix(const setting *s, double step_s) {
     return s->image.matrix == MATRIX_NONE || step_s < longest_s;
 }
 
+/* If a matrix's step is too long, the price at the scene's step counts. */
 TEST(price_dearest, matrices_are_priced_by_a_step_that_they_take) {
     priced p;
     priced_open(&p, springs, 1);

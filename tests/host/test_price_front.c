@@ -1,5 +1,5 @@
 /* test_price_front.c: rows of error against price (host/study/price_table.h). Sorting and Pareto front are compared
- * with all pairs of drawn rows. Also the steps tried, counted prices, and motions. */
+ * with all pairs of random rows. Also the steps tried, counted prices, and motions. */
 #include <unistd.h>
 
 #include "host/base/alloc.h"
@@ -32,7 +32,7 @@ static bool beats(const table_row *a, const table_row *b) {
             a->pace.steps < b->pace.steps);
 }
 
-/* Few distinct values, so that many rows tie. */
+/* There are few distinct values, so that many rows tie. */
 TEST(price_front, drawn_rows_are_sorted_and_their_front_is_marked) {
     dice d = dice_of("price_front", 1);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 20000)); n++) {
@@ -195,7 +195,7 @@ static void expect_most(double each_least, double each_most, double most, cost_b
     TEST_ASSERT_TRUE(f->value == (basis == COST_RANGE ? 0.0 : most));
 }
 
-/* For the places together: the maximum of each column, the sum of their steps, and bounds if every place has one. */
+/* The row for all places has the maximum of each column, the sum of steps, and a bound if every place has one. */
 TEST(price_measured, whole_runs_are_the_most_of_all_places) {
     static const char *const files[] = {"row0", "row1", "row2"};
     static const char *const boards[] = {"mps2-an386", "mps2-an500", "atmega328p"};
@@ -212,7 +212,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
             double v[PLACES][COLUMNS] = {{0}};
             double most[COLUMNS] = {0};
             double steps = 0.0;
-            const int unbounded = i < 4 ? i - 1 : -1; /* index of a place */
+            const int unbounded = i < 4 ? i - 1 : -1; /* place without a bound; -1: none */
             for (int k = 0; k < PLACES; k++) {
                 for (int c = 2; c < COLUMNS; c++) {
                     v[k][c] = c == 5 && k == unbounded ? 0.0 : 1 + dice_one_of(&d, 5000);
@@ -520,11 +520,11 @@ TEST(price_motion, the_step_with_most_evaluations_is_told) {
     const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
                                           (deviation_of_what){-1, 1.0});
     TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
-    /* each of 19 records evaluates the accelerations once more, and the first one the contacts; the steps do not cost that */
+    /* 20 evaluations more: of accelerations at 19 records, of contacts at the first; d.evaluations omits them */
     const double evaluations = d.operations / of.image->list[IMAGE_STEP]->count;
     TEST_ASSERT_TRUE(evaluations == (double)before + 20.0);
     TEST_ASSERT_TRUE(fabs(d.evaluations - (double)before / 0.9) < 1e-6);
-    /* exactly at the limit */
+    /* an error equal to the limit is usable */
     const deviation same = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
                                              (deviation_of_what){-1, d.error});
     TEST_ASSERT_TRUE(same.usable && same.error == d.error);

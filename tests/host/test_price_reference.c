@@ -19,7 +19,7 @@ typedef struct long_case {
     function_id function;
     long double (*library)(long double);
     double low, high;
-    double allowed; /* units */
+    double allowed; /* largest error, in units of the last place of long double */
 } long_case;
 
 static const long_case long_cases[] = {
@@ -64,7 +64,7 @@ TEST(price_reference, functions_of_two) {
     }
     printf("  atan2 off by %.3g, powers by %.3g units\n", worst_angle, worst_power);
     TEST_ASSERT_TRUE(worst_angle <= 6.0);
-    TEST_ASSERT_TRUE(worst_power <= 200.0); /* |exponent log(base)| of them */
+    TEST_ASSERT_TRUE(worst_power <= 200.0); /* |exponent log(base)| units */
 }
 
 TEST(price_reference, functions_at_their_edges) {

@@ -71,7 +71,7 @@ TEST(price_settings, options_say_the_setting_and_no_more) {
         const image_settings *m = &s.image;
         char text[SETTING_TEXT];
         int words;
-        /* with a number, and for `whirl derive` without */
+        /* number of words without the number type, as for `whirl derive` */
         const int least = 2 + (m->compensated ? 1 : 0) + 2 * (m->angles != ANGLES_TURNED) +
                           2 * (m->tables != TABLES_NONE) + 2 * (m->cells > 0);
         TEST_ASSERT_EQUAL_PTR(text, setting_options(&s, true, text));
@@ -110,7 +110,7 @@ static const char *const models[] = {
     ("mechanism m\nstate y\nstate z\nequation 1 [s^2]*y'' + y*z = 1\nequation 1 [s]*z' + z = y\n"
      "output sum = y + z\nscene s { start y = 2; step 1 [ms]; until 1 [s] }\n")};
 enum { MODELS = sizeof models / sizeof models[0] };
-/* Guard numbers after a row. */
+/* Numbers after a row, which must not be overwritten. */
 enum { BEHIND = 4000 };
 
 static derived model_of(int n) {
@@ -188,7 +188,7 @@ TEST(price_states, fine_steps_keep_what_is_rounded_off) {
     derived_free(&d);
 }
 
-/* y' = y^2 from 1/t ends at t, so the records end before t. */
+/* The solution of y' = y^2 from y = 1/t diverges at time t, so the records end before t. */
 TEST(price_states, fine_steps_end_with_the_motion) {
     for (int tenths = 2; tenths <= 9; tenths++) {
         char text[300];
@@ -239,9 +239,9 @@ typedef struct kind_row {
     const char *text;
     double operations;
     reference_kind kind;
-    int least, most; /* records */
-    const char *how; /* some of its words; NULL: any */
-    const char *why; /* same; NULL: no reason */
+    int least, most; /* least and greatest number of records */
+    const char *how; /* words in the kind's description; NULL: any */
+    const char *why; /* words in the reason for an early end; NULL: no reason */
 } kind_row;
 
 #define SCENE(start) "scene s { " start "step 1 [ms]; until 1 [s] }\n"
@@ -268,7 +268,7 @@ static const kind_row kind_rows[] = {
     {"mechanism m\nstate y\nstate z\nequation y' = 1 [1/s]*atan2(z - 0.47, -1)\n"
      "equation z' = 1 [1/s]\n" SCENE("start y = 1000;"),
      1e7, REFERENCE_FINE_STEPS, 20, 20, "a reference that shares the core's step", NULL},
-    /* too dear, and few steps give nothing */
+    /* the allowed operations do not suffice, so the reference ends early */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 4000 [N/m]*x^2/2\n" SCENE(
          "start x = 0.02 [m];"),
      6000.0, REFERENCE_EXTRAPOLATED, 1, 19, NULL, "the reference took too long after "}};
@@ -290,7 +290,7 @@ TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
                                       : LONG_IS_LONGER                  ? 1e-12
                                                                         : 1e-9));
         expect_columns(r);
-        reference_cut(r, r->records + 1); /* leaves them all */
+        reference_cut(r, r->records + 1); /* cuts nothing */
         expect_columns(r);
         reference_cut(r, r->records / 2);
         expect_columns(r);
@@ -347,7 +347,7 @@ TEST(price_states, references_are_stopped) {
 
 typedef unsigned __int128 wide;
 
-/* By subtraction, independently of the product's algorithm by remainders. */
+/* Euclid's algorithm by subtraction, because the program's uses remainders. */
 static bool have_no_divisor(uint64_t a, uint64_t b) {
     while (a != b && a != 0 && b != 0) {
         while (a > b && b != 0) {
@@ -466,7 +466,7 @@ TEST(price_trials, operations_are_those_of_all_places) {
     char text[TRIAL_TIME];
     TEST_ASSERT_EQUAL_STRING("0.5", trial_until(&p.trial, text));
     const double most = trial_operations(&p.trial, &in_fixed, fine);
-    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine)); /* any */
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine)); /* without a limit */
     p.trial.planned_most = most;
     TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
     p.trial.planned_most = most * 0.999;
@@ -490,7 +490,7 @@ TEST(price_trials, errors_have_the_unit_of_what_is_asked) {
     static const struct {
         const char *of;
         const char *unit;
-        double si; /* an error of 1 */
+        double si; /* an error of 1 `unit`, in SI */
     } rows[] = {{NULL, "", 1.0},       {"x", "mm", 1e-3},
                 {"x'", "mm/s", 1e-3},  {"a", "deg", 0.017453292519943295},
                 {"twice", "mm", 1e-3}, {"a'", "deg/s", 0.017453292519943295}};
@@ -599,7 +599,7 @@ TEST(price_trials, errors_are_the_worst_of_all_places) {
                 priced_setting(methods[dice_one_of(&d, 4)],
                                dice_one_of(&d, 2) == 0 ? &engine_float : &engine_double);
             const deviation_pace pace = {1, i % 3 == 0 ? 5 : 1};
-            /* references less accurate than they are */
+            /* make the references claim larger errors than they have */
             for (int k = 0; k < 3; k++) {
                 reference *r = p.trial.reference[k];
                 for (int c = 1; c < r->columns; c++) {
@@ -613,7 +613,7 @@ TEST(price_trials, errors_are_the_worst_of_all_places) {
             int looked_at;
             const trial_result r = trial_run(&p.trial, &s, pace);
             const trial_result want = each_by_itself(&p, &s, pace, p.trial.tolerated, &looked_at);
-            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked); /* no trial follows a useless one */
+            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked); /* a useless result is the last */
             TEST_ASSERT_TRUE(r.ran && r.usable == want.usable && r.bound == want.bound);
             TEST_ASSERT_TRUE(r.error == want.error && r.point == want.point);
             TEST_ASSERT_TRUE(r.column == want.column && r.evaluations == want.evaluations);

@@ -118,7 +118,7 @@ static void print_choice(FILE *out, const char *name, int n, const priced *p, co
 static void print_answers(FILE *out) {
     static const struct {
         cost_basis cycles;
-        int smallest; /* row */
+        int smallest; /* row of the smallest setting; -1: none */
         double rate_Hz, clock_Hz;
         counted_run run;
         bool no_cycles;
@@ -152,7 +152,7 @@ static void print_answers(FILE *out) {
     }
 }
 
-/* Which of four rows, all of which meet the limits, are in the table. */
+/* Answers without a setting that meets all limits. Bit i of `there`: the i-th of four near answers exists. */
 static void print_remedies(FILE *out) {
     static const unsigned there[] = {15, 14, 13, 11, 9, 8, 0, 4};
     for (int n = 0; n < 8; n++) {

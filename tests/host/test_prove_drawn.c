@@ -1,4 +1,4 @@
-/* test_prove_drawn.c: tubes of `whirl prove` for drawn mechanisms. Masses on arms have decimal parameters that
+/* test_prove_drawn.c: tubes of `whirl prove` for random mechanisms. Masses on arms have decimal parameters that
  * doubles cannot hold, and references of 113 bits by d'Alembert's equations. A coefficient wrong by a millionth, or
  * by 1e-12, must leave the tube. Linkages with springs, dampers and drives have references in long double. */
 #include "command.h"

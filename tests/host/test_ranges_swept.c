@@ -89,7 +89,7 @@ static void add_axis(drawn_axis *a) {
             : sign == 1.0 ? a->from * exp(dice_between(&die, -9.0, 9.0))
                           : dice_between(&die, -900.0, 900.0);
     if (a->is_log && a->count > 1 && strcmp(names[a->name].name, "step") != 0 &&
-        dice_one_of(&die, 4) == 0) { /* ratio of the ends not finite */
+        dice_one_of(&die, 4) == 0) { /* the ratio of the ends overflows or underflows */
         const double way = dice_one_of(&die, 2) == 0 ? -1.0 : 1.0;
         a->from = copysign(exp(-way * dice_between(&die, 380.0, 690.0)), a->from);
         a->to = copysign(exp(way * dice_between(&die, 380.0, 690.0)), a->from);
@@ -231,7 +231,7 @@ static const char one_unit[] = ": one end has a unit and the other has none\n";
 static const char no_step[] = ": step must be above zero\n";
 static const char twice[] = ": it is swept already\n";
 
-/* '_' stands for drawn blanks. */
+/* '_' stands for random blanks. */
 static const struct {
     const char *text;
     const char *problem;
@@ -462,7 +462,7 @@ static void expect_file(const char *name, const char *text, size_t length) {
 
 static bool exists(const char *name) { return access(name, F_OK) == 0; }
 
-/* Writes the file up to `length`, and its companion. */
+/* Writes the first `length` bytes of the CSV file, and the whole settings file beside it. */
 static void leave(size_t length) {
     put_file(path, d.whole, length);
     put_file(path_beside, fingerprint, strlen(fingerprint));

@@ -119,7 +119,7 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
         TEST_ASSERT_EQUAL_INT(k < 2 ? 1 : 2, rank_of(m, error, 2, symmetric));
     }
     for (int k = 0; k < 4; k++) {
-        /* n times the largest error of an entry, in the units of that entry */
+        /* a pivot counts as zero below n times the largest error of an entry: 1.4 and 1.6, for n = 2 */
         const double size = k % 2 == 0 ? 1.0 : 0x1p80;
         const bool blurred = k >= 2;
         double m[4] = {2.0 * size, size, size, 2.0 * size}; /* pivots 2 and 1.5 */
@@ -132,7 +132,7 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
     TEST_ASSERT_EQUAL_INT(0, rank_of(none, error, 2, false));
 }
 
-/* All eigenvalues of B Bt + I are above 0. Reducing one row and its column too much makes one of them negative. */
+/* B Bt + I is positive definite. With one diagonal entry of -1, or a large entry beside the diagonal, it is not. */
 TEST(rank, what_is_positive_definite) {
     uint64_t seed = 23;
     for (int round = 0; round < 1000; round++) {
@@ -153,7 +153,6 @@ TEST(rank, what_is_positive_definite) {
         double kept[MOST * MOST];
         memcpy(kept, m, sizeof kept);
         TEST_ASSERT_TRUE(rank_is_positive(m, n));
-        /* along x the form becomes x.Mx - (x.Mx) - 1 < 0 */
         const int at = (int)(random_bits(&seed) % (unsigned)n);
         memcpy(m, kept, sizeof kept);
         m[at * n + at] = -1.0;
@@ -362,7 +361,7 @@ TEST(solving, long_products_keep_their_value) {
 
 /* --- turn angles ---------------------------------------------------------------------------------------- */
 
-/* Is q only inside sines and tangents, with integer factors? */
+/* q can be a turn angle if it occurs only inside sines and tangents, with integer factors. */
 TEST(solving, what_can_be_a_turn_angle) {
     static const struct {
         const char *text;
@@ -493,7 +492,7 @@ TEST(underivable, kinetic_energy_must_be_positive) {
     derived_free(&system);
 }
 
-/* Positive, or finite, only in a narrow range: no generic state lies there, but the start does. */
+/* T is positive, or V is finite, only in a range of x without generic states. The start lies in it. */
 TEST(underivable, the_start_is_tried_too) {
     static const char *const texts[] = {
         "mechanism m\ncoordinate x [m]\n"
@@ -604,7 +603,7 @@ TEST(underivable, expressions_that_explode_are_refused) {
     }
 }
 
-/* A length during the motion, of drawn sums, products and functions, with a number in it. */
+/* Writes a random expression of dimension length that changes with time and contains `number`. */
 static void length_of(dice *d, int depth, double number, char *to, size_t size) {
     static const char *const ways[] = {"%s + gap", "-(%s)*0.5",      "max(%s, y)",
                                        "abs(%s)",  "(%s)^2/(1 [m])", "(%s)*cos(phi)"};

@@ -1,4 +1,4 @@
-/* test_rated.c: accuracy and cost at the end of a run, and the step of `--error`, for drawn scenes with known motions
+/* test_rated.c: accuracy and cost at the end of a run, and the step of `--error`, for random scenes with known motions
  * (rated.h). */
 #include "derived.h"
 #include "host/cli/commands.h"
@@ -103,7 +103,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
     return worst;
 }
 
-/* The time of the line `trusted`, or the end; negative: no line. */
+/* The time in the line `trusted`, or the end if it says so; negative if the line has no time. */
 static double trusted_s(const char *text, const rated *r) {
     double until_s = -1.0;
     const char *at = strstr(text, "\ntrusted            ");
@@ -257,8 +257,7 @@ static bool check_chosen(dice *d, const rated *r) {
     }
     double step_s;
     double until_s;
-    const char *chosen =
-        strstr(what.out, "chosen step"); /* after the reader's sentence, if there is one */
+    const char *chosen = strstr(what.out, "chosen step"); /* another sentence may come first */
     TEST_ASSERT_NOT_NULL_MESSAGE(chosen, what.out);
     TEST_ASSERT_TRUE_MESSAGE(strchr(chosen, '\n') < strstr(what.out, " steps to t = "), what.out);
     const char *longer = strstr(chosen, " s stays within it, too, but with warnings\n");
@@ -271,7 +270,7 @@ static bool check_chosen(dice *d, const rated *r) {
     snprintf(about, sizeof about, "%s%s %s, %s: %.100s", r->text, r->method, r->number, error,
              what.out);
     TEST_ASSERT_TRUE_MESSAGE(coordinate_error(r, step_s, until_s) <= 1.05 * allowed, about);
-    if (longer != NULL) { /* gives a warning but meets the error */
+    if (longer != NULL) { /* a longer step meets the error, but with a warning */
 
         static said other;
         while (longer[-1] != ' ') {

@@ -1,6 +1,6 @@
 /* test_repeats_truth.c: errors that repeat each turn: a cell that clips, has play or bends, and a torque twice a
  * turn; compared with healthy benches. The rotor is integrated finely in double (rig_orbit.c). Level, side, speed,
- * noise and seed are drawn. WHIRL_FULL=1 (`make rig-truth`) draws more and prints the tallies. */
+ * noise and seed are random. WHIRL_FULL=1 (`make rig-truth`) takes more and prints the tallies. */
 #include "command.h"
 #include "rig_orbit.h"
 #include "tests/scattered.h"
@@ -57,11 +57,11 @@ static void draw_error(error kind) {
 }
 
 typedef struct tally {
-    unsigned off;  /* error above an uncalibrated bench's interval plus 1 % */
-    unsigned lies; /* marked good although the error is visible */
-    /* errors that no run can show (docs/rig.md, errors that a good result can hide) */
+    unsigned off; /* number of runs with an error above an uncalibrated bench's interval plus 1 % */
+    unsigned lies; /* of these, number marked good although the error is visible */
+    /* of these, number that no run can show (docs/rig.md, errors that a good result can hide) */
     unsigned hidden;
-    /* with almost no noise, the error is above 1.5 times the limit that holds with noise */
+    /* with almost no noise, the value that repeats is above 1.5 times the noisy run's limit; `missed`: yet marked good */
     unsigned seen;
     unsigned missed;
 } tally;
@@ -75,7 +75,7 @@ static void judge(const wh_measured *measured, tally *found) {
     const double half_N =
         hypot((double)measured->amplitude_half_N, (double)WH_UNCALIBRATED_PART * orbit.amplitude_N);
     const double half_rad = hypot((double)measured->phase_half_rad, (double)WH_UNCALIBRATED_RAD);
-    const rig_noise silent = {/* exceptions: the turns of a cell that stands still do not count */
+    const rig_noise silent = {/* some noise, because turns of a constant reading do not count */
                               .cell_N = 0.01,
                               .clips = noise.clips,
                               .play_N = noise.play_N,
@@ -137,7 +137,7 @@ TEST(repeats_truth, a_torque_twice_a_turn_is_not_good) {
     check_error(TWICE, UINT64_C(0x5eed0a34), few_or_all(usual_or(60, 20), 1000), 2, 80);
 }
 
-/* Noise and hum up to 0.3 N, jitter up to 100 us, drawn inertia and set-point: at most 1 % are doubtful. */
+/* Noise and hum up to 0.3 N, jitter up to 100 us, random inertia and set-point: at most 1 % are doubtful. */
 static void check_healthy(uint64_t seed, unsigned slower) {
     const unsigned runs = few_or_all(usual_or(400, slower > 1U ? 200 : 50), 2000);
     unsigned doubtful = 0;

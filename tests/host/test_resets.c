@@ -5,7 +5,7 @@
 
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 2000U
-#define READS 500 /* a second of them */
+#define READS 500 /* one second, at PERIOD_TICKS */
 #define WATCHDOG_TICKS 5077U
 enum { RESETS_MAX = 600, EDGES_MAX = 100 };
 
@@ -29,7 +29,7 @@ static const wh_hello hello = {.program = "bench",
 
 typedef struct heard {
     double edge_s[EDGES_MAX]; /* times of the edges as reported */
-    /* its time stamp, from a timer that starts at 0 with the processor */
+    /* time stamps of the edges, from a timer that starts at 0 with the processor */
     double stamp_s[EDGES_MAX];
     int edges;
     double reset_s[RESETS_MAX];
@@ -96,7 +96,7 @@ static void run_with(const char *words) {
     motion_close(&bench);
 }
 
-/* A reset starts once, at the first step at or after its instant, even between exchanges, and ends after its length. */
+/* A reset starts once, at the first step at or after its instant, also between exchanges, and ends after its length. */
 TEST(resets, instants) {
     for (int i = 0; i < 40; i++) {
         const double at_s = 0.2 + i * 0.01037;

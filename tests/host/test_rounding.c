@@ -24,8 +24,8 @@ static double error_at(const char *name, const char *time, stepping how) {
     return error;
 }
 
-/* Walk of theta' (16 ... 32 rad/s at the end) over so many steps, integrated to theta at 9 s. A sum of rates that
- * walk has an error of 9 s / sqrt(3) times the final walk. */
+/* Error of theta at 9 s by the random walk of theta' (16 ... 32 rad/s at the end) in `steps` steps. It is 9 s / sqrt(3)
+ * times the final error of theta'. */
 static double gear_walk(double steps) { return sqrt(steps / 3.0) * 16.0 * U * 9.0 / sqrt(3.0); }
 
 TEST(rounding, float_on_the_epicyclic_gear) {
@@ -51,7 +51,7 @@ TEST(rounding, float_on_thomson_device) {
     expect_within("S8 gain", 10.0, 10000.0, plain / compensated);
 }
 
-/* Distance of the worst component from double with a step of 1/16 ms. */
+/* Largest error of a component; the reference is double with a step of 1/16 ms. */
 static double whole_error(const char *name, const char *start, double until_s, double step_s) {
     double value[2][3 * IMAGE_COMPONENTS_MAX];
     double worst = 0.0;
@@ -77,7 +77,7 @@ static double whole_error(const char *name, const char *start, double until_s, d
 
 enum { STARTS = 9 };
 
-/* The median error for starts that differ by up to 4e-5 rad. Chaos amplifies a change 2e4-fold, so a single run is luck. */
+/* The median error for starts that differ by up to 4e-5 rad. Chaos amplifies a change 2e4-fold, so one run says little. */
 static double middle_error(const char *name, double until_s, double step_s) {
     double error[STARTS];
     for (int i = 0; i < STARTS; i++) {
@@ -108,7 +108,7 @@ TEST(rounding, no_step_is_too_small_for_compensated_sums) {
         expect_within(what, 0.0, theta_at_9s * U,
                       whole_error("epicyclic_conserved", NULL, 9.0, step_s[i]));
         snprintf(what, sizeof what, "S8c compensated, %g ms, whole state at 8 s", step_s[i] * 1e3);
-        if (i != 1) { /* not a whole number of steps */
+        if (i != 1) { /* its step does not divide 8 s */
             expect_within(what, 5e-6, 1e-4, middle_error("thomson_a_conserved", 8.0, step_s[i]));
         }
     }
@@ -322,7 +322,7 @@ static double gained(const swinging *s, const char *text, stepping how) {
 TEST(energy_kept, energy_does_not_leak_by_rounding) {
     static const struct {
         wh_method method;
-        double least, most; /* h w */
+        double least, most; /* range of h w, rad a step */
     } tried[] = {{WH_NYSTROEM5, 0.15, 0.3}, {WH_LEAPFROG, 0.15, 0.3},
                  {WH_RK4, 0.1, 0.12},       {WH_SEMI_IMPLICIT_EULER, 0.15, 0.3},
                  {WH_RK38, 0.1, 0.12},      {WH_NYSTROEM4, 0.1, 0.12}};

@@ -1,4 +1,4 @@
-/* test_running_error.c: bound on a list's round-off, for drawn lists of every operation. By definition it is each
+/* test_running_error.c: bound on a list's round-off, for random lists of every operation. By definition it is each
  * operation's own rounding plus the operands' errors times the slopes. Here the slopes are finite differences. */
 #include "command.h"
 #include "host/engine/rounding.h"
@@ -134,7 +134,7 @@ static void define(const drawn_list *l, double least, double part, double *error
 static int draw_leaf(dice *d, op_list *t) {
     static const op_code leaves[] = {OP_LINEAR, OP_RATE, OP_INPUT, OP_ACCEL};
     switch (dice_one_of(d, 8)) {
-    case 0: return op_list_constant(t, dice_between(d, -2.0, 2.0)); /* no float */
+    case 0: return op_list_constant(t, dice_between(d, -2.0, 2.0)); /* float does not hold it */
     case 1: return op_list_constant(t, 0.25 * (1.0 + dice_one_of(d, 9)));
     case 2: return op_list_leaf(t, OP_TIME, 0);
     case 3: return op_list_leaf(t, OP_RADIANS, (int)dice_one_of(d, ANGLES));
@@ -241,7 +241,7 @@ TEST(running_error, nothing_is_off_by_nothing) {
     const rounding_values small = {value, value, value, NULL, NULL, 1e-38};
     rounding_of(t, &small, error);
     TEST_ASSERT_EQUAL_DOUBLE(1e-38, error[1]);
-    TEST_ASSERT_TRUE(error[0] > 1e-38); /* the root has no slope there */
+    TEST_ASSERT_TRUE(error[0] > 1e-38); /* at 0 the slope of the root is infinite */
     op_list_free(t);
 }
 

@@ -44,7 +44,7 @@ static char *shown(algebra *a, const poly *p, show_style style) {
     return text;
 }
 
-/* A derivation refuses one that is never finite. */
+/* A derivation refuses an expression that is never finite. */
 static bool is_ever_finite(const poly *p, uint64_t *seed) {
     bool finite = false;
     for (int k = 0; k < 8 && !finite; k++) {
@@ -54,7 +54,7 @@ static bool is_ever_finite(const poly *p, uint64_t *seed) {
     return finite;
 }
 
-/* Each expression and its slope, which has more powers. */
+/* A batch has BATCH expressions and the slope of each, which has more powers. */
 enum { BATCH = 10, FORMULAS = 2 * BATCH };
 
 static int check_batch(uint64_t *seed, int depth, int tame) {
@@ -130,7 +130,7 @@ TEST(show, expressions_are_read_back_as_printed) {
     TEST_ASSERT_TRUE(10 * compared > 6 * made_up);
 }
 
-/* Copies of the formulas from `from` to the line's end, separated by " = ". */
+/* Splits a line in place at each " = " and returns the number of formulas. */
 static int formulas_of(char *line, char **formula) {
     int count = 0;
     for (char *next = line; next != NULL; line = next) {
@@ -144,7 +144,7 @@ static int formulas_of(char *line, char **formula) {
     return count;
 }
 
-/* Both sides of a printed equation against the derived one: A q'' - f. */
+/* The difference of both sides of a printed equation equals the derived A q'' - f. */
 static int compare_sides(const equations *e, int row, const read_back *b, const char *text,
                          uint64_t *seed) {
     algebra *a = e->algebra;
@@ -175,7 +175,7 @@ static double solution_here(const quantity *of, const state *at, double *size) {
     const double top = k == 0 ? f[0] * m[3] - m[1] * f[1] : m[0] * f[1] - f[0] * m[2];
     *size = (fabs(m[0] * m[3]) + fabs(m[1] * m[2])) * fabs(top / bottom / bottom) +
             (fabs(f[0]) + fabs(f[1])) * (fabs(m[k == 0 ? 3 : 0]) + fabs(m[1 + k])) / fabs(bottom);
-    return good ? top / bottom : (double)NAN; /* the form has products of these */
+    return good ? top / bottom : (double)NAN; /* NaN if products in the form would be too large */
 }
 
 static void check_align(const derived *d) {
@@ -264,7 +264,7 @@ TEST(show, mechanisms_are_read_back_as_printed) {
     TEST_ASSERT_TRUE(compared > wanted);
 }
 
-/* Names: q, n, and the lets below, a0 = q to a13, g. */
+/* Value of a name: q, n, or one of the lets a0 = q to a13 and g. */
 static double q_or_n(void *context, const char *name, int length) {
     const state_values *s = context;
     const double q = s->value[0][0];
@@ -374,7 +374,7 @@ TEST(show_events, no_events_no_word_of_them) {
     expect(as_octave, "%", false);
 }
 
-/* Lines that begin with the words, after any LaTeX comment mark. */
+/* Lines that begin with the words, after any LaTeX comment sign. */
 static int lines_with(const char *all, const char *words) {
     int found = 0;
     for (const char *line = all; (line = strchr(line, '\n')) != NULL;) {

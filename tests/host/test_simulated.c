@@ -76,11 +76,11 @@ static const char steady[] =
     "output twice [m] = 2*x\noutput far [km] = 1000*x\n"
     "scene s { start x = %.17g [m], x' = %.17g [m/s], a' = %.17g [rad/s]; step 1 [ms]; until 1 [s] }\n";
 
-/* In an even motion each number of each row is known. Parsed by the separators of both forms. */
+/* At constant speed each number of each row is known. `between` and `end` separate columns and rows. */
 static void expect_rows(const char *text, const char *header, const char *between, const char *end,
                         const double *start, uint64_t every, uint64_t steps) {
     const char *at = said_exactly(text, header);
-    for (uint64_t k = 0; k * every < steps + every; k++) { /* and the last state */
+    for (uint64_t k = 0; k * every < steps + every; k++) { /* the last state is always recorded */
         const uint64_t step = k * every < steps ? k * every : steps;
         const double t = 1e-3 * (double)step;
         const double x = start[0] + start[1] * t;
@@ -135,7 +135,7 @@ TEST(simulated, outputs_that_end) {
         char text[500];
         char wanted[400];
         char more[60] = "";
-        const unsigned ends = dice_one_of(&die, c % 4U == 0 ? 1200 : 1000); /* in ms, plus a half */
+        const unsigned ends = dice_one_of(&die, c % 4U == 0 ? 1200 : 1000); /* in ms, plus 0.5 */
         const bool second = dice_one_of(&die, 2) == 0;
         const bool recorded = c % 3U > 0;
         const uint64_t every = 1 + dice_one_of(&die, c % 2U == 0 ? 1 : 200);
@@ -158,7 +158,7 @@ TEST(simulated, outputs_that_end) {
                 count++;
             }
         }
-        if (count == 0 && ends < 1000) { /* the end itself is recorded */
+        if (count == 0 && ends < 1000) { /* without records the end is checked */
             first = 1000;
             count = 1;
         }

@@ -15,7 +15,7 @@ typedef struct tally {
     unsigned good;
     unsigned doubted;   /* number of results that are doubtful because of the speed ripple */
     unsigned lies;      /* results marked good, with an error above the interval plus 1 % */
-    unsigned prevented; /* doubted, with such an error */
+    unsigned prevented; /* doubtful results with such an error */
     double said_rad;    /* sum of the reported loads */
     double phase_rad;   /* sum of the phase errors */
 } tally;

@@ -1,4 +1,4 @@
-/* test_stabilized.c: energy restored by --stabilized (core/step/stabilize.h), for drawn chains of pendulums on a
+/* test_stabilized.c: energy restored by --stabilized (core/step/stabilize.h), for random chains of pendulums on a
  * cart. The test computes their energy from positions and velocities. Also motions that must not change. */
 #include "host/cli/commands.h"
 
@@ -23,7 +23,7 @@ typedef struct chain {
     double mass_kg[LINKS];
     double length_m[LINKS];
     double start_rad[LINKS];
-    double fastest; /* rad/s, or somewhat above it */
+    double fastest; /* upper bound of the largest angular frequency, rad/s */
 } chain;
 
 static chain drawn_chain(dice *d) {
@@ -93,8 +93,8 @@ static double energy_J(const chain *c, const motion *m) {
     return sum;
 }
 
-/* The largest energy term relative to the initial energy at rest. It limits the digits of the balance: V is relative
- * to the cart's height, so it is large when all hangs. */
+/* The largest energy term relative to the energy at the start, which is at rest. It limits the digits of the balance. V is
+ * measured from the cart's height, so it is large if all links hang down. */
 static double terms_of(const chain *c) {
     double terms = 0.0;
     double begin = 0.0;
@@ -154,7 +154,7 @@ TEST(stabilized, energy_stays) {
     const uint64_t steps = usual_or(200000, 40000);
     double most[3] = {0.0, 0.0, 0.0};
     double without = 0.0;
-    unsigned bursts = 0; /* a chaotic motion may lose more in its second half */
+    unsigned bursts = 0; /* number of chaotic motions that lose more in their second half */
     for (unsigned i = 0; i < cases; i++) {
         const chain c = drawn_chain(&d);
         /* coarse enough for RK4 to lose energy */
@@ -238,7 +238,7 @@ TEST(stabilized, motion_is_left_alone) {
     printf("%u motions: at most %.1e off after 8 s\n", cases, worst);
 }
 
-/* Without a rate that has energy to give, nothing is restored. */
+/* At rest there is no rate to correct, so nothing is restored. */
 TEST(stabilized, rest_stays_rest) {
     dice d = dice_of("stabilized rests", 20261130);
     for (unsigned i = 0; i < 10; i++) {
@@ -273,7 +273,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
 TEST(stabilized, coarse_steps_are_told) {
     dice d = dice_of("stabilized springs", 20261201);
     for (unsigned i = 0; i < usual_or(8, 2); i++) {
-        const double swing = dice_between(&d, 0.3, 1.5); /* h w */
+        const double swing = dice_between(&d, 0.3, 1.5); /* rad a step */
         char text[TEXT];
         said what;
         snprintf(text, sizeof text,
@@ -297,7 +297,7 @@ TEST(stabilized, what_others_lost_is_told) {
     for (unsigned i = 0; i < cases; i++) {
         static const char *const words[2][3] = {{"--quiet", NULL},
                                                 {"--stabilized", "--quiet", NULL}};
-        const double fast = dice_between(&d, 0.12, 0.3); /* h w */
+        const double fast = dice_between(&d, 0.12, 0.3); /* rad a step */
         const double share = dice_between(&d, 0.001, 0.1);
         char text[TEXT];
         said what[2];
@@ -319,7 +319,7 @@ TEST(stabilized, what_others_lost_is_told) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* Distance of `name` at the end from the run without --stabilized, which is right there. */
+/* Error of `name` at the end of the run with --stabilized. The run without it is right there. */
 static double apart(const char *text, const char *name, stepping plain, double end_s) {
     double end[2];
     for (int way = 0; way < 2; way++) {
@@ -333,9 +333,9 @@ static double apart(const char *text, const char *name, stepping plain, double e
     return fabs(end[0] - end[1]);
 }
 
-/* First, an oscillation too fast even for half the step loses energy, which another oscillation gets; its period
- * depends on energy. Second, a light pendulum next to one so heavy that the last digits of its energy matter to the
- * light one. */
+/* First case: one oscillation, too fast even for half the step, loses energy. --stabilized gives it to another, whose
+ * period depends on its energy. Second case: a heavy pendulum beside a light one, to whose energy the last digits of
+ * the heavy one's energy matter. */
 TEST(stabilized, what_is_made_wrong_is_not_trusted) {
     dice d = dice_of("stabilized wrongly", 20261203);
     const unsigned cases = usual_or(few_or_all(4, 16), 2);
@@ -344,7 +344,7 @@ TEST(stabilized, what_is_made_wrong_is_not_trusted) {
         static const char *const words[2][5] = {
             {"--stabilized", NULL}, {"--stabilized", "--number", "float", "--compensated", NULL}};
         const bool is_heavy = i % 2 == 1;
-        const double fast = dice_between(&d, 1.0, 1.8); /* h w */
+        const double fast = dice_between(&d, 1.0, 1.8); /* rad a step */
         const double step_s = 0.0125;
         char text[TEXT];
         if (is_heavy) {
@@ -381,17 +381,17 @@ TEST(stabilized, what_is_made_wrong_is_not_trusted) {
 SUITE(stabilized) { UnitySetTestFile(__FILE__); }
 
 /* === stabilized beside ======================================================================== */
-/* Effect of --stabilized on a slow motion next to a swing: a free wheel or cart with little energy. With Runge-Kutta 4
+/* Effect of --stabilized on a slow motion (a free wheel or cart with little energy) next to a swing. With Runge-Kutta 4
  * the swing loses (h w)^6/72 of its energy in each step. All rates must get the same relative correction. If the
  * correction were larger at the swing's turning points, the slow motion would get most of the energy. */
 
 typedef struct beside {
     double step_s;
     double angular_radps; /* rate of the swing */
-    double slow;          /* its rate relative to the largest rate of the swing */
+    double slow;          /* rate of the slow motion, relative to the largest rate of the swing */
     double start_m;
     double start_mps;
-    bool is_angle; /* the slow one */
+    bool is_angle; /* the slow coordinate is an angle, not a length */
 } beside;
 
 static beside drawn(dice *d) {

@@ -1,4 +1,4 @@
-/* test_starts.c: checks of a start. Drawn scenes have stops, any of which may be passed, and losses, which kick-drift
+/* test_starts.c: checks of a start. Random scenes have stops, any of which may be passed, and losses, which kick-drift
  * methods do not take. The report has each passed stop with its place and depth, and no other. For losses it has the
  * first coordinate. */
 #include "command.h"

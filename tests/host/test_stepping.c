@@ -113,13 +113,13 @@ TEST(stepping, given_up) {
     interrupted = 1;
     measured_point p = measure_stepping(&w, longest.image);
     interrupted = 0;
-    /* the list has no energies */
+    /* this mechanism has no energies, so it has no energy residual, value[1] */
     TEST_ASSERT_TRUE(p.good && p.value[0] == 3.0 && isnan(p.value[1]));
     drop(&p);
     derived_free(&longest);
 }
 
-/* A run without measures has a reason on a line of its own, or an error with its place. */
+/* A run without measures returns a reason, or prints an error with its place. */
 static void expect_failed(const char *text, const measuring *w, const char *reason,
                           const char *error) {
     derived s = scene_of(text);
@@ -265,8 +265,8 @@ static const char settings_text[] =
     "F += b*x'^2/2 }\n"
     "effect tug { F += 1 [N*s/m]*x'^2 }\nscene s { step 1 [ms]; until 3 [s] }\n";
 
-/* Which of them differ: bit k is the k-th setting that affects the rows. The least difference is one unit in the last
- * place. */
+/* Bit k of `changed`: the k-th setting that affects the rows differs. A number differs by one unit in the last place at
+ * least. */
 enum { SETTINGS = 18 };
 static char *fingerprint_of(unsigned changed) {
     static const char *const axes[2][2] = {{"x=1..9:9", "m=0.1..7:70,log"},
@@ -324,11 +324,11 @@ TEST(sweep_settings, points) {
         bool good;
     } points[] = {
         {made_sweep_floor, "x=-1..1:2", "x", false},        /* refused at the start */
-        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* undefined: stored samples */
-        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* no number */
+        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* no period: still good */
+        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* 1/x is infinite */
         /* the scene is derived again for each point */
         {settings_text, "m=1..2:2", "max(x)", true},
-        {settings_text, "m=0..2:2", "max(x)", false}, /* which fails */
+        {settings_text, "m=0..2:2", "max(x)", false}, /* m = 0 fails */
         {"mechanism m\nstate x\nequation x' = 1 [1/s]*x^2\nscene s { step 1 [ms]; until 2 [s] }\n",
          "x=4..1:2", "x", false}, /* diverges */
         {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J]*sqrt(x/(1 [m]))\n"

@@ -8,8 +8,8 @@
 
 /* === swings =================================================================================== */
 
-/* Above this part of the swing's energy (H - 2, at a = b = 1) there is a warning. Below it there is no warning if u
- * and v are as accurate relative to their ranges. */
+/* If the swing's energy (H - 2, for a = b = 1) changes by more than TOLD of itself, there is a warning. Below SILENT there
+ * is no warning if the errors of u and v are below RIGHT of their ranges. */
 #define TOLD 0.03
 #define SILENT 1e-3
 #define RIGHT 4e-3
@@ -124,7 +124,7 @@ TEST(swings, predator_and_prey) {
 enum { RECORDS = 20 }; /* divides the steps */
 
 typedef struct forced_case {
-    /* the clock is a sum, and its angle may advance by more than half a turn per step */
+    /* the clock is a real number and no turn angle, so the force's angle may advance by more than half a turn a step */
     bool summed;
     double swing_radps;
     double damping; /* relative to critical */

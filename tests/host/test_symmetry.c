@@ -1,6 +1,6 @@
-/* test_symmetry.c: affine symmetries (host/derive/symmetry.h) of drawn particles in a plane, connected by springs,
+/* test_symmetry.c: affine symmetries (host/derive/symmetry.h) of random particles in a plane, connected by springs,
  * some with hidden outside forces. The reference differentiates the energies by its own formulas and takes the rank
- * of their changes at drawn states. Built-in mechanisms: tests/cli/examine.sh. WHIRL_CASES=5000 WHIRL_SEED=... draws
+ * of their changes at random states. Built-in mechanisms: tests/cli/examine.sh. WHIRL_CASES=5000 WHIRL_SEED=... takes
  * more or other cases. */
 #include "command.h"
 #include "derived.h"

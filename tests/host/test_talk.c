@@ -1,4 +1,4 @@
-/* test_talk.c: a drawn firmware on a line (host/pil/lockstep.h). Messages received, stored and hashed are compared with
+/* test_talk.c: a random firmware on a line (host/pil/lockstep.h). Messages received, stored and hashed are compared with
  * those sent, and each error of a firmware has its message. Also tapes. */
 #include <unistd.h>
 
@@ -144,7 +144,7 @@ TEST(talk, wrong_words) {
         uint8_t payload[WH_ORDERS_BYTES + 4];
         const unsigned way = c % (SILENT + 1);
         if (way == SILENT && c > SILENT) {
-            continue; /* it takes long: once */
+            continue; /* waiting takes long, so this is tried once */
         }
         talk_draw();
         talk_drawn.remembers[1] = 99;
@@ -278,7 +278,7 @@ TEST(talk, same_hello) {
             TEST_ASSERT_EQUAL(change < 3, talk_is_same_hello(&talk_drawn.hello, &other));
             TEST_ASSERT_EQUAL(change < 3, talk_is_same_hello(&other, &talk_drawn.hello));
         }
-        /* a count of the timer in ns, of 64 per instruction */
+        /* an instruction takes 64 ns */
         const double per_s = 1e3 + 1e4 * talk_one_of(100000);
         talk_drawn.hello.timer_per_s = (uint32_t)per_s;
         TEST_ASSERT_TRUE(fabs(talk_instructions_per_count(&talk_drawn.hello) *
@@ -296,8 +296,8 @@ SUITE(talk) { talk_die(dice_of("talk", 49)); }
 
 static char name[] = "/tmp/whirl_taped_XXXXXX";
 static char rows[8192];
-static unsigned first;   /* signal of the hello, in its order below */
-static int reset_before; /* turn, or -1; by the watchdog */
+static unsigned first;   /* index of the hello's first signal in write_tape()'s list */
+static int reset_before; /* exchange before which the watchdog resets the processor; -1: none */
 
 static void write_frame(FILE *to, uint8_t kind, uint16_t sequence, uint32_t ticks,
                         const uint8_t *payload, unsigned length) {
@@ -377,7 +377,7 @@ static bool show(void) {
 static const wh_readings heard = {
     .edges = 1,
     .samples = 2,
-    .edge = {{.ticks = UINT32_MAX, .channel = 0}}, /* a tick before */
+    .edge = {{.ticks = UINT32_MAX, .channel = 0}}, /* one tick before the reading, which is at 0 */
     .sample = {{.ticks = UINT32_MAX - 2U, .raw = -3, .channel = 0},
                {.raw = 5, .channel = 0, .status = WH_SAMPLE_DISCONNECTED}}};
 

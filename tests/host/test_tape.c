@@ -141,7 +141,7 @@ static bool is_one_form(const op *o) {
     const bool both = fixed_a && fixed_b;
     const op_kind kind = op_rows[o->code].kind;
     if (kind != OP_IS_BINARY && kind != OP_IS_CALL && kind != OP_IS_PHASE && o->b != -1) {
-        return false; /* a missing operation is -1, by which equal ones are found */
+        return false; /* a missing operand is -1, so that equal operations compare equal */
     }
     if (kind == OP_IS_CONSTANT && o->a != -1) {
         return false;
@@ -356,7 +356,7 @@ SUITE(tape_entered) { die = dice_of("tape_entered", 4170); }
 /* Parts of op_list_scale() (host/image/op_list_scale.h): lists have known freedoms, and scaled by them they compute
  * the same. */
 
-/* A short decimal from 0.1 to 10 that float does not hold. */
+/* A number from 0.001 to 10, a multiple of 1/999.7, which float does not hold. */
 static double decimal(void) { return (double)(1 + dice_one_of(&die, 9990)) / 999.7; }
 
 /* --- lists whose freedoms are known ------------------------------------------------------------------------------ */
@@ -370,7 +370,7 @@ static int free_sum(op_list *t, int which) {
     return op_list_add(t, z, w);
 }
 
-/* The same with `raws` leaves without constants; scaling multiplies these. */
+/* free_sum() plus `raws` leaves without constants, which scaling must multiply. */
 static int raw_sum(op_list *t, int which, int raws) {
     int sum = free_sum(t, which);
     for (int k = 0; k < raws; k++) {
@@ -401,8 +401,8 @@ static void expect_same_results(const op_list *t, const op_list *made) {
     }
 }
 
-/* Every freedom with any factor gives the same results. Without raw leaves it costs no operation, `if_alone`: if no
- * product with a constant is used twice in two ways. */
+/* The list scaled along each freedom by a random factor has the same results. With `if_alone` and without leaves that have
+ * no constant, it also has no more operations. */
 static void expect_free(const op_list *t, const op_list_freedoms *f, bool if_alone) {
     double *times = calloc((size_t)f->length, sizeof *times);
     TEST_ASSERT_NOT_NULL(times);
@@ -414,7 +414,7 @@ static void expect_free(const op_list *t, const op_list_freedoms *f, bool if_alo
             times[i] = pow(x, exponent[i]);
             least = exponent[i] != 0.0 ? fmin(least, fabs(exponent[i])) : least;
         }
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, least); /* scaled to start with one */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, least); /* the least exponent is 1 */
         op_list *made = op_list_multiplied(t, times);
         expect_same_results(t, made);
         if (if_alone && !multiplies_raw(f, k)) {
@@ -609,7 +609,7 @@ static void results_of(const op_list *t, double *result) {
     }
 }
 
-/* Gauges the list, after which all constants are exact, with the same results and no operation more. */
+/* Gauges the list. Then float holds all constants, and there are the same results and no more operations. */
 static void expect_none_off(op_list *t) {
     double before[1];
     double after[1];
@@ -631,7 +631,7 @@ static double primes(int fives, int threes, int sevens) {
     return pow(5.0, fives) * pow(3.0, threes) * pow(7.0, sevens);
 }
 
-/* Does float hold all multiples in sum_of()? Then there is no gauge to find. */
+/* Returns true if float holds all multiples in sum_of(). Then there is no gauge to find. */
 static bool is_held(double unit) {
     bool held = true;
     for (int number = 61; number < 120; number += 2) {
@@ -653,7 +653,7 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
                     if (op_list_bias(t, t) > 1e-10) {
                         expect_none_off(t);
                     } else {
-                        op_list_free(t); /* found by chance */
+                        op_list_free(t); /* float holds the constants already */
                     }
                 }
             }
@@ -661,7 +661,7 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
     }
 }
 
-/* Lists of up to 250 operations, with constants and leaves, are searched. */
+/* Lists of up to 250 operations, with constants and leaves, are searched; longer ones are not changed. */
 TEST(tape_gauged, long_lists_are_left_alone) {
     for (int over = 0; over < 2; over++) {
         const double unit = 0.01;

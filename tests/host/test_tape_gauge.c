@@ -139,8 +139,8 @@ static void expect_equal(const op_list *t, const op_list *other, const derived *
 typedef struct tally {
     int lists;
     int changed;
-    int worse;     /* number of worse results at these states */
-    int more;      /* operations */
+    int worse;     /* number of lists whose bias is larger than before */
+    int more;      /* operations added */
     double before; /* sums of biases of changed lists */
     double after;
 } tally;
@@ -209,13 +209,13 @@ TEST(tape_gauge, any_mechanism_keeps_its_results) {
     }
     tell("any", &all);
     TEST_ASSERT_TRUE(all.lists > (int)cases / 2 && all.changed > (int)cases / 10);
-    TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* other states than the search's */
+    TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* at other states than the search's */
     TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
 }
 
 TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
-    /* remaining part of the bias; op_list_scale() promises the second */
+    /* for each scene, the limit of the bias relative to that before; op_list_scale() promises 0.5 */
     static const double left[] = {0.1, 0.5};
     for (int k = 0; k < 2; k++) {
         derived d = derived_builtin(names[k]);

@@ -127,7 +127,7 @@ TEST(tape_used, what_float_has_no_room_for) {
     each_list(100, check_fit);
 }
 
-/* The report covers the lists that move the scene, and the inputs, but no list for output only. */
+/* image_out_of_float() covers the lists that move the scene, and the inputs, but no list that serves only outputs. */
 TEST(tape_used, images_know_what_float_has_no_room_for) {
     for (unsigned c = 0; c < dice_cases(300); c++) {
         drawn_scene_draw(&drawn, &die);
@@ -137,7 +137,7 @@ TEST(tape_used, images_know_what_float_has_no_room_for) {
         const bool matrix = im->settings.matrix != MATRIX_NONE;
         const bool moves = role == (matrix ? IMAGE_MATRIX : IMAGE_STEP) || role == IMAGE_SIGNALS ||
                            role == IMAGE_FORCES || role == IMAGE_SETS;
-        if (im->list[role] != NULL) { /* each begins with a constant */
+        if (im->list[role] != NULL) { /* operation 0 is a constant */
             drawn.list[role].ops[0].value = 1e-50;
             TEST_ASSERT_TRUE(image_out_of_float(im) == (moves ? 1e-50 : 0.0));
             drawn.list[role].ops[0].value = 1.0;

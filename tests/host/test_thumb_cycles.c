@@ -139,5 +139,5 @@ TEST(thumb_cycles, pairs_overlap_or_wait) {
     }
     const thumb_timing last = decoded(THUMB_M0, "adds r2, #1");
     const thumb_timing now = decoded(THUMB_M0, "ldr r1, [r2, #4]");
-    TEST_ASSERT_EQUAL(2, thumb_cycles(&last, &now)); /* three stages wait for nothing */
+    TEST_ASSERT_EQUAL(2, thumb_cycles(&last, &now)); /* the M0 does not wait for an address */
 }

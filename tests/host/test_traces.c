@@ -1,5 +1,5 @@
 /* test_traces.c: waveform files of a run (host/io/records.h). The unit of time is compared with integers, names with
- * drawn scenes, and times of contacts with closed forms, to one unit. Also VCD. */
+ * random scenes, and times of contacts with closed forms, to one unit. Also VCD. */
 #include "test.h"
 
 #include <unistd.h>
@@ -36,7 +36,7 @@ static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double un
         for (int i = 0; i < k; i++) {
             rest = rest * 10 % under;
         }
-        const long double step = (long double)over * units_per_s; /* times `under` */
+        const long double step = (long double)over * units_per_s; /* in time units, times `under` */
         if (rest == 0) {
             if (!contacts || step >= 1000.0L * (long double)under) {
                 return k;
@@ -116,7 +116,7 @@ static struct {
     int64_t end;
 } dump;
 
-/* Marks have one character: there are few signals. */
+/* With so few signals each identifier code has one character. */
 static void read_dump(const char *path) {
     char line[400];
     char mark[SIGNALS] = {0};
@@ -312,7 +312,7 @@ TEST(traces, moments) {
         const double above_s[] = {0.0, b.crosses_m / b.passes_mps};
         static const double rises[] = {0.0, 1.0};
         static const double falls[] = {1.0, 0.0};
-        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s: of x, summed in float */
+        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s, as float sums x */
         if (off == 0.0 && rests_s > 0.95 && fabs(next_s - 0.9) > 1e-3 &&
             (hits == 0 || fabs(hits_s[hits - 1] - 0.9) > 1e-3)) {
             expect_changes("stop2_hit", hits_s, ones, hits, units_per_s);
@@ -338,7 +338,7 @@ TEST(traces, moments) {
 SUITE(traces) { die = dice_of("traces", 64); }
 
 /* === vcd ====================================================================================== */
-/* Value change dumps (host/io/vcd.h), parsed by the test: drawn changes of many signals, slightly out of order, come
+/* Value change dumps (host/io/vcd.h), parsed by the test: random changes of many signals, slightly out of order, come
  * out sorted, each once. Late changes are counted, and notes follow their signals. */
 
 enum { VCD_SIGNALS = 100, VCD_CHANGES = 400, VCD_VALUE = 40, JITTER = 20 };
@@ -366,7 +366,7 @@ static void print_value(happening *h, double value) {
     }
 }
 
-/* "$var wire 1 ! s0 $end": the marks. Notes have one character, several, or zero. */
+/* Reads the identifier codes, such as ! in "$var wire 1 ! s0 $end". */
 static const char *read_head(const char *text) {
     char line[80];
     for (int i = 0; i < VCD_SIGNALS; i++) {

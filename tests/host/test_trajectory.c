@@ -23,7 +23,7 @@
 #define VALUES_MAX 16
 #define TEXT_MAX 4096
 
-/* The last row of a run's CSV. False: the run failed or had no row. */
+/* The last row of a run's CSV. Returns false if the run failed or had no row. */
 static bool last_row(const char *scene, const char *until, double step_ms, char header[TEXT_MAX],
                      char row[TEXT_MAX]) {
     const char *whirl = getenv("WHIRL");

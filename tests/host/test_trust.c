@@ -19,7 +19,7 @@ static const arithmetic arithmetics[] = {
 };
 enum { ARITHMETICS = sizeof arithmetics / sizeof arithmetics[0] };
 
-/* Limit of the references' difference when the run passes the tolerance, relative to it. */
+/* At the run's true horizon, the references may differ by this part of the tolerance. */
 #define KNOWN 0.05
 
 static void say(const char *what, const horizons *h) {
@@ -231,7 +231,7 @@ TEST(trust_scenes, contacts) {
     TEST_ASSERT_TRUE(ended >= count);
 }
 
-/* Both runs exceed the event limit of a step, so they let the ball rest, and agree. */
+/* Both runs exceed the event limit of the first step and let the ball rest. They agree, but are trusted until 0 s only. */
 TEST(trust_scenes, steps_with_too_many_events) {
     horizons h = built_in("contacts.whirl", "ball_between", in_double, HORIZON_TOLERANCE);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.twins->overrun_s);

@@ -154,7 +154,7 @@ static double twin_ratio(const horizons *h, board_twin which) {
         memcpy(start_rad, other.start_rad, (size_t)other.angles * sizeof *start_rad);
         memcpy(start_turns, other.start_turns, (size_t)other.angles * sizeof *start_turns);
         start_rad[0] += kind == &engine_float ? 0x1p-24 : 0x1p-52;
-        start_turns[0] += 41; /* 2^-24 rad by 2^-32 turns */
+        start_turns[0] += 41; /* 2^-24 rad, in units of 2^-32 turns */
         other.start_rad = start_rad;
         other.start_turns = start_turns;
         break;

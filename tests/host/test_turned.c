@@ -40,7 +40,7 @@ TEST(turned, settings_and_lists_choose) {
 
 enum { VALUES = 3 * IMAGE_COMPONENTS_MAX };
 
-/* The state after `steps`; 0 when a step is refused. */
+/* Fills the state after `steps` steps and returns its size, 0 if a step is refused. */
 static int after(image *im, const engine_kind *kind, image_angles angles, uint64_t steps,
                  double value[VALUES]) {
     im->settings.angles = angles;

@@ -54,7 +54,7 @@ TEST(turned_errors, turning_beside_the_error_of_each_method) {
                    error, apart(turned, exact), 100.0 * share);
             const double wh = step_s[n];
             const bool fifth = wh_methods[methods[k]].order == 5;
-            /* relative to the method's error it falls as h^2 for order 4, as h for order 5 */
+            /* `share` is relative to the method's error: it falls as h^2 for order 4, as h for order 5 */
             TEST_ASSERT_TRUE_MESSAGE(
                 share < (fifth ? 2.5 * wh + 10.0 * wh * wh : 0.5 * wh * wh + 0.001),
                 wh_methods[methods[k]].word);

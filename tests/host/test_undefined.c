@@ -40,8 +40,8 @@ typedef struct trial {
     double end_s;        /* time of the end */
     double step_s;
     bool is_float;
-    bool is_infinite; /* after the end; an event may come first in the same step, and end that */
-    bool ends_later;  /* a restitution is evaluated when the stop is hit */
+    bool is_infinite; /* infinite, not NaN, after end_s; an event may end that step first */
+    bool ends_later;  /* a restitution is evaluated later, when the stop is hit */
 } trial;
 
 /* The statement that contains `form`. `y` is free, at rest or sliding, and has no other events. */
@@ -86,7 +86,7 @@ static void state(trial *t, const char *form, dice *d) {
 
 static void make(trial *t, dice *d) {
     const double v = dice_between(d, 0.3, 2.0);
-    const double c = dice_between(d, 0.2, 1.5) * v; /* 0.2 to 1.5 s */
+    const double c = dice_between(d, 0.2, 1.5) * v; /* x reaches c after 0.2 to 1.5 s */
     unsigned form = dice_one_of(d, t->is_float ? FORMS_IN_FLOAT : FORMS);
     if (t->victim == CONDITION_AND || t->victim == CONDITION_OR) {
         form += form == 1; /* infinity is valid in `and` and `or` */

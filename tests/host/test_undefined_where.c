@@ -1,4 +1,4 @@
-/* test_undefined_where.c: location of undefined expressions (host/check/nonfinite.h): the innermost part of drawn
+/* test_undefined_where.c: location of undefined expressions (host/check/nonfinite.h): the innermost part of random
  * formulas, by its column; the sampled places of a step; and the angle without a sine. */
 #include "command.h"
 #include "derived.h"
@@ -30,7 +30,7 @@ static const char *const around[] = {
     "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/((@)^2 + 1)",
     "(@)^2", "abs(@)", "cos(@ - 1)", "max(1, 2 - (@))", "e0 + (@)", "min(@, 0.5)", "3 - x/u - (@)"};
 static const char *const parts[] = {"log(x/u)", "sqrt(x/u)", "sqrt(9 + log(x/u))", "(x/u)^0.5"};
-/* For a power, the column of its sign. */
+/* Offset in each of `parts` of the place that the message names; of a power, its ^. */
 static const int inside[] = {0, 0, 9, 5};
 
 static void put_around(char *formula, int *column, const char *wrapper) {
@@ -149,7 +149,7 @@ TEST(undefined_where, angles_that_it_is_made_of) {
         }
         bool none = false;
         const double ahead =
-            c % 2U == 0 ? 0.0 : 0.25; /* steps of 0.5 s; the range is twice as long */
+            c % 2U == 0 ? 0.0 : 0.25; /* in steps of 0.5 s; places reach twice as far */
         const double shares[] = {0.0, 0.25, 0.5};
         for (int i = 0; i < 3 && shares[i] <= 2.0 * ahead; i++) {
             const double t = 0.5 * shares[i];

@@ -58,8 +58,8 @@ TEST(unjumped, what_has_limits) {
     }
 }
 
-/* Losses of one body while another passes s = a. They act along the rate alone, so one over a root slows the body
- * down and no more, although its slope along s grows faster than a pole. */
+/* Losses of one body while another passes s = a. Those with an even index can be integrated across a: they only slow the
+ * body down. Those with an odd index are poles. */
 TEST(unjumped, losses) {
     static const char *const laws[] = {
         "/sqrt(abs(s - a))", "/abs(s - a)",          "/(1 - cos(s - a))^0.25", "/(s - a)^2",
@@ -84,7 +84,7 @@ TEST(unjumped, losses) {
 /* An impact turns a rate past a zero of its divisor without reaching it. */
 TEST(unjumped, impacts) {
     static const char *const laws[] = {"v0/(x' + v0)", "v0/(x' - v0)",
-                                       "tan(x'/v0 + 1)"}; /* sine of about 2, then of 0 */
+                                       "tan(x'/v0 + 1)"}; /* tangent of 2, then of 0, about */
     for (unsigned c = 0; c < jumps_cases(3, 12, 3); c++) {
         char text[JUMPS_TEXT];
         const double v = dice_between(&die, 1.0, 2.0);

@@ -1,5 +1,5 @@
 /* test_verdict.c: `whirl sweep` and `whirl run` share one judge, so their findings and exit statuses agree. The
- * status is 1 exactly after a warning, 0 with --strict=off, and follows the energy ratio with a limit. Drawn:
+ * status is 1 exactly after a warning, 0 with --strict=off, and follows the energy ratio with a limit. Random:
  * springs, dampers, swings of systems, flights past a pole, fast forces, springs far from the origin, and balls
  * between stops. Steps range from fine to useless, with all methods. Rods that do not fit at the start get the same
  * words from `whirl trust`. Every kind of finding occurs, and many runs have no finding. */
@@ -167,8 +167,7 @@ static void expect_field(char **at, const said *what, const char *path) {
     *at = behind == '\0' ? end : end + 1;
 }
 
-/* The rows of --csv - equal those of `list` in the object of --json. Standard error and status are equal except for
- * the words. */
+/* The rows of --csv=- equal those of `list` in the object of --json, and so do the exit statuses. */
 static void expect_rows(int (*command)(int, char **), const char *const *words, const char *list,
                         const char *const *keys) {
     static said csv;
@@ -242,7 +241,7 @@ TEST(verdict, json_of_price_and_choose) {
     expect_rows(command_price, price, "rows", columns);
     const char *within[] = {"two_mass_relative", "--effort=1e5",  "--quiet",
                             "--method=rk4",      "--error=1e-30", NULL};
-    expect_rows(command_price, within, "rows", columns); /* no row is within it: status 1 */
+    expect_rows(command_price, within, "rows", columns); /* no row meets the error: status 1 */
     for (unsigned i = 0; i < 2; i++) {
         static said object;
         said what;
@@ -305,7 +304,7 @@ TEST(verdict, json_of_failures) {
     }
 }
 
-/* Runs without an option, with --strict=off and with a drawn limit. Returns whether a finding gives status 1. */
+/* Runs without an option, with --strict=off and with a random limit. Returns whether a finding gives status 1. */
 static bool expect_statuses(dice *d, const char **run, const char **sweep, const said *ran,
                             const said *swept, const char *about) {
     said off[2];
@@ -406,7 +405,7 @@ TEST(verdict, a_point_is_judged_as_its_run) {
             char id[20];
             snprintf(id, sizeof id, "[%s]", finding_rows[k].word);
             const bool told = strstr(ran.err, id) != NULL;
-            const bool is_note = finding_rows[k].severity == FINDING_NOTE; /* without the id */
+            const bool is_note = finding_rows[k].severity == FINDING_NOTE; /* notes have no id */
             TEST_ASSERT_TRUE_MESSAGE(is_note || told == (strstr(swept.err, id) != NULL), about);
             TEST_ASSERT_TRUE_MESSAGE(k != FINDING_APART || shape != 7 ||
                                          told == (strstr(trusted.err, id) != NULL),

@@ -178,7 +178,7 @@ TEST(vocabulary, first_words_get_a_hint) {
     }
 }
 
-/* Statements of other languages with drawn names and numbers. The statement changed by the hint is accepted. */
+/* Statements of other languages with random names and numbers. The statement changed by the hint is accepted. */
 TEST(vocabulary, other_notations_are_mended) {
     static const char names[][6] = {"q", "theta", "x_1", "arm"};
     static const char units[][8] = {"kg", "m/s", "N*s/m", "deg", "kg*m^2"};

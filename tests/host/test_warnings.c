@@ -342,7 +342,7 @@ TEST(warnings, built_in_scenes_say_nothing) {
         }
         for (unsigned k = 0; k < numbers && scenes % each == 0; k++) {
             const bool is_ball = strcmp(name, "ball_between") == 0;
-            /* in float its remedy takes more than the budget */
+            /* in float the remedy for ball_between exceeds the budget */
             const bool is_float = (scenes / each + k) % 2 == 1 && !is_ball;
             const char *words[] = {name, "--quiet", "--number", is_float ? "float" : "double",
                                    NULL};

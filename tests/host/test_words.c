@@ -6,7 +6,7 @@
 
 enum { TEXT_SIZE = 1200, PAGE_SIZE = 200000 };
 
-/* A mechanism with names for every form, STATEMENT in it, and a scene with WITHIN. */
+/* A mechanism that declares names for every form and contains `statement`; its scene contains `within`. */
 static const char *in_mechanism(const char *statement, const char *within) {
     static char text[TEXT_SIZE];
     snprintf(text, sizeof text,

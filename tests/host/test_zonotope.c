@@ -1,4 +1,4 @@
-/* test_zonotope.c: uncertainty of a point as a sum of generators (host/prove/flowpipe.h), under drawn maps. The
+/* test_zonotope.c: uncertainty of a point as a sum of generators (host/prove/flowpipe.h), under random maps. The
  * reference is the support function in long double: the extent of a set in a direction. A convex set contains another
  * if its extent is at least as large in all directions. Bounds of the excess have closed forms. */
 #include "command.h"
@@ -8,7 +8,7 @@ enum { SIZE = 4, MOST = 24, DIRECTIONS = 12 };
 
 static dice die;
 
-/* A copy in long double from before a map. */
+/* A copy of a zonotope in long double, made before a map. */
 typedef struct exact_set {
     int n;
     int count;
@@ -81,7 +81,7 @@ static long double drawn_in(enclosure a) {
                         : (long double)dice_between(&die, a.low, a.high);
 }
 
-/* Extent of `before` in the direction, after one of the maps and with the box added. */
+/* Extent of `before` in the direction, after one random matrix within `map` is applied and the box `more` is added. */
 static long double mapped_reach(const exact_set *before, const enclosure *map,
                                 const enclosure *more, const long double *direction) {
     const int n = before->n;
@@ -144,7 +144,7 @@ TEST(zonotope, mapped) {
             }
             if (reduced) {
                 reductions++;
-                for (int k = z->most / 2; k < before.count; k++) { /* selection: the shortest */
+                for (int k = z->most / 2; k < before.count; k++) { /* the shortest that remain */
                     int least = 0;
                     for (int l = 1; l < before.count; l++) {
                         least = length[l] < length[least] ? l : least;
@@ -273,13 +273,13 @@ TEST(zonotope, frame) {
         const int n = 1 + (int)dice_one_of(&die, SIZE);
         zonotope *z = drawn_zonotope(n, MOST, dice_one_of(&die, 9));
         expect_frame(z);
-        /* all along one line, and one of no length */
+        /* two generators along one line, and one of length 0 */
         z->count = 3;
         for (int i = 0; i < n; i++) {
             z->generator[i] = 1.0;
             z->generator[n + i] = -2.0;
             z->generator[2 * n + i] = 0.0;
-            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0; /* after the last one */
+            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0; /* not counted, so never read */
         }
         expect_frame(z);
         zonotope_free(z);

@@ -161,7 +161,7 @@ static reckoned reckon(const wave_argument *of, const long double *state, const 
         }
     }
     r.error += 4.0L * in->unit * added;
-    /* sin(3 u) may come from u + b and 2 u - b: in double, a large b has round-off of its size there */
+    /* sin(3 u) may come from u + b and 2 u - b: in double, the sines of both have the round-off of a large b */
     for (int i = 0; i < WAVE_SYMBOLS; i++) {
         r.beside += in->phase_rad > 0.0L ? in->phase_rad : 4.0L * in->unit * fabsl(state[i]);
     }
@@ -191,7 +191,7 @@ static share factor_share(const wave_factor *f, const long double *state, const 
         r.value += 0.3L * sinl(inner.value);
         r.error += 0.3L * sine_error(&inner, in, false) + in->phase_rad + in->unit;
     }
-    if (f->product >= 0) { /* in radians the round-off is relative to its size */
+    if (f->product >= 0) { /* in radians the round-off is relative to the product's size */
         const long double product = state[WAVE_ANGLES] * state[f->product] / 100.0L;
         r.value += product;
         r.error += 6.0L * in->unit * fabsl(product) + in->phase_rad;

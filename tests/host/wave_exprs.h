@@ -29,7 +29,7 @@ typedef struct wave_factor {
     wave_argument argument;
     bool has_inner;
     wave_argument inner;
-    int product; /* the symbol times u, or -1 */
+    int product; /* index of the symbol that u multiplies, or -1 */
 } wave_factor;
 
 /* size * factors / (2 + cos(below)) * (outside, unwrapped) */
@@ -39,7 +39,7 @@ typedef struct wave_term {
     int factors;
     bool divided;
     wave_argument below;
-    int outside; /* a symbol, or -1 */
+    int outside; /* index of a symbol, or -1 */
 } wave_term;
 
 typedef struct wave_expr {
