@@ -76,7 +76,7 @@ TEST(matrix, constants_are_rounded_once) {
 /* Half a unit in the last place of a double. At 0: half the smallest subnormal, which is no double. */
 static quad half_unit(double x) { return (quad)(nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2; }
 
-/* Largest excess of an entry's error over `share` of its bound, in half units of the last digit. */
+/* Largest error of an entry, less what `allowed` permits, in half units of its last place. */
 static double entries_off(const linear *of, const image *im, quad want[][LINEAR_COLUMNS],
                           const quad allowed[][LINEAR_COLUMNS]) {
     double most = 0.0;

@@ -754,7 +754,7 @@ TEST(octave, both_forms_compute_the_same) {
 }
 
 /* === latex runs =============================================================================== */
-/* The printed LaTeX is the model that runs. At random states the printed equations (latex_value.h) are solved for the
+/* The printed LaTeX is the model that runs. At random states the printed equations (latex_value()) are solved for the
  * highest derivatives. These, and the printed closed forms, are compared with the operation list in double. The
  * tolerance follows from the state: printed digits and round-off, carried through the formulas and the inverse matrix.
  * Covers every built-in scene, tests/mechanisms and generated mechanisms; PRINTED_MECHANISMS=N takes N of these. */

@@ -119,7 +119,7 @@ static void test_until_holds_a_step(void) {
     expect_exactly(0.3, made->until_s);
 }
 
-/* A second duration uses the scene's parameters and ignores its step. */
+/* A duration other than `until` uses the scene's parameters and ignores its step. */
 static void test_durations_beside_the_run(void) {
     double seconds = -1.0;
     const char *sets[] = {"lag=0.25 [ms]"};

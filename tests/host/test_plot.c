@@ -8,7 +8,7 @@
 /* === envelope ================================================================================= */
 /* The envelope of a run for its picture: generated signals of every length, compared with all their values. */
 
-/* the time, an oscillation with peaks of one step, an oscillation with gaps, noise */
+/* columns: the time, an oscillation with peaks of one step, an oscillation with gaps, noise */
 enum { COLUMNS = 4 };
 
 static double *signal_of(dice *d, unsigned steps) {

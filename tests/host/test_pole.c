@@ -112,7 +112,7 @@ static void at_leaps(void *of, double share, double *sign, double *value) {
     value[1] = number_power(fabs(x), -1.5) * (fmod(floor(turn), 2.0) == 0.0 ? 1.0 : 2.4);
 }
 
-/* The sign changes next to the pole. */
+/* sign[1] changes its sign next to the pole, not at it. */
 static void at_shifted(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     at(of, share, sign, value);

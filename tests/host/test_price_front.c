@@ -419,7 +419,7 @@ TEST(price_measured, choices_are_as_if_all_was_counted) {
 
 /* === price motion ============================================================================= */
 /* The reference (host/study/reference_run.h) compared with closed forms and its order; deviations
- * (deviation.h) with the test's own loop. Long motions: test_price_reference.c. */
+ * (deviation_measure()) with the test's own loop. Long motions: test_price_reference.c. */
 
 static const char *const spring =
     "mechanism m\ncoordinate x [mm]\noutput twice [mm] = 2*x\nT = 1 [kg]*x'^2/2\n"

@@ -133,11 +133,11 @@ TEST(resets, what_is_lost) {
     TEST_ASSERT_EQUAL_INT(2, h.edges);
     run_with("orders-lost=1@0.397,reset@0.4"); /* the orders before the reset are lost, too */
     TEST_ASSERT_TRUE(h.push[200] > 0.0 && h.push[210] == 0.0);
-    run_with("late=1.5ms@0.3,reset=10ms@0.401"); /* orders not yet in effect never are */
+    run_with("late=1.5ms@0.3,reset=10ms@0.401"); /* orders not yet in effect are lost */
     TEST_ASSERT_TRUE(h.resets == 1 && h.push[200] > 0.0 && h.push[201] == 0.0);
 }
 
-/* Without kicks the watchdog cuts, or resets the processor, which must then be restarted. */
+/* Without kicks the watchdog cuts the drive, or resets the processor, which must then be restarted. */
 TEST(resets, watchdog) {
     run_with("unkicked@0.5");
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[240] > 0.0 && h.push[260] == 0.0);
@@ -148,7 +148,7 @@ TEST(resets, watchdog) {
     TEST_ASSERT_TRUE(h.reset_s[0] > 0.503 && h.reset_s[0] < 0.506);
     TEST_ASSERT_TRUE(fabs(h.again_s[0] - h.reset_s[0] - 3e-3) < 1e-9);
     TEST_ASSERT_TRUE(h.push[READS] == (double)READS); /* the drive is not cut permanently */
-    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* the watchdog cuts again */
+    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* the watchdog cuts the drive again */
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[READS] == 0.0);
     run_with("watchdog-resets=0,unkicked@0.5"); /* and resets again and again */
     TEST_ASSERT_TRUE(h.resets > 50);

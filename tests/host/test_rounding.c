@@ -316,7 +316,7 @@ static double gained(const swinging *s, const char *text, stepping how) {
     return sum / LOOKS;
 }
 
-/* Stages that are too far by 4.8e-8, as in steps of a millisecond, would change the energy by half of (h w)^2 times
+/* A relative error of 4.8e-8 in the stage length, as in steps of 1 ms, would change the energy by half of (h w)^2 times
  * that in each step. The random part is h w times a float's last place over the square root of the steps. Dissipative
  * methods lose less energy by themselves if h w is small. */
 TEST(energy_kept, energy_does_not_leak_by_rounding) {

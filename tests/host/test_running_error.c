@@ -274,7 +274,7 @@ TEST(running_error, what_is_beyond_float) {
     op_list_free(t);
 }
 
-/* An infinite bound stays infinite after a division: z/(y + sqrt(x + w)), where x + w is zero. */
+/* An infinite bound stays infinite after a division: z/(y + sqrt(x*w - y)), where x*w - y is zero. */
 TEST(running_error, no_bound_stays_none) {
     dice d = dice_of("running_error", 2317);
     op_list *t = op_list_new(0, 1);

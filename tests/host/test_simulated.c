@@ -184,7 +184,7 @@ TEST(simulated, outputs_that_end) {
     end();
 }
 
-/* x' = x^n diverges at a known time. The message names the unknown with its primes, and the records end there. */
+/* x' = x^2 diverges at a known time. The message names the unknown with its primes, and the records end there. */
 TEST(simulated, diverged) {
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {

@@ -128,7 +128,7 @@ TEST(starts, kicks_know_no_rates) {
     }
 }
 
-/* An angle inside a sine starts further away than float can represent. The report names each such angle, at its declaration
+/* Some angles inside a cosine start at more turns than float can count. The report names each such angle, at its declaration
  * or start, and no other. */
 TEST(starts, angles_that_start_too_far) {
     dice d = dice_of("starts", 2317);

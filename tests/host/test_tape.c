@@ -353,7 +353,7 @@ TEST(tape_entered, what_turns_a_phase) {
 SUITE(tape_entered) { die = dice_of("tape_entered", 4170); }
 
 /* === tape freed =============================================================================== */
-/* Parts of op_list_scale() (host/image/op_list_scale.h): lists have known freedoms, and scaled by them they compute
+/* Parts of op_list_scale() (host/image/op_list_scaling.h): lists have known freedoms, and scaled by them they compute
  * the same. */
 
 /* A number from 0.001 to 10, a multiple of 1/999.7, which float does not hold. */
@@ -507,8 +507,8 @@ static op_list *some_list(void) {
     return t;
 }
 
-/* Scaled by one, the list is the same. Scaled by an allowed or any other factor, the results are the same, with
- * compensation if needed. */
+/* Scaled by one, the list has the same results and no more operations. Scaled by any other factors, it has the same
+ * results, because further products compensate. */
 TEST(tape_freed, multiplied_lists_compute_the_same) {
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
         op_list *t = some_list();
@@ -578,7 +578,7 @@ TEST(tape_freed, operands_are_entered_in_one_order) {
 SUITE(tape_freed) { die = dice_of("tape_freed", 4190); }
 
 /* === tape gauged ============================================================================== */
-/* Gauges that op_list_scale() must find (host/image/op_list_scale.h). The lists have a factor that makes all
+/* Gauges that op_list_scale() must find (host/image/op_list_scaling.h). The lists have a factor that makes all
  * constants exact: products of small primes. */
 
 /* A sum of two products of leaves with integers below 120 times `unit`. */

@@ -1,4 +1,4 @@
-/* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, tape_sums.c, image.c). The
+/* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, image.c). The
  * results for random lists are compared with the test's own counts, path searches and comparisons. */
 #include "drawn_scene.h"
 #include "evaluated.h"
@@ -243,7 +243,7 @@ static bool enter_pair(op_list *t, int k, unsigned way) {
     const bool late = dice_one_of(&die, 2) == 0;
     const int times = op_list_mul(t, op_list_constant(t, way == 6 ? 3.0 : 2.0), b);
     int whole = -1;
-    if (late) { /* the half is entered after it */
+    if (late) { /* the sum with the doubled part comes first */
         whole = way == 1   ? op_list_sub(t, a, times)
                 : way == 2 ? op_list_sub(t, times, a)
                            : op_list_add(t, times, a);

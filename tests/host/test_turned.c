@@ -149,7 +149,7 @@ static void write_mechanism(unsigned number, double drive, double speed, uint64_
     fclose(out);
 }
 
-/* The share of mechanisms in which the two forms differ by more than `within` times the error. */
+/* The share of mechanisms in which the two forms differ by more than `within` times the error of lookup. */
 static double share_apart(double within, double drive, double speed) {
     const unsigned cases = dice_cases(few_or_all(60, 200));
     uint64_t seed = 20261122;
