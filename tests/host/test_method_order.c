@@ -88,7 +88,7 @@ static tree branched(const forest *f, tree now, long double (*by)[STAGES], const
 }
 
 /* All trees of `order` that extend `now` with `left` nodes, using branches from number `from` on. Branch 0 is the
- * initial rate, which moves the position. Each further tree gives two: the position and the rate moved by it. */
+ * initial rate, which moves the position. Each further tree gives two branches: the position and the rate moved by it. */
 static void grow(forest *f, int order, int left, int from, tree now) {
     if (left == 0) {
         TEST_ASSERT_TRUE(f->count < TREES);

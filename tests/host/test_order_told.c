@@ -199,7 +199,7 @@ static unsigned lines_of(char *text, const char *line[LINES_MOST]) {
     char *rest = NULL;
     for (char *at = strtok_r(text, "\n", &rest); at != NULL; at = strtok_r(NULL, "\n", &rest)) {
         if (strncmp(at, "accuracy and cost", 17) == 0) {
-            break; /* rows of float's round-off, or the file's name */
+            break; /* the rest depends on float's round-off and the file's name */
         }
         if (strncmp(at, "state hash", 10) != 0 && strncmp(at, "trusted", 7) != 0) {
             TEST_ASSERT_TRUE(count < LINES_MOST);

@@ -66,7 +66,7 @@ TEST(price_front, drawn_rows_are_sorted_and_their_front_is_marked) {
     }
 }
 
-/* By 50, 20, 10, 5, 2 records a step, then 1, 2, 5, 10, ... steps a record, to 5e7. */
+/* The paces tried are 50, 20, 10, 5, 2 records a step, then 1, 2, 5, 10, ... steps a record, up to 5e7. */
 TEST(price_front, the_ladder_goes_down_by_one_two_five) {
     double length = 100.0;
     const table_wish w = {.rate_Hz = 0.0};
@@ -88,7 +88,7 @@ TEST(price_front, the_ladder_goes_down_by_one_two_five) {
     TEST_ASSERT_TRUE(table_pace(&w, 28, &p) && p.steps == 50000000);
 }
 
-/* With a record rate: rising numbers of steps for one or several records, including all of 1 to 10. */
+/* With a record rate, the numbers of steps in a time of 1/rate_Hz rise from rung to rung, and begin with 1 to 10. */
 TEST(price_front, substeps_rise_as_they_are_told) {
     for (uint64_t periods = 1; periods < 6; periods++) {
         const table_wish w = {.rate_Hz = 7.0, .periods = periods};
