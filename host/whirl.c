@@ -16,7 +16,7 @@
 typedef struct command {
     const char *name;
     int (*run)(int count, char **words);
-    const char *takes; /* in the list of commands */
+    const char *takes; /* its arguments, for the list of commands */
     const char *text;  /* its purpose; NULL hides a command of the project's own build */
 } command;
 

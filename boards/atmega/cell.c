@@ -63,7 +63,7 @@ static volatile uint16_t supply_sum;
 static float supply_V;
 static float parts_per_V;
 
-/* Index in the present sample; used by the interrupt only. */
+/* Ended conversions of the present sample, cell and supply; used by the interrupt only. */
 static uint8_t place;
 static uint16_t sum;
 static uint16_t supply;

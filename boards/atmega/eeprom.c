@@ -4,7 +4,7 @@
 
 #include "atmega.h"
 
-#define FIRST 256U /* a failing supply may corrupt the byte at the address register: 0 while idle */
+#define FIRST 256U /* not 0: a failing supply may corrupt byte 0, the idle address */
 #define SLOTS 2U
 #define ERASED 0xFFU
 #define ERASE _BV(EEPM0)

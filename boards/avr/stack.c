@@ -6,7 +6,7 @@
 
 #include "boards/board.h"
 
-extern uint8_t _end[]; /* of the variables, by the linker */
+extern uint8_t _end[]; /* the variables' end, from the linker */
 #define PAINT 0xA5U
 #define LOWEST 4U
 

@@ -9,7 +9,7 @@
 #define BOARD_PLL_N 168U
 
 #define BOARD_SLOT_PINS PIN('A', 5), PIN('B', 11)
-#define BOARD_SLOT_CHANNELS 1U, 4U /* of TIM2 */
+#define BOARD_SLOT_CHANNELS 1U, 4U /* TIM2's channels, one per sensor */
 #define BOARD_CELL_PIN PIN('C', 4)
 #define BOARD_CELL_INPUT 14U
 #define BOARD_SUPPLY_PIN PIN('C', 5)

@@ -9,7 +9,7 @@
 #define BOARD_PLL_N 336U
 
 #define BOARD_SLOT_PINS PIN('A', 0), PIN('A', 2)
-#define BOARD_SLOT_CHANNELS 1U, 3U /* of TIM2 */
+#define BOARD_SLOT_CHANNELS 1U, 3U /* TIM2's channels, one per sensor */
 #define BOARD_CELL_PIN PIN('C', 0)
 #define BOARD_CELL_INPUT 10U
 #define BOARD_SUPPLY_PIN PIN('C', 1)

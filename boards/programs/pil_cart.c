@@ -17,7 +17,7 @@
 #define M_PER_COUNT 1e-5f
 #define PUSH_MAX_N 20.0f
 #define BARRIER_M 0.005f
-#define UPRIGHT_RAD 0.02f /* tolerance of upright */
+#define UPRIGHT_RAD 0.02f /* upright: below this angle */
 #define MIDDLE_M 0.03f
 
 /* Gains of the force, in N/rad, N*s/rad, N/m, N*s/m. */

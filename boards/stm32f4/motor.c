@@ -21,10 +21,10 @@ static uint32_t whole;        /* the compare value at which the output is always
 static volatile bool driving; /* started and not yet off, even while stop keeps MOE clear */
 
 void stm32f4_motor_start(void) {
-    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* low */
+    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* the pin is low */
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
-    /* a debugger sets this bit, and it survives resets */
+    /* lets the watchdog run on; a debugger sets this bit, and it survives resets */
     reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);

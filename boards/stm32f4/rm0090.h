@@ -156,8 +156,8 @@
 #define TIM_EGR_UG (1U << 0)
 #define TIM_CCMR(timer, half) ((timer) + 0x18U + 4U * (half)) /* channels 1 and 2; 3 and 4 */
 #define TIM_CCMR_OC1M_PWM_1 (6U << 4)
-#define TIM_CCMR_CAPTURE 1U                /* of the channel's own input */
-#define TIM_CCMR_CAPTURE_OTHER 2U          /* of the other input of the pair, after its filter */
+#define TIM_CCMR_CAPTURE 1U                /* captures the channel's own input */
+#define TIM_CCMR_CAPTURE_OTHER 2U          /* captures the pair's other input, filtered */
 #define TIM_CCMR_FILTER_SLOWEST (15U << 4) /* 8 samples at a 32nd of the rate */
 #define TIM_CCER(timer) ((timer) + 0x20U)
 #define TIM_CCER_CC1NE (1U << 2)

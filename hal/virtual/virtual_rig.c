@@ -7,7 +7,7 @@
 #if !WH_DOUBLE
 
 #define QUARTER_TURN 0x40000000U
-#define DEG ((float)QUARTER_TURN / 90.0f) /* phase units a degree */
+#define DEG ((float)QUARTER_TURN / 90.0f) /* phase units per degree */
 #define CELL_OUTPUT 0U                    /* cell_force is the model's first output */
 #define OUTPUTS_MAX 8U
 
@@ -54,7 +54,7 @@ float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig) {
 typedef struct slice {
     uint32_t phase; /* phase at the slice's begin */
     float way;      /* angle turned in the slice, phase units */
-    float before;   /* rate at the begin, phase units a step */
+    float before;   /* rate at the beginning, phase units per step */
     float after;    /* rate at the end */
 } slice;
 
@@ -176,7 +176,7 @@ static void step(hal_virtual_rig *rig) {
     if (rig->status == WH_OK) {
         rig->status = wh_scene_step(rig->scene, &rig->state);
     }
-    during.way = (float)(int32_t)(rig->state.angle[0] - angle); /* a slice is short */
+    during.way = (float)(int32_t)(rig->state.angle[0] - angle); /* less than half a turn */
     during.after = hal_virtual_rig_speed_radps(rig) * scale;
     if (rig->status == WH_OK) {
         watch_slots(rig, &during, rig->ticks);

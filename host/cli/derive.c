@@ -79,22 +79,22 @@ static const char *taken_in_c(const char *name, bool with_header) {
 enum {
     SHOWS = 1,
     FOLDS = 2,  /* prints values instead of names (--folded) */
-    NAMED = 4,  /* has the scene's name (--name) */
+    NAMED = 4,  /* its code contains the scene's name (--name) */
     HEADED = 8, /* has a header (--header) */
     RUNS = 16   /* steps the scene: momenta, method and number type matter */
 };
 
 typedef struct form_row {
     const char *word;
-    unsigned is; /* bits of the above */
+    unsigned is; /* sum of the properties above */
     void (*print)(const loaded *made, const char *file);
     void (*print_steps)(const loaded *made, const char *file);
     void (*print_folded)(const loaded *made, const char *file);
-    /* For code with the scene's name (--name): the owner of that name there, if it is taken, or NULL. */
+    /* For --name: what the name already is in that language, such as "a word of C++"; NULL: the name is free. */
     const char *(*name_taken_by)(const char *name, bool with_header);
     /* For code with a header (--header). */
     void (*print_header)(FILE *out, const image *im, const char *file);
-    /* For code without contacts: begins each line of the comment about them. */
+    /* For code that omits contacts: begins each line of the comment that lists them. */
     const char *comment;
     const char *text;
 } form_row;
@@ -127,7 +127,7 @@ static const form_row forms[] = {
 };
 enum { FORMS = sizeof forms / sizeof forms[0], FORMS_TEXT_SIZE = 16 + 16 * FORMS };
 
-/* "--as octave or c": the forms with this bit. Returns `said`. */
+/* Writes the forms with this property into `said`, such as "--as octave or c", and returns `said`. */
 static const char *forms_with(unsigned bit, char said[FORMS_TEXT_SIZE]) {
     size_t length = (size_t)snprintf(said, FORMS_TEXT_SIZE, "--as");
     int left = 0;
@@ -189,7 +189,7 @@ static void print_usage(FILE *out) {
         forms_with(RUNS, said));
 }
 
-/* Is the option, such as "--header", valid for this form? Otherwise reports the forms that accept it. */
+/* Returns true if the option, such as "--header", is valid for this form; else reports the forms that accept it. */
 static bool goes_with(const char *option, const char *value, unsigned of, const form_row *as) {
     char said[FORMS_TEXT_SIZE];
     int first = 0;

@@ -12,8 +12,8 @@
 #include "host/study/subsets.h"
 #include "pricing.h"
 
-/* The allowed error without --error, as a part of a coordinate's range; and the size of round-off for a coordinate at
- * rest, SI. */
+/* ERROR_PART: the allowed error without --error, as a part of a coordinate's range. ERROR_LEAST: the round-off of a
+ * coordinate at rest, SI. */
 #define ERROR_PART 1e-3
 #define ERROR_LEAST 1e-12
 
@@ -123,7 +123,7 @@ static void print_cell(const char *head, bool is_head, const char *format, doubl
     free(text);
 }
 
-/* Prints a row, or the headings if `moved` is NULL. With contacts, only the longest step has a price. */
+/* Prints a row, or the headings if `moved` is NULL. With contacts, only the evaluations are known. */
 static void print_row(const subsets *s, const char *name, const double *moved, const double *figure,
                       int contacts, const char *verdict) {
     const char *const words[SUBSET_FIGURES] = {

@@ -99,7 +99,7 @@ static bool any_contact_acts(const equations *e, const symmetry *of) {
     return any;
 }
 
-/* The potential energies by statement: -dV along the symmetry. */
+/* Prints the force -dV of each potential energy along the symmetry. */
 static void print_stored(const show *s, const equations *e, const symmetry *of,
                          const char *prefix) {
     algebra *a = e->algebra;
@@ -124,7 +124,7 @@ static void print_stored(const show *s, const equations *e, const symmetry *of,
     free(row);
 }
 
-/* A shift of lengths by different amounts: two carts pushed the same way conserve the difference of their momenta. */
+/* Says if the symmetry shifts two lengths by different amounts: then the conserved momentum need not be the total one. */
 static void print_uncommon(const show *s, const equations *e, const symmetry *of,
                            const char *prefix) {
     const symbol *moved[2] = {NULL, NULL};
@@ -224,7 +224,7 @@ static void print_latex(const show *s, const equations *e, const symmetry *of, i
     print_sources(&plain, e, of, "% ");
 }
 
-/* Coordinates whose own shift changes the kinetic energy: the terms that change. */
+/* Prints each coordinate whose own shift changes the kinetic energy T, and the derivative of T by the coordinate. */
 static void print_broken(const show *s, const equations *e, const char *prefix) {
     for (int i = 0; i < e->count; i++) {
         const symbol *q = e->unknowns[i].symbol;

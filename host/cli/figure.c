@@ -45,7 +45,7 @@ typedef struct plot_options {
     const char *out;
     char **target; /* [targets] */
     int targets;
-    char **passed; /* [1 + passed_count] for each scene, which is passed[0] */
+    char **passed; /* [1 + passed_count] words of a run; passed[0] is the scene */
     int passed_count;
 } plot_options;
 
@@ -77,7 +77,7 @@ static void take_plot(int count, char **words, int *at, plot_options *o, bool *b
     }
 }
 
-/* "l=20cm" of --set l=20cm or --set=l=20cm, or of --start; NULL: another word. */
+/* The text "l=20cm" if word i is --set l=20cm or --set=l=20cm, or --start with such a value; else NULL. */
 static const char *assigned(const plot_options *o, int i) {
     static const char *const options[] = {"--set", "--start"};
     for (int k = 0; k < 2; k++) {

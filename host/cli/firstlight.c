@@ -48,7 +48,7 @@ static int light_field(const char *name, const char *more) {
     return i;
 }
 
-/* The interpreter in float gives the boards' bits. */
+/* Runs the scene in float, because the boards must compute the same bits. */
 static int run_scene(const char *name, light_expected *e) {
     static const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT,
                                    .use = IMAGE_TO_WRITE,
@@ -118,7 +118,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
                    ? LIGHT_EQUAL
                    : LIGHT_DIFFERS;
     }
-    if (strcmp(name, "selftest") == 0) { /* the next fields are the results of the self-test */
+    if (strcmp(name, "selftest") == 0) { /* only its first word is compared */
         return strncmp(value, "good ", 5) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
     }
     return strcmp(value, wanted) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
@@ -128,7 +128,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
 
 #define LIGHT_PAGE "docs/silicon.md"
 
-/* Medians of the scenes' steps. */
+/* Writes the median cycles of a step of each scene. */
 static void cycles_of(const light *l, char *cell, size_t size) {
     size_t used = 0;
     cell[0] = '\0';

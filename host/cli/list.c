@@ -9,8 +9,8 @@
 #include "host/lang/units.h"
 
 /* === the hard cases ================================================================================ */
-/* The catalogue of hard cases: X(case, scene, limit of the theory, verdict). A case is a section of
- * docs/hard_cases.md; a scene is a file of docs/hard, a built-in scene, or "". */
+/* The catalogue of hard cases: X(case, scenes, limit of the theory, verdict). A case is a section of
+ * docs/hard_cases.md. Scenes are files of docs/hard or built-in scenes, separated by blanks; or "". */
 
 #define HARD_ROWS(X) \
     X("Chaos", "thomson_a", "each further digit adds the same trusted time", \
@@ -156,7 +156,7 @@ static void put_place(const char *kind, const char *name, const mechanism *of, c
     printf("\t%d\t%d\t", first_line, last_line);
 }
 
-/* Step and length of a scene, or of the mechanism at rest; false after an error (reported). */
+/* Prints the scene's step and end; returns false after an error, which is reported. */
 static bool put_times(const mechanism *of, const scene *in, diags *errors) {
     instance *made = instance_make(of, in, NULL, errors);
     if (made == NULL) {
@@ -303,7 +303,7 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
-/* Prints a line for each figure, with the title of its description. A script makes a `table`. */
+/* Prints a line for each figure, with the title of its description. `make figures` draws those with a `table`. */
 static int list_figures(void) {
     for (size_t i = 0; i < builtin_figure_count; i++) {
         const char *file = strrchr(builtin_figures[i].file, '/') + 1;
@@ -319,7 +319,7 @@ static int list_figures(void) {
 
 int command_list(int count, char **words) {
     const form *as = &forms[0];
-    int files = 0; /* words[0..files-1] */
+    int files = 0; /* words[0..files-1] are the files */
     bool bad = false;
     int (*other)(void) = NULL; /* --units, --hard or --figures */
     if (options_help(count, words, &usage)) {

@@ -38,7 +38,7 @@ static bool same_time(struct timespec one, struct timespec other) {
     return one.tv_sec == other.tv_sec && one.tv_nsec == other.tv_nsec;
 }
 
-/* Are all attributes equal, for a link or for a file without a known path? */
+/* Are all attributes equal? They decide for a file with several links or without a known path. */
 static bool look_alike(const struct stat *one, const struct stat *other) {
     return one->st_dev == other->st_dev && one->st_mode == other->st_mode &&
            one->st_size == other->st_size && one->st_nlink == other->st_nlink &&
@@ -230,7 +230,7 @@ char *read_all(const char *path, size_t *length) {
     for (;;) {
         *length += fread(text + *length, 1, size - *length - 1, in);
         if (*length < size - 1 || *length > MODEL_BYTES_MAX) {
-            break; /* the text is too long, which the parser reports */
+            break; /* the file's end; or the text is too long, which the parser reports */
         }
         size *= 2;
         text = alloc_more(text, (int64_t)size, 1);
@@ -264,7 +264,7 @@ bool source_would_be_lost(const source_model *s, const char *option, const char 
     const bool model_known =
         (from_stdin ? fstat(fileno(stdin), &about_model) : stat(s->path, &about_model)) == 0;
     bool lost = false;
-    for (int i = 0; i < 2 && !lost; i++) { /* atomic_file.h */
+    for (int i = 0; i < 2 && !lost; i++) { /* the file and its temporary NAME.part */
         char *name = alloc_words("%s%s%s", path, ending, i == 0 ? "" : ".part");
         lost = model_known && S_ISREG(about_model.st_mode) && stat(name, &about_output) == 0 &&
                files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);

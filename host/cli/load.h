@@ -13,9 +13,9 @@
 /* === the test for two names of the same file ================================================== */
 
 /* Do these describe the same file? Device and inode decide. If an inode is 0 (some network file systems and WASI), the
- * resolved paths are compared. If a path is unknown (NULL) or the paths differ, the other attributes decide: device,
- * size, times, and more than one link or no path. A false positive costs the user another name; a false negative costs
- * the file. */
+ * resolved paths are compared. Files with different paths are still one if they have several links and equal attributes
+ * (device, mode, size, links, times). If a path is unknown (NULL), equal attributes suffice. A false positive costs the
+ * user another name; a false negative costs the file. */
 bool files_are_one(const struct stat *one, const char *path, const struct stat *other,
                    const char *other_path);
 

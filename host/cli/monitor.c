@@ -132,7 +132,7 @@ typedef struct monitor {
     int64_t asked_ms;
     int64_t kept_ms;  /* time when all records were last written to their files */
     int64_t alive_ms; /* time of the last message to the rig */
-    uint64_t times;   /* times the line was opened */
+    uint64_t times;   /* how often the line was opened */
 } monitor;
 
 /* --- the line ------------------------------------------------------------------------------------------------- */
@@ -196,7 +196,7 @@ static void show(const monitor *m, const char *line) {
     }
 }
 
-/* Send the next question, or start after the last answer. */
+/* Handles an answer to the current question, and asks the next one. */
 static void go_on(monitor *m) {
     m->met = true;
     if (m->dialogue.asked == DIALOGUE_OFF && !m->begun) {

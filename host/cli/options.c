@@ -134,7 +134,7 @@ static bool is_new(int count, char **words, int at, const char *name) {
         if (is_option(words[i], name)) {
             fprintf(stderr, "whirl: error: %s is given twice: '%s' and '%s'\n", name, words[i],
                     words[at]);
-            if (strcmp(name, "--y") == 0) { /* a list of quantities */
+            if (strcmp(name, "--y") == 0) { /* --y takes a list */
                 fprintf(stderr, "hint: --y \"%s, %s\"\n", value_at(count, words, i, name),
                         value_at(count, words, at, name));
             } else {
@@ -378,7 +378,7 @@ static bool take_cells(const char *command, const char *value, int *cells) {
     return good;
 }
 
-/* Sweeps and prices do not search for ranges. */
+/* Does the command accept fixed point? Sweeps and prices do not, because they do not search for ranges. */
 static bool knows_fixed(const char *command) {
     return strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
            strcmp(command, "trust") == 0;

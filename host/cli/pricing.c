@@ -223,7 +223,7 @@ static void show_progress(void *context, int done, int of) {
     fprintf(stderr, "\r%3d of %d settings ", done, of);
 }
 
-/* The requested table: by the effort and the methods, on all processors, with progress on a terminal. */
+/* The table that the options ask for. All processors compute it, and a terminal shows the progress. */
 static table_wish wish_of(const pricing *p) {
     const bool shows = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
     return (table_wish){.operations = p->effort,
@@ -580,8 +580,8 @@ static bool read_limits(const pricing *p, choice_wish *w) {
            (v[PRICING_RAM] == NULL || read_bytes("--ram", v[PRICING_RAM], &w->ram_bytes));
 }
 
-/* Spaces the records by whole periods, 1, 2, 5, 10, ..., below the most records; false if the horizon is
- * shorter than a period. */
+/* Spaces the records by 1, 2, 5, 10, ... periods of --rate, so that they are not too many. Returns false, and reports
+ * the reason, if the horizon is shorter than a period or the rate is too high. */
 static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing) {
     w->table.periods = 1;
     if (!(w->table.rate_Hz > 0.0)) {
@@ -634,7 +634,7 @@ static int says_contacts(const pricing *p, const char *missing) {
 
 static int choose_from(pricing *p, choice_wish *w, bool counts) {
     const table_words words = {p->target, p->words, false, p->effort};
-    w->table.error = p->error_si / trial_error_si(&p->trial, 1.0); /* in the unit of the trial's */
+    w->table.error = p->error_si / trial_error_si(&p->trial, 1.0); /* in the trial's unit */
     w->counts = counts;
     p->trial.tolerated = w->table.error;
     p->trial.without_events = p->trial.image[0]->contacts > 0;

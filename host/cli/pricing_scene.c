@@ -108,7 +108,7 @@ static bool same_lists(const image_settings *a, const image_settings *b) {
            (!(matrix || a->stabilized) || (a->method == b->method && a->angles == b->angles));
 }
 
-/* Discards the messages of `make` if scenes may refuse the setting. */
+/* Where messages go: into a list that is discarded, if scenes may refuse the setting; else into p->errors. */
 static diags *diags_of(pricing_scene *p, const image_settings *settings) {
     return setting_may_be_refused(settings) ? diags_new() : p->errors;
 }

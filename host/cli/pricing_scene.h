@@ -43,7 +43,7 @@ void pricing_scene_free(pricing_scene *p); /* NULL is fine */
 
 /* A word of a command line, quoted for a shell if necessary. To be freed. */
 char *pricing_quoted(const char *word);
-/* The options that make these changes, each after a blank; or as a label "m=2, with drag", without times. To be freed. */
+/* The options that make these changes, each after a blank; or the label "m=2, with drag", without step and end. To be freed. */
 char *pricing_words(const overrides *c, bool as_label);
 
 #endif

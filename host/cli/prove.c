@@ -19,7 +19,7 @@
 #include "target.h"
 #include "trusting.h"
 
-/* Default limit of operations without --effort, and products of enclosures in a second. */
+/* EFFORT: the limit of operations without --effort. PRODUCTS_1S: products of enclosures per second. */
 #define EFFORT 1.5e10
 #define PRODUCTS_1S 1e8
 

@@ -109,7 +109,7 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
 
-/* Steps as fractions and multiples of a record's interval, all decimals; a decade has five. */
+/* Paces: PACES_LONG steps that are multiples of a record's interval, then decimal fractions of it, five a decade. */
 enum { PACES = 32, PACES_LONG = 10 };
 
 /* Allowed number of operations of all tried runs together. Comparing them with the reference takes as long again. */
@@ -136,16 +136,16 @@ static double operations_for(trials *t, const setting *s, deviation_pace pace, d
     return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
 }
 
-/* The number of the first pace that satisfies the error; *longest: it is the first pace that was tried. Returns -1, and
+/* The index of the first pace that satisfies the error; *longest: it is the first pace that was tried. Returns -1, and
  * reports the reason, if there is none. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = -1.0;
-    /* operations of all tried step lengths, or of the first one above the limit */
+    /* operations of all tried runs; after a run that is too expensive, of that run alone */
     double operations = 0.0;
     bool ends_early = false;
-    int falls = 0; /* tries with a smaller error than all before */
-    /* number of tries since the error last fell; if it fell before, the rest is round-off */
+    int falls = 0; /* tries with an error below 0.7 times the least before */
+    /* tries since the error last fell; after three falls, two such tries show round-off */
     int stuck = 0;
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
@@ -230,7 +230,7 @@ static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *p
     double operations = 0.0;
     for (int i = at + 1; i < PACES && i <= at + MORE && !t->stopped; i++) {
         const deviation_pace next = pace_at(i);
-        /* operations of the run and of its finer run */
+        /* operations of the trial, of the run and of its finer run */
         operations += 4.0 * trial_operations(t, s, next);
         if (next.records <= (uint64_t)t->records && operations <= TRIES_OPERATIONS) {
             const trial_result one = trial_run(t, s, next);

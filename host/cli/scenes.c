@@ -22,8 +22,8 @@
 /* === every scene ============================================================================== */
 /* The common part of the commands of the project's own build: files in a folder, and lines of hashes. */
 
-/* Called for a scene: the first before the equations are freed (NULL: no call), the second with the image. They return an exit
- * status. */
+/* Both are called for each scene: the first with its equations (NULL: no call), the second with its image. They return
+ * an exit status. */
 typedef int equations_visitor(void *context, const char *file, const loaded *made);
 typedef int image_visitor(void *context, const char *file, const image *im);
 
@@ -247,11 +247,11 @@ enum { WORDS = 40 };
 typedef struct settings_emission {
     const char *folder;
     uint64_t steps; /* most steps of a run */
-    int every;      /* only every `every`-th setting is written, and every one with a new word */
-    int seen;       /* number of settings counted over all scenes, so that each scene gets others */
+    int every;      /* writes every `every`-th setting, and each with a new word */
+    int seen;       /* settings counted over all scenes, so that each scene gets others */
     const char *word[AXES][WORDS];
     FILE *hashes[KINDS];
-    FILE *settings; /* NAME SCENE OPTIONS OF `whirl run` without float and double..., and the events
+    FILE *settings; /* rows: NAME SCENE, options of `whirl run` but not --number float, the events
                    * of the run in float */
 } settings_emission;
 

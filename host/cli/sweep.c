@@ -200,7 +200,7 @@ static int load_base(const sweep_options *o, source_model *from, const sweep *s,
     return load(base, from, s->mechanism, s->scene, s->changes, &wish);
 }
 
-/* Errors common to all points are reported once, for the scene without changes. */
+/* Reports errors that all points have in common, once for the scene without changes; returns false after one. */
 static bool begins(const sweep *s, const loaded *base, diags *errors) {
     if (s->kind == &engine_float) {
         say_float_range(base->image);

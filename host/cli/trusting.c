@@ -16,7 +16,7 @@ image *trusting_plain(const loaded *made) {
     if (im == NULL || made->equations == NULL || !step_doubling_plain(&im->settings, &plain)) {
         return NULL;
     }
-    diags *unsaid = diags_new(); /* already reported for the run's image */
+    diags *unsaid = diags_new(); /* discarded: the run's image had the same messages */
     image *without = image_make(made->equations, made->equations->instance->conserve, &plain,
                                 IMAGE_TO_RUN, unsaid);
     diags_free(unsaid);

@@ -25,7 +25,7 @@ static const char words_of_c[] =
     "return short signed sizeof static static_assert struct switch thread_local true typedef "
     "typeof typeof_unqual union unsigned void volatile while";
 
-/* Words of C++ up to C++20 that C does not have, and the built-in functions of compilers with coroutines. */
+/* Words of C++ up to C++20 that C does not have, and built-in functions of C++ compilers for coroutines. */
 static const char words_of_cpp[] =
     "and and_eq bitand bitor catch char8_t class co_await co_return co_yield compl concept "
     "const_cast consteval constinit coro_destroy coro_done coro_promise coro_resume decltype delete dynamic_cast explicit export friend "
@@ -124,7 +124,7 @@ static const char functions[] =
     "wcstoll wcstombs wcstoul wcstoull wcstoumax wcsxfrm wctob wctomb wctrans wctype wmemchr "
     "wmemcmp wmemcpy wmemmove wmemset wprintf wscanf";
 
-/* The prefixes of whole families. */
+/* Reserved prefixes. */
 static const char families[] =
     "FLT_ DBL_ LDBL_ DEC32_ DEC64_ DEC128_ FE_ LC_ FP_ ATOMIC_ atomic_ memory_order_ mtx_ "
     "cnd_ thrd_ tss_ pthread_ stdc_ ckd_ wh_ WH_ _";
@@ -170,7 +170,7 @@ static bool is_in_a_family(const char *name) {
     return false;
 }
 
-/* fabs, fabsf, fabsl, fabsf64x; lgammaf_r. */
+/* Is it a function of `maths` or its variant, such as fabs, fabsf, fabsl, fabsf64x, lgammaf_r? */
 static bool is_maths(const char *name) {
     const size_t whole = strlen(name);
     const size_t length = ends(name, "_r") ? whole - 2 : whole;
@@ -184,7 +184,7 @@ static bool is_maths(const char *name) {
     return false;
 }
 
-/* int8_t, uint_fast16_t, INT8_C, UINT_LEAST16_MAX, PRIdPTR. */
+/* Is it a name of <stdint.h> or <inttypes.h>, such as int8_t, INT8_C, UINT_LEAST16_MAX, PRIdPTR? */
 static bool is_of_integers(const char *name) {
     const bool format = begins(name, "PRI") || begins(name, "SCN");
     const char *upper = name + (name[0] == 'U');
@@ -251,7 +251,7 @@ static void write_table(FILE *out, const image *im) {
     write_bytes(out, "contact_target", im->target, im->set_count);
 }
 
-/* The lists, the table and advance(). */
+/* Writes the contacts' lists, their table, and one_step(). */
 static void c_contacts_write(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     const bool sets = im->list[IMAGE_SETS] != NULL;
@@ -304,7 +304,7 @@ static void c_ledger_bounds(FILE *out, const image *im) {
             l->entries > 0 ? l->entries : 1, l->accounts);
 }
 
-/* A wh_levels_fn: "ledger_levels" and "ledger_powers" have equal lengths. */
+/* Writes a wh_levels_fn, indented for a name as long as "ledger_levels" or "ledger_powers". */
 static void write_of_angles(FILE *out, const image *im, const op_list *t, const char *name,
                             const char *result) {
     fprintf(out,
@@ -328,7 +328,7 @@ static void write_of_angles(FILE *out, const image *im, const op_list *t, const 
     c_list_body(out, t, C_PHASES, result);
 }
 
-/* The lists and the constant `ledger`. */
+/* Writes the ledger's lists and the constant `ledger`. */
 static void c_ledger_write(FILE *out, const image *im) {
     const image_ledger *l = &im->ledger;
     const wh_ledger_form form = core_ledger_form(im, NULL, NULL);
@@ -429,14 +429,14 @@ static void write_starts(FILE *out, const image *im) {
     fprintf(out, "\n");
 }
 
-/* wh_advance_ahead() does not keep the additional data of contacts, ledgers and inputs with a rate. */
+/* Can the scene use wh_advance_ahead()? It does not update the data of contacts, ledgers and inputs with a rate. */
 static bool has_ahead(const image *im) {
     return im->contacts == 0 && !im->ledger.kept && im->drives == 0;
 }
 
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
-    /* declared here, because before the functions it would hide names in them */
+    /* declared after the functions, because their local names would hide it */
     c_header_link(out, "wh_scene", im->name, c_header_of_image, im);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
@@ -549,7 +549,7 @@ static void write_includes(FILE *out, const image *im) {
     }
 }
 
-/* For a scene without contacts. */
+/* Writes one_step() for a scene without contacts. */
 static void write_one_step(FILE *out, const image *im) {
     const bool second = im->form == WH_SECOND_ORDER;
     const char *method = wh_methods[im->settings.method].name;

@@ -44,8 +44,8 @@ void c_comment(FILE *out, const char *text) {
 typedef enum list { LIST_ANGLES, LIST_REALS, LIST_INPUTS, LIST_OUTPUTS, LISTS } list;
 
 static const struct {
-    const char *counted; /* SCENE_ANGLES, SCENE_NAMES_OF_ANGLES */
-    const char *value;   /* the KIND of a component without primes, and with one */
+    const char *counted; /* in SCENE_ANGLES and SCENE_NAMES_OF_ANGLES */
+    const char *value;   /* KIND of a component without primes; `rate`: with one */
     const char *rate;
     const char *where;
 } lists[LISTS] = {
@@ -228,7 +228,7 @@ void c_header_fixed_state(FILE *out, const image *im) {
                 "fixed-point code computes no outputs: these number a table of your own");
 }
 
-/* "SCENE_HEADER_1a2b3c4d", a hash of the body without comments. To be freed. */
+/* The name "SCENE_HEADER_1a2b3c4d", with a hash of the body without comments. To be freed. */
 static char *linked_name(const char *scene, c_header_body *body, const void *of) {
     char *text;
     size_t length;

@@ -15,16 +15,16 @@ void c_header_fixed_state(FILE *out, const image *im);
 /* The first lines of a header's comment; `form` follows the scene's name. */
 void c_header_title(FILE *out, const image *im, const char *file, const char *form);
 
-/* Parts of headers in floating and fixed point. The head's line about the licence, and the check that core and scene
- * have the same version. Names and units of lists, values as macros, and the range of number i. */
+/* Parts of headers in floating and fixed point. The first writes the line about the licence, the second the check that
+ * core and scene have the same version. */
 void c_header_licence(FILE *out);
 void c_header_version(FILE *out);
 /* Writes the whole header after the scene's declaration. */
 typedef void c_header_body(FILE *out, const void *of);
-/* The scene's declaration in a header with this body, and the body: version.h's WH_LINKS_TO(). */
+/* Writes a header's declaration of the scene, by WH_LINKS_TO() of version.h, and its body. */
 void c_header_declare(FILE *out, const char *type, const char *scene, c_header_body *body,
                       const void *of);
-/* The scene's declaration in its .c file, and its second name: WH_LINKED_AS(). */
+/* Writes the scene's declaration in its .c file, and its second name by WH_LINKED_AS(). */
 void c_header_link(FILE *out, const char *type, const char *scene, c_header_body *body,
                    const void *of);
 /* The body for a scene in floating point, an image. */

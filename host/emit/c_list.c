@@ -18,7 +18,7 @@ static void operands(FILE *out, const op_list *t, const op *o, const op_style *s
     }
 }
 
-/* The test for a NaN; empty for a constant. */
+/* Writes "|| b != b", which is true for a NaN; nothing if b is a constant. */
 static void or_no_number(FILE *out, const op_list *t, int b, const op_style *style) {
     if (t->ops[b].code != OP_CONSTANT) {
         fputs(" || ", out);
@@ -60,8 +60,8 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
 enum { INLINED_MOST = 150 };
 
 /* From this number of operations on, the compiler should keep their order (WH_LONG_LIST of core/step.h). On the
- * Cortex-M4F, a list of 67 operations then takes 1 % fewer instructions but 2 % more cycles; for 131 operations it is 4
- * % and 2 % less. */
+ * Cortex-M4F, a list of 67 operations then takes 1 % fewer instructions but 2 % more cycles; a list of
+ * 131 operations takes 4 % fewer instructions and 2 % fewer cycles. */
 enum { LONG_LEAST = 100 };
 
 bool c_list_is_long(const op_list *t) { return op_list_operations(t) >= LONG_LEAST; }
@@ -78,7 +78,7 @@ static const char *operand(const op_list *t, int a, char text[static 48]) {
     return text;
 }
 
-/* "wh_phase_times(...)": constants that the float build needs as integers are computed here. */
+/* Writes "wh_phase_times(...)", a multiple of an angle. Integers that the float build needs are computed here. */
 static void write_part(FILE *out, int angle, double multiple) {
     uint32_t whole;
     uint64_t part;
@@ -90,7 +90,7 @@ static void write_part(FILE *out, int angle, double multiple) {
             angle, hex_write(multiple, hex), whole, part);
 }
 
-/* Writes the phase without its part in radians. Returns the sign before the next term. */
+/* Writes the phase's constant and its whole multiples of angles. Returns the sign before the next term. */
 static const char *write_turns(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
@@ -136,7 +136,7 @@ static void write_operand(FILE *out, const op_list *t, int a) {
     fputs(operand(t, a, text), out);
 }
 
-/* Does the list use a sine or cosine of phase i? */
+/* Does the list contain the operation `code`, OP_SIN or OP_COS, of phase i? */
 static bool takes(const op_list *t, op_code code, int i) {
     bool found = false;
     for (int k = i + 1; k < t->count; k++) {
@@ -145,7 +145,7 @@ static bool takes(const op_list *t, op_code code, int i) {
     return found;
 }
 
-/* The sine and cosine of wave `wave`, which is phase i. */
+/* Writes the sine and cosine of phase i, read from wave[`wave`]. */
 static void write_pair(FILE *out, const op_list *t, int i, int wave) {
     if (takes(t, OP_SIN, i)) {
         fprintf(out, "    const wh_real s%d = wave[%d].sine;\n", i, wave);
@@ -286,7 +286,7 @@ void c_list_matrix(FILE *out, const op_list *t) {
     write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
-/* The rate of a wave times `scale`, summed as in the interpreter. For a single angle, the numbers become one. */
+/* The rate of a wave times `scale`, summed as in the interpreter. For a single angle, factor and scale become one. */
 static void write_rate(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     int terms = 0;

@@ -11,12 +11,12 @@
 /* The parts of the rows that depend on the language. */
 typedef struct op_style {
     void (*operand)(FILE *out, const op_list *t, int a);
-    /* Writes the number of a leaf: `what` is l, r or u, `a` its index. NULL if no row needs it. */
+    /* Writes the number of a leaf: `what` is l (linear), r (rate) or u (input), `a` its index. NULL: no row needs it. */
     void (*leaf)(FILE *out, const void *context, char what, int a);
     const void *context; /* context for leaf() */
 } op_style;
 
-/* `form` is the row's text for the language. */
+/* Writes the operation; `form` is its row's text for the language. */
 void op_text(FILE *out, const op_list *t, const op *o, const char *form, const op_style *style);
 
 bool c_list_uses_phase(const op_list *t);
@@ -24,12 +24,12 @@ bool c_list_uses_phase(const op_list *t);
 bool c_list_is_long(const op_list *t);
 /* Writes "(void)NAME;", unless NAME is used. */
 void c_list_ignore(FILE *out, bool used, const char *name);
-/* The input of a generated list for its sines: phases to look up, or pairs. */
+/* The input of a generated list for its sines and cosines: phases, or pairs of sine and cosine. */
 typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 
-/* The statements, the results stored in the array `result`, and the closing brace. */
+/* Writes the statements, which store the results in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result);
-/* A whole wh_accel_fn (second order) or wh_slope_fn, or wh_turned_accel_fn or wh_turned_slope_fn. core/ calls it
+/* Writes a whole wh_accel_fn (second order) or wh_slope_fn, or wh_turned_accel_fn or wh_turned_slope_fn. core/ calls it
  * through a pointer in a constant, so it must not require inlining: gcc -Og resolves the pointer too late for that and
  * reports an error. */
 void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,

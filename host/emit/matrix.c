@@ -3,7 +3,7 @@
 
 #include "emit.h"
 
-/* Most columns of a table that are printed next to each other. */
+/* BESIDE: most columns of a table that are printed next to each other; widths in characters. */
 enum { BESIDE = 5, NAME_WIDTH = 14, NUMBER_WIDTH = 17 };
 
 /* The label of column or row k, a state or an input: its name with primes, in text[size]. */
@@ -66,7 +66,7 @@ static void put_table(FILE *out, const image *im, const char *title, int first, 
     }
 }
 
-/* Is anything constant added? */
+/* Does the step add a constant to a state? */
 static bool has_offset(const image *im) {
     bool has = false;
     for (int i = 0; i < im->matrix.states; i++) {

@@ -54,7 +54,7 @@ static void write_phase(FILE *out, const image *im, const op *o) {
     }
 }
 
-/* The numbers of leaves, for an image. */
+/* Writes the number or name of a leaf (c_list.h). */
 static void write_leaf(FILE *out, const void *context, char what, int a) {
     const image *im = context;
     if (what == 'u') {
@@ -65,7 +65,7 @@ static void write_leaf(FILE *out, const void *context, char what, int a) {
     }
 }
 
-/* Writes an operation of a step's list. Operations that occur only in lists of records are omitted. */
+/* Writes an operation of a step's list; a constant is written where it is used. */
 static void write_operation(FILE *out, const image *im, int i) {
     const op_style style = {write_operand, write_leaf, im};
     const op_list *t = im->list[IMAGE_STEP];

@@ -22,7 +22,7 @@ typedef struct figure {
     int named;   /* number of curves in the legend */
     bool varied; /* omit marks of the original motion */
     double
-        trusted_s; /* least trusted time of the panel's curves over time; 0: all are trusted to the end */
+        trusted_s; /* shortest trusted time among the panel's curves over time; 0: all are trusted to the end */
     char *plot; /* gnuplot text of the curves */
     char *xlabel;
 } figure;
@@ -51,7 +51,7 @@ static void join(char **text, const char *more) {
     *text = longer;
 }
 
-/* {name} as column("name"). */
+/* Writes an expression for gnuplot, in which {name} becomes column("name"). */
 static void write_expression(FILE *to, const char *text) {
     fputc('(', to);
     for (const char *at = text; *at != '\0'; at++) {

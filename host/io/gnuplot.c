@@ -135,14 +135,14 @@ static void put_xml(FILE *to, const char *text) {
     }
 }
 
-/* Text and frames of an SVG follow the reader's page. gnuplot writes colours in exactly these words. */
+/* A style by which an SVG is dark on a dark page. gnuplot writes colours in exactly these words. */
 static const char dark[] =
     "<style>@media (prefers-color-scheme:dark){#gnuplot_canvas>rect{fill:" PALETTE_DARK "}"
     "text{fill:#e6edf3}[color=\"black\"]{color:#e6edf3}"
     "[stroke='rgb(216, 216, 216)'],[stroke=\"rgb(216, 216, 216)\"]{stroke:#30363d}"
     "[fill='rgb(228, 228, 228)'],[fill = 'rgb(228, 228, 228)']{fill:#262c36}}</style>\n";
 
-/* gnuplot's picture; in an SVG, a title and alternative text replace gnuplot's words for them. */
+/* Copies gnuplot's picture. In an SVG, the title and the alternative text replace those of gnuplot. */
 static void copy_picture(const gnuplot *g) {
     char line[4096];
     size_t length;

@@ -30,7 +30,7 @@
 
 #define PALETTE_WHITE "#ffffff"
 #define PALETTE_DARK "#0d1117"
-/* Frames, tics and laws: 3:1 with both backgrounds, as the lines. */
+/* Colour of frames, tics and a figure's laws. Its contrast is 3:1 with both backgrounds, like that of the lines. */
 #define PALETTE_FRAME "#767676"
 #define PALETTE_GRID "#d8d8d8"
 #define PALETTE_SHADE "#e4e4e4"
@@ -42,7 +42,7 @@ enum {
     PALETTE_AREAS = PALETTE_AREA_ROWS(PALETTE_ONE)
 };
 
-/* Line i of a picture, from 0. After the last colour they repeat, with another dash. */
+/* Colour of line i of a picture, from 0. Colours repeat after the last one, with another palette_dash(). */
 static inline const char *palette_line(int i) {
     static const char *const lines[] = {PALETTE_LINE_ROWS(PALETTE_WORD)};
     return lines[i % PALETTE_LINES];

@@ -16,8 +16,8 @@ typedef struct extent {
 
 struct decimation {
     int columns;
-    bool samples;    /* keep the first row of each bucket */
-    uint64_t size;   /* steps a bucket */
+    bool samples;    /* a bucket is its first row instead of extremes */
+    uint64_t size;   /* steps per bucket */
     uint64_t filled; /* steps in the last bucket */
     unsigned count;  /* buckets, the last one included */
     extent *extents; /* [DECIMATION_ROOM * columns], bucket by bucket */
@@ -39,7 +39,7 @@ void decimation_free(decimation *v) {
     }
 }
 
-/* The union of two extents. Of equal values the first counts; a non-finite one is replaced. */
+/* The union of two extents. Among equal values the earlier counts. If one extent is not finite, it is the other. */
 static extent joined(extent earlier, extent later) {
     if (!isfinite(later.least) || !isfinite(later.most)) {
         return earlier;

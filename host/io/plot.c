@@ -378,7 +378,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene) {
     const bool described = keep && csv != NULL && csv != stdout && atomic_file_is_regular(csv);
-    /* The description follows: a CSV that cannot be written leaves the old one, and its description. */
+    /* The description is written last: if the CSV cannot be written, the old CSV and its description remain. */
     if (!atomic_file_close(csv, name, keep)) {
         return false;
     }
@@ -432,7 +432,7 @@ static void take_marks(plot_run *run, const char *at) {
     }
 }
 
-/* "NAME" = "TEXT" of a table. */
+/* Takes a line "NAME" = "TEXT" of a table, of units or of descriptions. */
 static void take_text(plot_run *run, const char *line, bool units) {
     char *name = string_at(&line);
     line += strspn(line, " =");
@@ -550,7 +550,7 @@ static void name_columns(plot_run *run, char *line) {
     }
 }
 
-/* An empty cell, or a missing one at the end, is an unknown value. */
+/* Reads the rows. An empty cell, or a missing one at a row's end, becomes NaN. */
 static bool take_rows(const char *csv, FILE *from, char **line, size_t *size, plot_run *run) {
     int64_t most = 0;
     while (next_line(from, line, size)) {
@@ -635,7 +635,7 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run) {
 #define AXIS_MOST 26
 #define TEXT_MOST 60
 
-/* Height of a panel with a one-line legend, and of each further line, in pixels; widths of a legend and its samples. */
+/* In pixels: height of a panel with a one-line legend, height of a further line, width of a legend, width of a sample. */
 enum { PANEL_HEIGHT = 260, KEY_LINE = 21, KEY_WIDTH = 760, KEY_SAMPLE = 60 };
 #define KEY_LETTER 8.5
 
@@ -670,7 +670,7 @@ static void write_axis(FILE *to, const char *axis, const char *name, const char 
 /* A curve counts as flat if its range is below this part of its size: the tics could not show the range. */
 #define FLAT 1e-10
 
-/* The range of an axis with one value or no value, which would cause warnings or errors in gnuplot. */
+/* Sets the range of an axis. For one value or no value, gnuplot's own range would cause warnings or errors. */
 static void write_range(FILE *to, const char *axis, double least, double most) {
     if (!(least <= most)) {
         fprintf(to, "set %srange [-1:1]\n", axis);
@@ -808,7 +808,7 @@ static int key_lines(const panels *p, const plot_run *runs, int panel, bool time
     return (entries + columns - 1) / columns;
 }
 
-/* Entries of the first panel's legend other than curves. */
+/* Writes the entries of the first panel's legend for the shade and for events. */
 static void write_signs(FILE *to, const plot_run *runs, int count) {
     char *trusted = trust_sign(runs, count);
     if (trusted[0] != '\0') {
@@ -823,7 +823,7 @@ static void write_signs(FILE *to, const plot_run *runs, int count) {
     }
 }
 
-/* Label the y axis with this text, which is freed, or with the quantities' names and unit. */
+/* Writes a panel. `ylabel`, which is freed, is its label; NULL: the quantities' names and unit. */
 static void write_panel(FILE *to, const panels *p, const plot_run *runs, int panel, bool time,
                         char *ylabel) {
     extent e = nothing;
@@ -871,7 +871,7 @@ void plot_shade(FILE *to, double from_s) {
             from_s);
 }
 
-/* The shade after the least trusted time in every panel, and a cross on each axis for an event. */
+/* Writes for every panel the shade after the shortest trusted time, and a cross on the time axis for each event. */
 static void write_times(FILE *to, const plot_run *runs, int count) {
     const double trusted_s = first_trusted_s(runs, count);
     if (trusted_s > 0.0) {

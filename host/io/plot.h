@@ -84,7 +84,7 @@ typedef struct panels {
     int quantities;
     const char *unit[PANELS_MOST]; /* NULL: unknown */
     int count;
-    int *x; /* [runs] column */
+    int *x; /* [runs] column of the x axis */
     const char *x_unit;
     char *x_name;
     char *label[PANELS_QUANTITIES]; /* labels of the runs */

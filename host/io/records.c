@@ -148,7 +148,7 @@ void records_read(records *r, void *run, double time_s) {
 
 static bool write_row(const records *r, FILE *out, const layout *l) {
     for (int i = 0; i < r->columns; i++) {
-        /* the time is a whole number of steps, and has as many digits as it needs */
+        /* 15 digits for the time, because it is exact in every number type */
         if (i == 0) {
             fprintf(out, "%.15g", r->row[i]);
         } else {
@@ -169,7 +169,7 @@ bool records_write(const records *r) {
 
 /* Most units of time in a dump. Doubles represent all whole numbers up to twice this. */
 #define TICKS_MOST 0x1p52
-/* Least units of time in a step in which events are located. */
+/* Fewest units of time in a step of a scene with contacts, so that events within a step differ in time. */
 #define TICKS_LEAST 1000.0
 /* Largest numerator of a ratio. */
 #define NUMERATOR_MOST ((uint64_t)1 << 60)
@@ -178,7 +178,7 @@ struct traces {
     const records *form;
     vcd *vcd;
     FILE *out;
-    whole_ratio step; /* the step in units */
+    whole_ratio step; /* the step, in units of the dump's time */
     double units_per_s;
     int *signal;   /* [columns] signal of each column; the time has none */
     int *mode_of;  /* [contacts] wire of a contact */
@@ -191,7 +191,7 @@ struct traces {
 /* The step in units of 10^-power s; false if a ratio cannot represent it. */
 static bool step_in_units(whole_ratio step, int power, whole_ratio *in_units) {
     *in_units = step;
-    for (int k = 0; k < power; k++) { /* ten is two fives */
+    for (int k = 0; k < power; k++) { /* multiply by 10 = 2 * 5 */
         static const uint64_t primes[] = {2, 5};
         for (int i = 0; i < 2; i++) {
             if (in_units->denominator % primes[i] == 0) {
@@ -335,7 +335,7 @@ traces *traces_open(FILE *out, const records *form, uint64_t every) {
 
 /* --- events ------------------------------------------------------------------------------------------------------ */
 
-/* The value of the wire of a contact in this mode. */
+/* The value of a contact's wire when the contact is in this mode. */
 static double shown_mode(int kind, int mode) {
     switch ((wh_contact_kind)kind) {
     case WH_STOP:

@@ -28,7 +28,7 @@ typedef struct change {
 struct vcd {
     FILE *out;
     int digits;
-    int scopes; /* open */
+    int scopes; /* number of open scopes */
     vcd_signal *signal;
     int64_t signals;
     bool begun;
@@ -65,7 +65,7 @@ static void write_name(FILE *out, const char *name) {
     free(copy);
 }
 
-/* Writes a comment, in which the comment's end mark is removed. */
+/* Writes a comment. A blank breaks "$end" in its text, which would end the comment. */
 static void write_comment(FILE *out, const char *text) {
     fputs("$comment ", out);
     for (const char *at = text; *at != '\0'; at++) {
@@ -86,7 +86,7 @@ static void open_scope(vcd *v, const char *scope) {
 
 vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digits) {
     static const char *const unit[] = {"s", "ms", "us", "ns", "ps", "fs"};
-    static const char *const number[] = {"1", "100", "10"}; /* tenths are 100 of the next unit */
+    static const char *const number[] = {"1", "100", "10"}; /* 0.1 s is 100 ms */
     vcd *v = alloc(1, sizeof *v);
     v->out = out;
     v->digits = digits;
@@ -201,7 +201,7 @@ void vcd_change(vcd *v, int signal, int64_t time, double value) {
     v->last = time > v->last ? time : v->last;
 }
 
-/* Write pending changes up to this time. */
+/* Writes the pending changes up to this time. */
 static void write_until(vcd *v, int64_t time) {
     begin(v);
     int64_t done = 0;

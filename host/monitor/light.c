@@ -37,7 +37,7 @@ const char *light_end(const char *from, const char *end) {
     return at != NULL ? at + 1 : NULL;
 }
 
-/* The text without a terminal's carriage returns; false: too long. */
+/* Stores the text without carriage returns before line feeds. Returns false if it is too long. */
 static bool keep_text(light *l, const char *from, const char *end) {
     l->length = 0;
     for (; from < end; from++) {
@@ -57,7 +57,7 @@ static bool keep_text(light *l, const char *from, const char *end) {
     return true;
 }
 
-/* The lines must be the fields, in order, in printable characters. */
+/* Finds the fields' values. Returns false unless the lines are the fields, in order, in printable characters. */
 static bool split(light *l, size_t body) {
     memcpy(l->lines, l->text, l->length + 1);
     char *at = l->lines + BEGIN + 1;

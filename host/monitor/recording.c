@@ -83,7 +83,7 @@ static const char *read_field(schema_field *field, const char *at) {
     return at;
 }
 
-/* Fields between commas, up to a blank, a colon before words, or the end. -1: unreadable. */
+/* Reads fields, separated by commas, up to a blank, a colon or the end. Returns their number; -1: unreadable. */
 static int read_fields(schema_field *fields, const char *at) {
     int count = 0;
     if (at == NULL) {
@@ -140,7 +140,7 @@ static bool take_states(schema *s, const char *line) {
     return true;
 }
 
-/* Another rate changes the period. */
+/* Takes an answer about the rate, which has the new period of the first channel. */
 static bool take_rate(schema *s, const char *line) {
     uint32_t period_ticks = 0;
     if (!s->channel[0].known ||
@@ -161,7 +161,7 @@ bool schema_take(schema *s, const char *line) {
     return strncmp(line, "OK 0=", 5) == 0 && take_states(s, line);
 }
 
-/* The value at bytes[field->size]; false if it has no value. */
+/* Reads a field's value from bytes[field->size]. Returns false for the number that means "no value". */
 static bool schema_value(const schema_field *field, const uint8_t *bytes, double *value) {
     uint32_t raw = 0;
     for (unsigned i = 0; i < field->size; i++) {
@@ -211,7 +211,7 @@ static int64_t time_of(recording *r, uint32_t ticks) {
     return r->time_us + (int32_t)(ticks - r->ticks);
 }
 
-/* Store the latest ticks: other ticks are unwrapped near them. */
+/* Stores the latest ticks: time_of() counts other ticks from them. */
 static void go_on(recording *r, uint32_t ticks) {
     r->time_us = time_of(r, ticks);
     r->ticks = ticks;
@@ -220,7 +220,7 @@ static void go_on(recording *r, uint32_t ticks) {
 void recording_anew(recording *r) {
     r->counts.restarts += r->timed;
     r->time_us = r->expects ? r->expected_us : r->time_us;
-    r->timed = false; /* the next ticks belong to this time */
+    r->timed = false; /* the ticks of the next frame will belong to r->time_us */
     memset(r->channel, 0, sizeof r->channel);
     r->expects = false;
     r->ends = r->high[0] = r->high[1] = false; /* another program may have started */
@@ -253,7 +253,7 @@ static void put_number(FILE *to, bool there, double value) {
     }
 }
 
-/* Writes names and signals when they are known. */
+/* Writes the names of the columns and signals, once. */
 static void head(recording *r, const schema_channel *c) {
     if (r->headed) {
         return;
@@ -286,7 +286,7 @@ static void head(recording *r, const schema_channel *c) {
     }
 }
 
-/* Keep every second sample, of stored and of future ones. */
+/* Keeps every second one of the stored samples, and of the future ones. */
 static void thin_out(recording *r) {
     const size_t row = (size_t)r->columns;
     for (int64_t i = 0; i < r->rows / 2; i++) {
@@ -463,7 +463,7 @@ bool recording_plot(const recording *r, const schema *s, const char *file) {
         const schema_field *field = i < c->eaches ? &c->each[i] : &c->once[i - c->eaches];
         snprintf(names[i], sizeof names[i], "%s", field->name);
         char *unit = strchr(names[i], '[');
-        column[i + 1] = (plot_column){"der()", NULL, ""}; /* a state has no curve */
+        column[i + 1] = (plot_column){"der()", NULL, ""}; /* without a unit: no curve */
         if (unit != NULL) {
             unit[-1] = '\0';
             unit[strlen(unit) - 1U] = '\0';

@@ -47,8 +47,8 @@ static wire_event end_chunk(wire *w) {
     return WIRE_FRAME;
 }
 
-/* Adds a byte. The second byte after a zero decides whether the first began a frame: no frame begins with a line
- * feed. */
+/* Adds a byte. The second byte after a zero decides if both belong to a frame: there it is at least 0x80, in text it is
+ * less. */
 static wire_event add(wire *w, uint8_t byte) {
     if (!w->is_frame && w->length == 1U) {
         w->is_frame = byte >= 0x80U;
@@ -101,7 +101,7 @@ void wire_forget(wire *w) {
  * before it may be answers to another program's questions. */
 static const struct {
     const char *words;
-    const char *answer; /* begin of the answer */
+    const char *answer; /* beginning of the answer */
 } questions[] = {{"id", "OK program="},
                  {"talk off", "OK"},
                  {"tel list", "OK rate="},
@@ -126,7 +126,7 @@ const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]) {
     return line;
 }
 
-/* A bare OK must be the whole line. */
+/* Does the line begin with the answer? A bare OK must be the whole line. */
 static bool begins(const char *line, const char *answer) {
     return strcmp(answer, "OK") == 0 ? strcmp(line, answer) == 0
                                      : strncmp(line, answer, strlen(answer)) == 0;

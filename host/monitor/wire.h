@@ -45,7 +45,7 @@ void wire_forget(wire *w);
 
 enum { DIALOGUE_LINE = 48, DIALOGUE_REFUSAL = 160 };
 
-/* After this number of answers: the rig is present; was_off is known; earlier telemetry has ended. */
+/* Answers after which the rig is present (MET), was_off is known (LISTED), earlier telemetry has ended (OFF). */
 enum { DIALOGUE_MET = 1, DIALOGUE_LISTED = 3, DIALOGUE_OFF = 4 };
 
 /* All zeros except `rate`: no question was asked yet. */

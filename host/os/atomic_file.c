@@ -35,7 +35,7 @@ static bool can_be_replaced(const char *name, struct stat *there) {
     return S_ISREG(there->st_mode) && there->st_nlink == 1 && access(name, W_OK) == 0;
 }
 
-/* `in_place`: the mode for a file that cannot be replaced. */
+/* `in_place`: fopen()'s mode for a file that cannot be replaced. */
 static FILE *open_part(const char *name, const char *in_place) {
     struct stat there;
     if (!can_be_replaced(name, &there)) {
@@ -63,7 +63,7 @@ static FILE *open_as(const char *name, const char *in_place) {
 
 FILE *atomic_file_open(const char *name) { return open_as(name, "wb"); }
 
-/* Is this the open file's name? */
+/* Does `name` name the open file? */
 static bool is_at(FILE *file, const char *name) {
     struct stat one;
     struct stat other;

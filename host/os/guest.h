@@ -1,6 +1,6 @@
 /* guest.h: the process that runs a firmware image, and the line to it. Two pipes are the guest's descriptors
  * HAL_LINK_DOWN and HAL_LINK_UP (hal/link.h). They have no name, so opening them cannot block, and they leave no file.
- * The guest dies with this process, however that ends. A guest that does not exit after the line is closed is killed. */
+ * On Linux, the guest is killed when this process ends. A guest that does not exit after the line is closed is killed. */
 #ifndef OS_GUEST_H
 #define OS_GUEST_H
 

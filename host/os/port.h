@@ -30,7 +30,7 @@ void port_say_unopened(const char *name, const char *hint);
 void port_close(port *p);
 
 /* Read at most `room` bytes, after waiting at most wait_ms for them. If `typed` is not NULL, a line on standard input
- * also ends the wait; *typed tells so. Returns the number of bytes, 0 for none yet, -1 if the peer is gone, the file
+ * also ends the wait, and *typed is true. Returns the number of bytes, 0 for none yet, -1 if the peer is gone, the file
  * has ended or the read failed (failed). */
 int port_read(port *p, uint8_t *bytes, size_t room, int wait_ms, bool *typed);
 

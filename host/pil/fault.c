@@ -14,7 +14,7 @@
 
 /* === faults of readings ======================================================================= */
 
-/* A new random number from 0 to below 1. */
+/* The next random number, at least 0 and below 1. */
 static double fault_draw(const fault_plan *plan, fault_case *f) {
     uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
     hash = wh_hash_u64(hash, (uint64_t)(f - plan->fault));
@@ -35,7 +35,7 @@ static bool is_of(const fault_case *f, unsigned channel) {
 
 /* --- edges ---------------------------------------------------------------------------------------------------*/
 
-/* Insert by time, the order of a timer; dropped if there is no space. */
+/* Inserts the edge in order of the time stamps, as a timer reports edges; drops it if there is no space. */
 static void add_edge(wh_readings *r, wh_edge edge) {
     if (r->edges == WH_EDGES_MAX) {
         return;
@@ -57,7 +57,7 @@ static uint32_t ticks_of(const fault_plan *plan, double time_s) {
     return (uint32_t)(int64_t)number_floor(time_s * plan->ticks_per_s);
 }
 
-/* Change one pulse. False: it is lost. */
+/* Changes one pulse. Returns false if the pulse is lost or comes later. */
 static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_edge *edge) {
     if (f->kind == FAULT_EDGE_DEAD) {
         return false;
@@ -82,7 +82,7 @@ static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_
     return true;
 }
 
-/* False pulses since the last readings. */
+/* Adds the false pulses since the last readings. */
 static void invent_edges(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const bool storm = f->kind == FAULT_EDGE_STORM;
     const uint32_t now_ticks = plant_ticks(plan->plant);
@@ -223,12 +223,12 @@ static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_re
 
 /* === when faults begin and end ================================================================ */
 
-/* The scene's input of a fault, and the change of its normal value. */
+/* The inputs of the scene that a fault changes, and the change. */
 static const struct {
     fault_kind kind;
     const char *input;
     bool times;   /* the input's value is multiplied by the size; else it is replaced */
-    double value; /* the replacing value; 0: the size */
+    double value; /* the value that replaces it; 0: the fault's size */
 } inputs[] = {
     {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
     {FAULT_CELL_GAIN, "cell_gain", true, 0.0},
@@ -270,7 +270,7 @@ static bool find_inputs(const fault_case *f, const image *im) {
     return true;
 }
 
-/* Notes follow the outputs, in their order. */
+/* Finds the fault's note in orders.output[], where the notes follow the outputs. */
 static bool find_note(fault_case *f, const wh_hello *hello) {
     int at = 0;
     for (unsigned i = 0; i < hello->signals; i++) {
@@ -319,7 +319,7 @@ static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken)
     }
 }
 
-/* Sensor positions: degrees for an angle, else SI. */
+/* Changes sensor positions or jitter. The size of a position is in degrees for an angle, else in SI. */
 static void set_sensors(const fault_plan *plan, const fault_case *f, bool broken) {
     plant *p = plan->plant;
     if (f->kind == FAULT_EDGE_JITTER) {
@@ -357,7 +357,7 @@ static double due_ticks(const fault_plan *plan, const fault_case *f) {
     return (f->begin_s + f->after_s) * plan->ticks_per_s;
 }
 
-/* After a reset, delayed readings are lost, outputs are 0, and the request for the reset is finished. */
+/* After a reset, delayed readings are lost, outputs are 0, and the fault that caused the reset has happened. */
 static void see_reset(fault_plan *plan) {
     const double then_ticks = plan->plant->reset.last_ticks;
     plan->last = (wh_orders){.outputs = plan->last.outputs};
@@ -542,7 +542,7 @@ static bool read_number(words_of_fault *w, double *number) {
     return good;
 }
 
-/* 20us, 1.5ms, 0.2s, or 0.2. */
+/* Reads a time, such as 20us, 1.5ms, 0.2s, or 0.2 for seconds. */
 static bool read_time(words_of_fault *w, double *time_s) {
     static const struct {
         const char *word;

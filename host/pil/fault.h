@@ -16,7 +16,7 @@ typedef enum fault_place {
     FAULT_SAMPLES,
     FAULT_INPUT,  /* an input of the scene, with the name in fault.c */
     FAULT_ORDERS, /* the orders, and their computing time */
-    FAULT_LINE,   /* losses on the line */
+    FAULT_LINE,   /* messages lost on the line */
     FAULT_PARAMETER, /* a parameter of the scene, for the whole run: the loader calls fault_parameter() */
     FAULT_SENSORS,  /* edge positions, and their jitter */
     FAULT_PROCESSOR /* the processor restarts */
@@ -138,13 +138,13 @@ typedef struct fault_case {
     int note_at;    /* index of the note in orders.output */
     int input;      /* index of the scene's input; for FAULT_STUCK the first of two */
     double healthy; /* the input's normal value, or a sensor's requested one */
-    bool reached;   /* the note has reached its value, */
+    bool reached;   /* the note has reached its value, or there is no note */
     bool active;
     bool happened; /* the fault was active at least once */
     double begin_s;
     uint64_t draws;
-    uint32_t left; /* pulses */
-    double next_s; /* time of the next one */
+    uint32_t left; /* pulses still to be lost or added */
+    double next_s; /* time of the next false pulse */
     bool holds;    /* has stored the last good sample */
     wh_sample held;
     unsigned pending_count;
@@ -172,7 +172,5 @@ char *fault_parameter(const fault_plan *plan, unsigned i);
 tap fault_tap(fault_plan *plan);
 
 void fault_print_kinds(FILE *out);
-
-/* --- between the files of faults --------------------------------------------------------------------------------*/
 
 #endif

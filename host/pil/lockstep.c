@@ -34,7 +34,7 @@ static void say_silent(const talk *t) {
                                    : "an endless loop, or a read without an answer");
 }
 
-/* Ctrl-C reaches all processes in the terminal, and the firmware may end first. */
+/* If the user interrupts, the firmware may end before Whirl notices the interrupt. */
 static lockstep_end when_ended(void) { return interrupted ? LOCKSTEP_STOPPED : LOCKSTEP_DONE; }
 
 static bool hear_frame(talk *t, wh_frame *frame) {
@@ -108,8 +108,8 @@ static bool take_end(talk *t, const wh_frame *frame) {
     return false;
 }
 
-/* The next frame other than remembered data. After repeated requests, a firmware sends its hello several times before
- * its first orders. */
+/* The next frame other than remembered data. It skips repeated hellos, which a firmware sends before its first
+ * orders if it was asked repeatedly. */
 static bool hear_past_remembered(talk *t, wh_frame *frame) {
     while (hear_frame(t, frame)) {
         if (frame->kind == WH_FRAME_END) {
@@ -349,7 +349,7 @@ void talk_end(talk *t) {
 
 /* === turns ==================================================================================== */
 
-/* Most exchanges at the same time. A firmware that catches up on missed periods may have several. */
+/* Most exchanges without an advance of the plant's time. A firmware that catches up on missed periods has several. */
 #define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
@@ -367,7 +367,7 @@ typedef struct loop {
     binding binding;
     lockstep_report *report;
     double ticks_per_s;
-    double per_count; /* instructions */
+    double per_count; /* instructions in a tick of the firmware's timer; 0: not counted */
     bool watched;
     unsigned standing; /* exchanges since the plant's time last advanced */
 } loop;
@@ -427,7 +427,7 @@ static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     return wanted;
 }
 
-/* Advance in pieces, so that an interrupt is noticed on long ways; never past the end. */
+/* Advances the plant, at most to the run's end. It does so in pieces, so that an interrupt is noticed soon. */
 static bool advance(loop *l, double until_ticks) {
     const lockstep_wish *wish = l->talk.wish;
     const double most = wish->until_s * l->ticks_per_s;
@@ -584,8 +584,8 @@ static bool has_places(const loop *l, unsigned places) {
     return has;
 }
 
-/* Delayed readings are queued meanwhile. If they do not fit into a queue, the plant would lose them, and the firmware
- * would starve. */
+/* Does the plant's queue have room for the samples of one delay? Otherwise the plant would lose samples, and the
+ * firmware would wait for them. */
 static bool has_room(const loop *l, double delay_s) {
     double most = 0.0;
     for (unsigned i = 0; i < l->binding.count; i++) {

@@ -46,7 +46,7 @@ uint64_t talk_hash(uint64_t hash, const wh_orders *orders);
 /* Mix the remembered data into the hash. */
 uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count);
 
-/* Equal in all that matters to the exchange; the sender and its counting do not. */
+/* Are program, ticks and signals equal? The timer that counts instructions may differ. */
 bool talk_is_same_hello(const wh_hello *one, const wh_hello *other);
 
 /* If the firmware's timer counts instructions, the number of instructions in a tick; else 0. */

@@ -106,7 +106,7 @@ static void rename_signal(const char *renames, const char *name, char *other) {
     }
 }
 
-/* Are the values of the smallest and largest count within the range of a sample? */
+/* Do both ends of the signal's range, in counts, fit into the 32 bits of a sample? */
 static bool fits_counts(const wh_signal *s) {
     return (double)s->low / (double)s->per_count >= (double)INT32_MIN &&
            (double)s->high / (double)s->per_count <= (double)INT32_MAX;
@@ -345,7 +345,7 @@ double plant_now(const plant *p) { return (double)p->steps * p->step_ticks; }
 
 bool plant_has_reached(const plant *p, double ticks) { return plant_now(p) + NEARLY >= ticks; }
 
-/* A timer has whole ticks, and wraps. */
+/* The reading of the controller's timer, which has whole ticks and wraps. */
 static uint32_t shown(const plant *p, double ticks) {
     return p->start_ticks + (uint32_t)(uint64_t)number_floor(ticks + NEARLY);
 }
@@ -406,7 +406,7 @@ static void watch(plant *p) {
 
 /* --- a reset of the controller ----------------------------------------------------------------------------*/
 
-/* True while the processor is in reset. Orders that wait then never take effect. */
+/* Begins a reset that is due, and returns true if it did. Orders that still wait then never take effect. */
 static bool is_reset(plant *p) {
     if (!p->reset.now && plant_has_reached(p, p->reset.at_ticks)) {
         p->reset.now = true;
@@ -472,7 +472,7 @@ static double at_part(const span_of_step *s, double part) {
     return s->from + ((a * part + b) * part + s->slope_from) * part;
 }
 
-/* The position where the cubic meets `level`, which is between its ends: bisection to a double's last bits. */
+/* The part of the step after which the cubic meets `level`, by bisection. The level lies between the cubic's ends. */
 static double part_at(const span_of_step *s, double level) {
     double low = 0.0;
     double high = 1.0;
@@ -486,8 +486,8 @@ static double part_at(const span_of_step *s, double level) {
     return high;
 }
 
-/* The level that the step crosses on its way into the range: upwards at its lower end, downwards at the upper. For an
- * angle, the level in the present turn. */
+/* Does the step enter the range of an edge? *level: the range's lower end for a rising quantity, else its upper end. For
+ * an angle, it is the next such level in the direction of motion. */
 static bool enters(const span_of_step *s, const bound *b, double off, double *level) {
     const bool up = s->to > s->from;
     *level = (double)(up ? b->signal.low : b->signal.high) + off;

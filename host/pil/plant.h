@@ -1,8 +1,8 @@
 /* plant.h: a scene as a controller's hardware: the scene runs in double, surrounded by sensors. Time is in ticks of the
  * controller's timer since the plant's start. The scene has its own, finer steps. An edge is located within a step, on
- * the cubic through its ends, if the two ends are on different sides of the level. The cubic alone cannot distinguish a
- * turn within the step from a stop or an impact. A sample is taken at the first end of a step at or after its instant.
- * Changes of outputs take effect at ends of steps, too. */
+ * the cubic through its ends, if the two ends are on different sides of the level. If the quantity crosses
+ * the level and returns within the step, there is no edge: the cubic cannot distinguish that from an impact. A sample is
+ * taken at the first end of a step at or after its instant. Changes of outputs take effect at ends of steps, too. */
 #ifndef PIL_PLANT_H
 #define PIL_PLANT_H
 
@@ -85,7 +85,7 @@ typedef struct plant_queue {
 
 /* Resets of the controller's processor: its pins float, and the plant's inputs are 0. */
 typedef struct plant_resets {
-    double at_ticks;    /* time of a reset, at the first step at or after; infinite: no reset */
+    double at_ticks;    /* a reset begins at the first step end from this time on */
     double takes_ticks; /* length of a reset */
     bool by_watchdog; /* a starved watchdog resets the processor, instead of cutting the outputs */
     double watchdog_ticks; /* the watchdog's timeout */
@@ -93,7 +93,7 @@ typedef struct plant_resets {
     bool now;
     bool starved; /* the watchdog caused it */
     unsigned count;
-    double last_ticks; /* time of the last one */
+    double last_ticks; /* time of the last reset */
 } plant_resets;
 
 typedef struct plant {
@@ -116,7 +116,7 @@ typedef struct plant {
     wh_orders orders;                /* the last orders */
     bool waits;                      /* the last orders have not taken effect yet */
     double act_ticks;                /* time when they take effect */
-    uint64_t alive_ticks;            /* last kick of the watchdog */
+    uint64_t alive_ticks;            /* time of the watchdog's last kick */
     bool cut;                        /* the watchdog has cut the outputs */
     double cut_ticks;                /* time of the cut */
     plant_resets reset;

@@ -8,8 +8,8 @@
 #include "host/pil/plant.h"
 
 /* The interface for faults (fault.h) and observers, which may read and change messages. Its functions are called before
- * the first message, after each message of the firmware, and before each message to the firmware. The answer to a
- * message may take *late_s longer. A tape has the messages as the firmware received and sent them. NULL: no call. */
+ * the first message, after each message of the firmware, and before each message to the firmware. orders() may add
+ * *late_s to the time of the answer. A tape has the messages as the firmware received and sent them. NULL: no call. */
 typedef struct tap {
     const char *name;
     void *of;
@@ -33,8 +33,8 @@ typedef struct lockstep_wish {
 } lockstep_wish;
 
 typedef enum lockstep_end {
-    LOCKSTEP_DONE,      /* the firmware ended: status */
-    LOCKSTEP_LET_GO,    /* until_s, or the end of the tape */
+    LOCKSTEP_DONE,      /* the firmware ended, with `status` */
+    LOCKSTEP_LET_GO,    /* the run reached until_s, or the tape its end */
     LOCKSTEP_BAD,       /* the settings are impossible: reported */
     LOCKSTEP_FAILED,    /* reported */
     LOCKSTEP_DIFFERENT, /* the orders differ from the tape's: reported */

@@ -29,7 +29,7 @@ typedef struct taped {
     double before_s; /* time of the last reset */
     bool failed;     /* unreadable or broken: reported */
     wh_frame_reader reader;
-    bool endless; /* a frame is missing */
+    bool endless; /* more bytes than the longest frame has came without a frame */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     uint8_t words[GUEST_LINE_BYTES]; /* strings of the hello */
 } taped;
@@ -203,7 +203,7 @@ typedef struct rows {
     FILE *out;
     int decimals; /* decimals of a time, which resolve one tick */
     uint32_t ticks;
-    uint64_t heard;              /* ticks since the plant's time 0 */
+    uint64_t heard;              /* time of the present message: ticks since the plant's time 0 */
     bool cut;                    /* a row has reported the cut */
     bool told;                   /* outputs and notes have rows, with the values in value[] */
     float value[WH_SIGNALS_MAX]; /* values by channel, the notes after the outputs */
@@ -215,7 +215,7 @@ static const wh_signal *signal_of(const taped *t, wh_signal_kind kind, unsigned 
             return &t->signal[i];
         }
     }
-    return NULL; /* taped_next() has checked all of them */
+    return NULL; /* does not happen: taped_next() has checked the channels */
 }
 
 static void print_time(const rows *r, int64_t ticks) {

@@ -11,7 +11,7 @@
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 
-/* A name is shorter than a sum, a product or a function, but not than a symbol, a number or a sine among factors. */
+/* Is a name shorter than p? Not if p is a number, a symbol or its power, or a term with a sine or a cosine. */
 static bool shortens(const poly *p) {
     double number;
     const mono *m = p->count == 1 ? p->terms[0].mono : NULL;
@@ -53,7 +53,7 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* The let that equals *ratio times a part of p (`whole`: all of p), and *rest of p without it; or NULL. */
+/* The let that, times *ratio, equals a part of p (`whole`: all of p), and *rest, p without that part; or NULL. */
 static const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest,
                               double *ratio) {
     let_row *best = NULL;
@@ -268,7 +268,7 @@ static bool is_primary(const poly *p) {
            (m->factors[0].atom->kind == ATOM_SYMBOL || m->factors[0].atom->kind == ATOM_CALL);
 }
 
-/* base^exponent, both expressions. In text `^` binds from the right: other than primaries, both sides get parentheses.
+/* Prints base^exponent. In text, a side that is not primary gets parentheses, because `^` binds from the right.
  * LaTeX allows one superscript on a base: braces enclose those of primes and dots. */
 static void show_power(const show *s, const poly *base, const poly *exponent) {
     const bool latex = s->style == SHOW_LATEX;
@@ -454,7 +454,7 @@ static void show_sign(const show *s, bool negative, bool first) {
     }
 }
 
-/* The powers of a sine and a cosine common to all terms; without an angle: no such factor. */
+/* The powers of the sine and cosine of one angle that all terms have in common; angle NULL: none. */
 typedef struct wave {
     const poly *angle;
     int sines;
@@ -492,7 +492,7 @@ static void show_named(const show *s, const symbol *let, double ratio, bool lead
     show_symbol(s, let, 0);
 }
 
-/* The terms of p, without their common factor. */
+/* Prints the terms of p, without the common factor `without`. */
 static void show_sum(const show *s, const poly *p, wave without, bool leading) {
     double ratio;
     const poly *rest;
@@ -516,7 +516,7 @@ static void show_sum(const show *s, const poly *p, wave without, bool leading) {
     free(pieces);
 }
 
-/* A number of which all coefficients are small whole multiples, or 1. */
+/* A number of which all coefficients are small whole multiples; 1 if there is none. */
 static double common_multiple(const piece *pieces, int count) {
     double smallest = (double)INFINITY;
     for (int i = 0; i < count; i++) {
@@ -601,7 +601,7 @@ static const atom *shared_parameter(const poly *p) {
     return best;
 }
 
-/* Has p only powers of symbols above the fraction bar? Such a sum can be split repeatedly. */
+/* Has p a shared parameter, and only symbols above the fraction bar? Such a sum can be split repeatedly. */
 static bool has_symbols_only(const poly *p) {
     bool only = true;
     for (int i = 0; i < p->count; i++) {
@@ -615,7 +615,7 @@ static bool has_symbols_only(const poly *p) {
 
 static void show_group(const show *s, const poly *p, const poly *key, bool leading);
 
-/* A sum without rates and without a common factor: K1*(X - L1) + K2*(...). */
+/* Prints a sum without rates and without a common factor, such as K1*(X - L1) + K2*(...). */
 static void show_parted(const show *s, const poly *p, bool leading) {
     double ratio;
     const poly *rest;
@@ -656,7 +656,7 @@ static void show_parted(const show *s, const poly *p, bool leading) {
              leading); /* every term has it, in powers of different signs */
 }
 
-/* * key, omitted if it is one. */
+/* Prints "*key", or nothing if the key is 1. */
 static void show_behind(const show *s, const poly *key) {
     if (key->terms[0].mono->count > 0) {
         bool first = false;
@@ -666,7 +666,7 @@ static void show_behind(const show *s, const poly *key) {
     }
 }
 
-/* sign and size * common * (inside) * key / below; a part equal to one is omitted. */
+/* Prints p * key as +-number*common*(inside)*key/below, without parts that are 1. */
 static void show_group(const show *s, const poly *p, const poly *key, bool leading) {
     algebra *a = s->algebra;
     double ratio;
@@ -756,7 +756,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     }
 }
 
-/* The rates and accelerations of a term, by which its coefficient is collected. */
+/* The product of a term's rates and accelerations, by which terms are collected; *highest: its most primes. */
 static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     const poly *key = poly_number(a, 1.0);
     *highest = 0;

@@ -23,7 +23,7 @@ typedef struct show {
 } show;
 typedef struct show_lets show_lets;
 
-/* A row of LaTeX, "LEFT &= RIGHT", to be broken into lines of at most 100 visible characters. */
+/* A row of LaTeX, "LEFT &= RIGHT", to be broken into lines that fit a page. */
 typedef struct show_row {
     FILE *out;
     char *text;
@@ -50,8 +50,8 @@ const poly *show_common(algebra *a, const poly *p);
 
 /* === one product for readers ================================================================== */
 
-/* A common factor of these coefficients: its top and bottom divide those of all fractions. If `whole`, the coefficients
- * divided by it are whole numbers. */
+/* A common factor of these coefficients: its numerator divides all their numerators, its denominator all their
+ * denominators. If `whole`, the coefficients divided by the factor are whole numbers. */
 double show_common_number(const piece *pieces, int count, bool whole);
 void show_number(const show *s, double value);
 /* The sign between two factors, unless this is the first. */

@@ -53,7 +53,7 @@ static int larger(int a, int b) { return a > b ? a : b; }
 
 static int width_of(span s);
 
-/* The widest row of an aligned. */
+/* The width of the widest row of amsmath's aligned. */
 static int width_of_rows(span s) {
     int widest = 0;
     int depth = 0;
@@ -69,7 +69,7 @@ static int width_of_rows(span s) {
     return larger(widest, width_of((span){row, s.end}));
 }
 
-/* A command and its arguments; *s advances past them. */
+/* The width of the command at *s, which advances past it; for \frac and aligned, with their contents. */
 static int width_of_command(span *s) {
     static const char aligned[] = "\\begin{aligned}";
     static const char behind[] = "\\end{aligned}";
@@ -92,7 +92,7 @@ static int width_of_command(span *s) {
         length++;
     }
     const span of = {name, name + length};
-    if (length == 0) { /* a thin space, an underscore */
+    if (length == 0) { /* such as a thin space or an underscore */
         const int width = *name == ',' ? 2 : 5;
         s->from = name + 1;
         return width;
@@ -148,8 +148,8 @@ static int width_of(span s) {
     return width;
 }
 
-/* The beginning of the next term at depth 0: its sign, or with `factors` the end of the sign between two factors; s.end
- * if there is none. */
+/* The next sign outside brackets: a plus or minus, or with `factors` the sign between two factors; s.end if there is
+ * none. */
 static const char *next_break(span s, bool factors) {
     int depth = 0;
     for (span at = {s.from, s.end}; at.from < s.end; at.from++) {
@@ -239,7 +239,7 @@ static char *rows_of(span s, int limit, bool factors) {
     return text;
 }
 
-/* s within the limit: as one line, or as rows of an aligned. */
+/* The text of s within the limit: one line, or rows of amsmath's aligned. */
 static char *broken(span s, int limit) {
     if (width_of(s) <= limit) {
         return alloc_copy(s.from, (size_t)(s.end - s.from));
@@ -459,7 +459,7 @@ static const poly *force_of_kind(const equations *e, term_kind kind, int i) {
     return sum;
 }
 
-/* A row: the words around a symbol, then a formula. `end` follows the row. */
+/* Writes a row: `before`, the symbol `of`, `behind`, then the formula `value`. `end` follows the row. */
 static void write_row(const show *s, const char *before, const symbol *of, int primes,
                       const char *behind, const poly *value, const char *end) {
     show_row row;
@@ -546,7 +546,7 @@ static void write_left_side(const show *s, const equations *e, int i) {
         show_poly(s, sum);
         return;
     }
-    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]); /* products impossible: A q'' +
+    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]); /* after an overflow: A q'' +
                                                                       * rest */
     bool leading = true;
     for (int j = 0; j < e->count; j++) {
@@ -640,8 +640,8 @@ static bool is_numbered(const char *name, const char *letter) {
            strspn(name + length, "0123456789") == strlen(name + length);
 }
 
-/* The first of the letters, ended by NULL, that no symbol of the mechanism uses with a number, so that y1 is unique; or
- * the last. */
+/* The first of `letters` (NULL ends the list) with which no name such as y1 of the mechanism begins; the last one if all
+ * are taken. */
 static const char *free_letter(const mechanism *m, const char *const *letters) {
     for (; letters[1] != NULL; letters++) {
         bool taken = false;
@@ -799,7 +799,7 @@ static void write_first_order(const show *s, const equations *e) {
         write_highest(s, e, i);
     }
     fprintf(s->out, "):\n\n");
-    const char *between = e->count > 9 ? "," : ""; /* A12, but A1,12 */
+    const char *between = e->count > 9 ? "," : ""; /* A12, but A1,12 for ten or more */
     for (int i = 0; i < e->count; i++) {
         const bool symmetric = !e->instance->mechanism->is_system;
         for (int j = symmetric ? i : 0; j < e->count; j++) {

@@ -10,8 +10,8 @@
 
 /* === stops, frictions, holds and crossings, for readers ======================================= */
 
-/* A heading, then a line for each active contact, in the order of simultaneous events; nothing without contacts. Every
- * line begins with `prefix`. */
+/* Prints a heading, then a line for each contact of the scene, in the order in which simultaneous events are handled.
+ * Every line begins with `prefix`. Prints nothing without contacts. */
 void show_events(FILE *out, const equations *e, const char *prefix, const char *heading);
 
 /* The equations of motion, one for each coordinate, with terms collected by second derivative and factored; then the

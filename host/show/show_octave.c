@@ -9,7 +9,7 @@
 #include "host/show/show.h"
 #include "host/show/show_equations.h"
 
-/* A variable of the generated file: for a symbol's derivative, or without a symbol for the file itself. */
+/* A variable of the generated file, for a symbol or its derivative. Symbol NULL: the file itself needs the name. */
 typedef struct variable {
     const symbol *symbol;
     int primes;
@@ -22,7 +22,7 @@ typedef struct variables {
     int count;
 } variables;
 
-/* "ddX" for X'', followed by as many underscores as make it unique. */
+/* Adds a variable, "ddX" for X''. A taken name gets underscores at its end, or a v before a first underscore. */
 static const char *add(variables *all, const symbol *sym, int primes, const char *name) {
     char *made = alloc_words("%.*s%s", primes, "ddddddddddddddd", name);
     bool taken = true;
@@ -56,7 +56,7 @@ static bool takes_part(const equations *e, const symbol *s) {
     return s->effect < 0 || e->instance->with[s->effect];
 }
 
-/* "  K1 = 8756.3; % [kg/s^2] = 50 [lbf/in]: the first spring". */
+/* Writes lines such as "  K1 = 8756.3; % [kg/s^2] = 50 [lbf/in]: the first spring". */
 static void write_constants(const show *s, const equations *e, const symbol *const *list, int count,
                             const double *value, const expr *const *given) {
     for (int i = 0; i < count; i++) {

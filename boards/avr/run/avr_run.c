@@ -32,7 +32,7 @@
 #define CANNOT_RUN 125
 #define WENT_WRONG 123
 #define GPIOR0 0x3EU          /* data address, on both chips */
-#define MEMORY_BASE 0x800000U /* of data addresses in these files */
+#define MEMORY_BASE 0x800000U /* added to data addresses in ELF files */
 
 static _Noreturn void fail(const char *what) {
     fprintf(stderr, "avr_run: %s\n", what);
@@ -144,7 +144,7 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
 
 /* One instruction. False when the program has ended. */
 static bool step(avr_t *avr) {
-    static unsigned low = 0; /* instructions with the stack pointer among the variables */
+    static unsigned low = 0; /* instructions so far with the stack pointer among the variables */
     const int state = avr_run(avr);
     if (state == cpu_Crashed) {
         went_wrong(avr, "crashed");

@@ -81,7 +81,7 @@ static bool place_line(int down, int up) {
 }
 
 /* Puts the guest into a process group of its own, so that Ctrl-C reaches only Whirl, which then ends the guest. If Whirl
- * dies, the guest ends, too. */
+ * dies, Linux kills the guest. */
 static bool tie_to(pid_t parent) {
 #if defined(__linux__)
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) {
@@ -180,7 +180,7 @@ static guest_heard wait_to_read(const guest *g, double end_s) {
     return GUEST_SILENT;
 }
 
-/* Invalid frames count as silence, so that a babbling line reaches the timeout. */
+/* Invalid frames count as silence, so that a line with noise reaches the timeout. */
 guest_heard guest_receive(guest *g, wh_frame *frame) {
     const double end_s = system_now_s() + g->wish.patience_s;
     for (;;) {
@@ -233,7 +233,7 @@ static void close_line(int *descriptor) {
     }
 }
 
-/* Waits for the guest's end. Returns false if it still runs after the longest wait. */
+/* Waits for the guest's end. Returns false if it still runs after patience_s. */
 static bool wait_for_end(const guest *g, int *status) {
     const double end_s = system_now_s() + g->wish.patience_s;
     const struct timespec pause = {.tv_nsec = 1000000};

@@ -14,7 +14,7 @@
 #include "host/base/alloc.h"
 #include "host/os/system.h"
 
-/* Points handed out beyond the first that has not come back, for each worker. */
+/* Points per worker that may be handed out, counted from the first point that is not yet delivered. */
 #define AHEAD 8U
 #define PAUSE_MS 50
 #define ASK_US 200000
@@ -37,7 +37,7 @@ typedef struct worker {
 
 /* A row that waits for its turn. */
 typedef struct slot {
-    char *row; /* NULL: not yet received; the reason follows its zero byte */
+    char *row; /* NULL: not yet received; the reason follows the row's zero byte */
     const char *reason;
     bool good;
 } slot;
@@ -46,7 +46,7 @@ typedef struct pool {
     const jobs *jobs;
     worker *workers;
     int started;
-    int tickets; /* write end */
+    int tickets; /* write end of the pipe with the points' numbers */
     slot *slots; /* [window], by point % window */
     uint64_t window;
     uint64_t sent;

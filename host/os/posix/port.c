@@ -47,10 +47,10 @@ static bool make_plain(port *p, double baud) {
            tcsetattr(p->file, TCSANOW, &plain) == 0;
 }
 
-/* Two readers of a line would take bytes from each other. */
+/* Locks the line, because two readers would take bytes from each other. */
 static bool have_alone(int file) {
     if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-        return true; /* true even if the system has no exclusive access */
+        return true; /* also true if the system cannot lock it */
     }
     errno = EBUSY;
     return false;

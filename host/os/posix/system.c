@@ -54,11 +54,11 @@ bool system_lock(FILE *file) {
 
 FILE *system_read_from(const char *command) { return popen(command, "r"); }
 
-/* The input of the command that is written to, and the handler of SIGPIPE from before. */
+/* For system_write_to(). written: the command's input; before: the handler of SIGPIPE, to be restored. */
 static FILE *written;
 static void (*before)(int);
 
-/* Redirect a stream to the file; put_back() of the result restores it; -1 if the stream was closed. */
+/* Redirects a stream to the file. Returns a copy of the stream for put_back(), or -1 if the stream was closed. */
 static int put_in_place(FILE *file, int stream) {
     const int old = dup(stream);
     if (old >= 0) {
