@@ -17,7 +17,7 @@ typedef struct tap {
     void (*orders)(void *of, double time_s, wh_orders *orders, double *late_s);
     void (*readings)(void *of, double time_s, wh_readings *readings);
     void (*watch)(void *of, double time_s,
-                  const plant *plant); /* called at each millisecond of the plant */
+                  const plant *plant); /* called at least every millisecond of plant time */
 } tap;
 
 typedef struct lockstep_wish {
