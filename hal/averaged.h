@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 /* Returns the force f at the middle of an interval T, from the mean over T and the means over the intervals of length T
- * before it and behind it in time. (A mean over T is f + T^2/24 f''.) The remaining error is of fourth order; without
+ * just before and just after. (A mean over T is f + T^2/24 f''.) The remaining error is of fourth order; without
  * this a mean over 2 ms of a force that turns at 6 Hz is 0.02 % too small. Noise grows by 9 %. Magnitudes below
  * 2^28. */
 static inline int32_t hal_averaged_middle(int32_t before, int32_t mean, int32_t behind) {

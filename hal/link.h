@@ -1,7 +1,7 @@
 /* link.h: a two-way line of bytes to the simulator of the plant. The board implements it (boards/<family>/link.c): by
- * semihosting with files on the debugger's side under an emulator, by two file descriptors on the PC; on silicon a UART
- * would do. Bytes arrive in order and without loss; a read may return fewer than there is room for. If the simulator is
- * gone, these functions end the program, with exit status HAL_LINK_GONE. */
+ * semihosting with files on the debugger's side under an emulator, by two file descriptors on the PC, by the console on
+ * real boards (boards/shared/link_console.c). Bytes arrive in order; a read may return fewer than there is room for. If
+ * the simulator is seen to be gone, these functions end the program, with exit status HAL_LINK_GONE. */
 #ifndef HAL_LINK_H
 #define HAL_LINK_H
 

@@ -79,7 +79,7 @@ static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile u
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);
     for (uint8_t looks = 0; looks < 3U && waits_in_vain(sensor, control, flags); looks++) {
-        overruns += (*control & _BV(ICES4)) != 0 ? 1U : 0U; /* the begin of a pulse was lost */
+        overruns += (*control & _BV(ICES4)) != 0 ? 1U : 0U; /* a pulse's beginning was lost */
         wait_for_other(control, flags);
     }
     return (uint8_t)(sensor | (rose ? HAL_SLOT_LEADING : HAL_SLOT_TRAILING) << 1);

@@ -20,7 +20,7 @@
 #include "rig_own.h"
 #include "trip_memory.h"
 
-/* The rig's only hardware so far is simulated by the model; a real one has its own hal. */
+/* 1: the model simulates the rig's hardware (hal/virtual). 0: another HAL, of a real board or of frames. */
 #ifndef HAL_VIRTUAL
 #define HAL_VIRTUAL 1
 #endif

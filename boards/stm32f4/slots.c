@@ -1,7 +1,7 @@
 /* slots.c: the slot sensors on two inputs of timer 2, which stores the time of an edge in hardware (RM0090, 18.3.5),
  * after a filter of 12 us. Channels 1 and 2, 3 and 4 are pairs, in which each channel can use both inputs (18.3.6). The
  * input's own channel captures rising edges, the other channel of the pair the falling ones, so that the end of a pulse
- * never overwrites its begin. The interrupt only copies the times. */
+ * never overwrites its beginning. The interrupt only copies the times. */
 #include "hal/slots.h"
 
 #include "pulses.h"

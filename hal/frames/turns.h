@@ -17,7 +17,7 @@ typedef struct hal_turns {
     uint32_t arrived_timer; /* link timer at the arrival of the last readings */
     uint16_t sequence;      /* sequence number of the next readings */
     bool acted;             /* outputs were set since the last readings */
-    uint32_t step_timer;    /* link timer at the begin of the control step in progress */
+    uint32_t step_timer;    /* link timer when the control step in progress began */
     uint32_t nothing_timer; /* link timer counts of an empty step */
     unsigned outputs;       /* number of outputs in orders.output; the notes follow them */
     wh_orders orders;

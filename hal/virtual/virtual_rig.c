@@ -52,7 +52,7 @@ float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig) {
 
 /* One step of the model: the angle's change, and its rates at both ends. */
 typedef struct slice {
-    uint32_t phase; /* phase at the slice's begin */
+    uint32_t phase; /* phase at the slice's beginning */
     float way;      /* angle turned in the slice, phase units */
     float before;   /* rate at the beginning, phase units per step */
     float after;    /* rate at the end */
