@@ -190,7 +190,7 @@ static void break_samples(const fault_plan *plan, fault_case *f, double time_s, 
     }
 }
 
-/* --- both ----------------------------------------------------------------------------------------------------*/
+/* --- edges and samples ---------------------------------------------------------------------------------------*/
 
 static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
     unsigned kept = 0;
