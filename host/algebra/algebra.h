@@ -57,7 +57,7 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
 
 /* --- the order of the normal form (poly.c): negative, 0 for the same, positive -------------------*/
 
-/* The order of atoms, apart from their arguments. */
+/* The order of two sums. */
 int poly_order(const poly *x, const poly *y);
 
 /* --- questions (poly.c) -------------------------------------------------------------------------*/
@@ -82,7 +82,7 @@ typedef struct poly_sum {
     size_t room;
 } poly_sum;
 
-/* Count work; sets a->overflow above the limit. */
+/* Adds scale * p. Counts the work, and sets a->overflow above the limit. */
 void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
 /* The sum; frees the memory of `s`. */
 const poly *sum_close(algebra *a, poly_sum *s);

@@ -7,8 +7,8 @@
  *     sin(a)*sin(b) = cos(a - b)/2 - cos(a + b)/2        sin(a)^2 + cos(a)^2 = 1
  *
  * Whole powers of sums of positions are not expanded from the third on, so that (x - b)^3 keeps its digits near x = b.
- * They are equal to each other for any order, sign and scale of the sum. They equal their expanded form only after
- * poly_expanded().
+ * Two such powers have one form if their sums differ only in order, sign and scale. They equal their expanded form only
+ * after poly_expanded().
  *
  * All three kinds of object are interned in an `algebra`: equal objects are the same pointer, and results are memoized.
  * Objects never change.

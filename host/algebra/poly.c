@@ -92,7 +92,7 @@ int poly_order(const poly *x, const poly *y) {
 
 /* A sum below this part of its addends is a rounding error of decimals. */
 #define CANCELLED 1e-14
-/* A whole power of a sum is multiplied out if the result has fewer terms. */
+/* A whole power of a sum is multiplied out if that takes at most this many products of terms. */
 #define POWER_TERMS_MAX 64
 
 bool poly_is_zero(const poly *p) { return p->count == 0; }
@@ -543,7 +543,7 @@ bool poly_may_contain(const poly *p, const symbol *sym, int primes) {
     return (p->symbols & symbol_bit(sym, primes)) != 0;
 }
 
-/* left + factor * right: a merge of two sorted lists. */
+/* left + scale * right: a merge of two sorted lists. */
 static const poly *merge(algebra *a, const poly *left, const poly *right, double scale) {
     algebra_work(a, (size_t)left->count + (size_t)right->count);
     poly *sum = poly_scratch(left->count + right->count);

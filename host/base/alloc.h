@@ -45,7 +45,7 @@ char *arena_copy(struct arena *arena, const char *text, size_t length);
  * capacity is always the smallest power of two that is at least `count`. */
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size);
 
-/* The array with a copy of `element` behind its last; counts it. */
+/* The array with a copy of `element` after its last element; *count becomes one more. */
 void *arena_push(struct arena *arena, const void *array, int *count, const void *element,
                  size_t element_size);
 

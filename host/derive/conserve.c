@@ -14,7 +14,7 @@
  * line 12". *count is their number. */
 #define INFLUENCE_TEXT_SIZE 200
 
-/* Most influences listed by name. */
+/* At most this many influences are listed by name. */
 enum { TOLD_MAX = 4 };
 
 static void tell(char text[INFLUENCE_TEXT_SIZE], int *count, const char *what, place at) {
@@ -101,8 +101,8 @@ static double at_start(const equations *e, const poly *p) {
 
 /* --- integrating a momentum's coefficients -------------------------------------------------------*/
 
-/* The antiderivative by q of one term. The term must be a power of q times a factor without q, or a sine or cosine with
- * an angle linear in q. NULL for any other. */
+/* The antiderivative of one term by q. The term must be a power of q times a factor without q, or a sine or cosine
+ * with an angle linear in q. Returns NULL for any other term. */
 static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *q) {
     const mono *m = t->mono;
     const poly *factors = poly_number(a, t->coefficient);
@@ -135,7 +135,7 @@ static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *
     return poly_mul(a, factors, turned);
 }
 
-/* G with dG/dq_j = mass[j] for every unknown j, or NULL. */
+/* The function G with dG/dq_j = mass[j] for every unknown j, or NULL if there is none. */
 static const poly *potential_of(const equations *e, const poly *const *mass) {
     algebra *a = e->algebra;
     const poly *g = poly_number(a, 0.0);
@@ -159,7 +159,7 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
     return g;
 }
 
-/* As potential_of(). If unexpanded powers of sums prevent it, they are multiplied out. */
+/* As potential_of(). If unexpanded powers of sums prevent a result, they are multiplied out. */
 static const poly *potential_of_any(const equations *e, const poly *const *mass) {
     const poly *g = potential_of(e, mass);
     if (g == NULL) {
@@ -247,7 +247,7 @@ static void solve_conserved(const equations *e, const conservation *c, const mom
 
 const symbol conservation_time = {.kind = SYM_INPUT, .name = "time", .text = "", .unit = "s"};
 
-/* Rates from p_k - sum of the free rates; coordinates from G_k(start) + p_k t - others_k. */
+/* Rates follow from p_k minus the other rates' terms; closed coordinates from G_k(start) + p_k t - others_k. */
 static void recover(const equations *e, conservation *c, const momentum_law *laws) {
     algebra *a = e->algebra;
     const poly *rates[CONSERVED_MAX];
@@ -284,7 +284,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
-    /* a step has no time from which to compute a position that others depend on */
+    /* a step does not know the time, so it cannot compute a position on which a force depends */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (is_linear(e, momentum, law->mass)) {
         return true;

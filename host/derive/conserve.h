@@ -19,7 +19,7 @@ typedef struct conservation {
     int *unknown;       /* [count] */
     int *number;        /* [equations->count] index in unknown[], or -1 */
     bool closed;        /* the coordinates follow from G(q); otherwise they are integrated */
-    const poly **rate;  /* [count] the rates as functions of the others' */
+    const poly **rate;  /* [count] their rates as functions of the other rates */
     const poly **value; /* [count] the coordinates as functions of the others and time; NULL unless
                          * closed */
 } conservation;

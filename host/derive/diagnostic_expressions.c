@@ -1,4 +1,4 @@
-/* diagnostic_expressions.c: the list of expressions in the spelling of the file, and of the derivatives of energies and gaps. */
+/* diagnostic_expressions.c: the list of the file's expressions as written, and of the derivatives of energies and gaps. */
 #include "diagnostic_expressions.h"
 
 #include <math.h>

@@ -89,7 +89,7 @@ static bool moves(algebra *a, const mechanism *m, const poly *value) {
     return false;
 }
 
-/* Adds, after all other contacts, a crossing for every friction with a normal force that may vanish, as long as there is space. */
+/* Adds, after all other contacts, a crossing for each friction whose normal force varies, up to CONTACTS_MAX contacts. */
 static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
     const int written = laws->count;
     laws->loose = alloc(written, sizeof *laws->loose);
@@ -252,7 +252,7 @@ void equations_report_growth(const equations *e, diags *errors) {
     char *limit = algebra_limit(e->algebra);
     char hint[200] = "use smaller powers of sums, or coordinates nearer to the joints";
     if (m->parameter_count >
-        0) { /* products of parameters are separate terms, products of numbers are not */
+        0) { /* each product of parameters is a separate term; a product of numbers is one number */
         snprintf(
             hint, sizeof hint,
             "write let instead of parameter: %d parameters become numbers; or use smaller powers of sums, or coordinates nearer to the joints",
@@ -284,9 +284,8 @@ void equations_free(equations *e) {
 /* === the energy in the balance ================================================================ */
 /* The test for a quadratic form of the rates, and the energy integral of other forms. */
 
-/* Number of sampled states, and how many of them must give finite values. */
-#define TRIES 12
-#define TRIES_NEEDED 3
+#define TRIES 12       /* sampled states */
+#define TRIES_NEEDED 3 /* sampled states that must give finite values */
 /* Round-off allowed in Euler's theorem, relative to its terms. T must be exactly zero at rest, so this test only has to
  * find kinks, such as abs(x'), whose second derivative vanishes. */
 #define EULER_ROUNDING 1e-9
@@ -297,7 +296,8 @@ typedef struct trial_state {
     bool at_rest;
 } trial_state;
 
-/* Numbers between 0.2 and 1.8, rates with either sign: fractional parts of multiples of an irrational root. */
+/* Parameters and inputs have their values. Coordinates are between 0.2 and 1.8. Rates have
+ * sizes in the same range, with either sign, or are zero at rest. */
 static double trial_value(void *context, const symbol *s, int primes) {
     const trial_state *state = context;
     if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT) {
@@ -331,7 +331,7 @@ bool energy_mass_has_rates(const equations *e) {
     return false;
 }
 
-/* Checks that T and its derivatives are zero at rest, as for a quadratic form. *known: they are finite there. */
+/* Checks that T and its derivatives by the rates are zero at rest, as in a quadratic form. *known: they are finite there. */
 static bool nothing_at_rest(const equations *e, unsigned number, bool *known) {
     trial_state state = {e->instance, number, true};
     double most = fabs(poly_evaluate(e->kinetic, trial_value, &state));
@@ -342,7 +342,7 @@ static bool nothing_at_rest(const equations *e, unsigned number, bool *known) {
     return most == 0.0;
 }
 
-/* Euler's theorem: sum q' dT/dq' = 2 T. */
+/* Checks Euler's theorem at one state: sum q' dT/dq' = 2 T. *known: all terms are finite there. */
 static bool twice_itself(const equations *e, unsigned number, bool *known) {
     trial_state state = {e->instance, number, false};
     double rest = -2.0 * poly_evaluate(e->kinetic, trial_value, &state);
@@ -357,8 +357,8 @@ static bool twice_itself(const equations *e, unsigned number, bool *known) {
     return fabs(rest) <= EULER_ROUNDING * size;
 }
 
-/* Is T a homogeneous quadratic form of the rates, and V free of them? If no mass contains a rate, T has degree two at
- * most. Its parts of degree one and zero are found at rest. */
+/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? If no mass contains a rate, T has
+ * degree two at most. Its parts of degree one and zero are found at rest. */
 static bool is_quadratic(const equations *e) {
     if (has_rates(e, e->stored) || energy_mass_has_rates(e)) {
         return false;
@@ -400,7 +400,7 @@ const poly *energy_drive(const equations *e, int i) {
     const poly *force =
         poly_add(a, poly_derivative(a, lagrangian, q, 0), forces_on(a, e->force, e->forces, i));
     const poly *power = poly_add(a, poly_mul(a, force, poly_symbol(a, q, 1)),
-                                 /* the part of the rate */
+                                 /* applied[i] is the driven coordinate's acceleration */
                                  poly_mul(a, poly_derivative(a, lagrangian, q, 1), e->applied[i]));
     return poly_scale(a, power, -1.0);
 }

@@ -32,7 +32,7 @@ typedef struct contact_set {
 
 typedef struct contact_laws {
     int count;
-    int forced;               /* all but crossings, which come last */
+    int forced;               /* number of contacts before the crossings, which come last */
     contact_law *law;         /* [count] */
     contact_set *sets;        /* [count] */
     int set_count;            /* number of values that crossings set */
@@ -47,7 +47,7 @@ bool contact_loosens(const contact_statement *h);
 /* The active contacts of the instance; NULL without any. */
 contact_laws *contact_laws_make(algebra *a, const instance *inst);
 
-/* Can this contact, or any contact, change the momentum of coordinate i? */
+/* Can this contact change the momentum of coordinate i? Can any of these contacts? */
 bool contact_law_pushes(const contact_law *law, int i);
 bool contact_laws_push(const contact_laws *laws, int i);
 
@@ -129,7 +129,7 @@ const poly *equations_fold(const equations *e, const poly *p);
  * equals T + V, no expression is added to the algebra, so that the generated code does not change. */
 const poly *energy_integral(const equations *e);
 
-/* The power of the drive of unknown i, an input with a rate: its work beyond the forces, losses and contacts. */
+/* The power of the drive of unknown i, which is an input with a rate. Contacts are not included. */
 const poly *energy_drive(const equations *e, int i);
 
 /* Does any mass depend on a rate? Then an impulse is not mass times the change of the rates. */

@@ -347,8 +347,8 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
         program_free(p);
         return NULL;
     }
-    /* Scaling helps only float runs, so variants are not scaled. It is not possible with contacts, which use the same
-     * matrix, nor useful with tables, which are rounded separately. */
+    /* Only compensated steps are scaled. Variants are not run in float, contacts use the same mass matrix, and tables
+     * are rounded separately: scaling does not suit them. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&p->step, op_list_scaling_price(p->step));
@@ -406,7 +406,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* If folding sums loses much of an addend, variants show the effect. */
+/* If folding loses more than this part of a number, an image to run gets variants that show the effect. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
@@ -429,7 +429,7 @@ static bool is_alike(const image *im, const image *other) {
     return alike;
 }
 
-/* Repeat the evaluation and the derivation; NULL if the result has another form. */
+/* Evaluates and derives again with another way of folding. Returns NULL if the result has another form. */
 static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();

@@ -109,7 +109,7 @@ bool rank_is_positive(double *m, int n) {
 #define TRIES 24
 /* The last tried state is the start of the run. A mass matrix with a narrow domain may be undefined at all other states. */
 #define TRY_START TRIES
-/* Rounding of an entry, as part of the sizes of its terms. */
+/* Round-off of an entry, relative to the sum of its terms' sizes. */
 #define ENTRY_ROUNDING 4e-16
 /* If the mass matrix is this accurate, no better state is searched for. */
 #define MASS_BLUR_FINE 1e-10
@@ -121,7 +121,7 @@ typedef struct generic_state {
     uint64_t seed;
 } generic_state;
 
-/* A symbol has the same number throughout one try: a hash of the symbol's place. */
+/* Parameters and inputs have their values, and so has every symbol at TRY_START. Others: a hash of try, index and primes. */
 static double generic_value(void *context, const symbol *s, int primes) {
     const generic_state *state = context;
     if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT || state->seed == TRY_START) {
@@ -135,7 +135,7 @@ static double generic_value(void *context, const symbol *s, int primes) {
     return (state->seed % 2 == 0 ? 0.1 : -0.9) + 1.7 * part;
 }
 
-/* Four n by n matrices. */
+/* Memory for four n by n matrices. */
 static double *room_for(int n) { return alloc(4 * (int64_t)n * n, sizeof(double)); }
 
 /* The values of the mass matrix at one tried state, and their error bounds; false if one is not finite. */
@@ -558,10 +558,10 @@ static bool derive_system(equations *e, diags *errors) {
 
 static const poly **polys(int count) { return alloc(count, sizeof(const poly *)); }
 
-/* Do the equations exceed the limits of the algebra, or of walks through its results? */
+/* Do the equations exceed the limits of the algebra, or are they larger than POLY_SIZE_MAX? */
 static bool too_large(const equations *e) {
     if (algebra_overflow(e->algebra)) {
-        return true; /* the part of the result that was not visited is missing */
+        return true; /* the result is then incomplete */
     }
     double size = 0.0;
     for (int i = 0; i < e->count; i++) {

@@ -9,7 +9,7 @@
 /* === the rank of a matrix of numbers, independent of its units ================================ */
 
 /* The rank of m[n * n], by rows, with entries known to within error[n * n] >= 0. Both are overwritten. If the
- * matrix is regular, m has its pivots, one in each row, and zeros.
+ * matrix is regular, each row of m then has one pivot, and zeros.
  *
  * Rows and columns are first scaled by powers of two. With a positive diagonal and `symmetric`, the diagonal
  * becomes about one (van der Sluis, "Condition numbers and equilibration of matrices", 1969: no scaling of a
@@ -25,7 +25,7 @@ bool rank_is_positive(double *m, int n);
  * energy, a singular mass matrix, an equation that is nonlinear in the highest derivative, and an expression above the
  * limit of size. */
 equations *equations_derive(const instance *inst, diags *errors);
-/* As above, in an algebra that was used before (`before` may be NULL). The result must not depend on the earlier use
+/* As equations_derive(), but `before` (may be NULL) uses the algebra first. The result must not depend on that use
  * (tests/host/test_asked_first.c). */
 typedef void equations_question(void *context, algebra *a, const instance *inst);
 equations *equations_derive_after(const instance *inst, equations_question *before, void *context,

@@ -124,7 +124,7 @@ static int layout_turn(void *context, const symbol *s) {
     return moves ? map->angle_number[s->index] : -1;
 }
 
-/* An input of an inactive effect cannot change: a constant. */
+/* The operation for an input. An input of an inactive effect cannot change, so it is a constant. */
 static int input_leaf(const layout *map, op_list *t, const symbol *s) {
     for (int i = 0; i < map->inputs; i++) {
         if (map->input[i] == s->index) {
@@ -160,7 +160,7 @@ static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
 
 /* --- arranging the state -------------------------------------------------------------------------*/
 
-/* Is this derivative of the unknown part of the state? Of a conserved coordinate only the value is, if it is integrated. */
+/* Is this derivative of unknown i in the state? A conserved coordinate has only its value there, if it is integrated. */
 static bool in_state(const layout *map, int i, int primes) {
     if (map->conserved->number[i] < 0) {
         return primes < map->equations->unknowns[i].order;
@@ -173,7 +173,7 @@ static int add_real(layout *map, int i, int primes) {
     return map->reals++;
 }
 
-/* Effects that are switched off leave nothing behind: their inputs are left out, too. */
+/* Arranges the inputs. Those of inactive effects are left out. */
 static void arrange_inputs(layout *map, const instance *inst) {
     const mechanism *m = inst->mechanism;
     map->input = alloc(m->input_count, sizeof *map->input);

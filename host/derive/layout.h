@@ -18,14 +18,14 @@ void noise_on_outputs(const equations *e, lowering *l, int *result);
 typedef struct noise_records {
     const poly **exact; /* [noise_count] the output without noise; NULL if no measure names it */
     int *node;          /* [noise_count] the operation of the output with all its noise */
-    int count;          /* number of exact that are not NULL */
+    int count;          /* number of entries of exact[] that are not NULL */
 } noise_records;
 
-/* Replaces, in the expressions wanted[count], records without active noise by their outputs, and finds the other
- * records. Free with noise_records_free(). */
+/* Replaces recorded outputs without active noise by their exact outputs in wanted[count], and finds the noisy ones.
+ * Free with noise_records_free(). */
 noise_records noise_records_find(const equations *e, const conservation *conserved,
                                  const poly **wanted, int count);
-/* Enter them before lowering the polys that contain them. */
+/* Enters the recorded outputs. Call this before lowering the polys that contain them. */
 void noise_records_lower(const equations *e, lowering *l, noise_records *r);
 void noise_records_free(noise_records *r);
 

@@ -55,9 +55,9 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 }
 
 /* === powers from multiple angles ============================================================== */
-/* Powers of sines and cosines from multiple angles. With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k
- * cos 2kx is a sum of products s^j c^(n-j). A sum of sin 2kx is sin x cos x times such a sum of degree n - 1. Without
- * c^n it cancels near x = 0, without s^n near x = pi/2: there the products keep the digits. */
+/* With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k cos 2kx is a sum of products s^j c^(n-j). A sum
+ * of sin 2kx is sin x cos x times such a sum of degree n - 1. If the products lack c^n, the sum cancels near x = 0;
+ * if they lack s^n, near x = pi/2. There the products keep the digits. */
 
 /* Coefficients that differ by less than this part count as equal: they come from the same number. */
 #define SAME_PIECE 1e-13
@@ -146,7 +146,7 @@ typedef struct expansion {
     double added[INDICES];
 } expansion;
 
-/* p (s + c) = p, written one degree higher. */
+/* Multiplies p by s + c = 1, which raises its degree by one. */
 static void times_one(double *p, int degree) {
     p[degree + 1] = 0.0;
     for (int j = degree + 1; j > 0; j--) {
@@ -154,8 +154,8 @@ static void times_one(double *p, int degree) {
     }
 }
 
-/* The family's sum, without a factor sin x cos x. With P_0 = cos 0 = 1 or P_1 = sin 2x / (sin x cos x) = 2, P_(k+1) = 2
- * (c - s) P_k - (c + s)^2 P_(k-1). */
+/* The family's sum, without a factor sin x cos x. P_k is cos 2kx, or sin 2kx / (sin x cos x). From P_0 = 1, or from
+ * P_1 = 2, the recurrence is P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1). */
 static expansion expand(const family *f) {
     const int first = f->trig == TRIG_SIN ? 1 : 0;
     double before[INDICES + 1] = {0};
@@ -171,7 +171,7 @@ static expansion expand(const family *f) {
             sum.coefficient[j] += f->coefficient[k] * now[j];
             sum.added[j] += fabs(f->coefficient[k] * now[j]);
         }
-        /* cos 2x is half of the recurrence from cos 0 alone */
+        /* P_1 = cos 2x is (c - s) P_0, without the factor 2 of the recurrence */
         const double turn = k == 0 ? 1.0 : 2.0;
         double next[INDICES + 1] = {0};
         for (int j = 0; j <= degree + 1 && j < INDICES; j++) {
@@ -289,10 +289,10 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 
 /* === which sines are evaluated ================================================================ */
 /* Sines and cosines of several angles from as few evaluations as possible: the choice between evaluation and the
- * addition theorems. Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So the
- * angles are taken in order of size, and a sum, a difference or a double of earlier ones is not evaluated. An isolated
- * angle such as theta2 - theta1 is evaluated as one phase. Another leading angle is evaluated as well: b = a - (a - b)
- * and 2a - b = a + (a - b) share all four products. */
+ * addition theorems. Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So
+ * the angles are taken in order of size. A sum, a difference or a double of earlier angles is computed from their
+ * pairs. Another angle is tried in the first place, too (solve.c): b = a - (a - b) and 2a - b = a + (a - b) share all
+ * four products. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
@@ -331,7 +331,7 @@ static int append(lowering *l, wave w) {
     return l->wave_count++;
 }
 
-/* The size of an angle: sum of the factors of its parts. */
+/* The size of an angle: the sum of its factors' sizes, and a little for each term. */
 static double size_of(const poly *angle) {
     double size = 0.0;
     for (int i = 0; i < angle->count; i++) {
@@ -340,7 +340,7 @@ static double size_of(const poly *angle) {
     return size + 0.01 * angle->count;
 }
 
-/* Angles have a positive first factor: cos(-x) = cos(x), sin(-x) = -sin(x). */
+/* Makes the first factor positive. *flipped: the sign has changed (cos(-x) = cos(x), sin(-x) = -sin(x)). */
 static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
     *flipped = angle->count > 0 && angle->terms[0].coefficient < 0.0;
     return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
@@ -365,8 +365,8 @@ static int sines_inside(const poly *p) {
     return most;
 }
 
-/* Can a wave be part of this angle's rule? Not if it has more nested sines, because one of them could be the angle's own
- * sine. Rules refer to earlier waves, and an evaluated wave to fewer nested sines, so the recursion ends. */
+/* Can a wave be part of this angle's rule? Not if the wave has more nested sines than the angle: one of them could be the
+ * angle's own sine. Rules refer to earlier waves, and an evaluated wave to fewer nested sines, so the recursion ends. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
@@ -429,8 +429,8 @@ static bool has_part(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Fractions of turn angles occur in records only. Their sines are evaluated, for full precision, and no other sine
- * follows from them, so the other results keep their bits. */
+/* Removes angles with fractions of turn angles, which occur in records only. Their sines are evaluated, for full
+ * precision. No other sine is computed from them, so the other results keep their bits. */
 static int without_parts(const lowering *l, const poly **angles, int count) {
     int kept = 0;
     for (int i = 0; i < count; i++) {
@@ -484,7 +484,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
     }
 }
 
-/* The phase of an angle: numbers times turn angles, a fixed offset, and the remaining part in radians. */
+/* The operation for an angle's phase: turn angles times numbers, a fixed offset, and the other terms in radians. */
 static int phase_of(lowering *l, const poly *angle) {
     double *multiple = alloc(l->list->angles, sizeof *multiple);
     double offset = 0.0;
@@ -644,8 +644,8 @@ void lower_done(lowering *l) {
 /* --- factoring -----------------------------------------------------------------------------------*/
 
 #define FACTORS_MAX 24
-/* Larger whole exponents are not expanded to products, here or in op_list_power(). They are handled first: an int would
- * truncate large ones, and the power would amplify the rounding of a reciprocal. */
+/* Larger whole exponents are not expanded to products, here or in op_list_power(). They are tested first: an int
+ * would truncate large ones, and a power of a reciprocal would amplify the reciprocal's round-off. */
 #define EXPONENT_MAX 64.0
 
 typedef struct power {
@@ -810,7 +810,7 @@ static int most_shared(lowering *l, const product *products, int count) {
     return best;
 }
 
-/* Consumes the products. */
+/* The operation for the sum of the products, which are overwritten. */
 static int sum_of(lowering *l, product *products, int count) {
     op_list *t = l->list;
     if (count <= 0) {

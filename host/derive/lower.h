@@ -49,7 +49,7 @@ int lower(lowering *l, const poly *p);
 
 void lower_done(lowering *l);
 
-/* Only a tangent can be computed from a turn angle's sine and cosine. */
+/* Is x a tangent? No other atom can be computed from a turn angle's sine and cosine. */
 static inline bool lower_is_tangent(const atom *x) {
     return x->kind == ATOM_CALL && x->function == FN_TAN;
 }

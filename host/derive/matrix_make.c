@@ -210,8 +210,8 @@ static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
     return both;
 }
 
-/* Does an operand exceed the same limit as the whole, if the other operand has the degree `other`? If not, only the
- * combination of both exceeds it. */
+/* If the whole exceeds a limit of degree, and the other operand has the degree `other`, does this operand exceed the
+ * limit by itself? If not, only the combination of both exceeds it. */
 static bool passes_on(diagnostics_code code, int other) {
     switch (code) {
     case DIAGNOSTICS_SAME:
@@ -229,7 +229,7 @@ static bool passes_on(diagnostics_code code, int other) {
     return false;
 }
 
-/* The innermost part of `node` whose degree exceeds `most` while no operand's does. */
+/* Descends from `node`, whose degree exceeds `most`, to operands that exceed it by themselves. Returns the last node found. */
 static int innermost(const image_blame *b, const made_of *of, int node, int most) {
     for (;;) {
         const diagnostics_node *n = &b->node[node];
@@ -344,12 +344,11 @@ static void not_linear_report(const image *im, int operation, diags *errors) {
 }
 
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
-/* Scaling, a series, squaring. */
 
-/* Each halving of the step needs a squaring, which may lose one of the 104 bits. After 50 a double's digits remain. */
+/* Each halving of the step needs a squaring, which may lose one of the 104 bits. After 50 squarings a double's digits remain. */
 enum { HALVINGS_MOST = 50 };
 
-/* The remainder of the series after so many powers of a matrix of norm 1/2 or less is 2^-110 of the matrix. */
+/* After this many powers of a matrix of norm 1/2 or less, the series' remainder is 2^-110 of the matrix. */
 enum { POWERS = 26 };
 
 /* to = a b, with the first `states` columns of a; b has as many columns as `to`. */
@@ -366,8 +365,8 @@ static void product(const twofold *a, const twofold *b, int states, int columns,
     }
 }
 
-/* As above, but the exponential's series ends with the power `order`. A Runge-Kutta method of that order with as many
- * stages gives this result for any weights. */
+/* As exponential_exact(), but without scaling, and the series ends with the power `order`. A Runge-Kutta method of
+ * that order with as many stages gives this result for any weights. */
 static void exponential_series(twofold *step, int states, int columns, int order) {
     const int count = states * columns;
     twofold *power = alloc(count, sizeof *power);
@@ -387,7 +386,7 @@ static void exponential_series(twofold *step, int states, int columns, int order
     free(of);
 }
 
-/* Largest sum of sizes of a row. */
+/* The largest sum of absolute entries in a row of A. */
 static double norm(const twofold *a, int states, int columns) {
     double most = 0.0;
     for (int i = 0; i < states; i++) {
@@ -400,7 +399,7 @@ static double norm(const twofold *a, int states, int columns) {
     return most;
 }
 
-/* Sum of the sizes of row i (step 1) or of column i of A, without the diagonal. */
+/* Sum of the sizes in row i of A (`row`) or in column i, without the diagonal. */
 static double off_diagonal(const twofold *a, int i, bool row, int states, int columns) {
     double sum = 0.0;
     for (int j = 0; j < states; j++) {
@@ -443,9 +442,8 @@ static void balance(twofold *a, double *unit, int states, int columns) {
     }
 }
 
-/* Entries of states below this part of the largest in their row, in balanced units, are beyond the available digits.
- * Example: the last of twenty masses in a row contributes 1e-60 to the first one's motion within a millisecond, below
- * the range of float. */
+/* Entries of states below this part of the largest in their row, in balanced units, become zero. Example: the last of
+ * twenty masses in a row contributes 1e-60 to the first one's motion within a millisecond, below the range of float. */
 #define LEAST_PART 0x1p-100
 
 static void drop_least(twofold *step, int states, int columns) {
@@ -560,7 +558,7 @@ static int enter_row(const image *im, op_list *t, const twofold *row,
     return sum;
 }
 
-/* Enters a row with 1 subtracted from the entry in column `of`. If that entry is nearly 1, only the difference is rounded. */
+/* Enters a row after adding 1 to its entry in column `of`. If the sum is near 1, only its difference from 1 is rounded. */
 static int enter_near(const image *im, op_list *t, twofold *row, int of) {
     if (row[of].high < -0.5 || row[of].high > 1.0) {
         row[of] = double_double_add(row[of], double_double_of(1.0));
@@ -575,7 +573,8 @@ static double rest(twofold entry) {
     return fits_float(beyond) ? beyond : 0.0;
 }
 
-/* The mean rate of turn angle i over a step of h with the change row[]: nearly its rate, for a coordinate. */
+/* Enters the mean rate of turn angle i over a step of length h, from the angle's change row[]. For a coordinate it is
+ * nearly the rate. */
 static int enter_angle(const image *im, op_list *t, twofold *row, int i, twofold h) {
     for (int k = 0; k < affine_columns(im); k++) {
         row[k] = double_double_div(row[k], h);

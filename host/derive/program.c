@@ -20,7 +20,7 @@ CONTACT_KIND_ROWS(SAME_KIND)
 _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
                "the core has room for what a run may have");
 
-/* Every poly of the step of a scene with these laws, folded and settled. Fills p[] (if not NULL) and returns their number. */
+/* Fills p[] (if not NULL) with every poly of the step of a scene with these laws, ready for a list. Returns their number. */
 static int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
     const contact_laws *laws = e->contacts;
     int count = 0;
@@ -41,7 +41,7 @@ static int contact_lists_polys(const equations *e, const conservation *c, const 
     return count;
 }
 
-/* A list that computes `wanted` [count], which is ready. */
+/* A list that computes wanted[count], which must be ready for a list (layout_ready()). */
 static op_list *enter_ready(layout *map, const poly *const *wanted, int count) {
     op_list *t = op_list_new(map->angles, count);
     lowering l = layout_lowering(map, t);
@@ -93,7 +93,7 @@ static op_list *make_sets(layout *map) {
     return t;
 }
 
-/* The rows and their responses M^-1 J^T, by the same elimination as the accelerations. */
+/* The list of the contacts' rows J and their responses M^-1 J^T, by the same elimination as the accelerations. */
 static op_list *make_forces(layout *map, const linear_system *s) {
     const contact_laws *laws = map->equations->contacts;
     const int n = map->equations->count;
@@ -167,7 +167,7 @@ static int component_of(const layout *map, const assignment *set) {
     return -1;
 }
 
-/* 2: an input with a rate moves the stop; 1: another input moves it between steps; 0: the stop is fixed. */
+/* Returns 2 if an input with a rate moves the stop, 1 if another input moves it between steps, 0 if the stop is fixed. */
 static int stop_moves(const equations *e, const contact_law *law) {
     const mechanism *m = e->instance->mechanism;
     int moves = law->driven ? 2 : 0;
@@ -275,7 +275,7 @@ static contact_lists *contact_lists_make(layout *map, const linear_system *s, di
     return c;
 }
 
-/* `hash` with the lists and the table mixed in. */
+/* The hash after mixing in the lists and the table. */
 static uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
     hash = wh_hash_u64(hash, op_list_hash(c->signals));
     hash = wh_hash_u64(hash, op_list_hash(c->forces));
@@ -312,7 +312,7 @@ static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, con
     }
 }
 
-/* An input with a rate has no momentum, so its account has no entries. */
+/* Is unknown i driven by an input with a rate? It has no momentum, so its account has no entries. */
 static bool is_driven(const layout *map, int i) {
     return map->equations->unknowns[i].symbol->driven != NULL;
 }
@@ -407,8 +407,8 @@ static bool can_keep(const layout *map, diags *errors) {
     return true;
 }
 
-/* Enter the lists of a scene with so many contacts and the energy integral `integral` (NULL: T + V, see equations.h).
- * NULL after an error, reported. */
+/* Enter the lists of a scene with this number of contacts and the energy integral `integral` (NULL: T + V, see
+ * equations.h). NULL after an error, reported. */
 static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts,
                                        diags *errors) {
     const equations *e = map->equations;
@@ -427,7 +427,7 @@ static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int co
     if (good) {
         l->powers = enter_ready(map, power, l->smooth);
         l->levels = make_levels(l, integral, map);
-        /* the equations have this angle only inside sines, with whole factors, but a power has it elsewhere */
+        /* the equations have this angle only inside sines, with whole factors, but the rate of an entry has it elsewhere */
         l->turned = op_list_reads_turns(l->powers);
     }
     if (!good) {
@@ -456,9 +456,9 @@ static void ledger_lists_free(ledger_lists *l) {
 
 static const char no_stabilized[] = "leave out --stabilized";
 
-/* The check before the ledger exists. The scene needs an energy, a method of stages, and no contacts, which would not
- * notice a correction of the rates after a step. `contacts` may be NULL, and `integral` is NULL if the energy is T + V.
- * Returns false if impossible, reported with its place. */
+/* The check before the ledger exists. The scene needs an energy, a method with stages, and no contacts: a correction
+ * would undo their energy changes. `contacts` may be NULL, and `integral` is NULL if the energy is T + V. Returns false
+ * if impossible, reported with its place. */
 static bool stabilizing_possible(const layout *map, const contact_lists *contacts,
                                  const poly *integral, const image_settings *settings,
                                  diags *errors) {
@@ -692,8 +692,8 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
-/* Does the step use turn angles only as phases, which is all that a step has? A coordinate that is needed elsewhere is a
- * real, so this fails only if a factor grew too large while solving the equations. */
+/* Does the step use turn angles only as phases? A step has no whole angles. A coordinate that is needed elsewhere is
+ * a real, so this fails only if a factor grew too large while solving the equations. */
 static bool steps_need_no_turns(const program *p, const equations *e, diags *errors) {
     const contact_lists *c = p->contacts;
     const op_list *const lists[] = {p->step, c != NULL ? c->signals : NULL,

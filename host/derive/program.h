@@ -10,7 +10,7 @@
 typedef struct contact_row {
     const contact_statement *from;
     int kind; /* wh_contact_kind */
-    int pin;
+    int pin;  /* the only scene coordinate with an entry in the row, or -1 */
     int direction;
     int first_set;
     int sets;
@@ -48,9 +48,9 @@ typedef struct ledger_lists {
     int entries; /* smooth ones, then each contact's energy and impulses by coordinate, then inputs */
     int accounts; /* 1 + unknowns: the energy, then the momenta */
     int *unknown; /* [accounts] the unknown of a momentum; -1 for the energy */
-    int *input;   /* [inputs] inputs of the program in the energies */
+    int *input;   /* [inputs] inputs of the program that occur in the energies */
     int inputs;
-    bool turned; /* a power has a turn angle outside sines and cosines */
+    bool turned; /* the rate of an entry has a turn angle outside sines and cosines */
     op_list *powers;
     op_list *levels;
 } ledger_lists;
@@ -78,8 +78,8 @@ typedef struct program {
 } program;
 
 /* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. Returns NULL after an error,
- * which is reported to `errors`: too many components, a momentum that is not conserved, or a constant that is not
- * finite. */
+ * which is reported to `errors`, such as too many components, a momentum that is not conserved, or a constant that is
+ * not finite. */
 program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
                       diags *errors);
 /* Replaces the step's functions of one angle by table look-ups (tables.h). If that is impossible, returns false and

@@ -201,8 +201,8 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int
     return best_constant;
 }
 
-/* With the largest pivot at a sample state, and by Cramer's rule for the last three equations: no division by a vanishing
- * pivot occurs if the determinant is nonzero. */
+/* Eliminates with the largest pivot at a sample state, and solves the last three equations by Cramer's rule. If the
+ * determinant is nonzero, no division by a vanishing pivot occurs. */
 static void eliminate_general(op_list *t, int n, int *mass, int *force, int *solution) {
     int *rows = alloc(2 * (int64_t)n, sizeof *rows);
     int *columns = rows + n;
@@ -250,9 +250,9 @@ static void eliminate_general(op_list *t, int n, int *mass, int *force, int *sol
  *
  *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
  *
- * The first part has no q and joins m_ij in the normal form. The second part acts like a mass along the rod: the part of
- * the body's mass that the hinge can push. The same holds for the forces, with the rod's pull as one common factor. P~ is
- * minus the derivative of P by q, divided by c. */
+ * The first part has no q and joins m_ij in the normal form. The second part acts like a mass that moves along
+ * the line from the hinge to the body only. The same is true of the forces: their common factor is the pull along that
+ * line. P~ is minus the derivative of P by q, divided by c. */
 
 static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
@@ -301,7 +301,7 @@ static double shared_frequency(algebra *a, int n, const poly *const *mass, const
     return number_root(squared);
 }
 
-/* Takes the centrifugal pull out of the others' forces: they contain g across_i q'^2, with a common g. Returns g. */
+/* Removes the centrifugal pull, g across_i q'^2 with a common g, from the other equations' forces. Returns g, or 0. */
 static double take_pull(algebra *a, int n, const poly **force, const poly *const *across,
                         const poly *rate_squared) {
     double g = 0.0;
@@ -449,7 +449,7 @@ static double tally_favourite(const tally *t) {
     return best < 0 ? 1.0 : t->size[best];
 }
 
-/* scale[i] for row and column i, and a common divisor, chosen to turn most coefficients into one. */
+/* Chooses scale[i] for row and column i, and returns a common divisor, so that most coefficients become one. */
 static double choose_scales(const linear_system *s, double *scale) {
     const int n = s->n;
     tally all = {.count = 0};
@@ -726,16 +726,15 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 
 /* === the cheapest of several arrangements ===================================================== */
 
-/* All orders of elimination are tried up to this many unknowns */
-#define PERMUTED_MAX 4
-/* and this many leaves of the equations. Larger equations use the first order. */
-#define PERMUTED_SIZE_MAX 4000.0
+/* All orders of elimination are tried if neither limit is exceeded; otherwise only the first order. */
+#define PERMUTED_MAX 4           /* unknowns */
+#define PERMUTED_SIZE_MAX 4000.0 /* leaves of the equations */
 /* Besides the smallest angle, this many angles are tried as the first evaluated one. */
 #define LEADS_MAX 5
 
 /* --- one arrangement -----------------------------------------------------------------------------*/
 
-/* Add the terms with `across` for one hinge. */
+/* Adds one hinge's terms, across_i across_j * inverse, to the mass matrix and the forces. */
 static void add_across(op_list *t, int n, const int *across, double inverse, int *mass,
                        int *force) {
     const int factor = op_list_constant(t, inverse);
@@ -892,7 +891,7 @@ void solve_highest(lowering *l, const linear_system *s, int *solution) {
     const int n = s->n;
     arrangement how = {.first = -1};
     int constants = 0;
-    for (int pass = 0; pass < 2; pass++) { /* constant diagonals lead */
+    for (int pass = 0; pass < 2; pass++) { /* unknowns with a constant diagonal come first */
         for (int i = 0; i < n; i++) {
             double value;
             const bool constant = poly_is_number(s->mass[i * n + i], &value) && s->symmetric;

@@ -15,7 +15,7 @@ typedef struct linear_system {
     const symbol *const *unknown; /* [n] */
     const bool *turning; /* [n] the unknown is an angle: its row keeps the scale of energy */
     const bool *wanted;  /* [n] the unknown's solution is needed, so its cost counts */
-    /* Unwanted solutions are arbitrary, which allows more arrangements. Returns false if contacts solve with the same
+    /* Unwanted solutions are arbitrary, which allows more arrangements. It is false if contacts solve with the same
      * matrix, because the bits of their steps must not change. */
     bool sparing;
     /* Precision matters more than operations: no hinge is eliminated (solve.c). A list with hinges has two to five times

@@ -22,7 +22,7 @@ typedef struct conditions {
 
 #define SWEEPS_MOST 60
 
-/* Free r. */
+/* No conditions yet. The caller frees r. */
 static conditions conditions_none(int columns) {
     return (conditions){columns, alloc((int64_t)columns * columns, sizeof(double))};
 }
@@ -191,11 +191,11 @@ static void null_space_tidy(double *basis, int count, int columns) {
 
 /* === symmetries =============================================================================== */
 
-/* Singular values below these parts of the largest count as zero, for coefficients and for values at random states. A part
- * of an energy may be as small as a millionth of it. */
-#define ZERO_OF_TERMS 1e-12
-#define ZERO_OF_VALUES 1e-11
-/* Attempts to draw one random state, because a function may be undefined at some. */
+/* Singular values below these parts of the largest one count as zero. A part of an energy may be as small as a
+ * millionth of it. */
+#define ZERO_OF_TERMS 1e-12  /* conditions from coefficients */
+#define ZERO_OF_VALUES 1e-11 /* conditions from values at random states */
+/* Attempts to find one random state at which all functions are defined. */
 #define DRAWS 50
 
 /* --- the change of an energy ----------------------------------------------------------------------*/
@@ -203,7 +203,7 @@ static void null_space_tidy(double *basis, int count, int columns) {
 /* The number of columns: A row by row, then b. */
 static int columns_of(const equations *e) { return e->count * (e->count + 1); }
 
-/* The change of an energy by column k alone. */
+/* The change of an energy by the motion of column k alone. */
 static const poly *change_by(const equations *e, const poly *energy, int k) {
     algebra *a = e->algebra;
     const int n = e->count;
@@ -256,7 +256,7 @@ static const poly *without_phases(algebra *a, const poly *p) {
     return sum;
 }
 
-/* The power of a generalized force, or the rate of a gap, by column k alone. */
+/* The power of a generalized force, or the rate of a gap, in the motion of column k alone. */
 static const poly *power_by(const equations *e, const poly *const *row, int k) {
     const int n = e->count;
     const poly *on = equations_fold(e, row[k < n * n ? k / n : k - n * n]);

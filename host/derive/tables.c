@@ -15,7 +15,7 @@
 /* The value of an operation at some angle. */
 typedef struct turn_value {
     double value;
-    double slope; /* slope per turn */
+    double slope; /* derivative by the angle in turns */
     double size;  /* sum of the absolute addends; the round-off is 1e-16 of this */
 } turn_value;
 
@@ -123,7 +123,7 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
  * by the mean error, estimated from differences between knots. The mean error vanishes, and the largest error falls by
  * a third (straight) or a half (cubic). */
 
-/* The tabled functions: operations of a list of functions of one angle; its phase i takes multiple[i] of the angle. */
+/* The tabled functions: operations of a list of functions of one angle; its phase i is multiple[i] times the angle. */
 typedef struct table_functions {
     const op_list *list;
     const int *multiple; /* [list->count] */
@@ -167,7 +167,7 @@ static void write_cubic(const double *value, const double *slope, int n, int i, 
     number[1] = rise - 0.25 * number[3];
 }
 
-/* Is table k even (or, if `odd`, odd) in the angle, with the same bits? */
+/* Is table k an even function of the angle (if `odd`, an odd one), to the last bit? */
 static bool mirrors(const op_list_tables *of, int k, bool odd) {
     const int n = 1 << of->bits;
     for (int i = 0; i <= n / 2; i++) {
@@ -497,10 +497,10 @@ static void products_free(products *p) {
 
 /* === tables in the place of sines and divisions =============================================== */
 
-/* Angles at which coefficients are classified. Fewer would distinguish sums and multiples of an angle. */
+/* Number of angles at which coefficients are compared. */
 enum { TRIES = 4096 };
 
-/* Relative to the sum of absolute addends: smaller values count as zero, smaller differences as equal. */
+/* Values below this part of the sum of absolute addends count as zero; smaller differences count as equality. */
 #define ALIKE 1e-13
 
 /* A denominator whose size falls below this part of its maximum counts as reaching zero. */
@@ -674,7 +674,7 @@ static bool is_multiple(const coefficient *c, int peak, const coefficient *of, d
 }
 
 static void sort_out(tabling *t) {
-    int *first = alloc(t->count, sizeof *first); /* first index, by table */
+    int *first = alloc(t->count, sizeof *first); /* index of the first coefficient of each table */
     for (int k = 0; k < t->count; k++) {
         coefficient *c = &t->coefficient[k];
         const int peak = peak_of(c);
@@ -853,7 +853,7 @@ static void take_coefficients(tabling *t) {
     }
 }
 
-/* NULL if refused. */
+/* The list with tables; NULL if it is refused (t->why). */
 static op_list *make(tabling *t, const op_list *list, image_tables form, int bits,
                      op_list **exact) {
     find_phase(t);

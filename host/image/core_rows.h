@@ -17,8 +17,8 @@ static inline wh_contact core_contact_row(const image_contact *c) {
                         .sets = (uint8_t)c->sets};
 }
 
-/* All except the functions, the ledger and the number of evaluations. The caller owns `contact` [contacts] and `target`
- * [set_count]. */
+/* The core's contact system, except for its functions, the ledger and the number of evaluations. The caller owns
+ * `contact` [contacts] and `target` [set_count]. */
 static inline wh_contact_system core_contact_system(const image *im, const wh_contact *contact,
                                                     const uint8_t *target) {
     unsigned kinds = 0;
@@ -74,7 +74,7 @@ static inline int core_signals(const image *im) {
     return im->contacts == 0 ? 0 : WH_CONTACT_SIGNALS(im->forced, im->contacts - im->forced);
 }
 
-/* All except the functions. The caller owns `account` [smooth] and `input` [inputs]. */
+/* The core's form of the ledger, except for its functions. The caller owns `account` [smooth] and `input` [inputs]. */
 static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *account,
                                               const uint8_t *input) {
     const image_ledger *l = &im->ledger;

@@ -148,7 +148,7 @@ typedef struct image_unknown {
         start_written; /* its value is a product of literal numbers, without the round-off of a sum */
 } image_unknown;
 
-/* An input with a rate, followed by two components of the state inside a step: indices in real[]. */
+/* An input with a rate. Inside a step, two components of the state (indices in real[]) move with its value and rate. */
 typedef struct image_drive {
     int input;
     int rate; /* index of the rate, which is also an input */
@@ -191,7 +191,7 @@ typedef struct image_contact {
 } image_contact;
 
 typedef enum ledger_kind {
-    LEDGER_WORK,     /* Q q' of a generalized force */
+    LEDGER_WORK,     /* Q q' of a generalized force, or the power of an input's drive */
     LEDGER_LOSS,     /* -sum dF/dq' q' of a damper */
     LEDGER_ENERGIES, /* dL/dq_i */
     LEDGER_DRIVE,    /* a generalized force on coordinate i */
@@ -211,7 +211,7 @@ typedef struct image_ledger {
     int entries; /* smooth ones, then each contact's energy and impulses by coordinate, then inputs */
     int accounts;       /* 1 + unknowns: the energy, then the momenta */
     int inputs;         /* inputs in the energies: their changes are the last entries */
-    bool turned;        /* a power has a turn angle outside sines and cosines */
+    bool turned;        /* the rate of an entry has a turn angle outside sines and cosines */
     image_entry *entry; /* [smooth] */
     int *unknown;       /* [accounts] the unknown of a momentum; -1 for the energy */
     int *input;         /* [inputs] indices of the image's inputs */
@@ -232,7 +232,7 @@ typedef enum diagnostics_code {
     DIAGNOSTICS_DIV,
     DIAGNOSTICS_POW,
     DIAGNOSTICS_NEG,
-    DIAGNOSTICS_CALL /* function(a) or function(a, b); b < 0: 0 */
+    DIAGNOSTICS_CALL /* function(a, b), or function(a) if b is negative */
 } diagnostics_code;
 
 typedef struct diagnostics_node {
@@ -248,7 +248,7 @@ typedef struct diagnostics_node {
 typedef struct diagnostics_question {
     int node;
     bool derived; /* a derivative: the message can name only the statement, not a part of it */
-    int power;    /* highest degree in the state in a linear mechanism; of terms only */
+    int power;    /* highest degree in the state that a linear mechanism allows; of terms only */
     const char *what;
     place where;
 } diagnostics_question;
@@ -321,7 +321,7 @@ typedef struct image {
     image_quantity *parameter; /* [parameters] */
 
     double *start_rad;    /* [angles] */
-    int64_t *start_turns; /* [angles] the start in float, 2^32 a turn; 0 if not representable */
+    int64_t *start_turns; /* [angles] the start in units of 2^-32 turn; 0 if not representable */
     double *start_real;   /* [reals] */
 
     image_range *range;       /* [reals + inputs] components, then inputs */
@@ -370,8 +370,8 @@ double image_start(const image *im, int i);
 /* Does generated code call functions of core/function.h? */
 bool image_calls(const image *im);
 
-/* The first constant of the equations, or the first input, that float can represent only with one or two digits or as
- * zero or infinity; 0 if all fit. */
+/* The first constant of the equations, or the first input, that is neither zero nor within float's normal numbers. 0
+ * if there is none. */
 double image_out_of_float(const image *im);
 
 /* === memory =================================================================================== */
@@ -384,12 +384,12 @@ size_t memory_double_bytes(const image *im);
 /* === turned or looked up ====================================================================== */
 /* The choice between turning a scene's sines (core/step/stage_turn.h) and looking them up at each stage (core/step.h). */
 
-/* Most angles whose sines a step turns. */
+/* Most phases whose sines a step turns. */
 #define TURNED_WAVES_MAX 256
 
 /* Depends only on the image's step and settings, so the interpreter and generated code agree. False with --angles
- * lookup, with tables in place of sines, with contacts, without a turn angle, and if the method or the list does not
- * support it. */
+ * lookup, with a matrix, with tables in place of sines, with contacts, without a turn angle, and if the method or the
+ * list does not support it. */
 bool image_turns(const image *im);
 
 #endif

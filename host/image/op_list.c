@@ -72,7 +72,7 @@ static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
-/* The number of such a code in hashes of models, fixed since there were 14 functions. */
+/* Hashes of models use this number for an operation without a function. It is fixed since there were 14 functions. */
 #define HASHED_NO_FUNCTION UINT64_C(14)
 
 uint64_t op_list_op_hash(const op_list *t, const op *o) {
@@ -184,7 +184,7 @@ bool op_list_is_whole(double multiple) {
     return multiple == number_floor(multiple) && fabs(multiple) <= 2147483647.0;
 }
 
-/* The multiple is not truncated: a number that is not whole is stored in parts. */
+/* A multiple that is not whole is stored in `parts`, not truncated. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians) {
     int *turns = NULL;
     double *parts = NULL;

@@ -11,7 +11,7 @@
 #include "host/number/functions.h"
 
 /* === the operations =========================================================================== */
-/* The table of operations. All lists of operations are made of these rows, or switch over op_code with
+/* The table of operations. All code that lists the operations uses these rows, or switches over op_code with
  * -Wswitch-enum.
  *
  * X(id, kind, cost, C, Octave, meaning)
@@ -105,9 +105,9 @@ typedef enum op_cost {
 typedef struct op_row {
     op_kind kind;
     op_cost cost;
-    int values;         /* most earlier values it uses: a, a and b; 0 for a leaf or a phase */
+    int values; /* most earlier values that it uses: 1 (a) or 2 (a and b); 0 for a leaf or a phase */
     const char *c;      /* NULL: not written in C */
-    const char *octave; /* NULL */
+    const char *octave; /* NULL: not written in Octave */
 } op_row;
 
 extern const op_row op_rows[OPS]; /* [op_code] */
@@ -131,7 +131,7 @@ typedef struct op_list_tables {
     double *number; /* [2^bits][count][terms], in the list's arena */
     double *size;   /* [count]: largest absolute value of a table */
     double *off;    /* [count]: largest interpolation error of a table, without round-off */
-    bool folds;     /* each table is even or odd, and only half of it is stored */
+    bool folds;     /* each table is an even or an odd function, and only half of it is stored */
     bool *odd;      /* [count]: true for an odd table, false for an even one */
 } op_list_tables;
 
@@ -154,8 +154,8 @@ void op_list_free(op_list *t);
 int op_list_constant(op_list *t, double value);
 int op_list_leaf(op_list *t, op_code code, int which);
 int op_list_noise(op_list *t, uint32_t seed);
-/* `multiple` [t->angles] of each turn angle may be NULL. Whole numbers in it multiply phases, others the whole angles.
- * `radians` is an operation or -1. */
+/* The phase of turn angles times multiple[t->angles] (may be NULL), plus the offset and `radians` (an operation or
+ * -1). Whole multiples apply to phases, others to the whole angles. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians);
 /* Can a phase be multiplied by this number? It must be a whole number within bounds. */
 bool op_list_is_whole(double multiple);
@@ -187,7 +187,7 @@ uint64_t op_list_op_hash(const op_list *t, const op *o);
 int op_list_operands(const op *o, int operand[static 2]);
 /* Sets needed[i] for operation `number` and for all operations i on which it depends; the others must be false. */
 void op_list_mark_needed(const op_list *t, int number, bool *needed);
-/* Has the list such an operation? NULL: no. */
+/* Has the list an operation with this code? False for a NULL list. */
 bool op_list_has(const op_list *t, op_code code);
 /* Has it an operation with a kink or a jump? */
 bool op_list_has_kinks(const op_list *t);
@@ -218,7 +218,7 @@ int op_list_not_finite(const op_list *t);
 
 /* Is a number zero, or within float's normal numbers? */
 bool fits_float(double value);
-/* The first constant that float represents with fewer than its digits, as zero or as infinite; 0 if all fit. */
+/* The first constant that is neither zero nor within float's normal numbers; 0 if there is none. */
 double op_list_out_of_float(const op_list *t);
 
 typedef struct op_list_cost {

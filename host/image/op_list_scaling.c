@@ -15,7 +15,7 @@ static bool op_list_is_raw(const op *o);
  * own. A sum needs equal exponents of its parts; a product adds them. Constants, and products with constants, accept
  * any exponent; results have exponent zero. These are linear equations; their solutions are the possible scalings. */
 
-/* Exponents are small whole numbers and halves, as are all entries: smaller values are zero. */
+/* Exponents and all entries are small whole numbers or halves, so values below this are zero. */
 #define NOTHING 1e-9
 
 /* Rows of `columns` numbers. */
@@ -58,7 +58,7 @@ static matrix kernel_of(const matrix *m) {
 
 /* --- the equations of a list -----------------------------------------------------------------------------------*/
 
-/* The unknowns: an exponent for each operation, and one for each use of a raw value (a state or an input) by an
+/* The unknowns: an exponent for each operation, and one for each use of a raw value (op_list_is_raw()) by an
  * operation. The value may be used as it is or multiplied by a factor. */
 typedef struct unknowns {
     const op_list *of;
@@ -220,7 +220,7 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* The solutions in `all` that multiply raw values only at the chosen places, with a common exponent for each value. */
+/* Conditions on sums of rows of `all`: raw values are multiplied only at the chosen places, equal values equally. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;
@@ -260,7 +260,7 @@ static void add_freedoms(const unknowns *u, const matrix *all, const chosen *c,
     free(m.at);
 }
 
-/* As `chosen`, with the uses of raw value `raw` whose bits are set in addition. */
+/* Adds to `c` those uses of raw value `raw` whose bits are set in `which`. */
 static chosen choose(const unknowns *u, chosen c, int raw, unsigned which) {
     int first = -1;
     int seen = 0;
@@ -320,7 +320,7 @@ typedef struct multiplied {
     const op_list *from;
     const double *times; /* [3 * from->count] */
     op_list *to;
-    int *made; /* [from->count] on `to`: multiplied values, but raw values as they are */
+    int *made; /* [from->count] operations of `to`: multiplied, except raw values */
 } multiplied;
 
 /* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
@@ -345,7 +345,7 @@ static int constant(op_list *t, double value) {
     return op_list_constant(t, fabs(value - nearest) <= 1e-15 * fabs(value) ? nearest : value);
 }
 
-/* Operation i multiplied by `times`, for the operations that use it. */
+/* Operation i multiplied by `times`, as an operand of other operations. */
 static int taken(const multiplied *m, int i, double times) {
     const op *o = &m->from->ops[i];
     double number;
@@ -395,7 +395,7 @@ static int make_product(const multiplied *m, int i) {
     return op_list_mul(m->to, constant(m->to, divides ? wanted * b / a : wanted / (a * b)), made);
 }
 
-/* The second operand is entered first with every compiler: the order of evaluation of arguments is undefined. */
+/* Enters operation i. The second operand always comes first: C leaves the order in which arguments are evaluated open. */
 static int make(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double times = m->times[i];
@@ -535,8 +535,8 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
  * nothing depends on. The error of such a result does not grow; that of other results grows with the motion. */
 #define UNREAD (1.0 / 64.0)
 
-/* For each result: does the list depend on the component that it changes? Both are in the same order: angles, then
- * reals. */
+/* For each result: does the list depend on the component that it changes? Results and components have the same
+ * order: angles, then reals. */
 static void weigh_results(const op_list *t, double *weight) {
     for (int i = 0; i < t->results; i++) {
         weight[i] = UNREAD;
@@ -574,7 +574,7 @@ double op_list_bias(const op_list *t, const op_list *like) {
             results_at(t, state, size_of_rates[s], true, v, now);
             results_at(like, state, size_of_rates[s], false, v, meant);
             for (int i = 0; i < n; i++) {
-                /* at a state without such a value, as below a root's zero, the state does not count */
+                /* a state does not count if a result is not finite there, such as the root of a negative number */
                 const bool told = isfinite(now[i]) && isfinite(meant[i]);
                 off[i] += told ? fabs(now[i] - meant[i]) : 0.0;
                 size[i] += told ? fabs(meant[i]) : 0.0;
@@ -597,7 +597,7 @@ double op_list_bias(const op_list *t, const op_list *like) {
 
 enum {
     LONGEST = 250, /* most operations of an examined list */
-    FIVES = 6,     /* largest exponent of each prime */
+    FIVES = 6,     /* largest exponents of the primes 5, 3 and 7 */
     THREES = 3,
     SEVENS = 1,
     REALS = 512,      /* number of tried factors between one and two */
@@ -606,9 +606,8 @@ enum {
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 
-/* For a clear improvement the bias must fall to half; for any improvement, by a hundredth. */
-#define CLEARLY 0.5
-#define LESS 0.99
+#define CLEARLY 0.5 /* the bias of a clearly better list, as a part of the bias so far */
+#define LESS 0.99   /* the same for a better list */
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
 
@@ -618,7 +617,7 @@ int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) /
 typedef struct scaling_search {
     const op_list *like;
     const op_list *from; /* the last round's list */
-    int most;            /* operations */
+    int most;            /* largest number of operations */
     op_list *best;       /* NULL: none found yet */
     double bias;
     int operations;
@@ -638,7 +637,7 @@ static double power(double x, double e) {
     return number_power(x, e);
 }
 
-/* More operations are accepted for a clearly lower bias, as many for a lower one, fewer for an equal one. */
+/* A clearly lower bias may take more operations, a lower one as many at most; an equal one must take fewer. */
 static bool is_better(const scaling_search *s, double bias, int operations) {
     return bias < CLEARLY * s->bias || (bias < LESS * s->bias && operations <= s->operations) ||
            (bias <= s->bias && operations < s->operations);
@@ -669,8 +668,8 @@ static void try_number(scaling_search *s, const double *exponent, double x) {
 
 /* --- candidate numbers ------------------------------------------------------------------------------------------ */
 
-/* Products of small primes, the simplest first. Decimals times enough fives are whole numbers over powers of two;
- * thirds times three are whole. Factors of two change nothing. */
+/* Products of small primes, the simplest first. A decimal times enough fives is a whole number over a power of two; a
+ * third times three is whole. Factors of two change nothing. */
 static void try_primes(scaling_search *s, const double *exponent) {
     for (int all = 1; all <= FIVES + THREES + SEVENS; all++) {
         for (int fives = -FIVES; fives <= FIVES; fives++) {
@@ -722,7 +721,7 @@ static bool affordable(const scaling_search *s, const double *exponent) {
     return can;
 }
 
-/* Simple numbers first, for every freedom: the round may end early. */
+/* The round may end early, so simple numbers are tried for every freedom before others. */
 static void search_round(scaling_search *s) {
     op_list_freedoms f = op_list_freedoms_of(s->from);
     bool *can = alloc((int64_t)f.count + 1, sizeof *can);

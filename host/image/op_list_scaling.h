@@ -1,6 +1,6 @@
 /* op_list_scaling.h: the scaling freedom of a list: factors of its values that cancel, as in a numerator and its denominator,
- * or in the equations of a system. Some factors suit the constants of float better: 1.08 - 0.36 s^2 over M is 27 - 9
- * s^2 over 25 M, where no constant is rounded. */
+ * or in the equations of a system. Some factors suit the constants of float better: (1.08 - 0.36 s^2) / M is (27 - 9
+ * s^2) / (25 M), where no constant is rounded. */
 #ifndef IMAGE_OP_LIST_SCALING_H
 #define IMAGE_OP_LIST_SCALING_H
 
@@ -21,7 +21,7 @@ void op_list_scale(op_list **t, int price);
 
 /* --- its parts ----------------------------------------------------------------------------------------------- */
 
-/* Vectors of exponents: all values may be multiplied by x to these, for any x > 0. The first entries are one for each
+/* Vectors of exponents: each value may be multiplied by x to its exponent, for any x > 0. The first entries are one for each
  * operation. Then come two for each operation, for its raw operands, which may be used as they are or multiplied. */
 typedef struct op_list_freedoms {
     double *exponent; /* [count * length] */
@@ -29,13 +29,13 @@ typedef struct op_list_freedoms {
     int length; /* 3 * operations of the list */
 } op_list_freedoms;
 
-/* The possible scalings, in this order: those without an additional product, those that multiply one raw value, at all
- * of its uses or at some, and those that multiply two raw values. */
+/* The possible scalings. First those without an additional product. Then, for each raw value, those that multiply it at
+ * some or all of its uses, and those that also multiply an earlier raw value. */
 op_list_freedoms op_list_freedoms_of(const op_list *t);
 void op_list_freedoms_free(op_list_freedoms *f);
 
-/* The list with operations times[3 * count] > 0 as large, in the same order. Constants, and products where constants do
- * not suffice, keep the results the same. Finished (op_list_prune(), op_list_order()). */
+/* The list with each operation's value multiplied by its entry of times[3 * count] > 0, laid out as an exponent
+ * vector. The order and the results stay the same. Finished (op_list_prune(), op_list_order()). */
 op_list *op_list_multiplied(const op_list *t, const double *times);
 
 #endif

@@ -99,7 +99,7 @@ typedef struct wanted {
     int *next;  /* [ops]: index of the next time */
 } wanted;
 
-/* Value v is used at a time: the first pass counts, the second one enters. */
+/* Notes that value v is used at `time`: the first pass counts the uses, the second one stores the times. */
 static void want(wanted *w, int pass, int v, int time) {
     if (pass == 0) {
         w->first[v + 1]++;
@@ -149,8 +149,8 @@ typedef struct registers {
     int carried;
 } registers;
 
-/* Gives value v a register. If none is free, it is that of the value with the latest next use. (Operands of the current
- * operation are in use.) */
+/* Gives value v a register. If none is free, the value with the latest next use loses its register. Operands of the
+ * current operation are in use. */
 static void hold(const wanted *w, registers *r, int v) {
     if (r->count == OP_LIST_REGISTERS) {
         int last = 0;
@@ -247,7 +247,7 @@ int op_list_carried(const op_list *t) {
 typedef struct schedule {
     const op_list_needs *needs;
     int *waits; /* [ops]: dependencies not yet computed */
-    int *uses;  /* [ops]: remaining users, a result included */
+    int *uses;  /* [ops]: remaining users; a result counts as two more */
     int *ends;  /* [ops]: number of values whose last use it is */
     int *until; /* [ops]: last user of its value */
     int *ready; /* operations without pending dependencies, unordered */
@@ -255,7 +255,7 @@ typedef struct schedule {
     bool *done; /* [ops] */
 } schedule;
 
-/* Value v has one user less; the last user is the end of its life. */
+/* Value v has one user less. If one user remains, the life of v ends with that user. */
 static void use_up(schedule *s, int v) {
     const op_list_needs *n = s->needs;
     if (--s->uses[v] != 1) {
@@ -317,7 +317,7 @@ static void schedule_free(schedule *s) {
     free(s->done);
 }
 
-/* Which operation comes first of those that end equally many lives. */
+/* The rule for ready operations that are the last use of equally many values: the order of entry, or the earliest last use. */
 typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
 
 /* Does operation i come before operation j? */
@@ -373,7 +373,7 @@ typedef struct placing {
     int count;
 } placing;
 
-/* Puts operation i next in the sequence, after those of its operands that are not in it yet. */
+/* Puts operation i next in the sequence, after those of its dependencies that are not in it yet. */
 static void put_next(placing *p, int i) {
     int found[NEEDED_MOST];
     const int count = p->number[i] >= 0  ? 0
@@ -388,7 +388,7 @@ static void put_next(placing *p, int i) {
     }
 }
 
-/* The operations of the sequence lead; the others are given, only results, or unused. */
+/* Puts the operations of the sequence first. The others are given or unused, or are only results. */
 static void reorder(op_list *t, const op_list_needs *n, const int *sequence, int count) {
     placing p = {t, n, alloc_more(NULL, t->count, sizeof *p.order),
                  alloc_more(NULL, t->count, sizeof *p.number), 0};
@@ -449,8 +449,8 @@ static int doubled(const op_list *t, const int *uses, int i) {
     return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* *half: the sum like i, but with the doubled part only once; *part: that part. Returns false if the list has no such
- * sum. */
+/* Finds a sum like operation i in which the doubled part occurs only once: *half is that sum, *part the doubled part.
+ * Returns false if the list has no such sum. */
 static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);
@@ -541,7 +541,7 @@ bool op_list_has_kinks(const op_list *t) {
            op_list_has(t, OP_MAX);
 }
 
-/* Operands as op_list_operands() has them, for modification. */
+/* Renumbers the operands that op_list_operands() finds. */
 static void renumber(op *o, const int *number) {
     const bool values = op_rows[o->code].values > 0;
     o->a = values && o->a >= 0 ? number[o->a] : o->a;

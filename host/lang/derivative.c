@@ -27,8 +27,8 @@ static const expr *call(parser *in, function_id f, place at, const expr *a) {
     return a == NULL ? NULL : expr_call(in, f, at, a, NULL);
 }
 
-/* a^n. In a negative power the base is differentiated as a whole; a quotient by a product would not do that. NULL if
- * the nesting is too deep, which is reported. */
+/* a^n. Slopes have negative powers instead of quotients by products: the derivative of a power treats its base as a
+ * whole. NULL if the nesting is too deep, which is reported. */
 static const expr *power(parser *in, const expr *a, double n) {
     return a == NULL ? NULL : binary(in, EXPR_POW, a->at, a, number(in, a->at, n));
 }

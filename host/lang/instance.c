@@ -301,7 +301,7 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
     }
 }
 
-/* A change without effect is reported as a mistake. */
+/* Reports a change of a symbol whose effect is inactive, and returns false. */
 static bool takes_part(const instance *made, override_kind kind, const assignment *change,
                        diags *all) {
     const effect *missing = instance_lacks(made, change->symbol);
@@ -319,7 +319,7 @@ static bool takes_part(const instance *made, override_kind kind, const assignmen
     return false;
 }
 
-/* A second value for the same symbol is an error: one of the two would have no effect. */
+/* Reports a second value for the same symbol, and returns false: one of the two values would be lost. */
 static bool is_first(const assignment *before, int count, const assignment *change, diags *all) {
     for (int i = 0; i < count; i++) {
         if (before[i].symbol == change->symbol && before[i].primes == change->primes) {

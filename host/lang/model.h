@@ -125,8 +125,8 @@ typedef struct assignment {
 /* One contact, handled inside the step (core/contact.h says how). */
 typedef struct contact_statement {
     contact_kind kind;
-    /* stop: left - right, >= 0 when apart (coordinates, no rates). hold: the expression whose rate is zero while it
-     * holds (coordinates, no rates). when: left - right (rates allowed). friction: NULL. */
+    /* stop: left - right, >= 0 when apart (coordinates, no rates). hold: the expression whose rate is zero while the
+     * hold acts (coordinates, no rates). when: left - right (rates allowed). friction: NULL. */
     const expr *value;
     const symbol *coordinate;    /* friction: acts on its rate; else NULL */
     const expr *restitution;     /* stop: 0 to 1 */
@@ -292,7 +292,7 @@ typedef struct instance {
 /* Is a statement of this effect active? One of the mechanism itself (-1) always is. */
 bool instance_has(const instance *of, int within);
 
-/* The value of a parameter or an input, or the start of a coordinate or a derivative of it, SI; NAN for other symbols. */
+/* The value of a parameter or an input, or the start of a coordinate or of its derivative, SI; NAN for other symbols. */
 double instance_value(const instance *of, const symbol *s, int primes);
 
 /* The inactive effect that declared this parameter or input. NULL if the effect is active, or if the symbol belongs to

@@ -137,7 +137,7 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 
-/* `with_name`: put the symbol's name before the value, as in a start. */
+/* Reports a missing unit, and returns false. `with_name`: the hint has the symbol's name before the value. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
     enum { SHOWN_MAX = 60 };

@@ -1,4 +1,4 @@
-/* parser.c: the parser's state: the symbols of a mechanism, and the token in hand. */
+/* parser.c: the parser's state: the symbols of a mechanism, and the current token. */
 #include "host/lang/parser.h"
 
 #include <ctype.h>

@@ -12,7 +12,7 @@
 /* === the symbols of one mechanism, found by name ============================================== */
 
 typedef struct named {
-    symbol symbol;       /* first: a `const symbol *` of a mechanism is the address of a `named` */
+    symbol symbol;       /* must be first: a symbol's address is also that of its `named` */
     bool is_placeholder; /* used but not declared; reported */
     bool is_open;        /* the parser is reading its declaration */
     int mark;            /* number of the last visit, for walks and duplicates */
@@ -27,7 +27,7 @@ names *names_new(struct arena *arena);
 named *names_find(const names *all, const char *text, size_t length);
 /* Add an entry; the name must be new. */
 named *names_add(names *all, const char *text, size_t length);
-/* Offer the declared names of the allowed effects (`effect_index` -1: no effect's, -2: every effect's). */
+/* Offers the search the declared names outside effects and in effect `effect_index` (-1: in none, -2: in all). */
 void names_offer(const names *all, int effect_index, nearest *search);
 
 enum { NESTING_MAX = 200 };

@@ -220,7 +220,7 @@ static bool set_item(parser *in, const statement_word *word) {
     return true;
 }
 
-/* At the end of the scene: the symbols that it sets must belong to effects that it names. They may be named after the set. */
+/* Symbols that the scene sets must belong to effects that it names. Checked at its end: the names may follow the sets. */
 static void scene_check_sets(parser *in, const draft *read) {
     const scene *made = read->made;
     for (int i = 0; i < made->set_count; i++) {

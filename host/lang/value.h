@@ -51,8 +51,8 @@ valuation valuation_new(const mechanism *of, struct arena *arena, diags *diags);
 /* The SI value. `known` may be NULL if the tree has only numbers and operators. */
 double expr_value(const expr *tree, valuation *known);
 
-/* As value_of(); but a value that is not finite is reported at `at` and becomes 0. `what` names it, such as "parameter
- * 'm'". */
+/* As expr_value(); but a value that is not finite is reported at `at` and becomes 0. `what` names it, such as
+ * "parameter 'm'". */
 double finite_value(const expr *tree, valuation *known, place at, const char *what);
 
 /* The value of parameter `index`. Reports once if it is not finite or depends on itself. */

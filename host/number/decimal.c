@@ -45,7 +45,7 @@ enum {
      * a larger one is infinity. */
     PLACE_LEAST = -324,
     PLACE_MOST = 308,
-    /* 5^1106 has 2569 bits, 781 digits have 2595; both may be moved up to the other's length, and by one bit. */
+    /* 5^1106 has 2569 bits, 781 digits have 2595; either may be shifted to the other's length plus one bit. */
     WORDS = 84,
     FIVES = 13, /* 5^13 is the largest power in a word */
     QUOTIENT_BITS = 64,
@@ -123,7 +123,7 @@ static void take_away(big *a, const big *b) {
     }
 }
 
-/* The significant digits of a number as a whole one, times 10^exponent. */
+/* The significant digits of a number as a whole number, times 10^exponent. */
 typedef struct digits {
     big whole; /* count 0: zero */
     int held;  /* number of significant digits taken so far */
@@ -144,7 +144,7 @@ static void take_digit(digits *d, int digit, bool behind_point) {
     d->exponent -= behind_point ? 1 : 0;
 }
 
-/* The exponent after an e at `text`, clamped only at a sensible bound; NULL without an exponent. */
+/* Adds the exponent after an e at `text` to *exponent; its size is limited to some 1e13. Returns its end, or NULL without one. */
 static const char *read_exponent(const char *text, int64_t *exponent) {
     const bool negative = text[1] == '-';
     const char *at = text + (negative || text[1] == '+' ? 2 : 1);

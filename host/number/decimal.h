@@ -18,7 +18,7 @@ char *hex_write(double value, char text[static HEX_SIZE]);
  * hexadecimal numbers, "inf" and "nan" are not numbers. */
 double decimal_read(const char *text, const char **end);
 
-/* The same; *side: the number is below the double (-1), equal (0) or above (1). */
+/* As decimal_read(); *side: the number in the text is below the double (-1), equal to it (0) or above it (1). */
 double decimal_read_side(const char *text, const char **end, int *side);
 
 #endif

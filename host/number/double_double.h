@@ -27,8 +27,8 @@ twofold double_double_scale(twofold a, double power_of_two);
 bool double_double_is_zero(twofold a);
 bool double_double_is_finite(twofold a);
 
-/* The double of a scene's constant: the nearest one to `a`. If that is the midpoint of two floats, and `a` is not, it is
- * the next double on the side of `a`. Then (float) of it is the float nearest to `a`, as after a single rounding. */
+/* The double of a scene's constant: the nearest one to `a`. If that is the midpoint of two floats, and `a` is not, the result
+ * is the next double on the side of `a`. Then (float) of the result is the float nearest to `a`, as after a single rounding. */
 double double_double_constant(twofold a);
 
 /* `a` less the float nearest to it, as a double. */

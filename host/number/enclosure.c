@@ -61,7 +61,7 @@ bool enclosure_has(enclosure a, double x) { return a.low <= x && x <= a.high; }
 
 /* --- sine and cosine -----------------------------------------------------------------------------------*/
 
-/* pi / 2 in three parts: whole multiples of the first two, up to this, are exact. */
+/* pi / 2 in three parts. Multiples of the first two parts are exact for whole factors up to QUARTERS_MOST. */
 #define QUARTER_HIGH 0x1.921fb544p+0
 #define QUARTER_MIDDLE 0x1.0b4611a6p-34
 #define QUARTER_LOW 0x1.3198a2e037073p-69
@@ -100,7 +100,7 @@ static bool reduce(enclosure x, enclosure *rest, int *quarters) {
            enclosure_size(enclosure_of(enclosure_middle(*rest))) <= 1.0;
 }
 
-/* The sine of `rest` plus this many quarter turns: from the middle's sine, with a slope of at most 1 in size. */
+/* The sine of `rest` plus this many quarter turns, by the addition theorem for the middle of `rest`. */
 static enclosure wave(enclosure rest, int quarters) {
     const double middle = enclosure_middle(rest);
     const double radius = enclosure_radius(rest);
@@ -257,7 +257,7 @@ static enclosure size_of(enclosure a) {
     return (enclosure){across ? 0.0 : enclosure_lesser(low, high), enclosure_larger(low, high)};
 }
 
-/* The angle of (x, y): between those of the corners, unless zero or the jump from -pi to pi is in it. */
+/* The angle of (x, y): between the angles of the corners, unless the rectangle contains zero or the jump from -pi to pi. */
 static enclosure angle_of(enclosure y, enclosure x) {
     if (x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0) {
         return (enclosure){-enclosure_pi().high, enclosure_pi().high};

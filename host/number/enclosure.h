@@ -14,7 +14,7 @@
 
 #include "host/number/functions.h"
 
-#include "core/real.h" /* refuses compilers set to other arithmetic; whirl's start, processors (core/number/arithmetic.h) */
+#include "core/real.h" /* does not compile with other arithmetic; whirl's start checks the machine (core/number/arithmetic.h) */
 
 #if __DBL_MANT_DIG__ != 53 || __DBL_MIN_EXP__ != -1021
 #error "Whirl needs IEEE 754 numbers of 64 bits."
@@ -122,7 +122,7 @@ enclosure enclosure_log(enclosure a);
 enclosure enclosure_whole_power(enclosure a, int n);
 /* a^exponent for a > 0; for all a if the exponent is a whole number. */
 enclosure enclosure_power(enclosure a, enclosure exponent);
-/* The language's function over the part of a, and of (a, b), in its domain. Exponentials beyond 700 count as e^700. */
+/* The language's function over that part of a, or of (a, b), that lies in its domain. Exponentials beyond 700 count as e^700. */
 enclosure enclosure_call(function_id function, enclosure a, enclosure b);
 
 #endif

@@ -62,8 +62,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* The nearest double, moved to the other side of the exact value, one double beyond the neighbour there: several round-offs may add
- * up to as much. Unchanged if the nearest double is exact. */
+/* The nearest double, moved as moved_by() says. FOLDING_OTHER moves it two doubles across the exact value, because
+ * several round-offs may add up to as much. Unchanged if the nearest double is exact. */
 static double other_neighbour(twofold exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -101,7 +101,7 @@ static void note_rest(double x) {
     }
 }
 
-/* If a residue is lost beside a number, that is no loss. Otherwise the sum has no correct digit. */
+/* A sum that cancels, or a sum of two residues, is a residue. A residue added to a number counts as its part of that number. */
 static void note_sum(double x, double y, double sum) {
     if (x == 0.0 || y == 0.0) {
         return;
@@ -120,7 +120,7 @@ static void note_sum(double x, double y, double sum) {
     note_lost(UNIT * most / number_least(fabs(sum), number_least(fabs(x), fabs(y))));
 }
 
-/* A quotient by a residue has no correct digit. */
+/* A negative power of a residue has no correct digit; another power is a residue. */
 static void note_power(double base, double exponent, double power) {
     if (is_rest(base)) {
         if (exponent < 0.0) {
@@ -131,8 +131,8 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* A function of a residue. If its value differs from the one at zero, no digit is correct. If that is zero, the value is a residue,
- * too. */
+/* A function of a residue. If its value differs from the value at zero, no digit is correct. If the value at zero is
+ * zero, the function's value is a residue, too. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -197,7 +197,7 @@ double folding_power(double base, double exponent) {
     return power;
 }
 
-/* Is the function's value exact? It is for roots of squares, and for other functions at the first terms of their series. */
+/* Is the value exact? abs(), sign(), min(), max(): always. Roots: if short. Other functions: if short, at 0, 1 and -1. */
 static bool is_exact(function_id function, double x, double value) {
     switch (function_takes(function)) {
     case TAKES_SIZE:

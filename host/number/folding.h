@@ -4,8 +4,8 @@
  * elimination, or sums at run time, may cancel k2 and leave k1 alone. Then all users of the folded numbers have lost the same
  * digits, and no comparison of two runs shows it. Two checks address this:
  *   - Each sum records its round-off, relative to its smallest addend and to its result. A residue, such as cos(90 deg) or 0.1 +
- *     0.2 - 0.3, is round-off only and loses nothing, and neither do products with it. It counts if it is a large part of a sum, or
- *     a divisor.
+ *     0.2 - 0.3, is round-off only and loses nothing, and neither do products with it. A residue counts as a loss if it is a large
+ *     part of a sum, or a divisor.
  *   - A derivation can be repeated in another *way*: inexact results move by a double or two, to the other side of the exact value,
  *     or to either side. Exact results stay, and nearly equal numbers are not merged. One way may yield the same numbers by chance
  *     if several round-offs add up, so there are several (Vignes, A stochastic arithmetic for reliable scientific computation,
@@ -29,7 +29,7 @@ enum { FOLDING_NEAREST, FOLDING_OTHER, FOLDING_APART, FOLDING_SOME, FOLDING_WAYS
 enum { FOLDING_RESTS = 256 };
 typedef struct folding {
     int way;
-    double lost;                /* the largest part of an addend, or of a sum that cancels */
+    double lost;                /* the largest loss, as a part of an addend or of a result */
     int rests;                  /* number of residues */
     double rest[FOLDING_RESTS]; /* without their signs */
 } folding;
@@ -45,8 +45,8 @@ double folding_quotient(double x, double y);
  * residue. */
 double folding_power(double base, double exponent);
 double folding_call(function_id function, double x, double y);
-/* Does `left`, the difference of two numbers of this size, count as zero? It does up to `part` of their size, because decimals
- * leave an error in the last digit or two; larger differences are recorded. In other ways only an exact zero counts. */
+/* Does `left`, the difference of two numbers of this size, count as zero? It does up to `part` of their size. It is
+ * recorded as a loss if it exceeds the round-off of a few operations. In other ways only an exact zero counts. */
 bool folding_cancels(double left, double size, double part);
 /* Are two numbers equal, up to this part of their size? */
 bool folding_same(double x, double y, double part);

@@ -60,7 +60,7 @@ _Static_assert(1 FUNCTION_ROWS(OF_CORE) == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
 
 /* NaN stays NaN. */
 static double sign_of(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
-/* The slope of min() or max() by an argument that leads by this much. */
+/* The slope of max() by an argument that is larger than the other by `lead`, or of min() by one that is smaller. */
 static double share_of(double lead) { return 0.5 + 0.5 * sign_of(lead); }
 
 #define FUNCTION_CORE(value) value
@@ -138,7 +138,7 @@ double number_scaled(double x, int exponent) {
         x *= 0x1p1023;
         exponent -= 1023;
     }
-    while (exponent < -1022) { /* leaves 53 bits of the way, so that only the last step rounds */
+    while (exponent < -1022) { /* steps of 2^-969 leave 53 bits: only the last step rounds */
         if (x == 0.0 || !(WH_ABS(x) < WH_INFINITY)) {
             return x;
         }
@@ -183,7 +183,7 @@ double number_remainder(double x, double y) {
         return x;
     }
     rest %= divisor;
-    while (exponent > by_exponent) { /* 53 bits and 11 more have room */
+    while (exponent > by_exponent) { /* 64 bits have room for 11 bits beside the 53 */
         const int bits = exponent - by_exponent < 11 ? exponent - by_exponent : 11;
         rest = (rest << bits) % divisor;
         exponent -= bits;

@@ -12,8 +12,8 @@
 #include <stddef.h>
 
 /* === rows of functions ================================================================== */
-/* The language's functions, a row each. All lists of functions are made of these rows, or
- * switch over function_id with -Wswitch-enum. A new function is a new row, at the end. If a part of it is
+/* The language's functions, a row each. All code that lists the functions uses these rows, or
+ * switches over function_id with -Wswitch-enum. A new function is a new row, at the end. If a part of it is
  * missing, the build fails.
  *
  * X(id, word, arguments, dimensions, range, latex, value, slope by x, slope by y)
@@ -94,7 +94,7 @@ typedef enum function_dimensions {
     TAKES_SIZE,   /* any dimension: the result has the same */
     TAKES_ANY,    /* any: a number */
     TAKES_RATIO,  /* two of one dimension: a number */
-    TAKES_CHOICE  /* two of one dimension: the same */
+    TAKES_CHOICE  /* two of one dimension: the result has the same */
 } function_dimensions;
 
 const char *

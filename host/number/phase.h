@@ -11,7 +11,7 @@
 int64_t phase_of_start(double rad);
 bool phase_holds_start(double rad);
 
-/* Phase constant: radians to 2^32 a turn, wrapped and rounded to the nearest. */
+/* The phase of an angle in radians: units of 2^-32 turn, modulo one turn, rounded to the nearest. */
 uint32_t phase_of_constant(double rad);
 
 /* A multiple as wh_phase_times() takes it: modulo 2^32, rounded to 2^-64. */

@@ -21,7 +21,7 @@ uint128 uint128_minus(uint128 a, uint128 b) {
     return (uint128){a.high - b.high - (a.low < b.low ? 1U : 0U), a.low - b.low};
 }
 
-/* The whole product of two words, from their halves. */
+/* The product of two words, with all 128 bits, from their halves. */
 static uint128 product(uint64_t a, uint64_t b) {
     const uint64_t half = UINT32_MAX;
     const uint64_t low = (a & half) * (b & half);
@@ -118,7 +118,7 @@ static whole_ratio between(end low, end high) {
     }
 }
 
-/* The simplest fraction within 2^-51 of the value, or a little less. */
+/* The simplest fraction within a relative error between 2^-52 and 2^-51. */
 static whole_ratio simplest(double value) {
     int exponent;
     /* below one, with 53 bits after the point */
@@ -233,7 +233,7 @@ double ratio_times(uint64_t count, whole_ratio each) {
     }
     uint128 rest;
     uint128 quotient = uint128_over(of, uint128_of(each.denominator), &rest);
-    bool below = !uint128_is_zero(rest); /* rounded once, so with a sticky bit for the remainder */
+    bool below = !uint128_is_zero(rest); /* so that only the conversion to double rounds */
     while (quotient.high != 0 || quotient.low >> 63 != 0) {
         below = below || (quotient.low & 1U) != 0;
         quotient = uint128_right(quotient, 1);
