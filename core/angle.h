@@ -1,4 +1,4 @@
-/* angle.h: angles as 2^32 steps a turn, and their sine and cosine.
+/* angle.h: angles as integers with 2^32 units per turn, and their sine and cosine.
  *
  * An angle that appears only inside sine and cosine is stored as a 64-bit integer: the low 32 bits are the phase within the
  * turn, the high 32 bits count whole turns. It wraps by itself, is as precise after a million turns as in the first, and

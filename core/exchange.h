@@ -76,7 +76,7 @@ typedef struct wh_orders {
     uint32_t acted_timer;    /* counts from the readings' arrival until the outputs were set */
     uint32_t busy_timer;     /* counts until these orders were sent */
     uint32_t step_timer;     /* longest control step since the last orders; 0: not measured */
-    uint32_t watchdog_ticks; /* so long without WH_ORDER_ALIVE: outputs to zero; 0: never */
+    uint32_t watchdog_ticks; /* after this time without WH_ORDER_ALIVE outputs are 0; 0: never */
     uint8_t flags;
     unsigned outputs;             /* number of outputs and notes together */
     float output[WH_SIGNALS_MAX]; /* by channel: the outputs, then the notes */

@@ -48,7 +48,7 @@ static word root_of(word x) {
 
 #else
 
-/* 2^8/sqrt(x) for the sixteenths of 1 to 2, then those of 2 to 4: each the best for its interval. */
+/* 2^8/sqrt(x) for 16 parts of the interval from 1 to 2, then for 16 parts of that from 2 to 4. */
 static const uint8_t reciprocal_root[32] = {
     252, 245, 238, 232, 226, 221, 216, 211, 207, 203, 199, 195, 192, 189, 185, 182,
     178, 173, 168, 164, 160, 156, 153, 149, 146, 143, 141, 138, 136, 133, 131, 129,

@@ -237,7 +237,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     wh_contact_place spot = WH_CONTACT_HERE;
     for (unsigned k = 0; k < of->forced; k++) {
         if ((rest >> k & 1U) != 0 && was[k] == WH_R(0.0) && signal[2 * k] < WH_R(0.0)) {
-            spot.but = wh_contact_stuck(of, w); /* the body rests beyond the stop */
+            spot.but = wh_contact_stuck(of, w); /* friction must not keep a body beyond a stop */
         }
     }
     wh_contact_set_modes(of, w, rest, WH_ACTIVE);
@@ -412,7 +412,7 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
             if (WH_ABS(by) <= WH_ABS(rates[2 * k + 1]) * h / 64) {
-                /* larger: the condition is not at a limit of this hold */
+                /* a larger move would mean that the condition is not at a limit of this hold's expression */
                 wanted[i] = by;
                 mover = k;
             }

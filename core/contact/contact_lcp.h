@@ -20,7 +20,7 @@
  * No proof is known for the combination of both. So the rounds are capped at 4 n + 1, and a step that meets the cap counts
  * as an overrun.
  *
- * Checked by: tests/core/test_lcp.c, 80,000 random problems with redundant rows, all below the cap. */
+ * Checked by: tests/core/test_contact_pivot.c. Its random problems, with and without redundant rows, stay below the cap. */
 #ifndef WH_CONTACT_LCP_H
 #define WH_CONTACT_LCP_H
 

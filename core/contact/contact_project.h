@@ -40,7 +40,7 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
 #else
         const uint64_t turned = (uint64_t)to->angle[i] - (uint64_t)from->angle[i];
         const int32_t way =
-            (int32_t)(uint32_t)turned; /* less than half a turn, as two exact parts */
+            (int32_t)(uint32_t)turned; /* less than half a turn; split into two exact parts below */
         wh_contact_add_product(row[i], (wh_real)(way >> 8) * WH_R(256.0), &turns, &rests[0]);
         rests[0] += row[i] * (wh_real)(way & 255);
 #endif

@@ -177,7 +177,7 @@ typedef struct wh_swing {
     wh_swung result;
     bool free;    /* the motor has been off with open leads since the last step */
     bool any;     /* there was a pulse already */
-    bool forward; /* the last pulse's direction */
+    bool forward; /* at the last pulse the rotor turned forwards */
     uint8_t sensor;
     bool swings;          /* the rotor has passed sensor 1 backwards, first at kept[first] */
     wh_swing_piece piece; /* the next part of the work */
@@ -186,7 +186,7 @@ typedef struct wh_swing {
     unsigned kept;
     unsigned start; /* number of earlier guesses that failed */
     unsigned pass;
-    unsigned at;     /* the next pulse */
+    unsigned at;     /* index of the next pulse */
     unsigned fits;   /* pulses used in this pass */
     unsigned strays; /* impossible pulses in this pass */
     /* pulses used of each sensor: pulses of sensor 1 alone would also fit the mirror image of the swing */

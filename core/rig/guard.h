@@ -54,7 +54,7 @@ typedef struct wh_guard_config {
     /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
     wh_real fall_radps;
     uint32_t lost_max;          /* pulses that may be lost in a run */
-    unsigned doubt_max;         /* see wh_pulses */
+    unsigned doubt_max;         /* largest wh_pulses.doubt */
     uint32_t rejected_max;      /* pulses that may be rejected in a run */
     wh_real silence_max_s;      /* longest time without a pulse in closed loop */
     wh_real slow_silence_max_s; /* longest time without a pulse while the rotor starts */

@@ -6,7 +6,7 @@
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12) /* window until the first confirmed pulse */
 #define RECORD_PART WH_R(0.8)  /* share of the speed error that the record allows */
-/* as a part of the commanded speed, which a rotor reaches late from rest */
+/* bound for the first pulses from rest, as a part of the commanded speed: the rotor lags behind it */
 #define FIRST_PART WH_R(0.8)
 /* a braked rotor gives its last one or two pulses at less than this speed */
 #define SLOW_RADPS WH_R(16.0)

@@ -407,7 +407,7 @@ static unsigned halves(const wh_rig *rig) {
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->fed && rig->pulses.waits ? 1U : 0U);
 }
 
-/* A step that has processed a pulse confirms none, unless this many confirmed pulses wait, which would be lost. */
+/* A step that has processed a pulse confirms none, unless more confirmed pulses than this wait. */
 #define MARKS_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {

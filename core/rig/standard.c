@@ -47,7 +47,7 @@ const wh_rig_config wh_rig_standard = {
               .load_silence_max_s = WH_R(0.02), /* the time of ten samples */
               /* a tenth of the change that the masses' force causes */
               .load_still_kgm = WH_R(0.1) * WH_RIG_UNBALANCE_KGM,
-              .stuck_pulses = 3, /* from the first to the last it is a whole turn */
+              .stuck_pulses = 3, /* from the first to the third it is a whole turn */
               .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
               .supply_max_V = WH_RIG_SUPPLY_MOST * WH_RIG_RATED_V,
               .rest_s = WH_R(1.5),

@@ -24,7 +24,7 @@ typedef struct wh_step_inputs {
     bool ended; /* the end of a pulse came in this step: the next two members are valid */
     unsigned end_sensor;
     uint32_t end_ticks;
-    unsigned samples; /* number of: */
+    unsigned samples; /* number of entries in sample[] */
     wh_step_sample sample[WH_STEP_SAMPLES];
 } wh_step_inputs;
 

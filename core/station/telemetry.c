@@ -25,7 +25,7 @@ typedef struct sight {
     unsigned stage;
     uint16_t speed; /* in 1/50 rpm */
     wh_bytes frame; /* the frame in progress */
-    unsigned spare; /* room reserved for others */
+    unsigned spare; /* room that stays free for other data */
 } sight;
 
 /* --- numbers ------------------------------------------------------------------------------------------ */
@@ -342,7 +342,7 @@ const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i) {
 
 /* === the console's command `tel` ============================================================= */
 
-/* Speed and drive in a frame of the channel run, telemetry.c. */
+/* Two parts of the schema of the channel `run`. */
 #define SPEED "speed[rpm]:u2:0.02"
 #define DRIVE ",drive[V]:u2:0.001"
 #define SCALE_DECIMALS 12U

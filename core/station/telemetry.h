@@ -141,13 +141,13 @@ typedef enum wh_tel_format { WH_TEL_FORMAT_ROWS(WH_TEL_NAME) WH_TEL_FORMATS } wh
 typedef struct wh_tel {
     bool reads; /* the ring is being sent, from step read_at on */
     uint16_t sequence[WH_TEL_CHANNELS];
-    uint16_t dropped[WH_TEL_CHANNELS]; /* of text: of WH_TEL_RUN */
+    uint16_t dropped[WH_TEL_CHANNELS]; /* lost lines of text count for WH_TEL_RUN */
     unsigned read_at;
     uint32_t read_ticks;
     uint32_t every; /* every `every`-th sample of the cell is sent; 0: off */
     uint32_t passed;
     wh_tel_format format;
-    unsigned samples; /* samples of the frame in progress: */
+    unsigned samples; /* number of samples in the frame in progress */
     uint32_t first_ticks;
     int16_t load[WH_TEL_SAMPLES];
     unsigned stage; /* the stage as last reported */

@@ -29,7 +29,7 @@ enum {
 static struct {
     uint32_t r[20];
     uint32_t ccr;
-    uint64_t stable_at; /* after ADON */
+    uint64_t stable_at; /* from then on the converter is stable, after ADON */
     bool busy, sampled;
     unsigned at; /* index in the group */
     uint64_t hold_at, end_at;

@@ -397,7 +397,7 @@ const part scb_part = {
 #define DWT_CYCCNT 0x04U
 #define DWT_LAR 0xFB0U /* a Cortex-M4 has no lock */
 static struct {
-    uint32_t demcr, ctrl, count; /* the count at: */
+    uint32_t demcr, ctrl, count; /* count: its value at the time `since` */
     uint64_t since;
 } trace;
 

@@ -42,7 +42,7 @@ typedef struct chip_world {
     uint32_t crystal_Hz;
     bool crystal;           /* the crystal oscillates */
     uint64_t crystal_units; /* start-up time */
-    bool pll;               /* locks */
+    bool pll;               /* the PLL locks */
     uint64_t watchdog_Hz;   /* LSI: 17 to 47 kHz */
     bool
         /* does a halt of the counter disable a timer's outputs? Not verified on this chip */

@@ -50,17 +50,15 @@ extern const part rcc_part, pwr_part, flash_part, flash_memory_part, gpio_part, 
     dbgmcu_part, dwt_part, core_debug_part;
 
 /* chip.c */
-/* Counts a broken rule and keeps the words of the first. */
 extern chip_cause reset_by; /* the cause of the last reset */
+/* Counts a violation of the manual and keeps the words of the first one. */
 __attribute__((format(printf, 2, 3))) void forbid_if(bool broken, const char *words, ...);
 #define forbidden(...) forbid_if(true, __VA_ARGS__)
 uint64_t now_units(void);
 bool core_halted(void);
 uint64_t drawn(void); /* a random number */
-void core_resets(
-    chip_cause
-        /* does not return to the program; in chip_pass() it returns, after the chip was reset */
-        cause);
+/* Resets the chip. Returns only in chip_pass(), never to the program. */
+void core_resets(chip_cause cause);
 volatile void *memory_at(uint32_t address); /* set by reg_address() */
 
 /* rcc.c: Hz, 0: the clock does not run. */

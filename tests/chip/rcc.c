@@ -31,7 +31,7 @@ enum {
 static struct {
     uint32_t r[REGISTERS];
     uint64_t hsi_at, hse_at, pll_at,
-        lsi_at;           /* when each becomes ready; CHIP_NEVER: never, or is already */
+        lsi_at; /* times at which they become ready; CHIP_NEVER: never, or already ready */
     uint64_t hse_gone_at; /* HSERDY falls six HSE cycles after HSEON (7.3.1) */
     bool crystal_runs, lsi_forced, vos_1;
     uint32_t core, hclk;

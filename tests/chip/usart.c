@@ -17,7 +17,7 @@ enum { SR = 0x00, DR = 0x04, BRR = 0x08, CR1 = 0x0C, CR2 = 0x10, CR3 = 0x14, GTP
 static struct {
     uint64_t when;
     uint8_t byte;
-    uint8_t flags; /* flags of SR; of a byte that was never sent */
+    uint8_t flags; /* flags of SR that the byte sets */
 } coming[COMING];
 static unsigned coming_from, coming_to;
 static uint8_t sent[SENT];

@@ -30,8 +30,8 @@ typedef struct bench {
     wh_real free[WH_COORDS]; /* the unconstrained accelerations */
     /* growth of the unconstrained accelerations per metre of the first coordinate */
     wh_real ramp[WH_COORDS];
-    wh_real signal[2 * BENCH_CONTACTS]; /* the signals at every state, */
-    bool moves; /* or, if `moves`, plus J x and J x' (no angles; J changes by lean) */
+    wh_real signal[2 * BENCH_CONTACTS]; /* constant parts of the signals */
+    bool moves; /* the signals also contain J x and J x' (no angles; J changes by lean) */
     wh_contact contact[BENCH_CONTACTS];
     wh_contact_system system;
     wh_ledger_form books;

@@ -18,7 +18,7 @@ static inline wh_real draw_whole(uint64_t *seed, int least, int most) {
     return (wh_real)(least + (int)(draw_bits(seed) % (uint64_t)(most - least + 1)));
 }
 
-/* A random number that is not whole: two never coincide by chance. */
+/* A random number that is not whole: two such numbers are never equal by chance. */
 static inline wh_real draw_broken(uint64_t *seed, int least, int most) {
     return draw_whole(seed, least * 1024, most * 1024 - 1) / 1024 +
            draw_whole(seed, 1, 1023) / WH_R(1048576.0);

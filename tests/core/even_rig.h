@@ -48,8 +48,8 @@ typedef struct even_rig {
     wh_rig_command command;
     even_failure fails;
     bool failing;         /* the failure has begun */
-    wh_rig_phase phase;   /* at the last step, */
-    uint32_t phase_ticks; /* the start time of that step */
+    wh_rig_phase phase;   /* phase after the last step */
+    uint32_t phase_ticks; /* time at which that phase began */
     bool turns;
     wh_real hand_rpm; /* if not 0, a hand turns the rotor at this speed, against any motor */
     uint32_t turn_ticks;

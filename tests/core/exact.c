@@ -5,8 +5,8 @@
 
 /* --- velocities --------------------------------------------------------------------------------------------- */
 
-/* Impulses: contacts in `set` reach target[], holds and contacts in `beside` reach zero, stops at least zero. Returns the
- * stops that open. */
+/* Applies impulses. Afterwards contacts in `set` have the rate target[], holds and contacts in `beside` zero, stops
+ * at least zero. Returns the stops that open. */
 static unsigned strike(exact *e, unsigned set, unsigned beside, const double *target,
                        double *impulse) {
     exact_problem p = {set | beside | exact_those(e, WH_STOP, WH_ACTIVE) |
@@ -69,7 +69,7 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     unsigned leaving = 0;
     unsigned gone = 0;
     exact_accelerate(e, a, force);
-    for (unsigned k = 0; k < exact_forced(); k++) { /* only contacts that touch */
+    for (unsigned k = 0; k < exact_forced(); k++) { /* resting stops without a force are free */
         if (exact_in(resting, k) && hand_now.law[k].first > 0 && exact_sign(e, force[k]) <= 0) {
             e->mode[k] = WH_FREE;
         }
@@ -108,7 +108,7 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
         gone |= open && rests(e, k, exact_along(k, e->v), a) ? 1U << k : 0U;
     }
     exact_give(e, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* with all holds together, without limits */
+    if ((gone | leaving) != 0) { /* active stops and holds get rate zero together, without limits */
         exact_problem p = {exact_those(e, WH_STOP, WH_ACTIVE) | exact_those(e, WH_HOLD, WH_ACTIVE),
                            {0.0},
                            {0.0},
@@ -199,7 +199,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
     }
     e->energy[k] += exact_kinetic(e) - exact_kinetic(&was) + exact_stored(e) - exact_stored(&was);
     const int side = exact_sign(e, exact_gap(e, k));
-    if (hand_now.places && side != 0) { /* if a rate is assigned, the contact does not move */
+    if (hand_now.places && side != 0) { /* an assigned rate does not change the crossing's value */
         e->mode[k] = side;
     } else {
         e->stands |= 1U << k;
@@ -220,7 +220,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
         exact_give(e, passed, WH_FREE);
         for (unsigned l = exact_forced(); l < hand_now.system.contacts; l++) {
             const int there = exact_in(e->stands, l) ? exact_sign(e, exact_gap(e, l)) : 0;
-            /* the assignment moved it off the crossing */
+            /* putting bodies back has moved the crossing's value off zero */
             e->mode[l] = there != 0 ? there : e->mode[l];
             e->stands &= there != 0 ? ~(1U << l) : ~0U;
         }
@@ -230,7 +230,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
     }
 }
 
-/* If a contact is exactly on its crossing, its side is the one that it moves to. */
+/* A crossing whose value has just been zero gets the side to which the value moves. */
 static void leave(exact *e) {
     for (unsigned k = exact_forced(); k < hand_now.system.contacts; k++) {
         const int side = exact_in(e->stands, k) ? exact_sign(e, exact_along(k, e->v)) : e->mode[k];
@@ -287,7 +287,7 @@ static unsigned happen(exact *e, unsigned events, double *impulse) {
         }
     }
     exact_give_way(e);
-    for (unsigned k = 0; k < exact_forced(); k++) { /* at the same moment, exactly */
+    for (unsigned k = 0; k < exact_forced(); k++) { /* a fixed coordinate's rate is exactly zero */
         const int pin = hand_now.contact[k].pin;
         if (pin >= 0 && exact_in(exact_holding(e), k) && exact_size_of(e->v[pin]) <= EXACT_ZERO) {
             e->v[pin] = 0.0;
@@ -318,10 +318,10 @@ void exact_start(exact *e) {
     }
     const unsigned holds = still & exact_those(e, WH_HOLD, WH_FREE);
     exact_give(e, still & ~holds, WH_ACTIVE);
-    if (still != 0) { /* the contact came to rest before any impact */
+    if (still != 0) { /* contacts at rest come first, before any impact */
         (void)happen(e, holds, impulse);
         exact_put_back(e, exact_those(e, WH_FRICTION, WH_STUCK),
-                       HAND_CONTACTS); /* no hold fixes the coordinate there */
+                       HAND_CONTACTS); /* sticking frictions fix no position here */
     }
     const unsigned events = happen(e, moving, impulse);
     note(e, events, 0.0, impulse);
@@ -432,7 +432,7 @@ void exact_step(exact *e) {
         if (events != 0) {
             double impulse[HAND_CONTACTS];
             const double at_s = STEP_S - left;
-            for (unsigned k = 0; k < exact_forced(); k++) { /* the rate has just reached zero */
+            for (unsigned k = 0; k < exact_forced(); k++) { /* a friction's rate is now zero */
                 const int pin = hand_now.contact[k].pin;
                 if (exact_in(events, k) && exact_is(k, WH_FRICTION)) {
                     e->v[pin] = 0.0;
@@ -445,7 +445,7 @@ void exact_step(exact *e) {
         }
     }
     for (unsigned k = exact_forced(); k < hand_now.system.contacts;
-         k++) { /* the rate has passed zero */
+         k++) { /* the sides of the crossings at the step's end */
         const int side = exact_sign(e, exact_gap(e, k));
         e->mode[k] = side != 0 ? side : e->mode[k];
     }

@@ -285,7 +285,7 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
     e->x[0] += way[0];
     e->x[1] += way[1];
     for (unsigned k = 0; k < exact_forced(); k++) {
-        /* and the constraints that depend on several coordinates */
+        /* remaining errors of contacts that depend on several coordinates */
         p.target[k] = hand_now.contact[k].pin >= 0 ? 0.0 : p.target[k] - exact_along(k, way);
     }
     way[0] = 0.0;

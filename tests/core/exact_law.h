@@ -7,8 +7,8 @@
 /* Numbers below this are zero; numbers slightly above it make a decision vague (exact.h). */
 #define EXACT_ZERO 1e-11
 
-/* The problem: x + M^-1 J^T lambda with J x = target[k]. A stop only pushes, a friction acts up to a limit, a hold acts both
- * ways. */
+/* The problem: find forces lambda that move x by M^-1 J^T lambda, so that J_k x = target[k] for each member. A stop
+ * only pushes, a friction acts up to a limit, a hold acts both ways. */
 typedef struct exact_problem {
     unsigned members; /* as bits */
     double target[HAND_CONTACTS];

@@ -44,7 +44,7 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
         }
         const wh_real size = WH_ABS(result[2 * k]);
         for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
-            /* the unit is a millimetre: there the factor is one */
+            /* the factor is one for a value of one millimetre */
             result[2 * k] *= size * size * WH_R(1e6);
         }
         for (unsigned i = 0; i < 2; i++) {

@@ -29,8 +29,8 @@ typedef struct hand {
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
     unsigned bent;    /* number of times that a crossing's value is multiplied by its own square */
-    unsigned lost[2]; /* bits: contacts whose first or second signal */
-    wh_real nothing;  /* has this value */
+    unsigned lost[2]; /* bits: contacts whose first, second signal becomes `nothing` */
+    wh_real nothing;  /* NaN or infinity */
     bool weighs;      /* the work of the loads counts as potential energy, not as external work */
     bool eventful;    /* every step takes the path of steps with events */
     bool places;      /* a crossing assigns the first coordinate instead of its rate */

@@ -273,7 +273,7 @@ static void test_a_length_in_two_parts_lasts_as_long_as_it_should(void) {
         double turn;
         errors_after((wh_method)m, lack(0.001), WH_R(0.0), &line, &turn);
         TEST_ASSERT_TRUE(line < (WH_DOUBLE ? 1e-13 : 2e-9));
-        TEST_ASSERT_TRUE(turn < (WH_DOUBLE ? 1e-12 : 6e-8)); /* half a unit of the output */
+        TEST_ASSERT_TRUE(turn < (WH_DOUBLE ? 1e-12 : 6e-8)); /* half of a float's last place */
         errors_after((wh_method)m, WH_R(0.0), WH_R(0.0), &line, &turn);
         TEST_ASSERT_TRUE(WH_DOUBLE || (line > 4.7e-8 && line < 4.8e-8));
         errors_after((wh_method)m, lack(0.001), WH_R(0.5), &line, &turn);

@@ -54,7 +54,7 @@ static void test_phase_moves(void) {
     }
 }
 
-/* Steps of all sizes are rounded to the nearest integer, halves away from zero; computed in integers. */
+/* The moves are compared with a reference in integers. */
 static void test_phase_moves_to_the_nearest(void) {
     for (unsigned i = 0; i < 20000; i++) {
         const uint32_t digits = (uint32_t)(scattered() & 0xffffffU);

@@ -34,7 +34,7 @@ TEST(contact, resting_stop_lets_go_when_the_force_turns) {
     hand_now.load[0] = WH_R(2.0);
     hand_steps(500);
     TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_FREE);
-    TEST_ASSERT_TRUE(hand_near(hand_state.real[1], WH_R(1.0), 1e-12, 1e-5)); /* 2 t */
+    TEST_ASSERT_TRUE(hand_near(hand_state.real[1], WH_R(1.0), 1e-12, 1e-5)); /* the speed is 2 t */
 }
 
 /* Two stops one micrometre apart and a fast body: more bounces than a step can resolve. */

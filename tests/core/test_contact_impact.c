@@ -6,7 +6,7 @@
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* A random number just below 1, or just above it. */
+/* A number just below 1 (*within) or just above it, at random. */
 static wh_real beside_one(uint64_t *seed, bool *within) {
     *within = draw_one_in(seed, 2);
     return *within ? WH_R(0.9375) : WH_R(1.0625);
@@ -174,7 +174,7 @@ TEST(contact_impact, to_whom_an_impact_is_passed_on) {
         wh_contact_work w;
         wh_real before[2 * BENCH_CONTACTS];
         wh_real after[2 * BENCH_CONTACTS];
-        unsigned wanted = draw_one_in(&seed, 2) ? 1U : 0U; /* stops already in the set */
+        unsigned wanted = draw_one_in(&seed, 2) ? 1U : 0U; /* stops that are already in hit_next */
         bench_draw(&seed, true);
         bench_work(&seed, true, &w);
         w.hit_next = wanted;
@@ -231,7 +231,7 @@ TEST(contact_impact, who_is_beside_an_impact) {
         signal[2 * l] = passed_on * (h * WH_BRACKET) * beside_one(&seed, &touched);
         const wh_real share = beside_one(&seed, &still);
         bench_vector(&seed, rate);
-        for (unsigned i = 0; i < n; i++) { /* its rate along the row */
+        for (unsigned i = 0; i < n; i++) { /* gives contact l the rate `share` times the limit */
             const wh_real size = bench_delassus(l, l);
             rate[i] = bench_way(l, i) / size * (WH_CONTACT_STILL * passed_on * share);
         }

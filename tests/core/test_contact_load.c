@@ -59,7 +59,7 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
         for (unsigned i = 0; i < count; i++) {
             w.rough[member[i]] = BENCH_SENTINEL;
         }
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* effect of no other contact */
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* other entries were not written */
             TEST_ASSERT_TRUE(w.rough[k] == BENCH_SENTINEL);
         }
     }
@@ -68,8 +68,7 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
     TEST_ASSERT_TRUE(wh_contact_rounding(1, -2, 4) == share * 7);
 }
 
-/* Reference for the direction of the push that is missing, from the accelerations or from the curvature alone. With
- * `impulse`, rates, without curvature. */
+/* Reference: the sign of the push that is missing, from the accelerations or from the curvature alone; 0: none. */
 static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, wh_real bent,
                      wh_real bends_by) {
     const wh_real limit = WH_CONTACT_ROUNDING * (WH_ABS(size) + WH_ABS(made));
@@ -107,7 +106,7 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
         const wh_real big = scale[draw_bits(&seed) % (rates ? 2U : 3U)];
         const wh_real small = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(0.0);
         const wh_real more =
-            big == scale[2] ? WH_R(0.53) : WH_R(0.0); /* the curvature is not exact */
+            big == scale[2] ? WH_R(0.53) : WH_R(0.0); /* inexact curvature: avoid its threshold */
         draw_places(&seed, count, at);
         bench_vector(&seed, way);
         for (unsigned i = 0; i < count; i++) {
@@ -116,8 +115,7 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
             w.rough[k] = (draw_whole(&seed, 0, 4) + more) * big;
             impulse[i] = draw_whole(&seed, -4, 4) * (rates ? big : WH_R(1.0));
             wanted[i] = bench_along(k, way) + draw_whole(&seed, -8, 8);
-            if (rates &&
-                draw_one_in(&seed, 2)) { /* relative to its size only round-off, or just above */
+            if (rates && draw_one_in(&seed, 2)) { /* near the limit of round-off, on either side */
                 const wh_real made = bench_along(k, way);
                 const wh_real part = draw_one_in(&seed, 2) ? WH_R(1.75) : WH_R(2.25);
                 wanted[i] = made + part * WH_CONTACT_ROUNDING * made;

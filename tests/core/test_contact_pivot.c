@@ -239,7 +239,7 @@ TEST(contact_pivot, what_does_not_end_is_ended) {
         bench_work(&seed, false, &w);
         for (unsigned i = 0; i < count; i++) {
             wanted[i] =
-                bench_delassus(i, 0) * 2 * bench_now.first[0]; /* all of it belongs to the first */
+                bench_delassus(i, 0) * 2 * bench_now.first[0]; /* the solution has only lambda[0] */
             w.rough[i] = -BENCH_SENTINEL / WH_CONTACT_QUIET;
         }
         (void)wh_contact_lcp(&bench_now.system, &w, member, count, wanted, true, lambda, left);

@@ -38,7 +38,7 @@ TEST(contact_places, a_coordinate_moves_and_no_other) {
             TEST_ASSERT_TRUE(bench_near(bench_moved(&from, &to, i), i == moved ? by : WH_R(0.0)));
             TEST_ASSERT_TRUE(i == moved || bench_moved(&from, &to, i) == WH_R(0.0));
         }
-        for (unsigned i = 0; i < bench_now.system.coordinates; i++) { /* nor does a rate */
+        for (unsigned i = 0; i < bench_now.system.coordinates; i++) { /* no rate changes */
             const wh_real *was = wh_contact_rates(&bench_now.system, &from);
             TEST_ASSERT_TRUE(wh_contact_rates(&bench_now.system, &to)[i] == was[i]);
         }

@@ -97,7 +97,7 @@ static void enter(wh_real off, tally *sum) {
 static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, unsigned most) {
     const unsigned mean = 100U * sum->looks / sum->searches;
     const unsigned bound = WH_DOUBLE ? hundredths : hundredths_f;
-    /* a board makes too few searches for a mean */
+    /* a board makes too few searches for an accurate mean */
     TEST_ASSERT_TRUE(mean <= (__STDC_HOSTED__ ? bound : 2U * bound));
     TEST_ASSERT_TRUE(sum->most <= most && sum->most <= WH_PROBES + 1U);
     TEST_ASSERT_TRUE(sum->fine * 16U >= sum->searches * (__STDC_HOSTED__ ? 13U : 8U));
@@ -164,14 +164,14 @@ TEST(contact_search, sliding_ends_where_the_rate_does) {
         wh_contact_work w;
         wh_contact_state from = {.real = {WH_R(0.0)}};
         draw_ways(&seed, 2, &from);
-        const unsigned behind = add_far(&seed); /* stops after the friction, or before it */
+        const unsigned behind = add_far(&seed); /* the friction's number, after the stops' */
         (void)bench_add(&seed, WH_FRICTION, 1);
         bench_now.signal[2 * behind] = WH_R(0.0);
         bench_now.moves = true;
         const wh_real when = share_of(&seed);
         const wh_real way = from.real[3] > WH_R(0.0) ? WH_R(1.0) : WH_R(-1.0);
         const bool second = draw_one_in(&seed, 2);
-        if (second) { /* and a crossing later, or earlier */
+        if (second) { /* a crossing, later or earlier */
             (void)add_along(&seed, WH_WHEN, 0, WH_R(1.0));
             bench_now.signal[2 * behind + 2] =
                 -place_at(&from, 0, when < WH_R(0.5) ? when + WH_R(0.25) : when / 2);
@@ -203,7 +203,7 @@ TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
         wh_contact_state to;
         wh_margins m;
         draw_ways(&seed, 2, &from);
-        const unsigned behind = add_far(&seed); /* stops after the friction, or before it */
+        const unsigned behind = add_far(&seed); /* the friction's number, after the stops' */
         (void)bench_add(&seed, WH_FRICTION, 1);
         bench_now.signal[2 * behind] = WH_R(0.0);
         /* a = a0 (1 - 2 t/when), a function of the first coordinate, which moves at a constant rate: v = a0 t (1 -

@@ -4,8 +4,8 @@
 #include "draw.h"
 #include "tests/suites.h"
 
-/* Length of the payloads: on an AVR for one block of the code and a part of a second, elsewhere for two blocks and a
- * part. */
+/* A payload fills two blocks of the code and a part of the third one; on an AVR, one block and a part of the next
+ * one. */
 #if defined(__AVR__)
 enum { PAYLOAD_BYTES = 280 };
 #else

@@ -129,7 +129,7 @@ typedef struct edge_of_two {
     wh_real wanted;
 } edge_of_two;
 
-/* `is_odd`: in the first argument. */
+/* `is_odd`: the function changes its sign with its first argument. */
 static void expect_edges_of_two(function_of_two *f, const edge_of_two *edges, unsigned count,
                                 bool is_odd) {
     for (unsigned i = 0; i < count; i++) {
@@ -225,7 +225,7 @@ TEST(functions, exact_powers) {
     }
 }
 
-/* The argument from which a result is infinite, zero, or an angle its own sine. */
+/* Arguments just inside and just beyond each limit from which a result is infinite, zero or one. */
 TEST(functions, ends_of_the_range) {
 #if WH_DOUBLE
     EXPECT(wh_exp, false, {0x1.62e42fefa39efp9, 0x1.fffffffffff2ap1023},
@@ -237,12 +237,12 @@ TEST(functions, ends_of_the_range) {
            {-0x1.633ce8fb9f87ep+9, INFINITE});
     EXPECT(wh_tanh, false, {0x1.30fc1931f09c9p+4, 0x1.fffffffffffffp-1},
            {0x1.30fc1931f09cbp+4, ONE});
-    /* The double nearest to a multiple of a quarter turn. */
+    /* No double is nearer to a multiple of a quarter turn than this one. */
     EXPECT(wh_cosine, false, {0x1.6ac5b262ca1ffp849, -0x1.14ae72e6ba22fp-61});
     EXPECT(wh_sine, false, {-0x1.6ac5b262ca1ffp849, -1.0});
     EXPECT(wh_tan, false, {0x1.6ac5b262ca1ffp849, -0x1.d9ba9a7975636p60});
     TEST_ASSERT_TRUE(wh_pow(2.0, 0x1.fffffffffffffp9) < INFINITE);
-    TEST_ASSERT_TRUE(wh_pow(2.0, -1075.0) == 0.0); /* a HALF unit: to even */
+    TEST_ASSERT_TRUE(wh_pow(2.0, -1075.0) == 0.0); /* a tie, which goes to the even zero */
     TEST_ASSERT_TRUE(wh_pow(2.0, -0x1.0cbffffffffffp10) == SMALLEST);
 #else
     EXPECT(wh_exp, false, {0x1.62e42ep6f, 0x1.ffff08p127f}, {0x1.62e43p6f, INFINITE},
@@ -308,7 +308,7 @@ TEST(functions, inverses) {
     }
 }
 
-/* Boundaries between two ways of computing: neighbours, a few thousand on either side. */
+/* Tests 3,000 neighbouring numbers on either side of each argument at which the way of computing changes. */
 TEST(functions, hyperbolic_never_fall) {
     static const wh_real from[] = {WH_R(0.25), ONE, WH_R(8.0), WH_R(88.0)};
     const wh_real next = ONE + wh_pow(TWO, (wh_real)(1 - DIGITS));

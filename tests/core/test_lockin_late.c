@@ -31,7 +31,7 @@ typedef struct stream {
     wh_real ripple_N; /* amplitude of the third order */
     /* number of steps without samples, after which all waiting samples come at once */
     unsigned held;
-    unsigned hold_more; /* one step in this number begins a delay of up to 12 steps; 0: none */
+    unsigned hold_more; /* one of this many steps begins a delay of up to 12 steps; 0: none */
 } stream;
 
 static stream draw_stream(void) {

@@ -207,8 +207,8 @@ static wh_why why_of(wh_real in_phase, wh_lockin_turn like) {
     return measured.why;
 }
 
-/* Reasons that depend on the merged turns. Those by a limit on a measured quantity: test_rig_parts.c,
- * limits_of_a_verdict_are_allowed. */
+/* Reasons that depend on the merged turns. limits_of_a_verdict_are_allowed in test_rig_parts.c tests the reasons with
+ * a limit on a measured quantity. */
 TEST(rig_result, reasons_from_the_turns) {
     const wh_lockin_turn plain = {.samples = 0};
     const wh_lockin_turn gap = {.fault = WH_TURN_GAP};

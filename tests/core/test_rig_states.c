@@ -41,8 +41,8 @@ static void stand_in(wh_rig_state state) {
     TEST_ASSERT_TRUE(even.rig.state == state);
 }
 
-/* An event's effect by state (idle, armed, running, stopping, tripped): the next state's first letter, or the refusal.
- * Refusals: - not armed, a armed, r running, s stopping, t tripped, n no trip, x not running. */
+/* An event's effect in the states idle, armed, running, stopping, tripped: the next state's first letter, or a refusal.
+ * `-`: not armed. `a`: armed. `r`: running. `s`: stopping. `t`: tripped. `n`: no trip. `x`: not running. */
 typedef struct expectation {
     wh_rig_event event;
     bool is_order; /* an order from outside; other events are refused when posted */
@@ -202,7 +202,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
         CHECK_NEAR(1e-3f, 250.0f, even.rig.run.target_radps / EVEN_RPM);
     }
     stand_in(
-        WH_RIG_ARMED); /* just enough suffices, and the slowest set-point without feed needs none */
+        WH_RIG_ARMED); /* the least supply suffices, and the slowest set-point needs no compensation */
     const wh_real slowest = even.config.guard.target_min_radps;
     even.inputs.supply_V = wh_run_needs_V(&even.config.run, slowest);
     even.config.guard.supply_min_V = WH_R(1.0);

@@ -3,7 +3,7 @@
  *
  * One source for double and float, on the PC and on boards. Tolerances in double are the method's errors
  * (tests/host/test_trajectory.c has their digits). In float, round-off is added: after N steps a sum has a random error
- * of sqrt(N/3) U times its power of two, U = 2^-24. */
+ * of sqrt(N/3) U 2^k if it is below 2^k, with U = 2^-24. */
 #include "build/gen/scenes.h"
 #include "core/scene.h"
 

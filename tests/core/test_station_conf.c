@@ -204,9 +204,9 @@ TEST(station_conf, values_have_their_places) {
     TEST_ASSERT_TRUE(against > 10U);
 }
 
-/* The rotor's dependent values: a heavier one, or one that lies level. */
 static void own_standard(wh_rig_config *config) { *config = wh_rig_standard; }
 
+/* The values that follow from masses, inertia, gravity and mount. */
 TEST(station_conf, what_follows) {
     wh_rig_config plain;
     own_standard(&plain);

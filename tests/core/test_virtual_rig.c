@@ -1,4 +1,4 @@
-/* test_virtual_rig.c: the whole rig on its model: the measurement of the dissertation, with noise and lost pulses. |
+/* test_virtual_rig.c: the whole rig on its model: the measurement of the dissertation, with noise and lost pulses.
  * The virtual rig computes in single precision only, so the double build tests only the formula. */
 #include "on_plant.h"
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # avr.sh WHIRL FOLDER: the core on an ATmega2560 in simavr, built in FOLDER without warnings in strict and GNU C, and used
 # from strict and GNU C++. The sine's table is always in flash, with or without the newer instruction that reads it. The
-# bits are this machine's. Prints errors.
+# results have the same bits as on this machine. Prints errors.
 set -u
 
 whirl=$1
@@ -17,7 +17,7 @@ wrong() {
     bad=1
 }
 
-# gcc 5 takes arrays that are filled up to a count for arrays that are not
+# gcc 5 reports an array that is filled up to a count as uninitialized
 flags="-mmcu=atmega2560 -Os -ffp-contract=off -I. -I$folder -Wall -Wextra -pedantic -Werror -Wno-maybe-uninitialized"
 
 # The sine's hash on this machine.
@@ -48,7 +48,7 @@ while read -r scene until options; do
     "$whirl" derive "$scene" --as c --until "$until" $options --name tested --header "$folder/generated.h" \
         >"$folder/generated.c" || exit 1
     run=$("$whirl" run "$scene" --until "$until" $options --number float | sed -n 's/^state hash *0x//p')
-    # a dialect knows nothing of scenes: all of them with the first
+    # scenes do not matter to the other dialects: only the first scene is built in all of them
     others="c11 gnu++11,gnu11 c++11,gnu11 gnu++11,c11 c++11 -U__AVR_HAVE_LPMX__,"
     [ $compared -eq 0 ] || others=
     echo "${others}c11 c++11" | tr ',' '\n' >"$folder/dialects"
@@ -63,7 +63,7 @@ while read -r scene until options; do
         done
         avr-g++ -std="$2" ${3:-} -fno-exceptions -Wconversion $flags -o "$folder/image.elf" tests/embed/avr_main.cpp $objects \
             >"$folder/log" 2>&1 || { wrong "$what: it does not link" "$folder/log"; continue; }
-        # memory begins at 0x800000 in these files
+        # in these files flash has addresses from 0 on, RAM from 0x800000 on
         at=$(avr-nm "$folder/image.elf" | awk '$3 == "wh_sine_table" { print $1 }')
         case $at in
         0000*) ;;

@@ -1,11 +1,11 @@
 #!/bin/sh
-# known_names.sh: names that C and C++ compilers know already, by the compilers' own judgement.
+# known_names.sh: finds names that C and C++ compilers reserve, by asking the compilers.
 #
-#     known_names.sh ask             words that they may know, a line each: all that stands in the headers, and in the
-#                                    compilers themselves
-#     known_names.sh judge FILE CPP  the words of FILE (for C++, of CPP) that one of them complains of as the name of an
-#                                    object: without any header, with those of strict ISO C, and with those that GNU
-#                                    dialects say more in
+#     known_names.sh ask             prints candidates, one per line: all words of the headers and of the compilers'
+#                                    own files
+#     known_names.sh judge FILE CPP  prints the words of FILE (for C++, of CPP) that a compiler rejects, or warns of, as
+#                                    the name of an object: without headers, with those of ISO C, and with those to
+#                                    which GNU dialects add names
 set -u
 LC_ALL=C
 export LC_ALL
@@ -19,7 +19,7 @@ gnu="math complex stdlib string strings"
 printf '#include <%s.h>\n' $iso >"$scratch/iso.h"
 printf '#include <%s.h>\n' $gnu >"$scratch/gnu.h"
 
-# what stands in a program by itself
+# the words that stand alone, between zero bytes or line ends, in a file
 strings_of() { tr '\000' '\n' <"$1" | grep -axE '(__builtin_)?[a-z][a-z0-9_]{1,30}' | sed 's/^__builtin_//'; }
 words() { grep -aohE '\b[A-Za-z][A-Za-z0-9_]*\b'; }
 

@@ -1,4 +1,4 @@
-# names.awk: a mechanism with awkward names and texts, and what its generated header must say of it.
+# names.awk: a mechanism with awkward names and texts, and checks of its generated header.
 #
 #     awk -v seed=N -v number=I -v folder=FOLDER -f names.awk
 #

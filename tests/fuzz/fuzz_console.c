@@ -22,7 +22,7 @@ enum {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static uint8_t kept[WH_STORE_SLOTS][SLOT_BYTES];
-static bool fails; /* the memory */
+static bool fails; /* the settings' memory fails */
 
 static bool erase(unsigned slot) {
     memset(kept[slot], 0xFF, SLOT_BYTES);
@@ -114,7 +114,7 @@ static size_t step(bench *b, const uint8_t *data, size_t size) {
     return 1U + come;
 }
 
-/* At rest orders are obeyed. */
+/* Starts the rig and its console, and steps until the rotor counts as at rest: then orders are obeyed. */
 static void rest(bench *b) {
     b->ticks = 0xFFFF0000U;
     wh_station_start(&b->station, "rig", "here", STEPS_PER_S);

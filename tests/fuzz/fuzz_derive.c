@@ -26,7 +26,7 @@ typedef struct writer {
     size_t used;
     int unknowns;
     int lets;
-    bool rates; /* may occur */
+    bool rates; /* rates may occur in expressions */
 } writer;
 
 static unsigned choose(writer *w, unsigned count) {

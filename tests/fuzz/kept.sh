@@ -1,6 +1,6 @@
 #!/bin/sh
-# kept.sh PROGRAM...: give each FUZZER.kept (kept.c) the inputs of tests/fuzz/kept/FUZZER.tar.gz. With the sanitizers' build, any slip
-# in memory or arithmetic fails; what hangs is ended.
+# kept.sh PROGRAM...: give each FUZZER.kept (kept.c) the inputs of tests/fuzz/kept/FUZZER.tar.gz. Programs that
+# were built with sanitizers also fail at errors of memory or arithmetic. A program that hangs is ended.
 set -u
 
 bad=0

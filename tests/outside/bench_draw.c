@@ -10,12 +10,12 @@ const fault_kind kinds[] = {
     KIND(hum, 0.05, 3, false)           /* N, amplitude, at 50 or 60 Hz */
     KIND(pickup, 0.1, 5, false)         /* N, once per turn */
     KIND(clip_above, 0.9, 0.995, false) /* share of the record's upper peak */
-    KIND(clip_below, 0.9, 0.995, false) /* ... lower peak */
-    KIND(play, 0.5, 2, false)           /* N, from one side to the other */
+    KIND(clip_below, 0.9, 0.995, false) /* share of the record's lower peak */
+    KIND(play, 0.5, 2, false)           /* N, the whole backlash */
     KIND(cubic, 0.005, 0.02, true)      /* error at the nominal amplitude */
     KIND(drift, 0.01, 0.5, true)        /* N/s */
     KIND(gain, 0.005, 0.3, true)        /* error */
-    KIND(quantized, 0.02, 0.5, false)   /* N a count */
+    KIND(quantized, 0.02, 0.5, false)   /* N per count */
     KIND(resonance, 20, 80, false)      /* Hz */
     KIND(place_1, 0.2, 5, true)         /* deg */
     KIND(place_2, 0.2, 5, true)         /* deg */
@@ -57,7 +57,7 @@ double normal(dice *d) {
 
 static bool is(int kind, const char *name) { return strcmp(kinds[kind].name, name) == 0; }
 
-/* The highest set-point that the page allows at this supply, with 1.5 V in hand for friction. */
+/* The highest set-point that docs/rig.md allows at this supply, less 1.5 V for friction. */
 static double most_rpm(double supply) { return fmin(360.0, (supply - 2.3) / 24.0 * 600.0); }
 
 static event drawn_event(dice *d) {
@@ -115,7 +115,7 @@ static void draw_fault(bench *b, int kind, dice *d) {
     }
 }
 
-/* A healthy bench of the issue: noise and hum to 0.3 N, jitter to 100 us, inertia 0.75 to 1.5. */
+/* A healthy bench: noise and hum up to 0.3 N, jitter up to 100 us, inertia 0.75 to 1.5 times the nominal one. */
 void draw_healthy(bench *b, dice *d) {
     const event never = {NOT_AT_ALL, 0, NEVER};
     *b = (bench){.supply = 24, .drag = 1, .clip_high = NEVER, .clip_low = -NEVER};
@@ -148,13 +148,13 @@ void draw_bench(bench *b, int kind, dice *d) {
     b->double_s = uniform(d, 1e-4, 5e-3);
     b->kind = kind;
     draw_fault(b, kind, d);
-    if (kind != 0 && chance(d, 0.25)) { /* a second one, but none of the last three */
+    if (kind != 0 && chance(d, 0.25)) { /* a second fault, of any kind but the last three */
         b->second = 1 + (int)(dice_next(d) % (KINDS - 4));
         draw_fault(b, b->second, d);
     }
 }
 
-/* A healthy run-out: to the run's end or from a stop at any time, braked, coasting or swinging. */
+/* A healthy rotor that slows down after a run's end or after a stop at any time: braked, coasting or swinging. */
 void draw_run_out(bench *b, dice *d) {
     draw_healthy(b, d);
     b->supply = uniform(d, 12, 36);
@@ -165,7 +165,7 @@ void draw_run_out(bench *b, dice *d) {
     if (way < 0.3 && b->supply > 17) {
         draw_fault(b, b->kind = KIND_SWING, d);
     } else if (way < 0.6 && b->rpm > 170) {
-        b->coasts = 1; /* a stage that is open at duty 0 */
+        b->coasts = 1; /* at duty 0 the drive stage is open */
     } else {
         b->brakes = chance(d, 0.7);
     }

@@ -21,7 +21,7 @@
             X(place_1) X(place_2) X(jitter) X(dead) X(doubled) X(double_s) X(resonance) X(damping) \
                 X(play) X(cubic) X(gain) X(drift) X(pickup) X(pickup_phase) X(noise) X(hum) \
                     X(hum_hz) X(hum_phase) X(clip_above) X(clip_below) X(adc) X(quantized)
-/* Events of a bench. silent: the load cell, which makes a trip. */
+/* Events of a bench. silent: the load cell gives no more samples, so the rig trips. */
 #define EVENTS(X) X(stop) X(release) X(stuck) X(die) X(silent)
 
 enum { BY_TIME = -1, AFTER_STOP = -2, NOT_AT_ALL = -3 };
@@ -41,7 +41,7 @@ enum {
 };
 /* clang-format on */
 
-typedef struct { /* the time after the first orders of a state, or one of the three above */
+typedef struct { /* delay: seconds from the first orders in `state`, from the begin, or from stop */
     int state;
     double delay, at;
 } event;
@@ -53,12 +53,12 @@ typedef struct {
 #define X(name) event name;
     EVENTS(X)
 #undef X
-    double clip_high, clip_low; /* the amplifier, from the reading at rest */
+    double clip_high, clip_low; /* limits of the amplifier, N from the reading at rest */
     uint64_t seed;
     int kind, second;
 } bench;
 
-/* Kinds of faults: a number of the bench and its range, of either sign in the last column. */
+/* Kinds of faults: the offset of a number of the bench, and its range. signed_: the number may be negative. */
 typedef struct {
     const char *name;
     size_t number;

@@ -84,7 +84,7 @@ static void silent(int signal_number) {
     _exit(write(2, text, sizeof text - 1) > 0 && signal_number == SIGALRM ? 2 : 3);
 }
 
-/* Read the next frame. False: end of file. */
+/* Reads the next frame. Returns false at the end of the stream. */
 bool line_hear(const line *l, message *m) {
     int code = 0;
     m->n = 0;
@@ -121,7 +121,7 @@ bool line_hear(const line *l, message *m) {
 
 void line_start(line *l, const char *firmware) {
     int down[2], up[2];
-    signal(SIGPIPE, SIG_IGN); /* The next read says that the firmware is gone. */
+    signal(SIGPIPE, SIG_IGN); /* the next read reports that the firmware has ended */
     signal(SIGALRM, silent);
     if (access(firmware, X_OK) != 0 || pipe(down) != 0 || pipe(up) != 0) {
         fprintf(stderr, "error: cannot start %s\nhint: make pil-images\n", firmware);
@@ -147,7 +147,7 @@ void line_start(line *l, const char *firmware) {
     l->from = fdopen(up[0], "rb");
 }
 
-/* End the line, and the firmware with it: its exit status, or -1 after a signal. */
+/* Closes the line, which ends the firmware. Returns the firmware's exit status, or -1 after a signal. */
 int line_end(const line *l) {
     int status = 0;
     fclose(l->to);

@@ -12,7 +12,7 @@ enum { HEADER = 8 }; /* bytes: version, kind, sequence, ticks */
 
 typedef struct {
     uint8_t byte[2048];
-    size_t n, at; /* at: position of the reader */
+    size_t n, at; /* at: index of the next byte to read */
 } message;
 
 typedef struct {
@@ -20,7 +20,7 @@ typedef struct {
     FILE *to, *from;
 } line;
 
-_Noreturn void disagree(const char *format, ...); /* end with status 2: page and firmware */
+_Noreturn void disagree(const char *format, ...); /* exits with 2: page and firmware differ */
 
 void put(message *m, uint32_t value, int bytes);
 uint32_t get(message *m, int bytes);
@@ -29,7 +29,7 @@ const char *get_string(message *m);
 
 void line_start(line *l, const char *firmware);
 void line_say(const line *l, message *m);  /* adds the CRC */
-bool line_hear(const line *l, message *m); /* behind its version; false: end of file */
+bool line_hear(const line *l, message *m); /* reads a frame; false: end of file */
 int line_end(const line *l);               /* the firmware's exit status, -1 after a signal */
 
 #endif

@@ -94,7 +94,7 @@ static void find_pulses(plant *p, double a, double va, double vb, double h) {
     }
 }
 
-/* Fourier integrals over the angle from a to b, by a trapezoid. */
+/* Adds the Fourier integrals over the angle from a to b, by the trapezoidal rule. */
 static void add_to_turn(turn *now, double a, double b, const double *f, const double *g) {
     for (int k = 0; k < 2; k++) {
         now->cosine[k] += (b - a) / TURN * (f[k] * cos(a) + g[k] * cos(b));
@@ -124,7 +124,7 @@ static void follow_turn(plant *p, double a, const double *f, const double *g, do
 
 void plant_start(plant *p, const bench *b) {
     *p = (plant){.b = b, .d = b->seed, .inertia = b->inertia * ROTOR_KGM2};
-    for (int i = 0; i < 500; i++) { /* to the angle at which the rotor rests */
+    for (int i = 0; i < 500; i++) { /* iterates to the angle at which the rotor rests */
         p->y[ANGLE] += driven(p, p->y) - weighed(p->y);
     }
     p->energy_0 = energy(p);
@@ -159,7 +159,7 @@ void plant_step(plant *p, double h) {
     p->energy_off = fmax(p->energy_off, fabs(energy(p) - p->energy_0 - p->y[WORK]));
 }
 
-/* The load cell's reading in newtons: play, cubic error, gain, what is added, amplifier, converter. */
+/* The load cell's reading, N: backlash, cubic error, gain, drift, hum, noise, pick-up, amplifier, converter. */
 static double cell_reads(plant *p, bool recording) {
     const bench *b = p->b;
     const double u = p->play_at / (MOMENT * b->rpm * RPM * b->rpm * RPM);

@@ -25,7 +25,7 @@ typedef struct {
     uint32_t watchdog_us;
     uint64_t now_us, kicked_us;
     int queued;
-    double play_at, jitter[2], lead[2]; /* jitter of this passage, in seconds and as an angle */
+    double play_at, jitter[2], lead[2]; /* of a sensor's next pulse, in seconds and as an angle */
     double force[2], energy_0, energy_off, peak_high, peak_low;
     long turns;
     turn now, past[KEPT];

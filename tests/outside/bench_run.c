@@ -8,7 +8,7 @@
 
 enum { MOST_SAMPLES = 24, MOST_EDGES = 16, SAMPLES = 6 };
 
-/* The signals of the rig, as the page's table has them, dials last: kind, name and period in ms. */
+/* The rig's signals in the order of docs/dev/pil.md, dials last: kind, name, and period in ms. */
 static const struct {
     int kind;
     const char *name;
@@ -43,7 +43,7 @@ static void read_hello(message *m, hello *h) {
         const int is_kind = i < rows ? (int)get(m, 1) : -1;
         const char *name = is_kind >= 0 ? get_string(m) : "nothing";
         if (strncmp(page[row].name, "dial", 4) == 0 && strcmp(name, page[row].name) != 0) {
-            m->at = before; /* no dials */
+            m->at = before; /* this firmware has no dials */
             continue;
         }
         if (is_kind != page[row].kind || strcmp(name, page[row].name) != 0) {
@@ -207,14 +207,14 @@ static void watch(event *e, double t, int state, bool stopped) {
     }
 }
 
-/* Let the plant go on until its timer shows until, and write down what its sensors give. */
+/* Lets the plant run until its timer shows `until`, and writes its sensors' readings into the message. */
 static void advance(plant *p, const hello *h, uint32_t until, bool recording, message *m) {
     message taken = {.n = 0};
     uint32_t edges = 0, samples = 0;
     const int32_t ahead = (int32_t)(until - (h->start + (uint32_t)p->now_us));
     const uint64_t end = p->now_us + (uint64_t)(ahead > 0 ? ahead : 0);
     while (p->now_us < end) {
-        uint64_t to = (p->now_us / STEP_US + 1) * STEP_US; /* samples lie on the grid, too */
+        uint64_t to = (p->now_us / STEP_US + 1) * STEP_US; /* samples lie on this grid, too */
         to = to < end ? to : end;
         plant_step(p, (double)(to - p->now_us) * 1e-6);
         p->now_us = to;

@@ -9,8 +9,8 @@ enum { FLOATS = 11 };
 
 typedef struct {
     int index, kind, second, status, state, state_before, trip, quality, turns, trip_state;
-    bool wrong, on, shown, tripped, ended; /* shown: a stage that drives, by a turn */
-    /* note: of the result; the others are the plant's */
+    bool wrong, on, shown, tripped, ended; /* shown: a turn showed that the stage drives */
+    /* note: the firmware's notes at the result; the others: true values */
     double note[FLOATS], amplitude, phase, rpm;
     double energy_off, seconds, on_s, peak_high, peak_low, fastest;
     char why[160];

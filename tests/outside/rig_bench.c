@@ -81,7 +81,7 @@ static void play(const campaign *c, int index, outcome *o) {
 }
 
 typedef struct {
-    int runs, quality[4], tripped, shown, wrong, on, trips[16]; /* quality: none, good, ... */
+    int runs, quality[4], tripped, shown, wrong, on, trips[16]; /* quality: no result, good, ... */
     double on_s;
 } tally;
 

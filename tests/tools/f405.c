@@ -34,7 +34,7 @@ static bool converses(unsigned times) {
         const char *answer;
     } said[] = {{"id", "OK program="},
                 {"host 0", "OK"},
-                /* to the end: the flashed image has its words packed */
+                /* the whole line, because the flashed image stores its words packed */
                 {"fault", "OK trip=0 ended=none: no fault"},
                 {"clear", "ERR 6 there is no trip to clear"},
                 {"measure", "ERR 104 the last run has given no result"},

@@ -30,7 +30,7 @@ typedef struct subject {
     double (*reference)(double);
     float (*two)(float, float);
     double (*reference_of_two)(double, double);
-    float (*of_phase)(wh_phase); /* `allowed` is absolute, of `reference` in rad */
+    float (*of_phase)(wh_phase); /* `allowed` is an absolute error; `reference` takes radians */
 } subject;
 
 static float used_sqrt(float x) { return WH_SQRT(x); }

@@ -22,7 +22,7 @@ typedef struct subject {
     const char *what;
     double (*energy_J)(const motion *m);
     const char *text;
-    bool rates;    /* the accelerations depend on rates; or the centre of mass is fixed */
+    bool rates;    /* it is the gear: accelerations depend on rates, and its centre is measured */
     bool no_books; /* a coordinate is integrated from its momentum */
 } subject;
 

@@ -26,8 +26,8 @@ enum { TCCRA, TCCRB, TCCRC, ICR = 6, OCRA = 8 }; /* offsets from mega_timer_base
 
 static struct {
     uint64_t until; /* end of the EEPROM's write; 0: idle */
-    uint64_t heard; /* the watchdog, */
-    uint64_t kept;  /* and those of simavr, which must not bite */
+    uint64_t heard; /* cycle of the firmware's last kick of the watchdog */
+    uint64_t kept;  /* cycle of the last kick of simavr's own watchdog, which must not bite */
     uint8_t settings;
     bool oc1a; /* the level of OC1A while it is disconnected */
     const char *wrong;
@@ -146,7 +146,7 @@ static void keep_eeprom_busy(avr_t *avr, bool writes) {
     }
 }
 
-/* After the last `wdr` or change of its settings. simavr's own watchdog keeps the old time after a change. */
+/* Returns true if the watchdog bites. simavr's own watchdog would keep the old time after a change of settings. */
 bool mega_parts_bite(avr_t *avr, const mega_next *done) {
     keep_captured(avr, done);
     keep_output(avr, done);

@@ -13,23 +13,23 @@
 extern const uint16_t mega_timer_base[MEGA_TIMERS]; /* the address of TCCRnA */
 
 typedef struct mega_next {
-    uint16_t captured[MEGA_TIMERS]; /* ICRn, */
-    bool writable[MEGA_TIMERS];     /* can the CPU write it? */
+    uint16_t captured[MEGA_TIMERS]; /* ICRn */
+    bool writable[MEGA_TIMERS];     /* the CPU can write ICRn */
     bool timed;                     /* OC1A is connected to its pin, an output */
-    bool hears;                     /* `wdr` */
-    bool writes;                    /* begins to write or erase an EEPROM byte: */
-    unsigned address;               /* its address */
+    bool hears;                     /* the instruction is `wdr` */
+    bool writes;                    /* the instruction begins to write or erase an EEPROM byte */
+    unsigned address;               /* that byte's address */
     uint8_t
         overflows; /* a bit for timer 4, one for 5: overflow pending, not affected by the instruction */
 } mega_next;
 
-/* Called after a reset. */
+/* To be called after a reset. */
 void mega_parts_start(void);
 
 /* The firmware's violation of the data sheet; NULL: none. */
 const char *mega_parts_wrong(void);
 
-/* Before and after an instruction. True: the watchdog bites. */
+/* To be called before and after each instruction. mega_parts_bite() returns true if the watchdog bites. */
 mega_next mega_parts_next(const avr_t *avr);
 bool mega_parts_bite(avr_t *avr, const mega_next *done);
 
