@@ -102,13 +102,14 @@ typedef enum wh_contact_kind {
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
     int8_t
-        direction; /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves it between steps, 2 if one
-                    * with a rate does. Hold: 1 if it is straight (J_k constant), -1 if it follows an input with a
-                    * rate. Else 0. */
+        direction; /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves it between steps, 2 if an
+                    * input with a rate does. Hold: 1 if it is straight (J_k constant), -1 if it follows an input with a
+                    * rate. Otherwise 0. */
     /* index of the coordinate if the expression is linear in one coordinate (then J_k is constant and its rate
      * exactly zero); else -1 */
     int16_t pin;
-    uint8_t first_set; /* of a crossing's first assignment, or of a hold without a pin in held[] */
+    uint8_t
+        first_set; /* index of a crossing's first assignment, or in held[] of a hold without a pin */
     uint8_t sets;
 } wh_contact;
 

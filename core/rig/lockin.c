@@ -162,7 +162,7 @@ WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
 
-/* First half of a node's work: its angle and load. At this time of the turn the load was force_N. */
+/* First half of a node's work: its angle and load. force_N is the load at the time `ticks`. */
 static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lockin_place place) {
     wh_lockin_node *node = &lockin->placed;
     node->force_N = force_N;

@@ -131,8 +131,8 @@ wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint
 /* The motor voltage for a steady speed. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
-/* The phase in words, for consoles, by wh_text_add(). WH_PHASES is a motor that brakes when it is off
- * (wh_rig_shown_stage()). */
+/* The phase in words, for consoles, by wh_text_add(). The number WH_PHASES stands for a motor that brakes while it
+ * is off (wh_rig_shown_stage()). */
 const char *wh_phase_text(wh_rig_phase phase);
 
 #ifdef __cplusplus

@@ -96,7 +96,7 @@ typedef struct wh_merge {
     wh_real in_phase_N; /* means over the turns */
     wh_real quadrature_N;
     wh_real second_N[2];   /* components of twice the angle: cosine, sine */
-    wh_real scatter_N2[3]; /* sums of squares about the means: in phase, product, quadrature */
+    wh_real scatter_N2[3]; /* sums about the means: in phase squared, product, quadrature squared */
     wh_real mean_N;
     wh_real residual_N2;
     wh_real expected_N;

@@ -1,6 +1,6 @@
 /* conf_rows.h: the settings of a rig, one row each.
  * X(name, number, kind, unit, least, most, goes, member, words). The name is typed, and never changes. The number is
- * stored, never changes and is never used again. The range is in the unit. `goes` is the setting's effect on the
+ * stored, never changes, and is never given to another setting. The range is in the unit. `goes` is the setting's effect on the
  * configuration (conf.c), `member` its place in wh_rig_config. */
 #ifndef WH_STATION_CONF_ROWS_H
 #define WH_STATION_CONF_ROWS_H

@@ -181,7 +181,7 @@ static void take_interrupts(void) {
             chip.handling = true;
             handle(vectors[i].handler, n);
             chip.handling = false;
-            i = UINT32_MAX; /* the lowest number first */
+            i = UINT32_MAX; /* begins again at the lowest number */
         }
     }
 }

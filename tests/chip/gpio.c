@@ -213,7 +213,7 @@ static void gpio_store(uint32_t offset, uint32_t value) {
     case ODR: r[ODR / 4U] = value & 0xFFFFU; break;
     case BSRR:
         r[ODR / 4U] = (r[ODR / 4U] & ~(value >> 16)) | (value & 0xFFFFU);
-        break; /* setting wins */
+        break; /* a bit that is both set and reset is set */
     case MODER:
     case OTYPER:
     case OSPEEDR:

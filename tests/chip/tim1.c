@@ -42,7 +42,7 @@ static struct {
     uint32_t r[20];
     uint32_t psc, arr, ccr1; /* values in use, after the preload */
     uint32_t count;
-    uint64_t base; /* time of that value */
+    uint64_t base; /* time at which `count` was valid */
     bool locked_once, failed;
 } t;
 

@@ -103,7 +103,7 @@ TEST(contact_places, a_straight_way_is_summed_without_rounding) {
         bench_work(&seed, false, &w);
         const double turns = (double)sums[0] / (double)WH_PHASE_PER_RAD;
         const double ways = (double)sums[1];
-        /* in float the last eight bits of each angle's motion are a rounded product */
+        /* float: the product with the last eight bits of an angle's motion is rounded */
         const double last = far ? 512.0 * (double)factor / (double)WH_PHASE_PER_RAD : 0.0;
         const double size = last + (turns < 0.0 ? -turns : turns) + (ways < 0.0 ? -ways : ways);
         const double off =

@@ -76,7 +76,7 @@ static wh_real turn(const plant *p, wh_real speed) {
         const wh_real k4 = bend(p, theta + h, speed + h * k3);
         const wh_real next = speed + h / WH_R(6.0) * (k1 + WH_R(2.0) * (k2 + k3) + k4);
         const wh_real middle = WH_R(0.5) * (speed + next) +
-                               h / WH_R(8.0) * (k1 - bend(p, theta + h, next)); /* Hermite's */
+                               h / WH_R(8.0) * (k1 - bend(p, theta + h, next)); /* Hermite cubic */
         time += h / WH_R(6.0) * (WH_R(1.0) / speed + WH_R(4.0) / middle + WH_R(1.0) / next);
         speed = next;
     }

@@ -7,7 +7,7 @@ enum { ANGLE, SPEED, WORK, BENT, BENDING, STATES };
 enum { KEPT = 128, QUEUE = 64, STEP_US = 50 };
 
 typedef struct
-{ /* first Fourier coefficients: of the force, and with errors that no run can tell */
+{ /* first Fourier coefficients: [0] of the force, [1] as the load train passes it on */
     double cosine[2], sine[2], seconds;
 } turn;
 

@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <sys/types.h>
 
-#define EMULATED_STORES 4096U /* the newest stay */
+#define EMULATED_STORES 4096U /* only the newest are stored */
 
 typedef struct emulated_store_seen {
     char device
@@ -27,7 +27,7 @@ typedef struct emulated {
     unsigned heard_bytes;
     char said[256]; /* the answer of qtest */
     unsigned said_bytes;
-    char logged[512]; /* an unfinished line */
+    char logged[512]; /* the log's last, incomplete line */
     unsigned logged_bytes;
     emulated_store_seen store[EMULATED_STORES];
     uint64_t stores; /* number of stores since the start */
