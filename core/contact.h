@@ -108,8 +108,7 @@ typedef struct wh_contact {
     /* index of the coordinate if the expression is linear in one coordinate (then J_k is constant and its rate
      * exactly zero); else -1 */
     int16_t pin;
-    uint8_t
-        first_set; /* index of a crossing's first assignment, or in held[] of a hold without a pin */
+    uint8_t first_set; /* index of a crossing's first assignment, or of a hold's value in held[] */
     uint8_t sets;
 } wh_contact;
 

@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-#if defined(WH_FIXED_NARROW) /* as requested */
+#if defined(WH_FIXED_NARROW) /* requested by a macro */
 #elif defined(__AVR__) || defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__) || \
     (defined(__riscv) && !defined(__riscv_mul))
 #define WH_FIXED_NARROW 1

@@ -34,13 +34,13 @@ typedef struct wh_frame {
     uint16_t sequence; /* number of the frame from this sender, wrapping: a gap shows lost frames */
     uint32_t ticks;    /* the sender's time */
     const uint8_t *payload;
-    unsigned length; /* of the payload, bytes */
+    unsigned length; /* bytes of the payload */
 } wh_frame;
 
 typedef struct wh_frame_reader {
     uint8_t *bytes; /* memory of the caller, room[] bytes */
     unsigned room;
-    unsigned length;  /* of the frame in progress */
+    unsigned length;  /* bytes of the frame in progress */
     bool too_long;    /* the frame in progress is longer than the room and will be dropped */
     uint32_t dropped; /* number of bad frames and of other bytes between two zeros; wraps */
 } wh_frame_reader;

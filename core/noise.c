@@ -1,7 +1,7 @@
 /* noise.c: splitmix64, the sum of twelve, and Teichroew's polynomial. */
 #include "noise.h"
 
-#define WORDS 3U      /* of four uniform numbers each */
+#define WORDS 3U      /* each word gives four uniform numbers */
 #define MEAN 0x5fffaU /* 12 * 65535 / 2 */
 
 /* x/z of the deviate x, in powers of z^2 (z: the sum), in units of 2^-40: a_1 to a_9 of Teichroew over 4, 4^3, ... 4^9. */

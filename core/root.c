@@ -82,7 +82,7 @@ wh_real wh_sqrt(wh_real x) {
             return x;
         }
         if (as.bits > INFINITE) {
-            as.bits |= INFINITE | ONE >> 1; /* not a number */
+            as.bits |= INFINITE | ONE >> 1; /* NaN */
             return as.real;
         }
     }

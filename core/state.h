@@ -38,7 +38,7 @@ typedef struct wh_event {
     uint8_t contact;
     int8_t mode;     /* the contact's mode after the event */
     wh_real at_s;    /* time since the step began */
-    wh_real impulse; /* of a stop or a hold, else 0 */
+    wh_real impulse; /* impulse of a stop or a hold, else 0 */
 } wh_event;
 
 typedef struct wh_contacts {

@@ -180,7 +180,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 /* A step of x' = f(x, u) in progress. */
 typedef struct wh_stepped_first {
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
-    wh_real slopes[WH_STAGES][WH_COORDS]; /* those of the later stages */
+    wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_stepped_first;
 

@@ -14,8 +14,8 @@ typedef struct wh_contact_attempt {
     unsigned leaving;
     unsigned dips; /* subset of `leaving`: open at both ends, perhaps closed in between */
     int fault;     /* component that left its bounds, if !sound */
-    bool made;     /* the step was computed, */
-    bool sound;    /* and its end is within bounds */
+    bool made;     /* the trial step was computed */
+    bool sound;    /* the trial step's end is within bounds */
 } wh_contact_attempt;
 
 /* The share of the trial step at which the tangents of the gap at both ends cross; *least gets the gap at that point.

@@ -61,7 +61,7 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
     wh_contact_set_modes(of, w, stops, WH_FREE);
     if (passed != 0) {
-        /* only while the body is put back onto the stop */
+        /* these modes last only while the body is put back onto the stop */
         wh_contact_set_modes(of, w, passed, WH_ACTIVE);
         wh_real before[2 * WH_CONTACTS_MAX];
         wh_contact_remember(of, signal, before);

@@ -38,7 +38,7 @@ typedef enum wh_probed {
     WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
     WH_PROBED_ROUNDING,  /* differs from one's last place if a sum is rounded otherwise, or twice */
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
-    WH_PROBED_FIVE, /* three thirds, rounded differently if division is a product with a reciprocal */
+    WH_PROBED_FIVE, /* 5/3, 7/3, 10/3: they differ if division is a product with a reciprocal */
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
     WH_PROBED_THIRD,   /* as WH_PROBED_FIVE, with a divisor known to the compiler */

@@ -198,8 +198,8 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
     } else if (swing->fits_of[1] == 0) {
         result->why = WH_SWING_SIDES;
     } else {
-        result->why =
-            result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE; /* or NaN */
+        /* NaN is too wide */
+        result->why = result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE;
     }
 }
 

@@ -232,7 +232,7 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* The time with a constant load is counted in turns, because the load of a jammed rotor is also constant. At most
+    /* The time with a constant load is counted in pulses, because the load of a jammed rotor is also constant. At most
      * one pulse per sample counts: if a controller is late, the waiting pulses are older than the samples. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;

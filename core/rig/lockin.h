@@ -64,7 +64,7 @@ WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real re
     const wh_real bins = (wh_real)WH_REPEATS_BINS;
     const wh_real bin = theta_rad * (bins / WH_RIG_TWO_PI) + bins;
     if (!(WH_ABS(bin) < WH_R(3.0) * bins)) {
-        return; /* for example NaN */
+        return; /* the angle is NaN, for example */
     }
     repeats->bin_N[(uint32_t)(int32_t)bin % WH_REPEATS_BINS] += residual_Nrad;
 }

@@ -276,7 +276,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                                  : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
-        /* or the pulses do not come: the rotor must not become fast */
+        /* or the rotor turns and the pulses are missing: it must not become fast */
         wh_guard_trip(guard, WH_TRIP_STALLED);
     }
     if (drives) {

@@ -123,7 +123,7 @@ typedef struct wh_rig {
     bool rested; /* motor off, and the rotor is at rest or the longest wait is over */
     /* no pulses come; or, if pulses are unreliable, the longest wait is over */
     bool at_rest;
-    bool has_result;    /* of run number `runs`: false from `start` to the end of its record */
+    bool has_result;    /* run `runs` has a result: false from `start` to the record's end */
     wh_rig_end ended;   /* how the last run ended */
     wh_rig_event asked; /* last processed order */
     wh_refusal answer;  /* answer to the last processed order */

@@ -53,7 +53,7 @@ typedef struct wh_conf {
     wh_real value[WH_CONF_COUNT];
     wh_real standard[WH_CONF_COUNT]; /* values of settings that are not set */
     bool given[WH_CONF_COUNT];       /* set by the user, even to its default */
-    uint32_t sequence;               /* of the record last loaded or saved; 0: none */
+    uint32_t sequence;               /* sequence of the record last loaded or saved; 0: none */
 } wh_conf;
 
 #define wh_conf_start WH_NAME(wh_conf_start)

@@ -313,7 +313,7 @@ WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_r
  * if the list is called. */
 typedef struct wh_turned_list {
     wh_wave pair[WH_WAVES];
-    wh_real at[WH_COORDS];    /* linear positions, or reals, */
+    wh_real at[WH_COORDS];    /* linear positions, or reals */
     wh_real v[WH_COORDS];     /* rates */
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_turned_list;

@@ -69,7 +69,7 @@ chip_end chip_try_with(void (*what)(void *), void *with);
 void chip_may_take(uint64_t units); /* limit of chip_try() from its start (default 5 s) */
 /* Power fails in place of a later store: 0 means the next store, 1 the one after it. */
 void chip_power_off_after(unsigned stores);
-void chip_power_off_at(uint64_t when); /* the same at a time */
+void chip_power_off_at(uint64_t when); /* power fails at this time */
 void chip_power_stays(void);
 unsigned chip_stores(void);
 /* Called after each store; NULL: no call. */
@@ -125,7 +125,7 @@ uint64_t chip_serial_byte_units(void); /* at the present baud rate */
 uint8_t chip_flash_byte(uint32_t address);
 void chip_flash_byte_is(uint32_t address, uint8_t byte);
 unsigned chip_flash_erases(unsigned sector);
-void chip_protect_sector(unsigned sector); /* by the sector's option byte */
+void chip_protect_sector(unsigned sector); /* sets the sector's option byte */
 unsigned chip_option_writes(void);
 bool chip_options_are_locked(void);
 uint32_t chip_option_bytes(void); /* bits of FLASH_OPTCR, as loaded at power-on */

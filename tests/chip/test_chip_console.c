@@ -185,7 +185,7 @@ static void lost(bool held) {
         if (held) {
             chip_halt(false);
         }
-        for (unsigned i = 0; i < 3; i++) { /* and the next line, which is complete */
+        for (unsigned i = 0; i < 3; i++) { /* the next line, which is complete */
             chip_serial_comes(chip_now() + (i + 1U) * byte_units, 251U);
         }
         unsigned got = 0;

@@ -104,7 +104,7 @@ void bench_build(uint64_t *seed, unsigned coordinates, unsigned angles) {
             }
         }
     }
-    for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* not in use yet */
+    for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* no contact uses this entry yet */
         bench_now.contact[k].pin = -1;
         bench_now.first[k] = BENCH_SENTINEL;
         bench_now.second[k] = BENCH_SENTINEL;

@@ -36,7 +36,7 @@ typedef struct bench {
     wh_contact_system system;
     wh_ledger_form books;
     const wh_contact_point *at; /* if not NULL: the state at which everything must be evaluated */
-    const wh_real *input;       /* and the input for it */
+    const wh_real *input;       /* the input at that state */
     bool astray;                /* something was evaluated at another state or input */
     unsigned looks;             /* number of evaluations of the signals */
     unsigned laws;              /* number of evaluations of the forces */

@@ -24,7 +24,7 @@ typedef struct exact {
     double energy[HAND_CONTACTS];  /* energy that each contact has given since the start */
     double impulse[HAND_CONTACTS]; /* impulse of each contact along its row since the start */
     double pushed;                 /* the input */
-    wh_event log[EXACT_LOG];       /* of the last step */
+    wh_event log[EXACT_LOG];       /* events of the last step */
     unsigned logged;
     unsigned next;   /* bits: stops that are hit in the next round */
     unsigned stands; /* bits: crossings just taken whose values are still zero */

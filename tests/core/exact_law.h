@@ -10,7 +10,7 @@
 /* The problem: find forces lambda that move x by M^-1 J^T lambda, so that J_k x = target[k] for each member. A stop
  * only pushes, a friction acts up to a limit, a hold acts both ways. */
 typedef struct exact_problem {
-    unsigned members; /* as bits */
+    unsigned members; /* contacts, as bits */
     double target[HAND_CONTACTS];
     double low[HAND_CONTACTS];
     double high[HAND_CONTACTS];

@@ -26,7 +26,7 @@ typedef struct fed_rotor {
     wh_real voltage; /* for the next control step, a fraction of the rated one */
     fed_by by;
     unsigned lose_marks; /* number of pulses that will be lost, of either sensor */
-    /* counted since fed_rotor_count(): */
+    /* from here to sum_radps: values since fed_rotor_count() */
     uint32_t steps;
     uint32_t valid;    /* steps with a valid observer */
     uint32_t lies;     /* steps with a valid observer whose angle has an error above FED_LIE_RAD */

@@ -61,7 +61,7 @@ static void begin_control(on_plant *on) {
 void plant_reset(on_plant *on, hal_reset cause) {
     hal_virtual_rig_reset(hal_virtual_rig_instance(), cause);
     on->rig = (wh_rig){.state = WH_RIG_ARMED,
-                       /* not zeroed: real memory is not zeroed either */
+                       /* an arbitrary phase, because real memory is not zeroed either */
                        .run.phase = WH_PHASE_RECORD};
     on->memory = (trip_memory){.record.trip = WH_TRIP_NONE};
     begin_control(on);

@@ -126,7 +126,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             }
             TEST_ASSERT_TRUE(bench_near(w.force[k], force_of));
         }
-        if (!contradicts) { /* the same bits as without sharing */
+        if (!contradicts) { /* the bits are those without sharing */
             (void)wh_delassus_solve(of, &w, member, count, NULL, w.wanted, plain);
             for (unsigned i = 0; i < count; i++) {
                 wh_contact_apply(of, &w, member[i], plain[i], unshared);

@@ -200,7 +200,7 @@ TEST(contact_pivot, no_case_solves_it_otherwise) {
         }
         w.capped = draw_one_in(&seed, 2);
         const bool was_capped = w.capped;
-        const bool forces = draw_one_in(&seed, 2); /* or impulses */
+        const bool forces = draw_one_in(&seed, 2); /* otherwise impulses */
         const unsigned giving =
             wh_contact_lcp(&bench_now.system, &w, member, count, wanted, forces, lambda, left);
         if (number == cases) { /* no combination solves it: the holds contradict each other */

@@ -256,7 +256,7 @@ TEST(fixed, scenes) {
         char byte;
         int64_t angle;
     };
-    for (size_t off = 1; off < offsetof(struct behind_a_byte, angle); off++) { /* not aligned */
+    for (size_t off = 1; off < offsetof(struct behind_a_byte, angle); off++) { /* misaligned */
         TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT,
                               wh_fixed_start(&scene, &state, (char *)memory + off, 16));
     }

@@ -109,7 +109,7 @@ TEST(long_runs, times_are_right_to_one_rounding) {
     random_state = UINT64_C(0x20261121);
     for (unsigned i = 0; i < 3 * sizeof known / sizeof known[0]; i++) {
         wh_fraction step = {random_bits() % 1000000 + 1, random_bits() % 1000000000 + 1};
-        if (i % 3 == 0) { /* of any size */
+        if (i % 3 == 0) { /* a count of any size */
             step.numerator = (random_bits() >> random_bits() % 63 >> 4) + 1;
             step.denominator = (random_bits() >> random_bits() % 63 >> 4) + 1;
         }

@@ -39,7 +39,7 @@ TEST(noise, moments) {
     for (uint32_t seed = 1; seed <= 4; seed++) {
         int64_t sum = 0;
         int64_t squares = 0;
-        int64_t fourths = 0; /* of deviates in 1/256 */
+        int64_t fourths = 0; /* fourth powers of deviates in units of 2^-8 */
         for (unsigned i = 0; i < DRAWS; i++) {
             const int64_t x = wh_noise_raw(seed, i);
             TEST_ASSERT_TRUE(x >= -566871 && x <= 566871);

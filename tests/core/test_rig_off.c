@@ -20,13 +20,13 @@ typedef struct bench {
     wh_rig_inputs inputs;
     wh_rig_command command;
     rotor_kind kind;
-    rotor_kind open; /* the same with open motor leads */
+    rotor_kind open; /* the same rotor with open motor leads */
     rotor_state rotor;
-    bool stuck; /* the stage ignores its voltage, */
-    bool deaf;  /* and ignores its enable */
+    bool stuck; /* the drive stage ignores its voltage */
+    bool deaf;  /* a stuck stage also ignores its enable */
     wh_real share;
     unsigned dead; /* number of the dead sensor; 2: none */
-    /* The rotor's true turns while the motor must not drive: */
+    /* From here on: the rotor's true turns while the motor must not drive. */
     unsigned step;
     unsigned begun;   /* start step of the current turn */
     unsigned turns;   /* turns since the motor went off */
@@ -37,7 +37,7 @@ typedef struct bench {
     wh_real first_s; /* duration of the turn before the turns got faster */
     unsigned
         undriven_at; /* first step in which turns with the enable on showed a drive; 0: none did */
-    unsigned faster_at; /* the same for three turns with the enable off */
+    unsigned faster_at; /* the same for turns that get faster with the enable off */
 } bench;
 
 static bench b;

@@ -218,7 +218,7 @@ TEST(rig_result, reasons_from_the_turns) {
     TEST_ASSERT_TRUE(measured.quality == WH_GOOD);
     TEST_ASSERT_TRUE(why_of(full_N, gap) == WH_WHY_FEW_TURNS);
     wh_lockin_turn odd = plain;
-    odd.outliers = 1; /* of 91 samples */
+    odd.outliers = 1; /* a turn has 91 samples */
     TEST_ASSERT_TRUE(why_of(full_N, odd) == WH_WHY_OUTLIERS);
     odd = plain;
     odd.second_seen = true; /* seen, but the turn's part is unknown */

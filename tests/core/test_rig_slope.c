@@ -37,8 +37,8 @@ typedef struct plant {
 static wh_real part_at[STEPS + 1U]; /* part of the turn's time */
 static wh_real force_N[STEPS + 1U];
 static wh_real turn_s;
-static wh_real along_rad;  /* component of the angle's ripple over time: the sine part, */
-static wh_real across_rad; /* and its cosine part */
+static wh_real along_rad;  /* the angle's ripple over time: sine part */
+static wh_real across_rad; /* the same ripple: cosine part */
 /* S <w^2>, the first order of the load over the angle, in line with the masses */
 static wh_real truth_N;
 
@@ -98,7 +98,7 @@ static void integrate(const plant *p) {
         part_at[i] /= turn_s;
     }
     part_at[STEPS] = WH_R(1.0);
-    /* by the trapezoidal rule; `base` makes the mean of the ripple zero */
+    /* integrates by the trapezoidal rule; `base` makes the mean of the ripple zero */
     wh_real base = WH_R(0.0);
     const wh_real from = rotor.pulse_rad[0];
     for (unsigned pass = 0; pass < 2U; pass++) {
@@ -145,7 +145,7 @@ static void measure(const plant *p) {
     const uint32_t second_ticks = (uint32_t)(part_at[STEPS / 4U] * (wh_real)turn_ticks);
     const uint32_t begin = (uint32_t)draw_bits(&seed) * 2U; /* begin of the first turn */
     wh_merge merge = {.turns = 0};
-    uint32_t due = 0; /* ticks from then on to the next pulse, */
+    uint32_t due = 0; /* ticks from `begin` to the next pulse */
     uint32_t marks = 0;
     unsigned done = 0;
     wh_lockin_start(&rotor, &lockin);

@@ -733,9 +733,9 @@ static void check_what_always_holds(wh_rig_state before, asked of) {
                       rig->run.phase >= WH_PHASE_SPIN_UP && rig->run.phase <= WH_PHASE_RAMP_DOWN));
     TEST_ASSERT_TRUE(rig->state != WH_RIG_TRIPPED || command->way == WH_MOTOR_COASTS);
     TEST_ASSERT_FALSE(drives && even.inputs.stop_pressed);
-    TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* also refuses NaN */
+    TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* false for NaN */
     TEST_ASSERT_TRUE(drives ? command->volts <= even.inputs.supply_V : command->volts <= WH_R(0.0));
-    /* only allowed sequences of states */
+    /* the state changed only as the life cycle allows */
     TEST_ASSERT_TRUE(rig->state != WH_RIG_ARMED || before == WH_RIG_ARMED || of.arm);
     TEST_ASSERT_TRUE(rig->state != WH_RIG_RUNNING || before == WH_RIG_RUNNING ||
                      (of.start && (before == WH_RIG_ARMED || of.arm)));

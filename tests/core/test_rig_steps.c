@@ -293,7 +293,7 @@ TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
 TEST(rig_steps, what_trips_in_which_phase) {
     for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
         stand_in(phase);
-        rig.rested = true; /* as before the fault */
+        rig.rested = true; /* the rotor was at rest before the fault */
         inputs.watchdog_has_cut = true;
         step_on();
         TEST_ASSERT_TRUE(rig.state == WH_RIG_TRIPPED && rig.guard.trip == WH_TRIP_WATCHDOG);

@@ -69,7 +69,7 @@ static void give(const story *of, unsigned lost) {
         if (i != lost) {
             wh_swing_pulse(&swing, of->sensor[i], of->ticks[i]);
         }
-        if (draw_one_in(&seed, 8)) { /* of a sensor that does not exist */
+        if (draw_one_in(&seed, 8)) { /* a pulse of a sensor that does not exist */
             wh_swing_pulse(&swing, WH_SWING_SENSORS + draw_one_of(&seed, 5), of->ticks[i] + 500U);
         }
     }

@@ -63,7 +63,7 @@ TEST(stabilize, a_part_of_the_drift_is_given_back) {
         const wh_real twice = first * first + second * second;
         const wh_real drift = twice * drawn(&seed) * WH_R(0.0009);
         set_out(&f, first, second, drift, true);
-        const wh_real is = WH_R(0.5) * twice - f.ledger[2]; /* as rounded */
+        const wh_real is = WH_R(0.5) * twice - f.ledger[2]; /* the drift after rounding */
         const wh_real part = -is / WH_R(1024.0) / twice;
         give_back(&f);
         TEST_ASSERT_TRUE(near((f.real[2] - first) + f.carry[2], part * first, WH_R(1e-5)));

@@ -266,9 +266,9 @@ TEST(station, orders_are_those_that_are_posted) {
         heard_length = 0;
         type(orders[k].line);
         type(draw_one_in(&seed, 2) ? "\r\n" : "\n");
-        period(); /* one period reads the line, */
+        period(); /* this period reads the line */
         even_step(&twin);
-        period(); /* the next takes the order and answers */
+        period(); /* this one takes the order and answers */
         const wh_refusal answer = even_order(&twin, orders[k].event, orders[k].value);
         if (!draw_one_in(&seed, 8)) {
             hear();

@@ -177,7 +177,7 @@ TEST(station_conf, values_have_their_places) {
             TEST_ASSERT_TRUE(status == WH_STATION_FINE || status == WH_STATION_CONF_AGAINST);
             set[id] = set[id] || status == WH_STATION_FINE;
             for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-                /* those that follow from the motor come after it */
+                /* settings that follow from the motor come after its settings */
                 wanted[i] = set[i] ? wanted[i] : conf.value[i];
             }
             wanted[id] = status == WH_STATION_FINE ? value : wanted[id];
@@ -232,7 +232,7 @@ TEST(station_conf, what_is_stored_of_others) {
     static const struct {
         uint8_t payload[16];
         unsigned count;
-        wh_conf_id set; /* the only setting that is valid, */
+        wh_conf_id set; /* the only valid setting; its value is `to` */
         float to;
     } rows[] = {
         /* setting 18 with 10.0, and the unknown setting 200 */

@@ -56,7 +56,7 @@ static void check_told(const char *name, const char *word) {
     TEST_ASSERT_NOT_NULL_MESSAGE(at, name);
     at += strlen(name);
     TEST_ASSERT_EQUAL_STRING_LEN_MESSAGE(word, at, strlen(word), name);
-    TEST_ASSERT_TRUE(strchr(" :", at[strlen(word)]) != NULL); /* or the end */
+    TEST_ASSERT_TRUE(strchr(" :", at[strlen(word)]) != NULL); /* true for NUL, too */
 }
 
 static const char *decimal(unsigned number) {

@@ -32,7 +32,7 @@ static void check_measurement(float target_rpm) {
         WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2 / (WH_RIG_INERTIA_KGM2 * omega * omega);
     const float wanted_N = WH_RIG_UNBALANCE_KGM * omega * omega * (1.0f + 1.5f * swing * swing);
     CHECK_NEAR(2.0f, target_rpm, force->speed_radps / RPM);
-    /* from the speed, and the damping's part of the ripple */
+    /* wanted_N follows from the speed alone, without the damping's part of the ripple */
     CHECK_NEAR(0.005f * wanted_N, wanted_N, force->amplitude_N);
     CHECK_NEAR(0.001f * wanted_N, force->expected_N, force->amplitude_N);
     CHECK_NEAR(0.1f, 0.0f, force->phase_rad * WH_RIG_DEG_PER_RAD);
@@ -127,7 +127,7 @@ static void test_slowest_and_fastest_set_points_run(void) {
         plant_begin(&on, targets_rpm[i]);
         plant_go_on_to_the_end(&on);
         check_measurement(targets_rpm[i]);
-        /* and takes the voltage of the supply check */
+        /* the run needs the voltage that the check of the supply assumes */
         CHECK_NEAR(0.5f, wh_run_needs_V(&on.config.run, targets_rpm[i] * RPM), on.rig.result.volts);
         plant_check_stopped(&on);
     }

@@ -154,7 +154,7 @@ static uint64_t seed;
 
 /* --- states ------------------------------------------------------------------------------------------- */
 
-enum { AT_IDLE, AT_ARMED, AT_PHASES }; /* then the phases, from the tare on */
+enum { AT_IDLE, AT_ARMED, AT_PHASES }; /* further numbers: the phases, from the tare on */
 #define PLACES ((unsigned)AT_PHASES + (unsigned)WH_PHASES - (unsigned)WH_PHASE_TARE)
 
 static void stand_at(unsigned place) {

@@ -75,7 +75,7 @@ typedef struct tally {
     double worst;
     float worst_at[2];
     uint32_t worst_phase;
-    double squares; /* of the errors at phases */
+    double squares; /* sum of the squared errors at phases */
     uint64_t not_nearest;
     uint64_t wrong; /* infinity, NaN or the wrong sign, unlike the reference */
     float wrong_at[2];

@@ -9,7 +9,7 @@
 
 #include <simavr/sim_avr.h>
 
-#define MEGA_TIMERS 4U                              /* of 16 bits: 1, 3, 4, 5 */
+#define MEGA_TIMERS 4U                              /* timers 1, 3, 4, 5: 16 bits */
 extern const uint16_t mega_timer_base[MEGA_TIMERS]; /* the address of TCCRnA */
 
 typedef struct mega_next {
