@@ -143,7 +143,7 @@ enum {
 /* A scene's contacts, constant. The functions are generated as lists of operations, as the accelerations are. */
 typedef struct wh_contact_system {
     const void *model;    /* first argument of the functions */
-    wh_accel_fn *accel;   /* without contact forces */
+    wh_accel_fn *accel;   /* accelerations without contact forces */
     wh_accel_fn *signals; /* result[2 * contacts]: stop: gap, its rate; hold: condition (> 0: true),
                             * rate of the held expression; friction: rate, 0; crossing: value, 0 */
     wh_accel_fn *forces;  /* result[forced * (WH_LAW_ROWS + 2 n)] */

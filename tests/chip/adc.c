@@ -31,7 +31,7 @@ static struct {
     uint32_t ccr;
     uint64_t stable_at; /* from then on the converter is stable, after ADON */
     bool busy, sampled;
-    unsigned at; /* index in the group */
+    unsigned at; /* index of the conversion in its group */
     uint64_t hold_at, end_at;
     uint16_t value;
     bool late;
@@ -119,7 +119,7 @@ static uint16_t converted(void) {
 
 static void adc_happens(void) {
     if (!adc.sampled) {
-        adc.value = converted(); /* sampled now */
+        adc.value = converted(); /* the voltage is sampled now */
         adc.sampled = true;
         return;
     }

@@ -27,7 +27,7 @@ typedef enum chip_cause {
 typedef enum chip_end {
     CHIP_RETURNED,
     CHIP_RESET,     /* the chip has been reset; chip_start() restarts it */
-    CHIP_POWER_OFF, /* chip_power_off_after() */
+    CHIP_POWER_OFF, /* as ordered by chip_power_off_after() */
     CHIP_HANGS      /* longer than chip_may_take() */
 } chip_end;
 
@@ -41,7 +41,7 @@ typedef enum chip_counter {
 typedef struct chip_world {
     uint32_t crystal_Hz;
     bool crystal;           /* the crystal oscillates */
-    uint64_t crystal_units; /* start-up time */
+    uint64_t crystal_units; /* the crystal's start-up time */
     bool pll;               /* the PLL locks */
     uint64_t watchdog_Hz;   /* LSI: 17 to 47 kHz */
     bool
@@ -93,7 +93,7 @@ typedef enum chip_level { CHIP_LOW, CHIP_HIGH, CHIP_OPEN } chip_level;
 typedef enum chip_resistor { CHIP_NO_RESISTOR, CHIP_TO_GROUND, CHIP_TO_SUPPLY } chip_resistor;
 void chip_pin_drive(char port, unsigned pin, chip_level level);
 void chip_pin_drive_at(uint64_t when, char port, unsigned pin,
-                       chip_level level); /* times do not decrease */
+                       chip_level level); /* `when` is not before earlier ones */
 void chip_pin_resistor(char port, unsigned pin, chip_resistor resistor);
 chip_level chip_pin(char port, unsigned pin); /* CHIP_OPEN: undriven */
 

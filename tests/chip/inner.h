@@ -41,7 +41,7 @@ typedef struct part {
     void (*store)(uint32_t offset, uint32_t value);
     void (*reset)(void);                 /* the cause: reset_by */
     uint64_t (*next)(void);              /* time of its next event */
-    void (*happens)(void);               /* handles that event */
+    void (*happens)(void);               /* handles the event of next() */
     bool (*pending)(unsigned interrupt); /* does it request this interrupt? */
 } part;
 
@@ -95,7 +95,7 @@ void pins_new(void);
 /* tim1.c: the level that TIM1_CH1N drives at PB13; CHIP_OPEN: none. */
 chip_level tim1_ch1n(void);
 void tim1_break_input(void);  /* called when the pin may have changed */
-void tim1_clock_failed(void); /* CSS */
+void tim1_clock_failed(void); /* called by the clock security system */
 
 /* timers.c */
 void tim2_input(unsigned channel, bool high); /* 1 ... 4 */
@@ -105,7 +105,7 @@ void adc_trigger(unsigned event);
 bool adc_dma_takes(uint16_t *value);
 void dma_request_adc(void);
 
-/* dbgmcu */
+/* rcc.c: DBGMCU: does this bit stop a clock while a debugger holds the core? */
 bool debug_stops(uint32_t offset, unsigned bit);
 
 /* iwdg.c: a debugger holds the core, or is about to release it. */

@@ -9,7 +9,7 @@ enum { KR = 0x00, PR = 0x04, RLR = 0x08, SR = 0x0C };
 
 static struct {
     uint32_t pr, rlr;           /* registers as written */
-    uint32_t pr_used, rlr_used; /* after the update */
+    uint32_t pr_used, rlr_used; /* values in use, after the update */
     uint64_t pr_at, rlr_at;
     uint64_t bites_at;
     uint64_t held_at; /* when a debugger stopped it */

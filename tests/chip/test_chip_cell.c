@@ -147,7 +147,7 @@ TEST(chip_cell, parabolas) {
             const double V = parabola(got_s[at]);
             if (fabs(got_s[at] - bend_from) < 0.008) {
                 TEST_ASSERT_DOUBLE_WITHIN(12.0, (V - MIDDLE_V) * RAW_OF_V - 8.0,
-                                          got[at].raw); /* uncorrected: 99 */
+                                          got[at].raw); /* without the correction the error is 99 */
                 seen++;
             }
         }

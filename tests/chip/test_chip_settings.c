@@ -15,7 +15,7 @@
 static unsigned slot, at, count;
 static uint8_t bytes[HAL_SETTINGS_BYTES];
 static bool good;
-static hal_settings_result result; /* the last */
+static hal_settings_result result; /* result of the last call */
 static bool erases(unsigned of) {
     result = hal_settings_erase(of);
     return result == HAL_SETTINGS_DONE;

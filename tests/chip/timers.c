@@ -32,7 +32,7 @@ typedef struct timer {
     uint64_t count, base;
     uint64_t most; /* the largest count */
     unsigned interrupt;
-    unsigned debug_bit; /* bit of DBGMCU_APB1_FZ */
+    unsigned debug_bit; /* the bit of DBGMCU_APB1_FZ that stops the timer */
     unsigned trigger;   /* the ADC's trigger at this timer's update */
     struct {
         bool level, filtered;

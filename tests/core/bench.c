@@ -3,7 +3,7 @@
 
 bench bench_now;
 
-/* --- drawing ------------------------------------------------------------------------------------------------ */
+/* --- random mechanisms -------------------------------------------------------------------------------------- */
 
 /* Checks that the evaluation is at the expected state. */
 static void look_at(const void *model, const wh_phase *phase, const wh_real *linear,

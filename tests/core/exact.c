@@ -240,7 +240,7 @@ static void leave(exact *e) {
     e->stands = 0;
 }
 
-/* --- moments ------------------------------------------------------------------------------------------------ */
+/* --- all events of one moment ------------------------------------------------------------------------------- */
 
 static void note(exact *e, unsigned events, double at_s, const double *impulse) {
     for (unsigned k = 0; k < hand_now.system.contacts; k++) {

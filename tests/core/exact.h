@@ -23,7 +23,7 @@ typedef struct exact {
     int mode[HAND_CONTACTS];
     double energy[HAND_CONTACTS];  /* energy that each contact has given since the start */
     double impulse[HAND_CONTACTS]; /* impulse of each contact along its row since the start */
-    double pushed;                 /* the input */
+    double pushed;                 /* the scene's input */
     wh_event log[EXACT_LOG];       /* events of the last step */
     unsigned logged;
     unsigned next;   /* bits: stops that are hit in the next round */

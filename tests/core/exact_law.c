@@ -205,7 +205,7 @@ void exact_give_way(exact *e) {
         exact_problem p = {exact_holding(e), {0.0}, {0.0}, {0.0}};
         unsigned first = 0;
         double most = 0.0;
-        exact_accelerate(e, way, force); /* with all contacts active */
+        exact_accelerate(e, way, force); /* all contacts are still active */
         a[0] = 0.0;
         a[1] = 0.0;
         for (unsigned i = 0; i < hand_now.n; i++) {

@@ -209,7 +209,7 @@ int hand_draw_row(uint64_t *seed, unsigned n, wh_real *row) {
 void hand_start(bool with_books) {
     static uint8_t target;
     put_sentinels();
-    target = (uint8_t)(hand_now.places ? 0U : hand_now.n); /* the first rate */
+    target = (uint8_t)(hand_now.places ? 0U : hand_now.n); /* component n is the first rate */
     hand_now.system.model = &hand_now;
     hand_now.system.accel = hand_accel;
     hand_now.system.signals = hand_signals;

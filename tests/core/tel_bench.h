@@ -39,7 +39,7 @@ typedef struct tel_bench {
     even_rig even;
     wh_station station;
     wh_tel tel;
-    wh_step_inputs seen; /* in the last step */
+    wh_step_inputs seen; /* inputs of the last step */
     wire heard;
     uint64_t seed; /* seed of the random draws */
     uint32_t cell_ticks;

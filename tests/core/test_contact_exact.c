@@ -12,7 +12,7 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
 #define CLOSE (WH_DOUBLE ? 1e-5 : 5e-3)
 
-/* --- drawing ------------------------------------------------------------------------------------------------ */
+/* --- random mechanisms -------------------------------------------------------------------------------------- */
 
 /* Draws one to three contacts under loads of size `heavy`: stops, of which one in `touched` touches at the start, a
  * hold, frictions, a crossing. */
@@ -76,7 +76,7 @@ static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     }
 }
 
-/* --- comparing ---------------------------------------------------------------------------------------------- */
+/* --- comparison with the reference -------------------------------------------------------------------------- */
 
 static bool near(double value, double wanted) {
     const double off = value - wanted;

@@ -92,7 +92,7 @@ TEST(contact_impact, who_rests) {
     TEST_ASSERT_TRUE(resting > ROUNDS / 4 && resting < ROUNDS / 4 * 3);
 }
 
-/* --- several ------------------------------------------------------------------------------------------------- */
+/* --- several stops ------------------------------------------------------------------------------------------- */
 
 /* The stops that merely touch: at rest, with a restitution, and with a force that is zero relative to the accelerations
  * and the other forces. */

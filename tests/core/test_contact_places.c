@@ -188,7 +188,7 @@ TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
         wh_contact_keep(of, &w, &from, &to);
         for (unsigned k = 0; k < of->forced; k++) {
             const wh_contact *c = &bench_now.contact[k];
-            if (slips(&w, k)) { /* its slip so far */
+            if (slips(&w, k)) { /* the hold's slip so far */
                 const wh_real kept =
                     c->direction > 0 ? drift_of(&was, k, &from, &to) : was.held[c->first_set];
                 TEST_ASSERT_TRUE(bench_near(w.held[c->first_set], kept));

@@ -106,7 +106,7 @@ TEST(contact_undefined, what_a_step_builds_on_must_be_a_number) {
             }
             if (place == SECOND_SIGNAL && hand_now.contact[k].kind != WH_STOP &&
                 hand_now.contact[k].kind != WH_HOLD) {
-                continue; /* always zero */
+                continue; /* this signal is always zero */
             }
             hand_now.eventful = (number & 4U) != 0;
             wrong += !answers(k, place, one % 2U * 3U, none(0));

@@ -7,7 +7,7 @@
 #define DRAWS (WH_TEST_SMALL ? 4096 : 65536)
 /* Four standard errors of an estimate from DRAWS numbers, relative: 4/sqrt(DRAWS). */
 #define FOUR_SIGMA (WH_TEST_SMALL ? 0.0625 : 0.015625)
-#define ONE 65536 /* a standard deviation */
+#define ONE 65536 /* one standard deviation, in raw units */
 
 /* Reference values from a Python program with arbitrary integers, whose splitmix64 gives the published first outputs of
  * seed 1234567 (6457827717110365317, 3203168211198807973). */

@@ -23,7 +23,7 @@ static void check_between(wh_real least, wh_real most, wh_real value) {
 
 static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
-/* --- its voltage -------------------------------------------------------------------------------------- */
+/* --- the compensation's voltage ----------------------------------------------------------------------- */
 
 /* The voltage is S g sin(theta - gamma) divided by the stall torque, at the angle after the lead, limited, and faded in
  * linearly. */

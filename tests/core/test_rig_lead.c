@@ -12,7 +12,7 @@ static wh_rig rig;
 static wh_rig_config config;
 static rotor_kind kind;
 static rotor_state rotor;
-static wh_real fastest_radps; /* since the last reset */
+static wh_real fastest_radps; /* the rotor's largest speed since the last reset */
 
 static void draw_rotor(uint64_t *seed) {
     kind = rotor_nominal();

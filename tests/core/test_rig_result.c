@@ -15,7 +15,7 @@ static wh_merge merge;
 static wh_turn_angle angle;
 static wh_measured measured;
 static wh_rotor_config rotor;
-static wh_result_config bench; /* configuration with a calibration */
+static wh_result_config bench; /* a calibrated configuration */
 
 /* A random number, uniform about 0, of standard deviation 1. */
 static wh_real scatter(void) {
@@ -268,7 +268,7 @@ TEST(rig_result, reasons_from_the_turns) {
          i++) { /* the repeating residual, and the noise that is expected from this many samples */
         TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
         merge.repeats.samples = 910;
-        merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* noise of a newton */
+        merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* noise of 1 N */
         conclude(&bench);
         merge.repeats_N2 = (i == 0 ? WH_R(0.98) : WH_R(1.02)) * measured.repeats_limit_N *
                            measured.repeats_limit_N;

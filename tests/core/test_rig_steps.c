@@ -75,7 +75,7 @@ static unsigned stay(wh_real speed_rpm, unsigned steps) {
     return done;
 }
 
-/* --- words ------------------------------------------------------------------------------------------- */
+/* --- texts of phases and trips ----------------------------------------------------------------------- */
 
 static bool same_text(const char *x, const char *y) {
     while (*x != 0 && *x == *y) {

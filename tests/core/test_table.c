@@ -99,8 +99,8 @@ TEST(table, finer_cells_are_parts_of_coarse_ones) {
             const uint32_t units = (uint32_t)(draw_bits(&seed) << 16 ^ draw_bits(&seed));
             const uint32_t number =
                 ((units + (UINT32_C(1) << (31U - bits))) >> (32U - bits)) % (1U << bits);
-            const int32_t way =
-                (int32_t)((units - (number << (32U - bits))) << bits); /* 2^32: one */
+            const int32_t way = (int32_t)((units - (number << (32U - bits)))
+                                          << bits); /* 2^32 stands for one cell */
             wh_real y;
             const size_t at = (size_t)(wh_table_cell(none, bits, 1, phase_of(units), &y) - none);
             if (way < INT32_MAX - 99999 && way > -INT32_MAX + 99999) {

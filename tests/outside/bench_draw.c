@@ -14,7 +14,7 @@ const fault_kind kinds[] = {
     KIND(play, 0.5, 2, false)           /* N, the whole backlash */
     KIND(cubic, 0.005, 0.02, true)      /* error at the nominal amplitude */
     KIND(drift, 0.01, 0.5, true)        /* N/s */
-    KIND(gain, 0.005, 0.3, true)        /* error */
+    KIND(gain, 0.005, 0.3, true)        /* relative error */
     KIND(quantized, 0.02, 0.5, false)   /* N per count */
     KIND(resonance, 20, 80, false)      /* Hz */
     KIND(place_1, 0.2, 5, true)         /* deg */
@@ -23,14 +23,14 @@ const fault_kind kinds[] = {
     KIND(jitter, 60, 300, false)        /* us, standard deviation */
     {"dead_1", offsetof(bench, dead), 1, 1, false},
     {"dead_2", offsetof(bench, dead), 2, 2, false},
-    KIND(doubled, 0, 1, false)                            /* share of the pulses */
+    KIND(doubled, 0, 1, false)                            /* share of pulses that come twice */
     KIND(torque_2, 0.02, 0.12, false)                     /* N*m, twice per turn */
-    KIND(inertia, 0.5, 6, false)                          /* times the rotor's */
+    KIND(inertia, 0.5, 6, false)                          /* times the nominal inertia */
     {"friction", offsetof(bench, dry), 0.02, 0.2, false}, /* N*m */
     KIND(weak, -0.2, 0.5, false) /* share of the motor's torque that is missing */
     {"freewheel", offsetof(bench, freewheels), 1, 1, false},
     KIND(supply_off, 0.2, 5, true)     /* V */
-    KIND(supply_gain, 0.02, 0.5, true) /* error */
+    KIND(supply_gain, 0.02, 0.5, true) /* relative error */
     KIND(supply_sat, 10, 24, false)    /* V */
     {"stop", 0, 0, 0, false},
     {"stuck", 0, 0, 0, false},
@@ -75,16 +75,16 @@ static void draw_stuck(bench *b, dice *d) {
     b->rpm = uniform(d, 100, most_rpm(b->supply));
     b->stuck = drawn_event(d);
     const double where = uniform(d, 0, 1);
-    if (where < 0.35) { /* after stop, held or released */
+    if (where < 0.35) { /* stuck after stop, which is held or released */
         b->stop = drawn_event(d);
         b->stuck = (event){AFTER_STOP, chance(d, 0.3) ? 0 : uniform(d, 0, 4), NEVER};
         if (chance(d, 0.4)) {
             b->release = (event){AFTER_STOP, uniform(d, 0.01, 5), NEVER};
         }
-    } else if (where < 0.5) { /* after a trip */
+    } else if (where < 0.5) { /* stuck after a trip */
         b->silent = drawn_event(d);
         b->stuck = (event){TRIPPED, uniform(d, 0, 4), NEVER};
-    } else if (where < 0.65) { /* after a run */
+    } else if (where < 0.65) { /* stuck after a run */
         b->stuck = (event){COAST, uniform(d, 0, 4), NEVER};
     }
     if (chance(d, 0.5)) {

@@ -17,7 +17,7 @@ unsigned below(unsigned limit);
 typedef struct board_test {
     const char *name;
     bool (*holds)(unsigned times);
-    unsigned times; /* the default */
+    unsigned times; /* default of TIMES */
     const char *what;
 } board_test;
 

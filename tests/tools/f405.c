@@ -132,11 +132,11 @@ static bool sees_edges(unsigned times) {
     }
     for (unsigned i = 0; i < times; i++) {
         const unsigned sensor = below(2);
-        unsigned said[2]; /* sensor, ticks */
+        unsigned said[2]; /* the two printed numbers: sensor, ticks */
         const uint32_t before = emulated_load(&board, TIM2_CNT);
         emulated_set_line(&board, EXTI, sensor, true);
         const uint32_t after = emulated_load(&board, TIM2_CNT);
-        emulated_set_line(&board, EXTI, sensor, false); /* no pulse */
+        emulated_set_line(&board, EXTI, sensor, false); /* ends the pulse */
         if (!emulated_hear(&board, line, sizeof line, 60000) || numbers_of(line, said, 2) != 2) {
             return no("edge %u is not told", i);
         }

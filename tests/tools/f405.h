@@ -27,8 +27,8 @@ bool answers_at_last(const char *order, const char *begin, char *line, unsigned 
 
 const emulated_store_seen *seen_at(uint64_t number);
 bool is(const emulated_store_seen *seen, const char *device, uint32_t offset);
-bool drives(const emulated_store_seen *seen); /* the motor */
-bool kicks(const emulated_store_seen *seen);  /* the watchdog */
+bool drives(const emulated_store_seen *seen); /* does this store drive the motor? */
+bool kicks(const emulated_store_seen *seen);  /* does this store kick the watchdog? */
 
 #define TIM2_CNT 0x40000024U
 

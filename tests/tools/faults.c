@@ -102,7 +102,7 @@ static bool run_one(const campaign *c, plants *from, unsigned i, verdict *v) {
     return report.end != LOCKSTEP_BAD && report.end != LOCKSTEP_STOPPED;
 }
 
-/* --- many ----------------------------------------------------------------------------------------------------------*/
+/* --- many runs -----------------------------------------------------------------------------------------------------*/
 
 static void catch_interrupts(void) {
     const struct sigaction action = {.sa_handler = on_interrupt};

@@ -71,8 +71,8 @@ static const subject subjects[] = {
 
 typedef struct seen {
     double energy; /* largest |E/E_0 - 1| */
-    double last;   /* the last one, signed */
-    double centre; /* largest distance, m */
+    double last;   /* the last E/E_0 - 1 */
+    double centre; /* largest drift of the centre of mass, m */
 } seen;
 
 static void try_one(const subject *of, stepping how, const char *number, uint64_t steps) {

@@ -48,7 +48,7 @@ static uint16_t pair_at(const avr_t *avr, unsigned address) {
     return (uint16_t)(avr->data[address] | avr->data[address + 1U] << 8);
 }
 
-/* WGMn3:0 */
+/* The mode: WGMn3:0. */
 static unsigned mode_of(const avr_t *avr, unsigned base) {
     return (avr->data[base + TCCRA] & 3U) | (avr->data[base + TCCRB] >> 1 & 0xCU);
 }
