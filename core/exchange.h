@@ -49,7 +49,7 @@ typedef enum wh_signal_kind {
 typedef struct wh_signal {
     wh_signal_kind kind;
     const char *name; /* its name in the plant: an input; an output, coordinate or rate */
-    const char *unit; /* SI */
+    const char *unit; /* an SI unit */
     float low;
     float high;
     float per_count;       /* WH_SIGNAL_SAMPLE only: units per count */

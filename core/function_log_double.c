@@ -13,7 +13,7 @@
 #define LEAST_BITS UINT64_C(0x3fe6900000000000)
 
 typedef struct entry {
-    double inverse; /* c */
+    double inverse; /* c, about 1/m */
     double high;    /* -log c, a multiple of 2^-40 */
     double low;
 } entry;

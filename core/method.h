@@ -105,8 +105,8 @@ extern "C" {
 /* A method's data for users. */
 typedef struct wh_method_row {
     const char *word;  /* on command lines, in file names */
-    const char *name;  /* in C */
-    const char *title; /* in sentences */
+    const char *name;  /* name in C */
+    const char *title; /* title in sentences */
     uint8_t order;     /* order of convergence */
     uint8_t takes;     /* the forms of systems that it can step: the bits above */
     uint8_t stages;    /* evaluations of the right-hand side per step */

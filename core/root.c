@@ -77,7 +77,7 @@ static word root_of(word x) {
 
 wh_real wh_sqrt(wh_real x) {
     real_bits as = {.real = x};
-    if (as.bits - ONE >= INFINITE - ONE) { /* no normal positive number */
+    if (as.bits - ONE >= INFINITE - ONE) { /* not a normal positive number */
         if ((as.bits & ~SIGN) == 0 || as.bits == INFINITE) {
             return x;
         }

@@ -51,7 +51,7 @@ struct wh_scene {
     wh_method method;
     uint8_t angles;   /* components kept as a turn angle */
     uint8_t reals;    /* components kept as a real */
-    uint8_t inputs;   /* may change between steps */
+    uint8_t inputs;   /* number of inputs: they may change between steps */
     uint8_t outputs;  /* computed by observe(), never in the step */
     uint8_t contacts; /* stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
     uint8_t held;     /* holds that could slip: they involve several coordinates, or are curved */

@@ -73,7 +73,7 @@ WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned
 
 /* A step of q'' = f(q, q', u) in progress. */
 typedef struct wh_stepped_second {
-    const wh_real *linear; /* at the begin */
+    const wh_real *linear; /* linear positions at the begin */
     const wh_real *rate;
     const wh_real *input;
     wh_real a1[WH_COORDS];               /* accelerations of the first stage */

@@ -5,7 +5,7 @@
  * only 16 bits, which are cheap on every machine. */
 #define FRACTION_BYTES 20U /* 2^-160: below every float's last bit (2^-149) */
 #define WHOLE_BYTES 16U    /* 2^128: above every float */
-#define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* times 10^18 */
+#define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* room for a factor of 10^18 */
 #define DIGITS (39U + WH_TEXT_DECIMALS_MAX)       /* digits of 2^128, and decimals */
 
 void wh_text_start(wh_text *text, char *bytes, unsigned size) {
@@ -45,7 +45,7 @@ static unsigned divide_by_ten(uint8_t *byte, unsigned count) {
 /* Adds the whole number byte[count] divided by 10^decimals; destroys byte[]. */
 static void add_digits(wh_text *text, uint8_t *byte, unsigned count, unsigned decimals,
                        bool negative) {
-    char digit[DIGITS]; /* lowest first */
+    char digit[DIGITS]; /* lowest digit first */
     unsigned digits = 0;
     bool any = false;
     for (;;) {

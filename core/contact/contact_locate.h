@@ -17,7 +17,7 @@ typedef struct wh_margins {
  * Rates follow the cubic through both ends' rates and accelerations a0 and a1. (The slope of the first cubic would be
  * one order less accurate, and magnify the positions' round-off by 1/h.) */
 typedef struct wh_contact_path {
-    wh_real h;              /* s */
+    wh_real h;              /* its duration, s */
     wh_contact_point begin; /* state at the path's begin */
     wh_real way[WH_COORDS]; /* displacement from begin to end, rad or m */
     wh_real end_rate[WH_COORDS];

@@ -153,7 +153,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
         if (off[i] != WH_R(0.0) && pin >= 0) {
             const wh_real entry = wh_contact_law(of, w, member[i])[WH_LAW_ROWS + pin];
             const wh_real rest = off[i] + entry * moved[pin];
-            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* not yet corrected */
+            if (moved[pin] == WH_R(0.0) || rest < WH_R(0.0)) { /* contact i is not corrected yet */
                 moved[pin] -= rest / entry;
                 wh_contact_move(of, (unsigned)pin, -rest / entry, s);
             }

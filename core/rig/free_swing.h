@@ -89,7 +89,7 @@ enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG,
 typedef struct wh_free_rotor {
     wh_real q_rad; /* -pi ... pi */
     wh_real rate_radps;
-    wh_real q_by[WH_FREE_CAUSES]; /* derivatives */
+    wh_real q_by[WH_FREE_CAUSES]; /* derivatives of q_rad */
     wh_real rate_by[WH_FREE_CAUSES];
 } wh_free_rotor;
 
@@ -191,7 +191,7 @@ typedef struct wh_swing {
     unsigned strays; /* impossible pulses in this pass */
     /* pulses used of each sensor: pulses of sensor 1 alone would also fit the mirror image of the swing */
     unsigned fits_of[WH_SWING_SENSORS];
-    uint32_t ticks;                     /* time of `way` */
+    uint32_t ticks;                     /* time of the motion in `way` */
     wh_real soft_rad2;                  /* variance added to the pulses' own */
     wh_free_rotor way;                  /* the rotor's motion during a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */

@@ -39,7 +39,7 @@ typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;
 typedef struct wh_guard_config {
     wh_real target_min_radps; /* smallest set-point (docs/rig.md) */
     wh_real target_min_fed_radps;
-    wh_real target_max_radps; /* largest */
+    wh_real target_max_radps; /* largest set-point */
     wh_real limit_radps;      /* largest speed, mean of a turn */
     /* a turn's largest speed, less its mean speed, as a fraction of the mean, at the speed limit */
     wh_real ripple;

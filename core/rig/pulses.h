@@ -32,7 +32,7 @@ typedef struct wh_index_pulse {
 } wh_index_pulse;
 
 typedef struct wh_pulses {
-    bool suspects; /* `suspect` is a suspect */
+    bool suspects; /* `suspect` waits for the next pulse */
     bool waits;    /* the last pulse is unconfirmed */
     /* the last pulse was a little early: if the next one is early too, neither is a disturbance */
     bool alert;
@@ -54,7 +54,7 @@ typedef struct wh_pulses {
     uint32_t rejected; /* number of rejected pulses */
     wh_pulse suspect;
     wh_index_pulse last; /* the last pulse */
-    wh_speed speed;      /* from the accepted pulses */
+    wh_speed speed;      /* speed from the accepted pulses */
     wh_speed before;     /* the speed before the last pulse */
     wh_speed suspected;  /* the speed if the suspect is true */
     unsigned marks;

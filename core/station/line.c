@@ -91,7 +91,7 @@ bool wh_line_number(const char *word, wh_real *number) {
     const bool negative = word[0] == '-';
     const char *at = word + (negative || word[0] == '+' ? 1 : 0);
     uint32_t digits = 0;
-    uint32_t scale = 0; /* 0 until the point */
+    uint32_t scale = 0; /* 0 before the decimal point */
     unsigned count = 0;
     for (; *at != '\0'; at++) {
         if (*at == '.' && scale == 0) {

@@ -121,8 +121,8 @@ typedef enum wh_tel_channel { WH_TEL_CHANNEL_ROWS(WH_TEL_NAME) WH_TEL_CHANNELS }
 
 typedef enum wh_tel_event {
     WH_TEL_PULSE, /* value: the sensor, 0 or 1 */
-    WH_TEL_STATE, /* wh_rig_shown_stage() */
-    WH_TEL_TRIP,  /* a wh_trip */
+    WH_TEL_STATE, /* value: wh_rig_shown_stage() */
+    WH_TEL_TRIP,  /* value: a wh_trip */
     WH_TEL_END    /* the end of a pulse; WH_TEL_PULSE is its beginning */
 } wh_tel_event;
 

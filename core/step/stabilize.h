@@ -47,7 +47,7 @@ WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real
     wh_real *total = state->ledger + wh_ledger_of_stabilized(form);
     wh_real *rest = total + form->entries;
     const wh_real drift = wh_ledger_error(form, state, 0, level) + (*total + *rest);
-    wh_real gain = WH_R(0.0); /* P, J */
+    wh_real gain = WH_R(0.0); /* P, in joules */
     for (unsigned i = 0; i < n; i++) {
         gain += rate[i] * level[1 + i];
     }

@@ -327,7 +327,7 @@ WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_tur
 }
 
 typedef struct wh_turned_second {
-    const wh_real *linear; /* at the begin */
+    const wh_real *linear; /* linear positions at the begin */
     const wh_real *rate;
     const wh_real *input;
     wh_turning t;
