@@ -134,15 +134,15 @@ void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
  * NaN. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* The fastest interval between two pulses of a rotor that the drive keeps at limit_radps at most. Its speed exceeds
- * that by the share `over`, and by `falls` times the gain of a fall from the top. From rest at the bottom gravity adds
- * nothing. */
+/* Largest mean speed between two pulses, rad/s, if the drive keeps the rotor at limit_radps at most. It exceeds
+ * limit_radps by the share `over`, and by `falls` times the gain of a fall from the top. From rest at the bottom gravity
+ * adds nothing. */
 #define WH_GUARD_LIGHTER \
     WH_R(1.5) /* the gain of a rotor with half the configured inertia, with a margin */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
-/* Limit on the rise of a turn's speed; behind_radps is the commanded speed minus the speed. If it is negative, the
- * speed must fall. */
+/* Limit on the rise of a turn's speed, rad/s^2; behind_radps is the commanded speed minus the speed. The limit is
+ * negative, so the speed must fall, if the speed is too high by config->behind_radps or more. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
                                         bool is_led) {
     if (is_led && behind_radps > config->behind_radps) {

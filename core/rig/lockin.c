@@ -7,7 +7,7 @@
 
 #define PI WH_R(3.141592653589793)
 
-/* A turn does not count if nodes are farther apart than this many periods, or if a tenth are outliers. */
+/* A turn does not count if two nodes are farther apart than 3.5 sample periods, or if more than 1/10 are outliers. */
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 
@@ -20,7 +20,7 @@
 #define OUTLIER_DEVIATIONS WH_R(6.0)
 #define OUTLIER_PART WH_R(0.02)
 
-/* A turn does not count, and is not used to estimate the inertia, if its time changed by more than this part. */
+/* A turn does not count if its time changed by more than 1/64. It does not correct the inertia if by more than 1/256. */
 #define STEADY_PART 64U
 #define STILL_PART 256U
 

@@ -21,10 +21,10 @@
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Repeating residual of a healthy rig in harmonics 3 to 6, as parts of the force (tests/host/test_repeats_truth.c). The
- * causes are damping, in proportion to tan(psi) E^2; an error of the speed ripple, in proportion to E times this error;
- * and a motor that cannot brake enough. Further causes are the ripple of a carriage; the nonlinearity of the cell; and
- * few samples per turn, in proportion to the square of the angle between two. */
+/* Repeating residual of a healthy rig in harmonics 3 to 6, as parts of the force (tests/host/test_repeats_truth.c).
+ * The causes, in this order, are damping, in proportion to tan(psi) E^2; an error of the speed ripple, in proportion
+ * to E times this error; and a motor that cannot brake enough. Further causes are the ripple of a carriage; the
+ * nonlinearity of the cell; and few samples per turn, in proportion to the square of the angle between two. */
 #define REPEATS_LAG WH_R(0.4)
 #define REPEATS_ARROW WH_R(1.6)
 #define REPEATS_CUT WH_R(0.29)
