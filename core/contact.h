@@ -46,8 +46,7 @@
 
 /* Most probes to locate an event. The located interval is at most WH_BRACKET times the searched one. Halving alone
  * needs four probes fewer, so better guesses may fall behind it by four: after n probes the interval is at most
- * WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes locate an event to WH_BRACKET_FINE, as finely as round-off
- * permits. */
+ * WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes reach WH_BRACKET_FINE, the limit of round-off. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)

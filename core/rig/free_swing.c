@@ -135,8 +135,8 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* Limit on the slowest amplitude: a rotor with a smaller one comes to rest within a swing or two, by a friction that is
- * unknown. */
+/* Least amplitude, rad, and least ratio of the amplitude to friction / gravity: below either, the rotor comes to rest
+ * within a swing or two, by a friction that is unknown. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
