@@ -451,7 +451,7 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
     return (wh_rig_command){brakes(rig) ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
-/* A tripped rig skips the rest of the step. */
+/* Brings the rig into the state `tripped` if the guard has tripped. */
 static void follow_trip(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_RIG_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
@@ -529,8 +529,8 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                                                                           : WH_REFUSED_VOLTAGE;
 }
 
-/* A trip can be cleared when the rotor rests and the cause is removed. If the pulses are unreliable, the rotor counts
- * as at rest after tripped_max_s. */
+/* A trip can be cleared if no pulses come, the rotor rests and the cause is removed. After a trip for unreliable
+ * pulses, the rotor counts as at rest only after tripped_max_s. */
 static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs) {
     if (!rig->at_rest || !rig->guard.quiet) {

@@ -204,8 +204,8 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* True if the motor can lift the arms, reaches the largest set-point at its rated voltage, and the damping is at least
- * that of its torque line. */
+/* True if the motor can lift the arms and reaches the largest set-point at its rated voltage. That voltage must be in
+ * the supply's range, and the damping at least LINE_PART of the slope of the motor's torque line. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;
@@ -224,7 +224,7 @@ static bool motor_goes(const wh_conf *conf) {
            value[WH_CONF_damping] >= LINE_PART * line_Nms;
 }
 
-/* A hash of the settings. Different settings have different hashes. */
+/* A hash of the settings. A change of one setting always changes the hash. */
 static uint32_t hash(const wh_conf *conf) {
     uint32_t crc = 0;
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
@@ -296,8 +296,7 @@ wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     return WH_STATION_FINE;
 }
 
-/* --- settings as words
- * ------------------------------------------------------------------------------------------------ */
+/* --- settings as words -------------------------------------------------------------------------------------------- */
 
 static bool is_choice(wh_conf_id id) { return ROW(id)->kind >= WH_CONF_SWITCH; }
 
