@@ -15,10 +15,10 @@ typedef struct said {
 /* Runs `command` (command_run, ...) on the words, which end with NULL. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
 
-/* The exit status that `whirl run` or `whirl sweep` must have after these messages: 1 after a warning of a finding. */
+/* The exit status that `whirl run` or `whirl sweep` must have with these messages: 1 if one warns of a finding, else 0. */
 int said_owes(const char *err);
 
-/* A step as a warning writes it, "200us", in s. */
+/* Converts a step as a warning writes it, such as "200us", to seconds. */
 double said_step_s(const char *word);
 /* The step of the first `--step` in a text, in s; 0 if there is no `--step`. */
 double said_named_step_s(const char *text);
@@ -30,8 +30,8 @@ const char *said_exactly(const char *text, const char *words); /* without skippi
 const char *said_number(const char *text, double *number);
 const char *said_word(const char *text, char *word, size_t size);
 
-/* Reads the first `count` numbers of the next row of a column file. `text` starts at its head or is the last call's
- * result. NULL after the last row. */
+/* Reads the first `count` numbers of the next row of a column file. For the first row, `text` is the file with its
+ * header; then it is the previous call's result. Returns NULL after the last row. */
 const char *said_row(const char *text, int count, double *number);
 
 /* Captures standard error from the first call until the second, which returns it (static). */
@@ -52,7 +52,7 @@ dice dice_of(const char *suite, unsigned long seed); /* prints its seed; WHIRL_S
 double dice_between(dice *d, double low, double high);
 unsigned dice_one_of(dice *d, unsigned count);
 
-/* `usual`, or the value of the environment variable WHIRL_CASES. */
+/* The value of the environment variable WHIRL_CASES; `usual` if it is not set. */
 unsigned dice_cases(unsigned usual);
 
 /* `few` cases for `make test`; `all` when WHIRL_FULL is not empty (make check). */

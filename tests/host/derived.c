@@ -228,7 +228,7 @@ char *repeated(const char *front, const char *part, int times, const char *tail)
     size_t at = (size_t)snprintf(text, room, "%s", front);
     for (int i = 1; i <= times; i++) {
         for (const char *c = part; *c != '\0'; c++) {
-            if (*c == '#' || *c == '@') { /* number, number before */
+            if (*c == '#' || *c == '@') { /* # is the piece's number, @ the number before it */
                 at += (size_t)snprintf(text + at, room - at, "%d", *c == '#' ? i : i - 1);
             } else {
                 text[at++] = *c;

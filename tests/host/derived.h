@@ -36,7 +36,7 @@ void derived_free(derived *d);
 void derived_expect(const derived *d, const char *what);
 derived derived_surely(derived d, const char *what);
 
-/* Capacity of a state_values: coordinates, and derivatives of each with the value. */
+/* Capacity of a state_values: the coordinates; for each, its value and derivatives. */
 enum { UNKNOWNS = 16, ORDERS_MAX = 6 };
 
 /* Numbers for every symbol, by kind and index: the state of a comparison. */
@@ -56,8 +56,8 @@ void random_state(state_values *s, const derived *d, uint64_t *seed);
 
 /* Evaluates a list of the image at a state: result[t->results]. */
 void derived_run(const op_list *t, const derived *d, const state_values *s, double *result);
-/* As derived_run(), with bounds off[t->results] on the round-off of each result, in units of 2^-53
- * (host/engine/rounding.h): off[t->results]. */
+/* As derived_run(); off[t->results] receives a bound on the round-off of each result, in units of 2^-53
+ * (host/engine/rounding.h). */
 void derived_run_known(const op_list *t, const derived *d, const state_values *s, double *result,
                        double *off);
 

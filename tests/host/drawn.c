@@ -2,7 +2,7 @@
 
 #include "derived.h"
 
-/* Solve a x = b by elimination with pivots; false where a is singular. */
+/* Solves a x = b by elimination with pivots. Returns false if a is singular. */
 static bool solve(int n, double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1], double *x) {
     for (int p = 0; p < n; p++) {
         int pivot = p;
@@ -130,7 +130,7 @@ bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x)
         }
         int k = 0;
         for (; k < b->contacts;
-             k++) { /* counts: the next case of contact k, or else 0 and the next contact */
+             k++) { /* next combination of cases: contact k + 1 changes only if k is back at 0 */
             which[k] = next_case(b->contact[k].kind, which[k]);
             if (which[k] != 0) {
                 break;

@@ -42,7 +42,7 @@ drawn_contact *drawn_add(drawn *b, char kind);
 void drawn_row(const drawn *b, uint64_t *seed, double *row);
 void drawn_row_at_rest(const drawn *b, uint64_t *seed, double *row);
 
-/* J_k x; M^-1 y. */
+/* drawn_along() returns J_k x. drawn_inverse() computes x = M^-1 y. */
 double drawn_along(const drawn *b, int k, const double *x);
 void drawn_inverse(const drawn *b, const double *y, double *x);
 

@@ -18,8 +18,8 @@ typedef struct drawn_image {
 } drawn_image;
 
 /* Draws an image of second order: unknowns, some of them angles, with their rates. A `matrix` step has a zero last
- * column in half of the cases. The scene's start has the values of its first entries. The texts belong to the
- * program. */
+ * column in half of the cases. The scene's start is the first entries of the matrix. The texts are string literals: do
+ * not free them. */
 void drawn_image_draw(drawn_image *d, dice *die, image_matrix_of matrix);
 
 /* The name of a column in text[40]: "theta'" for a component; the inputs follow the components. */

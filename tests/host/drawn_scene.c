@@ -296,7 +296,7 @@ int drawn_scene_numbers(const image *im) {
     int numbers = im->reals + im->inputs + im->held;
     numbers += im->settings.compensated ? im->angles + im->reals : 0;
     if (im->ledger.kept) {
-        /* each entry has a carry; each account a start and a correction; then the inputs */
+        /* an entry has a total and a carry, an account a start and a correction */
         numbers += 2 * (im->ledger.entries + im->ledger.accounts) + im->ledger.inputs;
     }
     return numbers;

@@ -16,7 +16,7 @@ typedef struct stream {
 typedef struct drawn_talk {
     wh_signal signal[WH_SIGNALS_MAX];
     wh_hello hello;
-    unsigned outputs; /* notes follow them */
+    unsigned outputs; /* signals before the notes */
     unsigned notes;
     unsigned turns;
     uint32_t ticks[TURNS_MOST];
@@ -33,12 +33,12 @@ extern stream talk_on_tape;
 extern lockstep_report talk_report;
 extern lockstep_wish talk_wish;
 
-void talk_die(dice with); /* generator of all draws */
+void talk_die(dice with); /* sets the random generator of all functions here */
 unsigned talk_one_of(unsigned count);
 
 void talk_draw(void);
 
-/* Appends frames: orders of turn i, preceded by the values to be remembered. */
+/* Each appends a frame to s. Before the orders of turn i, a second frame has the values to be remembered, if any. */
 void talk_put(stream *s, unsigned kind, unsigned sequence, uint32_t ticks, const uint8_t *payload,
               unsigned length);
 void talk_put_hello(stream *s, const wh_hello *hello);
@@ -46,12 +46,12 @@ void talk_put_readings(stream *s, unsigned i);
 void talk_put_orders(stream *s, unsigned i, unsigned sequence);
 void talk_put_end(stream *s, int status, unsigned length);
 
-/* The exchange as a tape, talk_on_tape, and the firmware's answers, talk_line. */
+/* talk_tape_all() writes the exchange to talk_on_tape; talk_say_all() writes the firmware's answers to talk_line. */
 void talk_tape_all(unsigned turns);
 void talk_say_all(unsigned turns);
 
-/* talk_open_line() puts the firmware's answers on the line, as talk_wish describes them; after them the line is closed
- * or silent. talk_close_line() returns the bytes that the firmware received, and ends the line. */
+/* talk_open_line() puts the firmware's answers on the line, and the line into talk_wish. After the answers the line is
+ * closed or silent. talk_close_line() returns the bytes that the firmware received, and ends the line. */
 void talk_open_line(bool closed);
 void talk_close_line(stream *heard);
 

@@ -6,7 +6,7 @@
 
 enum { EVALUATED_MOST = 2000 };
 
-/* Value of a leaf, or of an angle for OP_PHASE. Above zero. */
+/* The positive value of a leaf. With OP_PHASE: the value of angle `which`. */
 double evaluated_leaf(op_code code, int which);
 
 /* Computes v[t->count], with t->count <= EVALUATED_MOST. Fails the test if an operation comes before its operand. */

@@ -8,7 +8,7 @@
 typedef struct expression_names {
     const char *const *coordinates;
     int coordinate_count;
-    int rates;                    /* with their rates, times 1 [s]? */
+    int rates;                    /* true: their rates, times 1 [s], occur, too */
     const char *const *constants; /* parameters and inputs */
     int constant_count;
 } expression_names;

@@ -83,7 +83,7 @@ typedef struct run_checks {
     bool cut;        /* the watchdog cut the power, although nothing was late or lost */
     double turn_rpm; /* the fastest turn */
     double peak_rpm; /* the greatest instantaneous speed */
-    /* error of a good result beyond its interval and 1 %, relative to the true value */
+    /* how far a result of good quality is outside its interval plus 1 %, relative to the true value */
     double lie;
     bool lasting; /* the drive ignored the voltage for longer than stopping it may take */
     double target_rpm;
@@ -117,8 +117,8 @@ typedef struct judge {
     const fault_plan *plan;
     double *until_s;
     bool enabled;
-    double enabled_s;   /* time since the enable is on */
-    double ignored_s;   /* how long the drive has ignored the voltage; -1: it follows the voltage */
+    double enabled_s;   /* time at which the enable was last switched on */
+    double ignored_s;   /* time from which the drive ignored the voltage; -1: it never did */
     double off_since_s; /* time at which the rig tripped with the motor off; -1: no trip */
     double halted_s;    /* time of the stop or the first reset */
     unsigned resets;    /* resets that the controller reported */

@@ -11,7 +11,7 @@
 /* === the controller's words ==================================================================== */
 
 typedef struct rig_stage {
-    char when[32]; /* NOTE=VALUE */
+    char when[32]; /* the note that shows this state: NOTE=VALUE */
     const char *word;
     double span_s; /* mean duration in a healthy run, s */
 } rig_stage;
@@ -45,7 +45,7 @@ static unsigned rig_stages(rig_stage *stage) {
     return STAGES;
 }
 
-/* -1: no stage */
+/* Index of the stage that the notes show; -1: none. */
 static int rig_stage_of(const float *note) {
     for (int i = 0; i < STAGES; i++) {
         if (healthy[i].stage == (unsigned)note[HAL_NOTE_STATE]) {
@@ -66,7 +66,7 @@ static bool rig_may_drive(const float *note) {
     return stage >= PHASE(WH_PHASE_SPIN_UP) && stage <= PHASE(WH_PHASE_RAMP_DOWN);
 }
 
-/* NOTE=VALUE */
+/* The note that shows a trip, as NOTE=VALUE. */
 static const char *rig_tripped_when(void) {
     static char when[32];
     snprintf(when, sizeof when, "state=%d", (int)WH_RIG_TRIPPED);
@@ -82,9 +82,9 @@ static double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 /* A fault is detected after two pulses that come too early. They come within a turn of the fault's begin; but a pulse
  * in the first sixth of that turn is not early enough (docs/rig.md). Until then, and for one control period more, full
  * voltage drives the rotor; gravity adds its part of a turn. */
-#define CAUGHT_RPM 470.0 /* at the nominal speed or below */
+#define CAUGHT_RPM 470.0 /* least speed limit, for runs at the nominal speed or below */
 #define TURNS (7.0 / 6.0)
-#define LAG_S 0.23 /* time constant of the rotor under full voltage: */
+#define LAG_S 0.23 /* time constant of the rotor under full voltage */
 #define FULL_RPM 568.0
 #define STEP_S 1e-5
 #define PERIOD_STEPS 200 /* the control period, 2 ms */
@@ -105,7 +105,7 @@ static double rig_caught_rpm(double target_rpm) {
 }
 
 /* === random faults ============================================================================= */
-/* A fault, its size, begin and duration. */
+/* The random choice of a fault, its size, begin and duration. */
 
 /* Noise of the cell in every run. */
 #define NOISE "cell-noise=0.07"
@@ -127,7 +127,7 @@ enum {
     CALIBRATION = 4,
     COUNTED_ONLY = 8,
     HEALTHY = 16,
-    AFTER_TRIP = 32, /* another fault trip_words the rig first */
+    AFTER_TRIP = 32, /* another fault trips the rig first */
     STARVED = 64,    /* the watchdog resets and does not cut the power */
     DELAYS = 128,    /* the watchdog may cut the power */
     FED = 256,       /* gravity compensation in every run; with `dials`, from the start */
@@ -328,7 +328,7 @@ static bool campaign_has_dials(const campaign *c) {
     return strstr(c->firmware, "pil_dialled") != NULL;
 }
 
-/* The operator's dials are samples 4 to 6. */
+/* Draws the operator's dials, which the firmware reads as samples 4 to 6: speed, compensation, braking. */
 static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
     const double which = draw(d);
     one->target_rpm = which < NOMINAL_PART ? rig_nominal_rpm()
@@ -469,7 +469,7 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
 }
 
 /* === verdicts ================================================================================== */
-/* From the true state of the plant, not from the firmware's messages. */
+/* The judge uses the true state of the plant, not the firmware's messages. */
 
 #define TURN_RAD 6.283185307179586477
 #define RPM_PER_RADPS 9.5492965855137202
@@ -538,7 +538,7 @@ static bool start(void *of, const wh_hello *hello, plant *p) {
 /* --- the true force and speed
  * ----------------------------------------------------------------------------------------------------- */
 
-/* Trapezoids over the angle: a millisecond is two degrees at 330 rpm. */
+/* Integrates by trapezoids over the angle. They are fine enough: a millisecond is two degrees at 330 rpm. */
 static void add_up(judge *j, double from, double force_from, double to, double force_to) {
     const double half = (to - from) / 2.0;
     j->sum.cosine_N += half * (force_from * cos(from) + force_to * cos(to));
@@ -577,7 +577,7 @@ static void end_turn(judge *j, double at_s) {
     j->whole = true;
 }
 
-/* Time since the drive ended. */
+/* Time at which the drive ended, in ticks; infinity: the motor still drives. */
 static double off_since_ticks(const judge *j, const plant *p) {
     const int at[] = {j->at_duty, j->at_enable};
     double since = (double)INFINITY;
@@ -663,7 +663,7 @@ static void watch(void *of, double time_s, const plant *p) {
     watch_off(j, time_s, p);
 }
 
-/* Relative error of a result beyond its interval and 1 %. The result may refer to several series of turns: the smallest
+/* How far a result is outside its interval plus 1 %, relative to the true value. The result may refer to several series of turns: the smallest
  * error counts. */
 static double off_by(const judge *j, unsigned turns) {
     const double amplitude = (double)j->told[HAL_NOTE_AMPLITUDE];
@@ -703,7 +703,7 @@ static void look_for_fault(judge *j) {
     }
 }
 
-/* The first message after a reset, while the earlier ones are still known. */
+/* Looks for the first message after a reset, while the notes before it are still known. */
 static void look_for_reset(judge *j, const wh_orders *orders) {
     float now[HAL_NOTES];
     if (j->plant->reset.count == j->resets) {
@@ -838,9 +838,9 @@ void judge_end(judge *j, const lockstep_report *report) {
 /* The outcome by fault and state, and the worst runs with their commands. */
 
 #define OVERSPEED_SHARE 0.02 /* allowed share of all runs */
-#define CAUGHT_S 0.25        /* deadline for a drive that ignores the voltage, */
-#define CAUGHT_REST_S 0.35   /* from rest, */
-#define TURNING_RPM 250.0    /* also for runs below this speed */
+#define CAUGHT_S 0.25      /* deadline for the enable to be off, if the drive ignores the voltage */
+#define CAUGHT_REST_S 0.35 /* the same, if the fault begins below TURNING_RPM */
+#define TURNING_RPM 250.0
 enum { WORST = 10, LONGEST = 20, TRIPS = 32 };
 
 static bool is_lie(const verdict *v) { return v->lie > 0.0; }

@@ -4,7 +4,7 @@
 #include "host/lang/builtin.h"
 #include "host/study/reference_run.h"
 
-/* Largest number of samples of the reference, and fewest steps between two. */
+/* Largest number of samples of the reference. */
 enum { LOOKS = 10000 };
 
 typedef struct reference_of {

@@ -145,7 +145,7 @@ static void step_of(const runner *r, long double h, long double *to) {
     }
 }
 
-/* Twice the tolerance of the cases (drawn.c), N or N m, so that an ended mode is not found again. */
+/* Twice the tolerance of drawn_solved(), N or N m. A mode that it has just chosen must not count as ended. */
 #define SLACK 2e-9L
 
 /* Has a contact's mode ended in this state? */
@@ -172,7 +172,7 @@ static bool ended(const runner *r, const long double *state) {
 /* Tolerance for zero after the bisection of an event. */
 #define NEAR 1e-9L
 
-/* The contacts of `member` at this moment, as a problem for drawn.h. */
+/* The contacts listed in `member` at this moment, as a problem for drawn_solved(). */
 static drawn cases_of(const runner *r, const linkage_numbers *at, const gauge *g, const int *member,
                       int count) {
     drawn b = {.n = r->h->of.bodies, .contacts = count};

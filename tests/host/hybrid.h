@@ -45,7 +45,7 @@ typedef struct hybrid_motion {
 /* The step of most of these runs, s. */
 #define HYBRID_STEP_S (1.0 / 4096.0)
 
-/* Its motion until `until_s` with this step. A flight shorter than `least_flight_s` ends the motion, with `aside`
+/* The motion of h until `until_s` with this step. A flight shorter than `least_flight_s` ends the motion, with `aside`
  * set. */
 hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double least_flight_s);
 

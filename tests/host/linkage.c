@@ -117,7 +117,7 @@ static bool flush(writer *w, const char *assign) {
     return any;
 }
 
-/* The k-th item in the requested order. */
+/* Index of the k-th of `count` items, in the order that the writing asks for. */
 static int turn_of(const writer *w, int k, int count) {
     return w->how.backwards ? count - 1 - k : k;
 }

@@ -320,8 +320,8 @@ static double variable_value(void *context, const symbol *sym, int primes) {
     return ((const double *)context)[sym->index];
 }
 
-/* Value and scale for comparisons: a difference between neighbouring points shows the loss by cancellation. False
- * without a smooth finite value around the point. */
+/* *scale is the size for comparisons: differences between neighbouring points show the loss by cancellation. Returns
+ * false if the value is not finite and smooth around the point. */
 static bool smooth_value(const tree *t, int top, const double at[VARIABLES], double *value,
                          double *scale) {
     *value = value_of(t, top, at);
@@ -444,7 +444,7 @@ static void random_values(double at[FORM_SYMBOLS * FORM_PRIMES], uint64_t *seed)
     }
 }
 
-/* The definition in poly.h, written independently: each term's size without its sine. A power of a sum counts the
+/* The definition in poly.h, written independently: the size of each term without its sine or cosine. A power of a sum counts the
  * larger of the sum and its parts. */
 static double expected_magnitude(const poly *p, double *at) {
     double sum = 0.0;
@@ -668,7 +668,7 @@ TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     TEST_ASSERT_EQUAL_UINT64(ATOM + MONO + PART + POLY + PART, a->work - before);
     const poly *r = poly_symbol(a, &form_symbols[1], 0);
     before = a->work;
-    poly_symbol(a, &form_symbols[1], 0); /* known */
+    poly_symbol(a, &form_symbols[1], 0); /* exists already: no work */
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
     const poly *sum = poly_add(a, q, r); /* two terms, and a new sum of two */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM + POLY + 2 * PART, a->work - before);

@@ -139,7 +139,7 @@ TEST(aliasing, what_is_wrong_is_told) {
                 const double left_m = fabs(x_of(&then) - truth(&m, m.until_s));
                 const bool all = trusted(&then);
                 TEST_ASSERT_TRUE_MESSAGE(!told(&then), about);
-                /* error relative to the true motion, and to the small remaining motion if it is trusted */
+                /* error at most: a part of the first result plus the true range; if trusted, a part of the range */
                 TEST_ASSERT_TRUE_MESSAGE(left_m < WRONG * fabs(is) + range_of(&m), about);
                 TEST_ASSERT_TRUE_MESSAGE(!all || left_m < WRONG * range_of(&m), about);
                 cured++;
@@ -218,7 +218,7 @@ TEST(aliasing, small_ripples) {
     TEST_ASSERT_TRUE(4 * wrong > cases && 8 * right > cases);
 }
 
-/* Blocks pushed below the friction limit, or sliding to rest, while the normal force ripples with whole periods per step. */
+/* Blocks pulled below the mean friction limit, or sliding to rest, while the normal force ripples with whole periods per step. */
 TEST(aliasing, rippling_normals) {
     static const named_cure none;
     dice d = dice_of("aliasing, normals", 20261130);
@@ -244,7 +244,7 @@ TEST(aliasing, rippling_normals) {
         if (slides && 2000.0 * step_s > 1.0) {
             TEST_ASSERT_TRUE_MESSAGE(off < 0.02 || (what.err[0] != '\0' && !trusted(&what)), text);
             TEST_ASSERT_TRUE_MESSAGE(off > RIGHT || !told(&what), text);
-        } else if (!still && ripple > 4.0) { /* 3 N, which is below the limit */
+        } else if (!still && ripple > 4.0) { /* the least limit is below the pull of 3 N */
             TEST_ASSERT_FALSE_MESSAGE(trusted(&what), text);
         }
         TEST_ASSERT_FALSE_MESSAGE(still && told(&what), text);

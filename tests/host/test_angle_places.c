@@ -118,7 +118,7 @@ TEST(angle_places, outputs_leave_all_else_alone) {
     static const char *const outputs[] = {
         "output h = cos(th/2)\n",
         "output h = sin(1.5*th)\n",
-        "output h = sin(1.5*th)\noutput g = cos(th/2)\n", /* 2 th is the sum of both */
+        "output h = sin(1.5*th)\noutput g = cos(th/2)\n", /* 3/2 th + 1/2 th is 2 th */
         "output h = tan(th/2) + tan(ph/3)\n",
         "output h = sin(th/3 + 2*ph)*exp(1)\n",
         "output h = cos(sqrt(2)*(th + ph))^2\n",

@@ -4,8 +4,8 @@
  * it depends on; energies and losses also have one for each rate. */
 #include "derived.h"
 
-/* An expression of a (a length over one metre), b (an angle) and their rates v and w. Counts of a and b, and of v and
- * w, that it depends on; 0 if its slopes always exist. */
+/* An expression of a (a length over one metre), b (an angle) and their rates v and w. `places` counts those of a and b
+ * that it depends on, `rates` those of v and w. Both are 0 if its slopes always exist. */
 typedef struct sample {
     const char *text;
     int places;

@@ -38,7 +38,7 @@ TEST(account, entries_across_impacts_are_closed_forms) {
         command_say(command_run, words, &what);
         TEST_ASSERT_EQUAL_INT(said_owes(what.err), what.status);
         const double work = push * (told(what.out, "\n  z ") - height);
-        const double lost = 1.5 * 1.5 * (exp(-2.0 * damping) - 1.0); /* m v^2/2; x' loses b t/m */
+        const double lost = 1.5 * 1.5 * (exp(-2.0 * damping) - 1.0); /* v = 1.5 exp(-b t/m) */
         const double change = told(what.out, "\n  change");
         const double took = told(what.out, "stops, friction, holds and crossings");
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-8, work, told(what.out, "work of inputs"), text);

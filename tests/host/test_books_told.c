@@ -22,7 +22,7 @@ typedef enum held_by { FREE, PUSHED, SPRUNG, DAMPED, KINDS } held_by;
 typedef struct own_body {
     held_by by;
     double mass_kg;
-    double law; /* N, N/m or N s/m */
+    double law; /* force, stiffness or damping: N, N/m or N s/m */
     double x_m;
     double speed_mps;
 } own_body;

@@ -18,7 +18,7 @@
 typedef struct measured {
     bool busy;
     double off;       /* largest error at any step, relative to the range */
-    double looked_at; /* the error at 32 steps, relative to the range */
+    double looked_at; /* largest error at some thirty of the steps, relative to the range */
 } measured;
 
 static measured run_beside(const rattle *of, const char *text, double step_s, bool is_float) {
@@ -161,7 +161,7 @@ TEST(busy, where_no_step_helps_the_scene_is_changed) {
     model_drop();
 }
 
-/* Largest error of a coordinate relative to its motion; *busy_one: were its contacts busy? */
+/* Largest error of the coordinates at the end, relative to the largest range. *busy_one: the run had busy contacts. */
 static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double step_s,
                          const char *text, bool *busy_one) {
     motion m;

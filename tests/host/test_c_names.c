@@ -87,7 +87,7 @@ TEST(c_names, ordinary_names_are_free) {
     }
 }
 
-/* From C23, coming compilers and other targets. */
+/* Names of C23, of later compilers and of other targets. */
 TEST(c_names, names_to_come_are_refused) {
     static const char *const names[] = {
         "sinpi",     "acospif",         "fmaximum_numf64x", "exp10m1l",
@@ -100,7 +100,7 @@ TEST(c_names, names_to_come_are_refused) {
     }
 }
 
-/* The variant of a function for another type ends with that type's letters. Only a few variants may end with _r as well. */
+/* A function's name with the suffix of a type, alone or followed by _r, is refused. */
 TEST(c_names, variants_of_functions_are_refused) {
     static const char *const of[] = {"sin", "lgamma", "exp10", "nextafter", "fmaximum_mag_num"};
     static const char *const types[] = {"",     "f",    "l",     "f16",  "f32", "f64", "f128",
@@ -114,14 +114,14 @@ TEST(c_names, variants_of_functions_are_refused) {
             snprintf(name, sizeof name, "%s%s_r", of[i], types[k]);
             TEST_ASSERT_FALSE_MESSAGE(emit_c_name_is_free(name), name);
             snprintf(name, sizeof name, "a%s%s", of[i], types[k]);
-            TEST_ASSERT_EQUAL_MESSAGE(i > 0, emit_c_name_is_free(name), name); /* except asin */
+            TEST_ASSERT_EQUAL_MESSAGE(i > 0, emit_c_name_is_free(name), name); /* asin exists */
         }
         for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
             snprintf(name, sizeof name, "%s%s", of[i], others[k]);
             TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
         }
     }
-    for (size_t k = 1; k < sizeof types / sizeof types[0]; k++) { /* no function */
+    for (size_t k = 1; k < sizeof types / sizeof types[0]; k++) { /* a suffix alone */
         TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(types[k]), types[k]);
     }
     TEST_ASSERT_TRUE(emit_c_name_is_free("r"));

@@ -195,8 +195,8 @@ TEST(choice, rows_depend_on_the_effort_alone) {
     }
 }
 
-/* If the request gets the larger error limit or the faster clock of the answer, there is a choice. With slightly less there
- * is none. */
+/* If no setting meets the limits, the answer names a faster clock and a larger error limit. With either a setting is
+ * found; with 2 % less, none. */
 TEST(choice, what_would_fit_does) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);

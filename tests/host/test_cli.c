@@ -24,7 +24,7 @@ static uint64_t random_below(uint64_t most) { /* xorshift64 (Marsaglia, 2003) */
 
 /* --- pairs of step and until ------------------------------------------------------------------------- */
 
-/* digits / in, and its text. */
+/* A duration of digits / in seconds, and its text. */
 typedef struct duration {
     uint64_t digits;
     uint64_t in; /* a power of ten */
@@ -87,7 +87,7 @@ TEST(counts, counts_are_exact) {
     const uint64_t seed = UINT64_C(0x5eed0010);
     seed_now = seed;
     printf("  %d pairs, seed %" PRIx64 "\n", pairs, seed);
-    /* a year at 1 ms, 50 years at 1 ns; just beyond 32 bits */
+    /* a year, 50 years, and a time of just above 2^32 ms */
     static const uint64_t long_s[] = {31536000, 1577880000, 4294968};
     for (unsigned i = 0; i < 3; i++) {
         const duration until = duration_of(long_s[i], 0, "s", 1);

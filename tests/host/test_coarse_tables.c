@@ -37,7 +37,7 @@ TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
         const bool is_fine = what.err[0] == '\0';
         run(text, form, cells, "1ms", &what);
         if (!is_fine || what.err[0] == '\0') {
-            continue; /* no test of tables: the step is too coarse, or there is no loss */
+            continue; /* skipped: the step alone is too coarse, or the tables lose no energy */
         }
         told++;
         char twice[60];
@@ -46,7 +46,7 @@ TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
         run(text, form, cells, "0.1ms", &what);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, text);
         run(text, form, IMAGE_CELLS_MOST, "30ms",
-            &what); /* another cause; more cells do not help */
+            &what); /* the step is too coarse: more cells do not help */
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "hint: try no --tables:") != NULL, what.err);
         run(text, form, cells * 128, "1ms", &what);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);

@@ -1,4 +1,4 @@
-/* test_command_changes.c: changes on every command's line. A name given twice is refused. A sweep's measure that overflows is a failure. */
+/* test_command_changes.c: changed parameters and starts on each command's line. A name given twice is refused. A sweep's measure that overflows is a failure. */
 #include "command.h"
 
 #include "host/cli/commands.h"
@@ -88,7 +88,7 @@ TEST(command_changes, measures_that_overflow_fail_their_points) {
                                     : dice_between(&d, 0.0, cases[which].most);
         char measure[80];
         said what;
-        /* 4.1 ms a swing; squared, the mean is not zero, and the sum of its samples grows */
+        /* a swing takes 4.1 ms. The mean of the square is not zero, so the sum of its samples grows */
         snprintf(measure, sizeof measure, "%s(%.9e*%s)", cases[which].measure, 1e308 * factor,
                  which == 0 ? "(x/1 [m])^2" : "x/1 [m]");
         const char *words[] = {model_keep(model),

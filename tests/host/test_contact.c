@@ -163,7 +163,7 @@ TEST(busy_beside, a_cure_is_one_of_all) {
     unsigned both = 0;
     unsigned cured = 0;
     for (unsigned i = 0; i < cases; i++) {
-        const bool damped = i % 2 == 1; /* agreed runs may still miss most of the loss */
+        const bool damped = i % 2 == 1; /* runs that agree may still miss most of the loss */
         const rattle r = rattle_drawn(&d, damped ? HOLD : (rattle_kind)(i / 2 % KINDS));
         const double rate_radps =
             pow(10.0, damped ? dice_between(&d, -0.1, 0.4) : dice_between(&d, -0.8, 0.1)) /
@@ -577,7 +577,7 @@ TEST(contact_friction, blocks_stick) {
     }
 }
 
-/* Coefficients to either side of tan 10 degrees. */
+/* The friction coefficient is 1e-9 above tan 10 degrees, where the block sticks, or below. */
 TEST(contact_friction, block_sticks_up_to_the_slope) {
     for (int side = -1; side <= 1; side += 2) {
         motion m;
@@ -659,7 +659,7 @@ static void check_rest(stepping how, double height_most) {
 
 TEST(contact_stops, ball_comes_to_rest_and_stays_for_a_minute) {
     check_rest(IN_DOUBLE, 1e-6); /* the project's bound */
-    /* 450 sums of the first fall, each rounded by at most 2^-24 of 4.4 m/s: 1.2e-4 m/s, times v/g */
+    /* the first fall has 450 sums, each rounded by up to 2^-24 of 4.4 m/s. The error of v is 1.2e-4 m/s; v/g times it is the height's */
     check_rest(IN_FLOAT, 5.3e-5);
 }
 
@@ -679,7 +679,7 @@ TEST(contact_stops, too_many_bounces_are_told_and_end) {
     motion_open(&m, "ball_between", IN_DOUBLE_STEP(2e-5));
     motion_to(&m, 0.1);
     TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
-    /* closed form: E goes as v^2, and 1 mm of height takes 4e-4 m/s: 2500 to the bounce */
+    /* closed form: 2500, exact to a bounce, because v changes by only 4e-4 m/s over 1 mm of height */
     expect_between("bounces in 0.1 s", 2498.0, 2502.0, (double)contacts_events(&m));
     expect_between("energy kept", 1.0 - 1e-9, 1.0 + 1e-9, motion_value(&m, "energy") / start);
     motion_close(&m);
@@ -731,7 +731,7 @@ enum { PLATE_TEXT = 2000 };
 
 typedef struct plate {
     int supports;
-    double place_m[5]; /* rising; the last is the furthest right */
+    double place_m[5]; /* from left to right */
     double mass_kg;
     double inertia_kgm2;
     double rate;   /* of the clock, rad/s */

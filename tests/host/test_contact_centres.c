@@ -73,7 +73,7 @@ static void rk4(const machine *c, long double h, long double way, long double s[
     s[1] += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
 }
 
-/* Sign of b', or after a dead centre. */
+/* Sign of b'. At a dead centre, where b' is zero, its sign just afterwards. */
 static long double way_of(const machine *c, const long double s[2]) {
     long double f[3];
     law(c, s[0], f);

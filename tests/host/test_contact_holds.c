@@ -141,7 +141,7 @@ TEST(contact_holds, linkages_stay_closed) {
  * motions are possible. */
 TEST(contact_holds, a_flat_linkage_is_refused) {
     const int runs = (int)dice_cases(few_or_all(usual_or(4, 2), 12));
-    int missed[2] = {0, 0}; /* in double, in float */
+    int missed[2] = {0, 0}; /* runs without the refusal, in double and in float */
     uint64_t seed = 13;
     for (int i = 0; i < runs; i++) {
         const double crank = random_between(&seed, 0.05, 0.15);
@@ -174,7 +174,7 @@ TEST(contact_holds, a_flat_linkage_is_refused) {
                 printf("%sstatus %d, a = %g, %s\n", text, (int)status, motion_value(&m, "a"),
                        KINDS[n]->name);
             }
-            /* the run does not end much earlier, and its last good state stays */
+            /* the run must end as singular, and near the flat position */
             missed[n] += status != WH_E_SINGULAR || flat > 0.1;
             motion_close(&m);
         }
@@ -292,7 +292,7 @@ TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
 
 /* --- a hold freezes its own condition ----------------------------------------------------------------------------- */
 
-/* An expression and its bodies of 1 kg or kg*m^2, pushed along it by $f. */
+/* An expression to be held, and its bodies of 1 kg or 1 kg*m^2. A force pushes along the expression. */
 typedef struct held {
     const char *expression;
     const char *unit; /* unit of the expression, */
@@ -300,7 +300,7 @@ typedef struct held {
     const char *coordinates;
     const char *kinetic;
     double yields; /* its acceleration by a force of 1; 0: not constant */
-    /* $v its value, $r its rate; $c and $w a place and a rate outside it */
+    /* $v: the expression's value; $r: its rate; $c and $w: a place and a rate that do not change them */
     const char *start;
 } held;
 
@@ -317,8 +317,8 @@ static const held helds[] = {
      "y' = $r [m/s]*sin($c) + $w [m/s]*cos($c)"},
 };
 
-/* $e is the expression, $l its limit, the input L; p rests at 0, d falls by 1 m/s. Conditions from LET_GO on release
- * when d reaches zero. */
+/* Conditions of the hold. $e is the expression, $l and the input L are its limit. p rests at 0, d falls by 1 m/s. The
+ * conditions from LET_GO on release the hold when d reaches zero. */
 static const char *const edges[] = {
     "$e < $l",
     "$l - $e > 0",
@@ -373,7 +373,7 @@ TEST(contact_holds, a_hold_stays_at_its_own_limit) {
         /* in float a small square is lost in its expansion */
         const double least = strchr(edges[form], '^') != NULL ? 0.5 : 0.02;
         const double limit = exp(dice_between(&d, log(least), log(2.0)));
-        const unsigned begins = dice_one_of(&d, 6); /* 0, 1, 2: at the limit, out, resting, in */
+        const unsigned begins = dice_one_of(&d, 6); /* at the limit: 0 out, 1 resting, 2 in */
         const double gap = begins < 3 ? 0.0 : exp(dice_between(&d, log(0.01), log(0.5)));
         const double force = dice_between(&d, 0.1, 5.0);
         const double across = dice_between(&d, -2.0, 2.0) * limit / (limit + gap);
@@ -447,7 +447,7 @@ TEST(contact_load, leaning_blocks_rest_exactly) {
         TEST_ASSERT_TRUE(motion_value(&m, "x") == x && motion_value(&m, "y") == y);
         TEST_ASSERT_EQUAL_UINT64(events, contacts_events(&m));
         TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
-        /* apart by the blocks' width, within its sum's round-off */
+        /* the distance is the width of the blocks, apart from round-off */
         expect_between("y - x - w", -1e-7, 1e-7, y - x - 0.1);
         motion_close(&m);
     }

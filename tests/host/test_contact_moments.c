@@ -51,7 +51,7 @@ TEST(contact_moments, hops_shorter_than_a_step) {
     }
 }
 
-/* The gap after the last flight is closed and booked: the balance from a bounce with restitution to rest has no
+/* The gap after the last flight is closed, and the ledger has the energy: the balance from a bounce with restitution to rest has no
  * residual, apart from the remaining energy. */
 TEST(contact_moments, the_last_gap_is_booked) {
     uint64_t seed = 6;
@@ -561,8 +561,8 @@ static double next_hit_s(const bounce *b) {
     return low > 0.0 ? low : high > 0.0 ? high : (double)INFINITY;
 }
 
-/* Its motion to `end_s`, with the crossing times in at[]. Returns their number; -1 for too many, for one that hardly
- * leaves, or for one that would return within the step, which its end does not show. */
+/* Moves the body to `end_s`, with the crossing times in at[]. Returns their number. Returns -1 if there are too many, or
+ * if the body has not clearly left the level at the end of a step with a crossing. */
 static int go(bounce *b, double end_s, double step_s, double *at) {
     double time_s = 0.0;
     int hits = 0;
@@ -705,7 +705,7 @@ TEST(crossings, what_is_set_onto_another) {
         const double onto = level + (dice_one_of(&d, 2) == 0 ? far : -far);
         const double speed = side * dice_between(&d, 1.0, 3.0);
         const double then = dice_one_of(&d, 2) == 0 ? speed : -0.7 * speed;
-        const unsigned way = (unsigned)dice_one_of(&d, 3); /* either, rising, falling */
+        const unsigned way = (unsigned)dice_one_of(&d, 3); /* 0 either, 1 rising, 2 falling */
         const int steps = 10 + (int)dice_one_of(&d, 200);
         const double end_s = 0.3 / fabs(speed) + 0.5 * far / fabs(then); /* half of the way back */
         const double step_s = end_s / steps;

@@ -180,7 +180,7 @@ TEST(contact_together, newtons_cradle) {
 #define STEP_S 0.25e-3
 #define UNTIL_S 0.5
 
-/* Limit for each of them. */
+/* Limit for the error of each motion. */
 #define OFF_MOST 1e-6
 
 /* Error of the program's motion at `until_s`. */

@@ -75,7 +75,7 @@ TEST(describe, every_field_is_documented) {
 
 /* --- momenta ------------------------------------------------------------------------------------------*/
 
-/* Dimension from the unit's text, in twelfths. */
+/* Dimension of a unit's text. Its exponents count twelfths. */
 static dimension dimension_of(const char *unit) {
     unit_scale read = {1.0, 1.0, dim_none(), enclosure_of(1.0)};
     unit_error error = {.offset = 0};

@@ -315,7 +315,7 @@ TEST(horizon, verdicts_on_drawn_columns) {
         TEST_ASSERT_EQUAL_DOUBLE(until_s, h.until_s);
         TEST_ASSERT_EQUAL_INT(to_the_end, h.to_the_end);
         TEST_ASSERT_TRUE(to_the_end ? h.first == -1 : h.column[h.first].until_s == until_s);
-        for (int k = 1; !to_the_end && k < h.first; k++) { /* the first of several */
+        for (int k = 1; !to_the_end && k < h.first; k++) { /* h.first is the first of several */
             TEST_ASSERT_TRUE(!ends_it(&h.column[k]) || h.column[k].until_s > until_s);
         }
         horizon_free(&h);
@@ -652,7 +652,7 @@ enum {
 };
 static const int step_ms[STEPS] = {2, 20, 100};
 
-/* The n-th: one to four coordinates, with coupled masses or not; its scene has two seconds in this step. */
+/* Draws mechanism n: one to four coordinates, with coupled masses if n is odd. Its scene lasts 2 s with this step. */
 static horizons one_of(uint64_t *seed, unsigned n, int ms, horizons_setting how) {
     char text[4000];
     linear of;
@@ -857,7 +857,7 @@ TEST(twins, what_is_told) {
     }
 }
 
-/* Before the next one of 1200 steps. */
+/* An interrupt ends both runs before the next of 1200 steps. */
 TEST(twins, an_end_from_outside) {
     char text[TEXT];
     motion m;

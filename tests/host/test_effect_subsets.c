@@ -148,7 +148,7 @@ static state begin(const world *w) {
     return s;
 }
 
-/* Change of x and y without the effects of these bits, and the effects that acted in the full run. */
+/* moved: change of x and y when the effects in the bits of `out` are left out. acted: effects that act in the full run. */
 static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     world full = {.of = c};
     for (int i = 0; i < c->effects; i++) {
@@ -157,7 +157,7 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     world less = full;
     for (int i = 0; i < c->effects; i++) {
         less.with[c->kind[i]] = (out >> (unsigned)i & 1U) == 0;
-        /* these always act, the others never do */
+        /* these always act; the stop acts if it is hit; the others never act */
         full.acted[c->kind[i]] =
             c->kind[i] <= HARD || c->kind[i] == FRICTION || c->kind[i] == NOISE;
     }

@@ -6,7 +6,7 @@
 
 enum { STATES = 10 };
 
-/* The text, for its lets. */
+/* The whole printed text, in which the values of lets are looked up. */
 static const char *whole_text;
 
 static double value_of_name(void *context, const char *name, int length) {
@@ -36,7 +36,7 @@ static double value_of_name(void *context, const char *name, int length) {
             return s->instance->input[i];
         }
     }
-    /* a let, below "with" */
+    /* the name of a let, which is printed below "with" */
     char label[80];
     snprintf(label, sizeof label, "\n  %.*s = ", length, name);
     const char *at = strstr(whole_text, label);

@@ -23,7 +23,7 @@ static char *commented(const char *text) {
     return written;
 }
 
-/* Characters that change the writing direction, by number, since a compiler warns of them here, too. */
+/* Characters that change the writing direction, as codes, because a compiler warns of them in this file, too. */
 enum { TURNING = 7 };
 static const unsigned turning_codes[TURNING] = {0x200e, 0x200f, 0x202a, 0x202e,
                                                 0x2066, 0x2069, 0x061c};
@@ -76,11 +76,11 @@ static bool turns_writing(const char *text) {
     return false;
 }
 
-/* Allowed pieces stay as they are; of others the expected text. */
+/* Allowed pieces are unchanged. Forbidden pieces become the expected text. */
 TEST(emitted, comments_stay_comments) {
     for (unsigned c = 0; c < dice_cases(400); c++) {
         char text[200] = "";
-        char bare[200] = ""; /* without blanks and pieces that become one */
+        char bare[200] = ""; /* the text without blanks and without pieces that become a blank */
         for (unsigned n = dice_one_of(&die, 12); n > 0; n--) {
             const bool is_plain = dice_one_of(&die, 2) == 0;
             const unsigned which = dice_one_of(&die, is_plain ? PLAIN : ODD);
@@ -205,7 +205,7 @@ TEST(emitted, the_head_tells_of_the_scene) {
 
 /* --- whirl describe -------------------------------------------------------------------------------------------- */
 
-/* "  angle [0]  theta [rad]     ", a number if there is one, and a text. */
+/* Expects a line such as "  angle [0]  theta [rad]     ", then a number if `value` is given, then `more`. */
 static void expect_named(const char *kind, int index, const char *name, const char *si,
                          const double *value, const char *more) {
     char shown[80];

@@ -1,5 +1,5 @@
-/* test_exact_books.c: steps of --matrix exact are accepted at any length: the energy balance's integration between them
- * is too coarse, but the motion is exact. */
+/* test_exact_books.c: a run with --matrix exact is accepted with any step. Its motion is exact, although the energy
+ * balance is integrated too coarsely between long steps. */
 #include "host/base/alloc.h"
 #include "host/check/books.h"
 #include "host/check/energy_residual.h"
@@ -24,7 +24,7 @@ static char *made_up(uint64_t *seed) {
         r[0], r[1], r[2], 90 * r[3], 60 * r[4], 0.3 * r[5], 0.02 * r[6], 0.3 * r[7]);
 }
 
-/* Largest error of its places relative to the closed form: the run's own in double at a fine step with the same end. */
+/* Largest error of x and y at the end, compared with a run in double with a fine step. *lost: the balance failed. */
 static double try_one(const char *text, const engine_kind *kind, image_matrix_of matrix,
                       double step_s, bool *lost) {
     motion m;

@@ -106,7 +106,7 @@ static void far_mechanism(far_kind kind, const far_case *c, char *text, size_t s
         more, law, start, c->step_s, c->steps * c->step_s);
 }
 
-/* `more`, an option or NULL; records are the start and the end. */
+/* `more` is an option or NULL. Only the start and the end are recorded. */
 static void run_with(const char *text, bool is_float, const char *more, const char *every,
                      said *what) {
     const char *words[] = {model_keep(text),
@@ -206,7 +206,7 @@ TEST(far_origin, fine_steps_are_silent) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* Runge-Kutta's step then takes more than a hundredth of a spring's energy in 60 steps. Round-off at 1e5 amplitudes in
+/* With these coarse steps, RK4 loses more than a hundredth of a spring's energy in 60 steps. Round-off at 1e5 amplitudes in
  * double and 30 in float can take less. (On the belt and with the push, the balance's entries themselves are as much
  * larger.) */
 TEST(far_origin, coarse_steps_are_told) {
@@ -264,7 +264,7 @@ TEST(far_origin, carts_that_stand) {
         const double step_s = pow(10.0, dice_between(&d, -4.0, -2.0));
         const unsigned steps = 200 + dice_one_of(&d, 3000);
         const double way_m = speed_mps * step_s * steps;
-        /* units in the last place per step */
+        /* half a unit of the position's last place, divided by the motion in a step */
         const double places = pow(10.0, dice_between(&d, -4.0, 1.0));
         const double far_m =
             floor(speed_mps * step_s * places * (is_float ? 0x1p24 : 0x1p53) / 16.0) * 16.0;
@@ -287,7 +287,7 @@ TEST(far_origin, carts_that_stand) {
         if (off > 0.02) {
             told++;
             TEST_ASSERT_TRUE_MESSAGE(is_of_digits(&what), text);
-            run(text, is_float, &what); /* and both runs differ, within the start's size */
+            run(text, is_float, &what); /* this report must not call the run right to its end */
             TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end: every"), what.out);
             cure_digits(text, is_float, &what, every);
             run_with(text, is_float, "--compensated", every, &what);
@@ -384,7 +384,7 @@ typedef struct motion_rows {
     double value[RECORDS + 2][COLUMNS];
 } motion_rows;
 
-/* Energies in parts of energy_J, lengths in length_m, 1 kg; both carts of STRUT, and x of the others, are far away. */
+/* Energies are multiples of energy_J, lengths of length_m, masses 1 kg. Both carts of STRUT, and x of the others, are far away. */
 static void slope_mechanism(const slope_case *c, double far_m, char *text, size_t size) {
     const double l = c->length_m;
     const double e = c->energy_J;
@@ -423,7 +423,7 @@ static void slope_mechanism(const slope_case *c, double far_m, char *text, size_
 static void run_slope(const slope_case *c, const char *text, const char *number, const char *more,
                       said *what) {
     char every[40];
-    const int stride = c->steps / RECORDS; /* a whole number */
+    const int stride = c->steps / RECORDS; /* exact, because steps is a multiple of RECORDS */
     snprintf(every, sizeof every, "%.17gs", stride * c->step_s);
     const char *words[] = {model_keep(text), "--number", number, "--csv", "-",
                            "--every",        every,      more,   NULL};
@@ -469,13 +469,13 @@ static double draw_tens(dice *d, unsigned i, bool is_float) {
                     : (i % 2 == 0 ? dice_between(d, 5.0, 7.5) : dice_between(d, 7.0, 8.3));
 }
 
-static slope_case draw(dice *d, unsigned i, double tens) { /* at distances that matter */
+static slope_case draw(dice *d, unsigned i, double tens) {
     slope_case c = {.kind = (slope_kind)(i % KINDS),
                     .length_m = pow(10.0, dice_between(d, -3.0, 2.0)),
                     .energy_J = pow(10.0, dice_between(d, -2.0, 2.0)),
                     .far = pow(10.0, tens),
                     .steps = RECORDS * 2 * (5 + (int)dice_one_of(d, 20))};
-    /* 1, 2 or 5: records an even number apart are also multiples of any smaller such step */
+    /* the step is 1, 2 or 5 times a power of ten: an even number of such steps is a multiple of any smaller one */
     static const double digits[] = {1.0, 2.0, 5.0};
     const double most_s = 0.015 * c.length_m / sqrt(c.energy_J);
     const double decade_s = pow(10.0, floor(log10(most_s)));
@@ -487,8 +487,8 @@ static slope_case draw(dice *d, unsigned i, double tens) { /* at distances that 
     return c;
 }
 
-/* Applies a hint: "--step 1ms --number double", either alone, or a method. If no warning follows and the run is called
- * right to its end, it must be. */
+/* Applies the hint of a warning: --step, --number double, both, or --compensated. The run must then be accurate to 5 %
+ * of the reference. */
 static void take_cure(const slope_case *c, const char *text, const char *number, const said *warned,
                       const motion_rows *reference, double far_m) {
     const char *hint = strstr(warned->err, "would do");
@@ -510,7 +510,7 @@ static void take_cure(const slope_case *c, const char *text, const char *number,
     TEST_ASSERT_TRUE_MESSAGE(off_by(&m, reference) < 0.05, warned->err);
 }
 
-/* Is the only report that the law's own constants, (D/l)^2 + 1, may have lost their 1? They may have, but need not. */
+/* Returns true if the only report is that the constant (D/l)^2 + 1 may have lost its 1, which need not be so. */
 static bool is_luck(const slope_case *c, bool is_float, const char *err) {
     const char *warning = strstr(err, "whirl run: warning: ");
     return !is_float && warning != NULL && strstr(warning, "constants of 'far' are sums") != NULL &&

@@ -56,14 +56,14 @@ typedef struct made_up {
     int quality;
     int turns;
     const char *fault;
-    double on_s;  /* the enable is on from here, */
-    double off_s; /* the drive is on until this time */
+    double on_s;  /* time from which the enable is on */
+    double off_s; /* time until which the drive is on */
     bool drives;
     bool calibration;
     bool runs_away;
-    int state; /* the state that the controller reports, */
+    int state; /* the state that the controller reports */
     int trip;
-    int state_after; /* and that after a reset */
+    int state_after; /* the state that it reports after a reset */
     int trip_after;
     int cause;
     bool delays;
@@ -80,7 +80,7 @@ static const made_up honest = {.rpm = 330.0,
                                .phase_half_rad = 1e-4,
                                .turns = 10,
                                .fault = "runaway@9",
-                               .state = 13, /* the record */
+                               .state = 13, /* state 13 records the measurement */
                                .off_s = 2.9,
                                .cause = 2,
                                .end = LOCKSTEP_DONE};
@@ -195,7 +195,7 @@ TEST(faults, no_lies) {
     m = wrong;
     m.half_N = 25.0;
     TEST_ASSERT_TRUE(judged(&m).lie == 0.0);
-    m = honest; /* the case of more turns than recorded */
+    m = honest; /* more turns than were recorded */
     m.turns = 40;
     TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
     m = honest;
@@ -379,7 +379,7 @@ static bool refuse_start(void *of, const wh_hello *hello, plant *on) {
     return hello == NULL || on == NULL;
 }
 
-/* Every millisecond, without missing steps. */
+/* Must be called every millisecond, with no millisecond missing. */
 static void see_plant(void *of, double time_s, const plant *on) {
     listener *l = of;
     l->readings++;
@@ -499,7 +499,7 @@ static void test_tapes_of_resets(void) {
         unsigned resets;
         uint64_t exchanges;
     } rows[] = {
-        {"reset=0@0.1005", 1, 301}, /* one at 0.1005 s, and then every millisecond from there */
+        {"reset=0@0.1005", 1, 301}, /* one at 0.1005 s, then one per millisecond */
         {"reset=5ms@0.1005", 1, 296},
         {"reset=5ms@0.1005,reset=20ms@0.2001", 2, 276},
         {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* a reset within another */

@@ -23,7 +23,7 @@ typedef struct short_run {
     double start_m;
     double step_s;
     int steps;
-    bool by_force; /* which does work; else a spring */
+    bool by_force; /* a force, which does work; false: a spring */
     bool stop;
     double beside_N; /* force on a second, falling body, whose energy may dominate */
 } short_run;
@@ -274,7 +274,7 @@ static const struct {
     const char *number;
     double silent;
     double told;
-    double at; /* where the report starts; 0: somewhere between */
+    double at; /* the parameter at which the report starts; 0: not known */
     double limit;
     const char *text;
 } rows[] = {

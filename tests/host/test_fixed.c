@@ -33,7 +33,7 @@ static fixed_plan *plan_of(const image *im, char **report) {
     return p;
 }
 
-/* The image's plan, which it gets; drop() takes it away. */
+/* Makes the plan of the image and gives it to the image. drop() takes it away again. */
 static fixed_plan *planned(const derived *d) {
     char *report;
     fixed_plan *p = plan_of(d->image, &report);
@@ -72,7 +72,7 @@ static outcome run_of(derived *d) {
     return end;
 }
 
-/* Pushed, turning and filling evenly, for 2 s. */
+/* Runs 2 s of a pushed mass (kind 0), a rotor of constant speed (1), or a state of constant rate (2). */
 static void try_even_motion(int kind, double value, double times, int step_us, int *told,
                             int *quiet) {
     static const char *const texts[] = {
@@ -115,7 +115,7 @@ TEST(fixed_loss, lost_steps_are_told) {
     for (int kind = 0; kind < 3; kind++) {
         for (int power = 0; power <= 6; power++) {
             for (int n = 0; n < 4; n++) {
-                /* a rotor's angle has its own units: slow ones */
+                /* an angle has a fixed unit, so the rotor is slow where the others have wide ranges */
                 const double value = kind == 1 ? pow(10.0, -power) : 1.0;
                 try_even_motion(kind, value * random_between(&seed, 0.5, 2.0),
                                 kind == 1 ? 1.0 : pow(10.0, power), step_us[n], &told, &quiet);
@@ -327,7 +327,7 @@ static void try_one(int which, uint64_t seed) {
     derived beyond = derived_scene(text, "s");
     derived_expect(&beyond, text);
     for (int i = beyond.image->reals; i < beyond.image->reals + beyond.image->inputs; i++) {
-        beyond.image->range[i].low *= 2.0; /* inputs stay inside */
+        beyond.image->range[i].low *= 2.0; /* only the states shall leave their ranges */
         beyond.image->range[i].high *= 2.0;
     }
     check_saturation(&beyond, text);

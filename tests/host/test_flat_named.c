@@ -5,7 +5,7 @@
 
 enum { STOPS = 3, FLAT_TEXT = 2048 };
 
-/* A line of the file, and its number. */
+/* The file's text so far, and its number of lines. */
 typedef struct writing {
     char text[FLAT_TEXT];
     size_t length;

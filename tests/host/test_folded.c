@@ -18,7 +18,7 @@ enum { MOST = 3, LINKS = 4, GROUND = -1 };
 
 typedef struct link {
     int of;
-    int to; /* GROUND */
+    int to; /* a body or GROUND */
     double spring_Npm;
     double damper_Nspm;
 } link;
@@ -356,7 +356,7 @@ TEST(folded, what_is_lost_is_told) {
 
 /* --- round-off only ----------------------------------------------------------------------------------------------- */
 
-/* Reported number of other ways of folding. */
+/* Number of other ways of folding that the image keeps. */
 static int ways_of(const char *text) {
     motion m;
     motion_open_text(&m, text, IN_DOUBLE);
@@ -401,7 +401,7 @@ TEST(folded, rounding_alone_is_nothing_lost) {
         TEST_ASSERT_TRUE_MESSAGE(ways_of(text) > 0, text);
     }
     printf("  %u arms with last digits alone: %u derived in other ways\n", cases, asked);
-    TEST_ASSERT_TRUE(20 * asked <= cases); /* when round-offs add up to more */
+    TEST_ASSERT_TRUE(20 * asked <= cases); /* few: those whose round-offs add up */
 }
 
 /* Numbers that are smaller than such round-off are lost and must be reported. Round-off that is smaller than the
@@ -678,7 +678,7 @@ typedef struct drawn {
     char text[2000];
 } drawn;
 
-/* The number that makes k of K, and the k that it yields exactly. */
+/* Returns the number with which the formula of K gives about `part`. *of_hard gets the exact result of that number. */
 static double made_by(const maker *of, double part, long double *of_hard) {
     switch (of->by) {
     case OF_ANGLE: {
@@ -706,7 +706,7 @@ static double made_by(const maker *of, double part, long double *of_hard) {
 
 /* Its use, up to the scene's step. `soft` evaluates to the intended spring. */
 static void put_motion(FILE *out, const drawn *w, const char *soft) {
-    char part[200]; /* 1, if nothing is lost */
+    char part[200]; /* a factor that is 1 if no digits are lost */
     snprintf(part, sizeof part, "%s/(%.17g [N/m])", soft, w->soft_Npm);
     fputs("T = m*x'^2/2\n", out);
     switch (w->use) {

@@ -56,7 +56,7 @@ static double folded_by(int way, kind of, double x, double y) {
     return made;
 }
 
-/* Number of doubles upwards; 9: more than are examined. */
+/* How many doubles `to` is above `from`, at most 7 either way; 9: further away. */
 static int doubles_from(double from, double to) {
     double up = from;
     double down = from;

@@ -38,7 +38,7 @@ static float quarter_turn(void) {
 }
 
 static double error_of(float got, long double wanted) {
-    const long double truth = fminl(fabsl(wanted), 0x1p128L); /* where infinity begins */
+    const long double truth = fminl(fabsl(wanted), 0x1p128L); /* from 2^128 on: infinite */
     const long double reached = isinf(got) ? 0x1p128L : fabsl((long double)got);
     int exponent = -125;
     if (truth != 0.0L) {

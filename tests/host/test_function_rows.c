@@ -156,7 +156,7 @@ static bool accepted(const char *dimensions, const char *call) {
     return read != NULL;
 }
 
-/* f(4 x, 4 y) = times f(x, y), at all places above zero? */
+/* Returns true if f(4 x, 4 y) = times f(x, y) at all tested places above zero. */
 static bool grows(int f, double times) {
     for (int i = 1; i < 20; i++) {
         const double x = 0.05 * i;
@@ -180,7 +180,7 @@ static bool has_period(int f, double period) {
     return true;
 }
 
-/* The value under another choice of units tells the allowed dimensions of a function. */
+/* How a function's value changes with the unit of its arguments tells which dimensions it allows. */
 TEST(function_rows, dimensions_of_values) {
     for (int f = 0; f < FUNCTIONS; f++) {
         const function_dimensions takes = function_takes(at(f));
@@ -229,7 +229,7 @@ TEST(function_rows, names) {
         TEST_ASSERT_FALSE_MESSAGE(
             function_find(name(f), strlen(name(f)) - 1, &found) && (int)found == f, name(f));
     }
-    /* hashes of models count functions by their places: these stay */
+    /* hashes of models contain the functions' numbers, so these must not change */
     TEST_ASSERT_EQUAL_INT(2, FN_TAN);
     TEST_ASSERT_EQUAL_INT(9, FN_LOG);
     TEST_ASSERT_EQUAL_INT(13, FN_MAX);
@@ -246,7 +246,7 @@ static char *read_whole(const char *path) {
     return text;
 }
 
-/* `before` and `after` around its name, somewhere in the text? */
+/* The text must contain `before`, the name of f and `after`, one after the other. */
 static void expect_in(const char *text, const char *before, int f, const char *after,
                       const char *where) {
     char words[80];

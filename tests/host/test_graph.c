@@ -40,7 +40,7 @@ typedef enum drawn_kind {
 
 typedef struct drawn_step {
     drawn_kind kind;
-    int left; /* the first steps are the variables; otherwise the first operand */
+    int left; /* the first operand; the first steps have none: they are the variables */
     int right;
     double number;
 } drawn_step;
@@ -738,7 +738,7 @@ static const char *name_of(int i, char name[24]) {
 
 enum { FORMULAS = 21 };
 
-/* Formula `which` of u and v, and its value. Functions with corners get only numbers as arguments. */
+/* Writes formula `which` of u and v, and returns its value at x and y. Functions with corners get only numbers as arguments. */
 static long double write_formula(int which, const char *u, const char *v, long double x,
                                  long double y, char *text) {
     const char *form = NULL;
@@ -861,7 +861,7 @@ static enclosure number_of(const char *formula) {
 
 static void expect_ends(const char *formula, double low, double high) {
     const enclosure e = number_of(formula);
-    const double slack = strstr(formula, "-w") != NULL ? 4e-17 : 0.0; /* a sign is a product */
+    const double slack = strstr(formula, "-w") != NULL ? 4e-17 : 0.0; /* -1 times w rounds */
     TEST_ASSERT_TRUE_MESSAGE(e.low <= low && low - e.low <= slack, formula);
     TEST_ASSERT_TRUE_MESSAGE(e.high >= high && e.high - high <= slack, formula);
 }

@@ -23,7 +23,7 @@ static void open_hard(motion *m, const char *file, const char *name, const engin
 #define P0 15.0
 #define LIFTS_N 10.0 /* half the beam's weight; both blocks' static friction */
 
-/* Motion since the moment at which P0 sin(rate t) is LIFTS_N. The force has the factor `factor`, less the constant `against`. */
+/* Motion from the moment when P0 sin(rate t) is LIFTS_N. The acceleration is factor (P0 sin(rate t) - against). */
 static double moved_m(double rate, double t, double factor, double against) {
     const double t0 = asin(LIFTS_N / P0) / rate;
     const double s = t - t0;
@@ -34,10 +34,10 @@ static double moved_m(double rate, double t, double factor, double against) {
 
 typedef struct breaking {
     double off_m;
-    double at_rest_m; /* largest motion before that */
+    double at_rest_m; /* largest motion before the moment of moved_m() */
 } breaking;
 
-/* Runs until 0.3 s after that moment, while both coordinates move together. The force's phase advances by `rate`, rad/s. */
+/* Runs until 0.3 s after the moment of moved_m(), while both coordinates move together. The force's phase advances by `rate`, rad/s. */
 static void run_breaking(const char *name, const char *second, stepping how, double rate,
                          double factor, double against, breaking *most) {
     const char *first = second[0] == 's' ? "y" : "x";
@@ -198,7 +198,7 @@ TEST(hard_contacts, a_load_that_pulsates_and_vanishes) {
     const double in_float = pulled_off_m(1.25e-3, &engine_float, &events[3]);
     printf("  orders %.2f, %.2f; in float %.1e\n", log2(off[0] / off[1]), log2(off[1] / off[2]),
            in_float);
-    TEST_ASSERT_TRUE(events[0] >= 16); /* four turns and more of four each */
+    TEST_ASSERT_TRUE(events[0] >= 16); /* more than four turns with four events each */
     TEST_ASSERT_TRUE(off[2] > 1e-13 && off[0] < 1e-5);
     TEST_ASSERT_TRUE(log2(off[0] / off[2]) / 2.0 > 3.5);
     TEST_ASSERT_TRUE(in_float < 1e-4);
@@ -217,7 +217,7 @@ TEST(hard_contacts, the_cradle_swings) {
                   real == 0 ? &engine_double : &engine_float, 1e-3);
         for (int i = 1; i <= 5000; i++) {
             const double t = i * 1e-3;
-            const double part = fmod(t + period / 4.0, period) / period; /* 0 to 1/2: the first */
+            const double part = fmod(t + period / 4.0, period) / period; /* < 1/2: first ball */
             const double swing = -0.1 * cos(w * t);
             TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
             off = fmax(off, fabs(motion_value(&m, "x1") - (part < 0.5 ? swing : 0.0)));
@@ -437,7 +437,7 @@ static flight flight_drawn(dice *d, double d_m) {
     flight f = {{0.0}, {0.0}, ""};
     double away[3] = {0.0};
     double size = 0.0;
-    while (size < 0.2) { /* a direction, and one across it, neither along the axis */
+    while (size < 0.2) { /* a direction and one across it, neither of them along the axis */
         for (int i = 0; i < 3; i++) {
             f.rate[i] = dice_between(d, -1.0, 1.0);
             away[i] = dice_between(d, -1.0, 1.0);
@@ -585,7 +585,7 @@ TEST(hard_cases, a_motor_at_a_resonance) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, weak_reference, weak);
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, strong_reference, strong);
     TEST_ASSERT_DOUBLE_WITHIN(1e-2, weak_reference, in_float);
-    TEST_ASSERT_TRUE(weak > 17.0 && weak < 21.0); /* the ball does not pass */
+    TEST_ASSERT_TRUE(weak > 17.0 && weak < 21.0); /* does not pass the resonance at 20 rad/s */
     TEST_ASSERT_TRUE(strong > 40.0);
 }
 

@@ -27,7 +27,7 @@ static linkage in_units(const linkage *of, units u) {
     }
     for (int k = 0; k < s.bodies; k++) {
         linkage_body *b = &s.body[k];
-        const double way = b->slides ? u.length : 1.0; /* distance in the unit of its coordinate */
+        const double way = b->slides ? u.length : 1.0; /* factor of the coordinate's unit */
         const double load = b->slides ? force : force * u.length;
         b->at_m *= u.length;
         b->centre_m *= u.length;
@@ -224,7 +224,7 @@ static double carried(const linkage *of, const moved *wanted, double share) {
  * the part of the pivot that remains after elimination. */
 typedef struct unequal {
     double worst; /* relative error, if elimination leaves at least a ten thousandth */
-    /* Errors above those of a start with a hundred such relative errors at the end, and above a hundred of the largest. */
+    /* runs whose error exceeds the effect of 100 such errors in the start, and 100 such parts of the largest value */
     unsigned beyond;
     unsigned plain; /* number of plain runs among those in `worst` */
 } unequal;

@@ -22,7 +22,7 @@ static double course_at(const course *c, double t, int primes) {
     }
 }
 
-/* Part of the course that the scene gets: value and rate, value and mean rate of the coming step, or also the acceleration. */
+/* Inputs that the scene gets beside the value: the rate, the mean rate of the coming step, or rate and acceleration. */
 enum { RATE, MEAN_RATE, ACCELERATION, TELLINGS };
 
 /* Sets the first inputs to the course at t. */
@@ -122,7 +122,7 @@ TEST(input_rates, a_ball_on_a_shaking_table) {
         motion m;
         motion_open_text(&m, text, IN_DOUBLE);
         const double lost = asin(fmin(1.0, G / (c.size * c.rate * c.rate))) / c.rate;
-        /* while the ball flies, or after three quarters of a swing */
+        /* ends while the ball flies, or, if it stays, at a phase of 4.5 rad */
         const double until = leaves ? lost + 0.25 / c.rate : 4.5 / c.rate;
         const unsigned steps = (unsigned)(until / 0.5e-3);
         for (unsigned k = 0; k < steps; k++) {
@@ -218,7 +218,7 @@ static double rope_off(const course *c, int way, int telling, const engine_kind 
     double total[40];
     double left[8] = {0.0};
     m.kind->ledger(m.run, total, left);
-    /* float: a step's correction of a place is below the resolution of 20 J, and is not booked */
+    /* float: a step's correction of a place is below the resolution of 20 J, and the ledger lacks it */
     TEST_ASSERT_TRUE(fabs(left[0]) < (kind == &engine_float ? 0.2 : 1e-6));
     motion_close(&m);
     return off;

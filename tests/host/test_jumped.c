@@ -47,7 +47,7 @@ static const char *const knees[] = {
 };
 enum { KNEES = sizeof knees / sizeof knees[0] };
 
-/* Least distance between zero and pole. 1 - cos(x) has no digits below 1e-7, so a pole is followed for 1e2 times as far. */
+/* Least distance between zero and pole. It is larger with 1 - cos(x), which has few digits for small x. */
 static double apart(unsigned which, double v, double k) {
     return strstr(knees[which], "cos((") != NULL ? fmax(k, 1e-3 * v) : k;
 }
@@ -238,7 +238,7 @@ TEST(jumped, which_equation_is_told) {
                  stands == 2 ? knee : others[1], coming);
         jumps_run(text, "double", no_more);
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(jumps_said.err), jumps_said.status, jumps_said.err);
-        if (last_of("s") > 0.0) { /* only stages have crossed */
+        if (last_of("s") > 0.0) { /* only a stage has crossed the pole, not the run */
             continue;
         }
         const char *told = strstr(jumps_said.err, "grows without bound: ");

@@ -113,7 +113,7 @@ static void check_scatter(const rig_noise *noise) {
     const double cells = 1.3 * noise->cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
     const double marks =
         1.3 * noise->jitter_s * 2.0 * 3.14159265358979323846 / (orbit.turn_s * sqrt((double)TURNS));
-    const double few = full() ? 1.0 : 1.3; /* the scatter of few runs scatters */
+    const double few = full() ? 1.0 : 1.3; /* few runs measure the scatter poorly */
     check_below(fabs(bias(0)) + few * hypot(cells, 1.5 * orbit.swing * marks), rms(0));
     check_below(fabs(bias(1)) + few * hypot(cells, marks), rms(1));
 }
@@ -167,7 +167,7 @@ TEST(lockin_truth, intervals_hold_what_they_promise) {
     }
 }
 
-/* With the cell's own noise the floors dominate: at least 95 % lie within 0.1 % and 0.1 degrees. */
+/* With the cell's own noise the intervals have their least width: at least 95 % lie within 0.1 % and 0.1 degrees. */
 TEST(lockin_truth, intervals_where_floors_rule) {
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
     for (unsigned i = 0; i < 2; i++) {
@@ -176,7 +176,7 @@ TEST(lockin_truth, intervals_where_floors_rule) {
         measure_many(&noise, runs, 200000U + 2000U * i);
         print_row(330.0, &noise);
         for (unsigned what = 0; what < 2; what++) {
-            /* with jitter the marks dominate the phase, not the floors */
+            /* with jitter, the pulses' errors make the phase's interval wider than the least */
             const double least = !full() ? 0.85 : i == 1 && what == 1 ? 0.93 : 0.95;
             TEST_ASSERT_TRUE((double)found.covered[what] / runs >= least);
         }
@@ -261,7 +261,7 @@ TEST(lockin_truth, what_is_fed_does_not_show) {
             TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, bias(0));
             TEST_ASSERT_DOUBLE_WITHIN(1.0 / DEG, 0.0, bias(1));
             check_scatter(&noise);
-            if (slow) { /* any friction; the residual is reported */
+            if (slow) { /* only the right compensation, with friction of 1 or 3 times */
                 TEST_ASSERT_DOUBLE_WITHIN(0.4 / DEG, 0.0, bias(1));
                 TEST_ASSERT_TRUE(found.covered[1] >= found.runs * 9U / 10U);
                 TEST_ASSERT_TRUE(found.covered[0] >= found.runs * 9U / 10U);
