@@ -15,7 +15,7 @@ typedef struct said {
 /* Runs `command` (command_run, ...) on the words, which end with NULL. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
 
-/* The exit status that `whirl run` or `whirl sweep` must have with these messages: 1 if one warns of a finding, else 0. */
+/* The exit status that `whirl run` or `whirl sweep` must have: 1 if a message warns of a finding, else 0. */
 int said_owes(const char *err);
 
 /* Converts a step as a warning writes it, such as "200us", to seconds. */

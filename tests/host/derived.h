@@ -72,7 +72,7 @@ uint64_t random_bits(uint64_t *seed);
 unsigned random_one_of(uint64_t *seed, unsigned bound);
 double random_between(uint64_t *seed, double low, double high);
 
-/* Builds the text `front`, then `piece` repeated with its number (at most two %d), then `tail`. */
+/* Builds `front`, then `piece` `times` times, then `tail`. In a piece, # becomes its number, from 1, and @ one less. */
 char *repeated(const char *front, const char *piece, int times, const char *tail);
 
 /* x of A x = b by elimination with pivots: a has n rows of `width` numbers, of which the first n are A and the next is b.

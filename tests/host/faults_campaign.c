@@ -663,8 +663,8 @@ static void watch(void *of, double time_s, const plant *p) {
     watch_off(j, time_s, p);
 }
 
-/* How far a result is outside its interval plus 1 %, relative to the true value. The result may refer to several series of turns: the smallest
- * error counts. */
+/* How far a result is outside its interval plus 1 %, relative to the true value. The result may refer to several series
+ * of turns: the smallest error counts. */
 static double off_by(const judge *j, unsigned turns) {
     const double amplitude = (double)j->told[HAL_NOTE_AMPLITUDE];
     const double phase = (double)j->told[HAL_NOTE_PHASE];

@@ -2,7 +2,7 @@
  * estimate of `whirl trust`.
  *
  * Without contacts, the reference is the extrapolation in long double (host/study/reference_run.h) of order 12, checked
- * by one of order 10. Their difference must be far below the tolerance at the run's end of accuracy. With contacts, it
+ * by one of order 10. Until the run fails the tolerance, their difference must be far below it. With contacts, it
  * is RK4 in double with a 32nd of the run's step, checked by a 16th. */
 #ifndef TESTS_HORIZONS_H
 #define TESTS_HORIZONS_H

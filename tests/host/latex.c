@@ -77,7 +77,7 @@ static void command(reader *r, const char *name, size_t length) {
                 widest = r->width - before > widest ? r->width - before : widest;
             }
             const char *at = strstr(wide, known[i].name);
-            /* the line of a fraction and the sign of a root add width; see below */
+            /* the arguments are set one above the other; a name, a fraction's line or a root's sign add width */
             r->width = before + widest;
             for (size_t k = 0; at != NULL && k < length; k++) {
                 r->width += width_of(name[k]);

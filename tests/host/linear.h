@@ -25,7 +25,7 @@ typedef struct linear_kind {
     bool coupled; /* coupled masses: full mass matrix, whose inverse is not exact in double */
 } linear_kind;
 
-/* A mechanism with a scene `s` of `coordinates` 1 to 4: masses, springs and dampers between them and to the ground,
+/* A mechanism of 1 to 4 `coordinates` with a scene `s`: masses, springs and dampers between them and to the ground,
  * gravity, up to two inputs. Some masses have no springs or dampers. Numbers are multiples of 1/8 and uncoupled masses
  * powers of two, so that A, B and c are doubles. */
 void linear_draw(uint64_t *seed, int coordinates, linear_kind kind, char *text, size_t size,

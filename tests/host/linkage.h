@@ -1,5 +1,5 @@
 /* linkage.h: random planar linkages: bodies on hinges and rails, with springs, dampers, drives and gravity. As text,
- * and with accelerations from the energies in numbers (jet.h). */
+ * and with accelerations from the energies in numbers (linkage_lagrange.c). */
 #ifndef TESTS_HOST_LINKAGE_H
 #define TESTS_HOST_LINKAGE_H
 

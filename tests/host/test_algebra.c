@@ -444,8 +444,8 @@ static void random_values(double at[FORM_SYMBOLS * FORM_PRIMES], uint64_t *seed)
     }
 }
 
-/* The definition in poly.h, written independently: the size of each term without its sine or cosine. A power of a sum counts the
- * larger of the sum and its parts. */
+/* The definition in poly.h, written independently: the size of each term without its sine or cosine. A power of a sum
+ * counts the larger of the sum and its parts. */
 static double expected_magnitude(const poly *p, double *at) {
     double sum = 0.0;
     for (int i = 0; i < p->count; i++) {
@@ -756,7 +756,7 @@ TEST(algebra_limits, determinants_of_products) {
 /* The promises of poly.h, checked independently on random expressions: order of terms and factors, sizes, one object
  * for equal expressions, and the same form whatever was computed before. WH_FORMS=N sets the number of expressions. */
 
-/* --- the order, as order.c and algebra.h describe it -------------------------------------------------- */
+/* --- the order, as algebra.h describes it ---------------------------------------------------- */
 
 static int expected_poly_order(const poly *x, const poly *y);
 

@@ -218,7 +218,7 @@ TEST(aliasing, small_ripples) {
     TEST_ASSERT_TRUE(4 * wrong > cases && 8 * right > cases);
 }
 
-/* Blocks pulled below the mean friction limit, or sliding to rest, while the normal force ripples with whole periods per step. */
+/* Blocks pulled below the mean friction limit, or sliding to rest. The normal force ripples in whole periods a step. */
 TEST(aliasing, rippling_normals) {
     static const named_cure none;
     dice d = dice_of("aliasing, normals", 20261130);

@@ -279,7 +279,7 @@ TEST(firstlight, broken_records) {
     }
 }
 
-/* Offsets of lines, up to the end of the text. */
+/* Writes the offsets of the lines and of the text's end to from[]. Returns the number of lines. */
 static size_t lines_of(const char *text, size_t *from) {
     size_t lines = 0;
     for (const char *at = text; *at != '\0'; at = strchr(at, '\n') + 1) {

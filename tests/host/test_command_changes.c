@@ -1,4 +1,4 @@
-/* test_command_changes.c: changed parameters and starts on each command's line. A name given twice is refused. A sweep's measure that overflows is a failure. */
+/* test_command_changes.c: changed values in commands. A repeated name is refused; a measure that overflows fails. */
 #include "command.h"
 
 #include "host/cli/commands.h"

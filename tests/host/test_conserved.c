@@ -164,7 +164,7 @@ TEST(conserved, a_coordinate_follows_from_its_momentum) {
         TEST_ASSERT_TRUE(c->unknown[0] == 0 && c->number[0] == 0 && c->number[1] == -1);
         const bool whole =
             !terms[0].grows || terms[0].q_power > 0 || (terms[0].turns && terms[0].k != 0);
-        TEST_ASSERT_TRUE_MESSAGE(c->closed == whole, text); /* a term with q is found along q */
+        TEST_ASSERT_TRUE_MESSAGE(c->closed == whole, text); /* exp(r) with q is integrated by q */
         check_law(c, terms, &start, mass, &seed);
         closed += c->closed;
         open += !c->closed;

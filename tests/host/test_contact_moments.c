@@ -51,8 +51,8 @@ TEST(contact_moments, hops_shorter_than_a_step) {
     }
 }
 
-/* The gap after the last flight is closed, and the ledger has the energy: the balance from a bounce with restitution to rest has no
- * residual, apart from the remaining energy. */
+/* The gap after the last flight is closed, and the ledger has the energy: the balance from a bounce with restitution to
+ * rest has no residual, apart from the remaining energy. */
 TEST(contact_moments, the_last_gap_is_booked) {
     uint64_t seed = 6;
     for (int i = 0; i < 20; i++) {
@@ -561,8 +561,8 @@ static double next_hit_s(const bounce *b) {
     return low > 0.0 ? low : high > 0.0 ? high : (double)INFINITY;
 }
 
-/* Moves the body to `end_s`, with the crossing times in at[]. Returns their number. Returns -1 if there are too many, or
- * if the body has not clearly left the level at the end of a step with a crossing. */
+/* Moves the body to `end_s`, with the crossing times in at[]. Returns their number. Returns -1 if there are too many,
+ * or if the body has not clearly left the level at the end of a step with a crossing. */
 static int go(bounce *b, double end_s, double step_s, double *at) {
     double time_s = 0.0;
     int hits = 0;

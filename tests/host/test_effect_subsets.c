@@ -148,7 +148,7 @@ static state begin(const world *w) {
     return s;
 }
 
-/* moved: change of x and y when the effects in the bits of `out` are left out. acted: effects that act in the full run. */
+/* moved: change of x and y without the effects in the bits of `out`. acted: the effects that act in the full run. */
 static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     world full = {.of = c};
     for (int i = 0; i < c->effects; i++) {

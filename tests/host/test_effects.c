@@ -13,7 +13,7 @@
 
 typedef struct decay {
     const char *file;
-    const char *says; /* nothing else moves in it, so the carriage's equation stands alone */
+    const char *says; /* statements of a scene in which only the carriage moves */
     double mass_kg;
     double start_mps[2]; /* X', Y' */
     double viscous_Nspm;

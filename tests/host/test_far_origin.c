@@ -156,9 +156,9 @@ static far_case case_of(dice *d, double far) {
     return c;
 }
 
-/* At most tens of amplitudes. An expanded square under a root has an error of 1e-16, in float 6e-8, of far^2, and may
- * be negative beyond that. A phase has the same relative error, and beyond a radian the wave is lost. Such runs are
- * wrong, and may say so. */
+/* Decimal logarithm of the largest distance in amplitudes. An expanded square under a root has an error of 1e-16, in
+ * float 6e-8, of far^2, and may be negative beyond that. A phase has the same relative error, and beyond a radian the
+ * wave is lost. Such runs are wrong, and may say so. */
 static double far_most(far_kind kind, bool is_float) {
     return kind == SOFT ? (is_float ? 2.0 : 6.0) : kind == WAVE && is_float ? 5.0 : 8.0;
 }
@@ -206,9 +206,9 @@ TEST(far_origin, fine_steps_are_silent) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* With these coarse steps, RK4 loses more than a hundredth of a spring's energy in 60 steps. Round-off at 1e5 amplitudes in
- * double and 30 in float can take less. (On the belt and with the push, the balance's entries themselves are as much
- * larger.) */
+/* With these coarse steps, RK4 loses more than a hundredth of a spring's energy in 60 steps. Round-off at 1e5
+ * amplitudes in double and 30 in float can take less. (On the belt and with the push, the balance's entries themselves
+ * are as much larger.) */
 TEST(far_origin, coarse_steps_are_told) {
     static const far_kind kinds[] = {SPRING, APART, PARAMETER, DAMPED};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };
@@ -384,7 +384,7 @@ typedef struct motion_rows {
     double value[RECORDS + 2][COLUMNS];
 } motion_rows;
 
-/* Energies are multiples of energy_J, lengths of length_m, masses 1 kg. Both carts of STRUT, and x of the others, are far away. */
+/* Units are energy_J, length_m and 1 kg. Both carts of STRUT, and x of the others, are far away. */
 static void slope_mechanism(const slope_case *c, double far_m, char *text, size_t size) {
     const double l = c->length_m;
     const double e = c->energy_J;

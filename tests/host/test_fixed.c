@@ -501,7 +501,7 @@ static void run_to_end(const image *im, double *angle, double *real) {
     engine_fixed.stop(run);
 }
 
-/* Half a unit of each step, and of the rate in it. */
+/* Bound on the round-off of a position: half a unit per step, and a unit of the rate over the whole time. */
 static double range_bound_of(const fixed_plan *p, int at, int rate, double until_s) {
     const double unit = at >= 0 ? ldexp(1.0, -p->format[at].bits) : 1.4629180793e-9;
     const double of_rate = rate >= 0 ? ldexp(1.0, -p->format[rate].bits) : 0.0;
@@ -632,7 +632,7 @@ TEST(fixed_ranges, inputs_must_declare_ranges) {
 /* === engine fixed ============================================================================ */
 /* Steps in fixed point (host/fixed/engine_fixed.h) of random mechanisms against the same steps in
  * double. The steps are so long and few that the difference is round-off, while a stage other than Runge-Kutta's would
- * be visible. Also other queries of a run. test_fixed.c has whole runs. */
+ * be visible. Also other queries of a run. The suites above have whole runs. */
 
 enum { ENGINE_TEXT_SIZE = 1500, ENGINE_KINDS = 5, ENGINE_MOST = 16 };
 

@@ -1,8 +1,8 @@
-/* test_folded.c: a light body, and a heavy one on a stiff spring that is counted from the light one. k1 + k2, folded to
- * double, keeps few digits of the softer spring, the only force on the light body, and every run of the scene uses that
- * number. Given by energies or equations, with parameters or numbers, with dampers or without, sometimes with a third
- * body between. The reference never adds quantities of two bodies: each by itself, in long double. Errors are reported;
- * accurate runs cause no report. */
+/* test_folded.c: a light body on a soft spring, and a heavy one counted from it on a stiff spring. The sum k1 + k2,
+ * folded to double, keeps few digits of the softer spring, the only force on the light body, and every run of the scene
+ * uses that number. Given by energies or equations, with parameters or numbers, with dampers or without, sometimes with
+ * a third body between. The reference never adds quantities of two bodies: each by itself, in long double. Errors are
+ * reported; accurate runs cause no report. */
 #include "test.h"
 
 #include "host/cli/commands.h"
@@ -23,7 +23,7 @@ typedef struct link {
     double damper_Nspm;
 } link;
 
-/* Bodies 0 ... bodies - 1, each counted from the previous one, the first from the ground. */
+/* Bodies 0 ... bodies - 1, each measured from the previous one, the first from the ground. */
 typedef struct held {
     int bodies;
     int links;

@@ -1,4 +1,4 @@
-/* test_graph.c: random expressions as a graph (host/prove/graph.h, graph_slope.c): values of the nodes; slopes against
+/* test_graph.c: random expressions as a graph (host/prove/graph.h): values of the nodes; slopes against
  * complex-step derivatives; graphs without some variables; one node for equal expressions; simplification. */
 #include "host/base/alloc.h"
 #include "host/lang/model.h"
@@ -738,7 +738,7 @@ static const char *name_of(int i, char name[24]) {
 
 enum { FORMULAS = 21 };
 
-/* Writes formula `which` of u and v, and returns its value at x and y. Functions with corners get only numbers as arguments. */
+/* Writes formula `which` of u and v. Returns its value at x, y. Functions with corners get only numbers. */
 static long double write_formula(int which, const char *u, const char *v, long double x,
                                  long double y, char *text) {
     const char *form = NULL;
@@ -955,8 +955,8 @@ SUITE(reader) { die = dice_of("reader", 53); }
 
 /* === taylor =================================================================================== */
 /* Taylor coefficients of random motions in enclosures (host/prove/taylor.h), and their slopes by the state, against
- * long double series by another method (drawn_graph.h). The enclosures are narrow at a point, and valid for every start
- * in a box. */
+ * long double series by another method (drawn_graph_series). The enclosures are narrow at a point, and valid for every
+ * start in a box. */
 
 static int rate_step[DRAWN_VARIABLES]; /* the step that is a variable's rate */
 

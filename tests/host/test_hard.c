@@ -34,10 +34,10 @@ static double moved_m(double rate, double t, double factor, double against) {
 
 typedef struct breaking {
     double off_m;
-    double at_rest_m; /* largest motion before the moment of moved_m() */
+    double at_rest_m; /* largest motion before P0 sin(rate t) is LIFTS_N */
 } breaking;
 
-/* Runs until 0.3 s after the moment of moved_m(), while both coordinates move together. The force's phase advances by `rate`, rad/s. */
+/* Runs until 0.3 s after that moment; both coordinates move together. The force's phase advances by `rate`, rad/s. */
 static void run_breaking(const char *name, const char *second, stepping how, double rate,
                          double factor, double against, breaking *most) {
     const char *first = second[0] == 's' ? "y" : "x";

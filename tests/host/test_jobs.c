@@ -1,4 +1,4 @@
-/* test_jobs.c: worker processes of a sweep (host/study/jobs.h). Rows stay in order, whichever
+/* test_jobs.c: worker processes of a sweep (host/os/jobs.h). Rows stay in order, whichever
  * worker ends first. Also: a lost worker, refused rows, and a low limit of open files. */
 #include "test.h"
 

@@ -36,7 +36,7 @@ static const char *const knees[] = {
     "equation s' = -rate*v*s/(k + s)/(1 + 0.001*cos(s))\n",
     "equation s' = -rate*v/(1 + k/s)\n", /* the denominator changes its sign twice */
     "equation (k + s)*s' = -rate*v*s\n", /* no division */
-    /* even and no power: no change of sign */
+    /* the denominator is (s + k)^2: no change of sign */
     "equation s' = -rate*v*s^2/(s^2 + 2*k*s + k^2)\n",
     "let c = 2*v\nequation s' = -rate*v*s^2/(2*c^2*(1 - cos((s + k)/c)))\n",
     "state p\nequation p' = -rate*p\nequation s' = -rate*v*s^2/((k + s)^2 + p^2)\n",
