@@ -10,7 +10,7 @@
 enum {
     SCENE_UNKNOWNS = 4,
     SCENE_STATES = 12,
-    SCENE_FEW = 3, /* inputs, outputs, parameters, effects, tables */
+    SCENE_FEW = 3, /* largest number of inputs, outputs, parameters, effects or tables */
     SCENE_CONTACTS = 5,
     SCENE_SETS = 4,
     SCENE_ROWS = 6, /* rows of the energy balance that change continuously */

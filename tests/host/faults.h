@@ -135,17 +135,17 @@ typedef struct judge {
     double theta;
     double force_N;
     double begun_s;
-    bool whole; /* the turn was observed from its begin, */
-    bool off;   /* and the motor must not drive during all of it */
+    bool whole; /* the turn was observed from its begin */
+    bool off;   /* the motor must not drive during the whole turn */
     true_turn sum;
     double last_s;
     /* Complete turns while the motor must not drive: */
     double rpm;         /* of the last turn */
     unsigned on_turns;  /* number of turns with the enable on throughout */
-    unsigned rises;     /* number of successive faster turns, */
+    unsigned rises;     /* number of successive turns, each faster than the last */
     double rises_rpm;   /* speed of the first of them */
-    double on_shown_s;  /* time at which turns showed a drive with the enable on, */
-    double off_shown_s; /* or with the enable off; -1: not shown */
+    double on_shown_s;  /* time at which turns showed a drive with the enable on; -1: not shown */
+    double off_shown_s; /* the same with the enable off */
     true_turn turn[JUDGE_TURNS];
     unsigned turns;
     float told[HAL_NOTES];

@@ -82,7 +82,7 @@ static double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 /* A fault is detected after two pulses that come too early. They come within a turn of the fault's begin; but a pulse
  * in the first sixth of that turn is not early enough (docs/rig.md). Until then, and for one control period more, full
  * voltage drives the rotor; gravity adds its part of a turn. */
-#define CAUGHT_RPM 470.0 /* least speed limit, for runs at the nominal speed or below */
+#define CAUGHT_RPM 470.0 /* least result of rig_caught_rpm() */
 #define TURNS (7.0 / 6.0)
 #define LAG_S 0.23 /* time constant of the rotor under full voltage */
 #define FULL_RPM 568.0

@@ -8,7 +8,7 @@
 enum { LOOKS = 10000 };
 
 typedef struct reference_of {
-    extrapolation *smooth; /* the reference without contacts; with contacts: */
+    extrapolation *smooth; /* the reference without contacts; with contacts it is `run` */
     image fine;
     void *run;
     uint64_t each; /* the reference's steps in one step of the run */

@@ -21,7 +21,7 @@ bool jumps_told(void);
 /* Writes to `text` the options that a warning names as tried; false if it names none. */
 bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]);
 
-/* Runs to the end. Did some step jump over a pole? */
+/* Runs to the end. Returns true if some step jumped over a pole. */
 bool jumps_some(motion *m);
 
 #endif

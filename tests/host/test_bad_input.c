@@ -364,7 +364,7 @@ TEST(bad_input, many_names_are_quick) {
     TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 2.0);
 }
 
-/* No prefix of a good file, and no good file with one byte changed, crashes the language. */
+/* No prefix of a good file, and no good file with one byte changed, crashes Whirl. */
 TEST(bad_input, every_beginning_and_every_changed_byte) {
     size_t length = 0;
     char *text = read_whole("core/models/epicyclic.whirl", &length);

@@ -188,7 +188,7 @@ TEST(counts, spacings_and_begins_are_counted_in_steps) {
 /* === firstlight =============================================================================== */
 /* Random records of a board's first light (host/monitor/light.h): each is read as sent, with noise before it and a
  * terminal's carriage returns. A truncated record or a changed byte is refused.
- * `whirl firstlight` on records that differ in one field, and on its page. */
+ * `whirl firstlight` must name the field in which a record differs, and append a row to its page. */
 
 enum { ROOM = 16384 };
 
@@ -341,7 +341,7 @@ static const char *got(const char *name) {
     return text;
 }
 
-/* The expected value of a new board: the interpreter's hashes, from the command's last answer. */
+/* The value that a correct board sends for this field. `hashes`: an answer of the command, with the expected hashes. */
 static const char *right_value(const char *name, const said *hashes) {
     static const struct {
         const char *name;

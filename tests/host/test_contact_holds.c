@@ -295,8 +295,8 @@ TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
 /* An expression to be held, and its bodies of 1 kg or 1 kg*m^2. A force pushes along the expression. */
 typedef struct held {
     const char *expression;
-    const char *unit; /* unit of the expression, */
-    const char *push; /* and of the force */
+    const char *unit; /* unit of the expression */
+    const char *push; /* unit of the force */
     const char *coordinates;
     const char *kinetic;
     double yields; /* its acceleration by a force of 1; 0: not constant */

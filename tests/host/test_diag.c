@@ -102,7 +102,7 @@ TEST(diag, order) {
     diags_free(all);
 }
 
-/* A statement of each length around the limit: whole if it fits, else with dots at its end. */
+/* Statements of lengths around the limit are quoted whole if they fit, else with dots at the end. */
 TEST(diag, statements) {
     enum { ROOM = 20, MOST = 2 * ROOM };
     for (size_t length = 1; length <= MOST; length++) {
@@ -119,7 +119,7 @@ TEST(diag, statements) {
     }
 }
 
-/* Up to the bracket that closes its surroundings, without comments. */
+/* A quoted statement ends at the bracket that closes its surroundings, and has no comments. */
 TEST(diag, statements_in_braces) {
     static const char *const own[] = {"a = 1", "when x { set y }", "when x { a { b } }", "e {}"};
     static const char *const begin[] = {"", "scene s { ", "\n  ", "effect e {"};

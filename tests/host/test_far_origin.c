@@ -368,12 +368,12 @@ typedef struct slope_case {
     slope_kind kind;
     double length_m;
     double energy_J;
-    double far; /* in lengths */
+    double far; /* distance from the origin, in units of length_m */
     double step_s;
     int steps;
 } slope_case;
 
-/* A distance in lengths. Further away, two runs in double may both stand still. */
+/* Distance in units of length_m beyond which two runs in double may both stand still. */
 #define TOLD_MOST 4e7
 
 enum { RECORDS = 40, COLUMNS = 5 };

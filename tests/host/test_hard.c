@@ -1,5 +1,5 @@
 /* test_hard.c: hard cases with contacts, and undamped resonance (docs/hard, docs/hard_cases.md), against closed forms.
- * Redundant supports and frictions that break away, friction under a vanishing load, Newton's cradle. */
+ * Cases are redundant supports, frictions that break away, friction under a vanishing load, Newton's cradle. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -552,7 +552,7 @@ static linkage shaker(double torque_Nm) {
     return of;
 }
 
-/* The rotor's speed after 12 s by the reference, */
+/* The rotor's speed after 12 s by the reference. */
 static double reference_after(double torque_Nm) {
     const linkage of = shaker(torque_Nm);
     linkage_motion wanted;
@@ -560,7 +560,7 @@ static double reference_after(double torque_Nm) {
     return (double)wanted.state[LINKAGE_BODIES + 1];
 }
 
-/* and by the program. */
+/* The same speed by the program. */
 static double speed_after(double torque_Nm, stepping how) {
     char stall[40];
     motion m;

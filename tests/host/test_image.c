@@ -59,7 +59,7 @@ static void write_run(FILE *out, const image *im, const engine_kind *kind) {
     diags_free(errors);
 }
 
-/* All messages on undefined values: of a state in which nothing is a number. */
+/* Writes all messages on undefined values, for a state of NaNs. */
 static void write_undefined(FILE *out, const image *im) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -544,7 +544,7 @@ TEST(described_drawn, any_text_is_told) {
     }
 }
 
-/* JSON has no word for these. */
+/* JSON has no word for NaN and infinity: they become null. */
 TEST(described_drawn, what_is_no_number_is_null) {
     static const double none[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < 3; i++) {

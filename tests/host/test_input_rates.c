@@ -291,7 +291,7 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
  * good ones. */
 TEST(input_rates, a_refused_step_leaves_no_trace) {
     static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
-                                 1e30}; /* finite: may be held */
+                                 1e30}; /* finite: a hold may withstand it as force P */
     dice d = dice_of("input_rates", 4603);
     for (unsigned i = 0; i < dice_cases(56); i++) {
         char text[900];

@@ -27,7 +27,7 @@ static void forget(void) {
     }
 }
 
-/* f(u), with f' and f'' as texts of u. */
+/* f(u). `slope` and `bend` are f'(u) and f''(u) as texts. */
 static formula chain(char *f, char *slope, char *bend, formula u) {
     return (formula){f, TEXT("(%s)*(%s)", slope, u.d),
                      TEXT("((%s)*(%s)^2 + (%s)*(%s))", bend, u.d, slope, u.dd)};
