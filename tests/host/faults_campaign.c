@@ -212,7 +212,7 @@ static bool may_be_second(unsigned row) {
 #define SLOW_PART 0.25    /* share of runs that are too slow without gravity compensation */
 #define FED_PART 0.2      /* share of the other runs with gravity compensation */
 #define BRAKES_PART 0.3   /* share of all runs: the motor brakes */
-#define SUPPLY_LEAST 0.5  /* as a share of 24 V; still allowed */
+#define SUPPLY_LEAST 0.5  /* least allowed supply, as a share of 24 V */
 #define SUPPLY_MOST 1.5
 #define SLOWEST_RPM 100.0
 #define SLOW_RPM 170.0

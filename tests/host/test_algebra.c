@@ -908,7 +908,7 @@ static void check_interned(algebra *a, const poly *p) {
         const mono *m = p->terms[i].mono;
         TEST_ASSERT_TRUE(mono_make(a, m->factors, m->count, m->trig, m->angle) == m);
     }
-    if (p->count > 0) { /* and a different one is another object */
+    if (p->count > 0) { /* a different expression is another object */
         copy->terms[p->count - 1].coefficient *= 2.0;
         TEST_ASSERT_TRUE(poly_intern(a, copy) != p);
         copy->terms[p->count - 1] = p->terms[p->count - 1];

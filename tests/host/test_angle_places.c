@@ -22,7 +22,7 @@ static const struct {
     const char *text;
     int list;
     bool sine;
-    bool scaled; /* scaled by the number of the multiple */
+    bool scaled; /* a slope, with the multiple's number as a factor */
     double offset;
 } places[] = {
     {"V = 1 [J]*cos(@)\n", IN_STEP, true, true, 0},

@@ -92,7 +92,7 @@ static void print_forms(const equations *e, uint64_t *from) {
     poly_derivative(e->algebra, equations_force(e, i), e->unknowns[i].symbol, 0);
 }
 
-/* As C; to be freed. NULL if it cannot be derived. */
+/* The scene as C code, to be freed; NULL if it cannot be derived. */
 static char *written(const scene *in, before way, uint64_t from) {
     diags *errors = diags_new();
     instance *inst = instance_make(in->mechanism, in, NULL, errors);

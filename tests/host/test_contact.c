@@ -338,7 +338,7 @@ static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     for (int i = 0; i < b->n; i++) {
         b->rate[i] = drawn_whole(seed, -3, 3);
     }
-    b->rate[0] = random_bits(seed) % 2U != 0 ? 0.0 : b->rate[0]; /* so that friction may stick */
+    b->rate[0] = random_bits(seed) % 2U != 0 ? 0.0 : b->rate[0]; /* zero: friction may stick */
     const int hits = 1 + (int)(random_bits(seed) % 3U);
     for (int k = 0; k < hits; k++) {
         drawn_contact *of = drawn_add(b, 's');

@@ -116,7 +116,7 @@ TEST(contact_moments, an_impact_that_is_over_within_the_step) {
         const double u = random_between(&seed, 0.2, 1.0);
         const double e = random_between(&seed, 0.2, 0.9);
         double mass[2] = {exp(random_between(&seed, -1.0, 1.0)), 0.0};
-        /* so that the upper body does not come back */
+        /* so light that the upper body does not come back */
         mass[1] = random_between(&seed, 0.05, 0.3) * e * mass[0];
         chain c = {{1e300, mass[0], mass[1], 1.0}, {0.0, 0.0, -u, 1e300}, e, {0}};
         double floor_Ns;

@@ -160,7 +160,7 @@ TEST(cost, every_board_has_a_row) {
         count++;
     }
     pclose(boards);
-    TEST_ASSERT_EQUAL_INT(cost_board_count, count + 1); /* and the host */
+    TEST_ASSERT_EQUAL_INT(cost_board_count, count + 1); /* the host is a row, too */
     TEST_ASSERT_NOT_NULL(cost_board_named("host"));
     TEST_ASSERT_NULL(cost_board_named("mps2"));
 }

@@ -142,8 +142,8 @@ static double first_above_s(const double *time_s, const double *size, int count,
     return (double)INFINITY;
 }
 
-/* Sizes that rise, fall, stay and end: a level is passed between the first size above it and the first above it by the
- * grain. */
+/* Sizes that rise, fall, stay or end. A level is passed between the first size above it and the first size that exceeds
+ * it by PASSAGE_GRAIN. */
 TEST(horizon, levels_and_when_they_were_passed) {
     dice d = dice_of("horizon passages", 2312);
     for (unsigned k = 0; k < 60; k++) {

@@ -235,9 +235,9 @@ TEST(faults, stops) {
     m.off_s = 0.5; /* the enable was already off */
     v = judged(&m);
     TEST_ASSERT_TRUE(v.halted && v.halted_s == 0.0);
-    m.off_s = 1.003; /* an order that comes too late, */
+    m.off_s = 1.003; /* an order that comes too late */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
-    m.off_s = 99.0; /* or never comes */
+    m.off_s = 99.0; /* an order that never comes */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
     for (int when = 0; when < 12; when++) { /* driven again while stop is pressed, or afterwards */
         m.on_s = 1.02 + when * 0.13;
