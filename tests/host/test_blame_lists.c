@@ -1,4 +1,4 @@
-/* test_blame_lists.c: expressions that a run checks after a value is not a number. They are all expressions that the
+/* test_blame_lists.c: expressions that a run checks when a value is not a number. They are all expressions that the
  * motion depends on. If the equations contain derivatives of an expression, its slopes are listed, too, unless they
  * always exist, as for sums, products, integer powers and waves. An expression has one slope for each coordinate that
  * it depends on; energies and losses also have one for each rate. */

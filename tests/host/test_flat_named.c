@@ -1,5 +1,5 @@
 /* test_flat_named.c: a linkage that lies flat ends its run, and the redundant hold is named, in any order of the
- * file. */
+ * file's statements. */
 #include "command.h"
 #include "host/cli/commands.h"
 
