@@ -53,7 +53,7 @@ WH_INLINE unsigned wh_ledger_of_contact(const wh_ledger_form *form, unsigned k) 
     return form->smooth + k * (1U + form->coordinates);
 }
 
-/* Index of the entry for the first of form->input, in the energy's account; the others follow. */
+/* Index of the entry of input form->input[0], in the energy's account; those of the other inputs follow. */
 WH_INLINE unsigned wh_ledger_of_input(const wh_ledger_form *form) {
     return (unsigned)form->entries - form->inputs - form->stabilized;
 }

@@ -138,10 +138,10 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Free stops without restitution that touch, and are at rest compared with the change of rates along `hits`. Nothing
- * presses them, but they block the motion after the impact. They take part in the same impact: two plastic impacts that
- * cause each other alternately would never end. Impacts with restitution do end, so they are resolved one after the
- * other. */
+/* Finds the free stops without restitution that touch and are at rest, judged against the change of rates along `hits`.
+ * No force presses on them, but they block the motion after the impact. They join the same impact: as separate plastic
+ * impacts, two such stops could cause each other for ever. Impacts with restitution do end, so they are resolved one
+ * after the other. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,

@@ -188,9 +188,9 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     return first;
 }
 
-/* One round of the pivoting. The contacts with at[] = 0 get forces between their limits, the others stay at the limit
- * in at[] (-1: low, 1: high). `way` gets the change of the accelerations by all forces. Returns the redundant contacts,
- * as bits of indices. */
+/* One round of the pivoting. The contacts with at[] = 0 get the forces that give the accelerations `wanted`; the caller
+ * checks their limits. The others get the force at their limit (-1: low, 1: high). `way` gets the change of the
+ * accelerations by all forces. Returns the redundant contacts, as bits of indices. */
 static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *wanted, wh_real *lambda, wh_real *way) {

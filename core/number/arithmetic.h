@@ -41,8 +41,8 @@ typedef enum wh_probed {
     WH_PROBED_FIVE, /* 5/3, 7/3, 10/3: they differ if division is a product with a reciprocal */
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
-    WH_PROBED_THIRD,   /* as WH_PROBED_FIVE, with a divisor known to the compiler */
-    WH_PROBED_ZERO,    /* has a sign if zeros do not keep theirs */
+    WH_PROBED_THIRD, /* as WH_PROBED_FIVE, with a divisor known to the compiler */
+    WH_PROBED_ZERO, /* -0 + 0: +0, or -0 if the compiler ignores the sign of zeros and drops the sum */
     WH_PROBED_NAN,     /* 0 if the compiler assumes that NaN never occurs */
     WH_PROBED_LITERAL, /* seventy, unless a tenth used as divisor was cut to float */
     WH_PROBED_COUNT

@@ -89,8 +89,8 @@ typedef struct wh_guard_config {
  *   the end of a swing that friction stops, this happens at most twice. */
 typedef struct wh_off {
     bool released;
-    bool doubted;      /* the brake was released on pulses of one sensor alone */
-    bool asks;         /* it was released on both sensors' pulses; the next pulse decides */
+    bool doubted; /* the brake was released on pulses of one sensor alone */
+    bool asks; /* released after alternating pulses: trips if the next one is the other sensor's */
     uint8_t sensor;    /* sensor of the last pulse, 1 or 2; 0: no pulse yet */
     uint8_t alternate; /* successive pulses of alternating sensors */
     uint8_t alone;     /* successive pulses of the same sensor */

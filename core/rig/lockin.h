@@ -78,8 +78,9 @@ wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harm
 #ifndef WH_LOCKIN_SAMPLES
 #define WH_LOCKIN_SAMPLES 384U /* waiting samples: 1.25 turns at 100 rpm, one per 2 ms */
 #endif
-#define WH_LOCKIN_HALVES_AT_ONCE 3U /* most half nodes per control step */
-#define WH_LOCKIN_STALE_AT_ONCE 8U  /* samples that belong to no turn, dropped per control step */
+/* Limits per control step: half nodes (a sample or pulse is placed, or weighed), and samples of no turn that are dropped. */
+#define WH_LOCKIN_HALVES_AT_ONCE 3U
+#define WH_LOCKIN_STALE_AT_ONCE 8U
 
 /* Reasons why a turn does not count: X(name, words). */
 #define WH_TURN_ROWS(X) \

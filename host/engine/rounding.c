@@ -19,7 +19,8 @@ static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
 }
 
-/* A phase is a sum of terms, each of which is rounded. */
+/* Round-off of an OP_PHASE, a sum of multiples of angles: the sum of its terms' sizes, because each term is rounded.
+ * `more` is the error of operand b. */
 static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
     double size = fabs(o->value);
     for (int i = 0; i < t->angles; i++) {

@@ -105,7 +105,7 @@ typedef enum op_cost {
 typedef struct op_row {
     op_kind kind;
     op_cost cost;
-    int values; /* most earlier values that it uses: 1 (a) or 2 (a and b); 0 for a leaf or a phase */
+    int values; /* how many earlier values it uses at most: 1 (a), 2 (a and b), 0 for a leaf or a phase */
     const char *c;      /* NULL: not written in C */
     const char *octave; /* NULL: not written in Octave */
 } op_row;

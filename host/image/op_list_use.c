@@ -433,7 +433,7 @@ void op_list_order(op_list *t) {
 }
 
 /* === existing sums ============================================================================ */
-/* A + 2 b is (a + b) + b if a + b already exists: this saves a product. Kinetic energies produce such pairs: a chain of
+/* Replaces a + 2 b by (a + b) + b if the list already has a + b: this saves a product. Kinetic energies produce such pairs: a chain of
  * two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
 
 /* b if operation i is 2 b with a single user; else -1. */
@@ -449,8 +449,8 @@ static int doubled(const op_list *t, const int *uses, int i) {
     return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* Finds a sum like operation i in which the doubled part occurs only once: *half is that sum, *part the doubled part.
- * Returns false if the list has no such sum. */
+/* Operation i is a + 2 b, a - 2 b or 2 b - a. Finds the operation that has b in place of 2 b: *half is that operation,
+ * *part is b. Returns false if the list has none. */
 static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);

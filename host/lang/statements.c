@@ -393,7 +393,7 @@ static statement_reader *const readers[] = {BODY_WORD_ROWS(READER)};
 static void note_way(parser *in, const statement_word *word) {
     builder *into = in->builder;
     if (into == NULL) {
-        return; /* words of a file suit both */
+        return; /* outside a mechanism: the word does not decide between energies and equations */
     }
     into->has_equations |= (word->rules & BY_EQUATIONS) != 0;
     into->has_energies |= (word->rules & BY_ENERGIES) != 0;

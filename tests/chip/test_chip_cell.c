@@ -125,7 +125,8 @@ TEST(chip_cell, sines) {
     }
 }
 
-/* The mean's correction is exact for a parabola; a converter count is 16 units. */
+/* A sample is a mean over a window, corrected for the attenuation. For a parabola the correction is exact, so only the
+ * converter's truncation remains: one count is 16 units. */
 static double bend_from;
 static double parabola(double s) {
     const double t = s - bend_from;

@@ -23,8 +23,8 @@ typedef struct hand {
     struct {
         wh_real row[2]; /* gap, held or crossing expression: row . x - offset */
         wh_real offset;
-        wh_real first;  /* restitution, or mu_static N */
-        wh_real second; /* mu_kinetic N */
+        wh_real first;  /* restitution, or mu_static times the normal force */
+        wh_real second; /* mu_kinetic times the normal force, in N */
     } law[HAND_CONTACTS];
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;

@@ -12,7 +12,7 @@
 #define TURNS 16U
 
 static wh_rotor_config rotor;
-/* the part of the turn's time, at STEPS equal angles from sensor 1's pulse */
+/* the part of the turn's time that has passed, at STEPS equal angles from sensor 1's pulse */
 static wh_real part_at[STEPS + 1U];
 static wh_real turn_s;
 

@@ -110,7 +110,7 @@ TEST(scene, many_steps_are_steps) {
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1000) == WH_E_DIVERGED && state.steps == last);
 }
 
-/* x' = u, of first order: no rate to move first. */
+/* x' = u + 1. A first-order system has no rates, so methods that move the rates first are refused. */
 static void constant_slope(const void *model, const wh_phase *phase, const wh_real *real,
                            const wh_real *input, wh_real *slope) {
     (void)model;

@@ -1,5 +1,5 @@
 /* test_undefined_where.c: location of undefined expressions (host/check/nonfinite.h): the innermost part of random
- * formulas, by its column; the sampled places of a step; and the angle without a sine. */
+ * formulas, by its column; the sampled places of a step; and a sine whose angle is too large. */
 #include "command.h"
 #include "derived.h"
 #include "host/base/alloc.h"

@@ -1,5 +1,5 @@
-/* test_unjumped.c: false poles (host/check/pole.h): limits, tangents, losses, impacts and places at events.
- * A jump is reported only over a true pole. */
+/* test_unjumped.c: expressions that look like a pole but have a limit or can be integrated are not reported
+ * (host/check/pole.h); nor are rates that an impact carries past a pole. A true pole is. */
 #include "jumps.h"
 #include "test.h"
 

@@ -57,7 +57,7 @@ double normal(dice *d) {
 
 static bool is(int kind, const char *name) { return strcmp(kinds[kind].name, name) == 0; }
 
-/* The highest set-point that docs/rig.md allows at this supply, less 1.5 V for friction. */
+/* The highest set-point that docs/rig.md allows if the supply were 1.5 V lower, for friction: 0.8 + 1.5 = 2.3. */
 static double most_rpm(double supply) { return fmin(360.0, (supply - 2.3) / 24.0 * 600.0); }
 
 static event drawn_event(dice *d) {
