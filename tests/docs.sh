@@ -7,7 +7,7 @@
 # as ```whirl gear.whirl, is saved under that name. The commands of a page run in their order, in a folder of their own with
 # everything of the project in it.
 #
-# `check` leaves out the blocks marked slow (```console slow), and fails when another uses more than 5 s of processor or all use
+# `check` leaves out the blocks marked slow (```console slow), and fails when another uses more than 15 s of processor or all use
 # more than 120 s (DOCS_MOST, DOCS_MOST_ALL). `slow` runs all blocks. `renew` runs all and writes their output into the page.
 set -u
 
@@ -165,7 +165,7 @@ run_page() {
         fi
     done
     # What a block used, and what is too much for CI.
-    [ "$mode" != check ] || [ ! -e "$folder/took" ] || awk -v page="$page" -v most="${DOCS_MOST:-5}" '
+    [ "$mode" != check ] || [ ! -e "$folder/took" ] || awk -v page="$page" -v most="${DOCS_MOST:-15}" '
         { took[$1] += $3 }
         END { for (b in took) { if (took[b] > most) { print "not ok - " page ":" b ": " took[b] " s of processor: more than " most ", mark the block slow" } } }' "$folder/took"
     [ "$mode" != renew ] || [ ! -s "$folder/renewed" ] || awk -v list="$folder/renewed" '
