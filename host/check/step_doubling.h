@@ -4,8 +4,8 @@
  * tables. It takes the run's method if that is of order 4 or more, else RK4. So the difference contains all errors of
  * the run: round-off, step, tables, formats. The finer run's own error is a part of it. If a step is the motion itself
  * (--matrix exact), the finer run takes the same step, and the difference is round-off. */
-#ifndef TRUST_TWINS_H
-#define TRUST_TWINS_H
+#ifndef CHECK_STEP_DOUBLING_H
+#define CHECK_STEP_DOUBLING_H
 
 #include "energy_residual.h"
 #include "host/engine/loop.h"

@@ -327,7 +327,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
     data->trusted_s = taken.trusted_s;
     plot_run_close(&taken);
     size_t length;
-    data->csv = code == EXIT_DONE ? read_all(file, &length) : NULL;
+    data->csv = code == EXIT_DONE ? read_all(file, RECORDS_BYTES_MAX, &length) : NULL;
     static const char *const ends[] = {"", ".toml", ".sweep"};
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         char *left = alloc_words("%s%s", file, ends[i]);
@@ -354,7 +354,7 @@ static int take_data(const figure_options *o, const char *text, figure_data *dat
             const char *given = given_for(o, d->name);
             size_t length;
             if (given != NULL) {
-                d->csv = read_all(given, &length);
+                d->csv = read_all(given, RECORDS_BYTES_MAX, &length);
                 code = d->csv != NULL ? EXIT_DONE : EXIT_BAD_INPUT;
             } else {
                 code = make_data(o, kinds[k], word, words, d);
@@ -410,7 +410,7 @@ static int draw_named(const figure_options *o) {
     const size_t length = strlen(o->name);
     if (length > 4 && strcmp(o->name + length - 4, ".fig") == 0) {
         size_t size;
-        char *text = read_all(o->name, &size);
+        char *text = read_all(o->name, MODEL_BYTES_MAX, &size);
         const int code = text == NULL     ? EXIT_BAD_INPUT
                          : o->out == NULL ? EXIT_BAD_INPUT
                                           : draw(o, o->name, text);

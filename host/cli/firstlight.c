@@ -167,7 +167,7 @@ static char *light_row(const light *l, int equal, const char *differ) {
 static int light_append(const char *page, const char *row, uint32_t crc) {
     size_t length = 0;
     char seen[24];
-    char *text = read_all(page, &length);
+    char *text = read_all(page, MODEL_BYTES_MAX, &length);
     if (text == NULL) {
         fputs("hint: --page FILE names it; " LIGHT_PAGE " is there from the project's root\n",
               stderr);

@@ -212,7 +212,7 @@ int find_builtin(const struct builtin_model *models, size_t count, const char *t
 
 /* === reading and deriving ===================================================================== */
 
-char *read_all(const char *path, size_t *length) {
+char *read_all(const char *path, size_t most, size_t *length) {
     FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
     struct stat about;
     if (in != NULL && in != stdin && fstat(fileno(in), &about) == 0 && S_ISDIR(about.st_mode)) {
@@ -229,14 +229,18 @@ char *read_all(const char *path, size_t *length) {
     *length = 0;
     for (;;) {
         *length += fread(text + *length, 1, size - *length - 1, in);
-        if (*length < size - 1 || *length > MODEL_BYTES_MAX) {
-            break; /* the file's end; or the text is too long, which the parser reports */
+        if (*length < size - 1 || *length > most) {
+            break; /* the file's end, or too long */
         }
         size *= 2;
         text = alloc_more(text, (int64_t)size, 1);
     }
     if (ferror(in) != 0) { /* the part that was read may be a valid but different model */
         fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
+        free(text);
+        text = NULL;
+    } else if (*length > most) {
+        fprintf(stderr, "%s:1:1: error: the text is longer than %zu bytes\n", path, most);
         free(text);
         text = NULL;
     } else {
@@ -314,7 +318,7 @@ int source_open(source_model *s, const char *target) {
     s->name = alloc_copy(target[length] == ':' ? target + length + 1 : "",
                          target[length] == ':' ? strlen(target + length + 1) : 0);
     size_t bytes;
-    s->text = read_all(path, &bytes);
+    s->text = read_all(path, MODEL_BYTES_MAX, &bytes);
     if (s->text == NULL) {
         return EXIT_BAD_INPUT;
     }

@@ -86,7 +86,9 @@ void say_hints(const loaded *made);
 void say_float_range(const image *im);
 void unload(loaded *made);
 
-/* The whole of `path` in memory ("-" is standard input), NUL-terminated; NULL, reported. */
-char *read_all(const char *path, size_t *length);
+/* The whole of `path` in memory ("-" is standard input), NUL-terminated; NULL, reported, if it cannot be read or has more
+ * than `most` bytes. */
+char *read_all(const char *path, size_t most, size_t *length);
+#define RECORDS_BYTES_MAX ((size_t)1 << 30) /* longer records are refused */
 
 #endif

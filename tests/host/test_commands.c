@@ -237,3 +237,31 @@ TEST(commands, one_file_or_two) {
     }
     TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
 }
+
+/* Files of random sizes beside the sizes of read_all()'s buffer are read to their last byte, or refused with their limit. */
+TEST(commands, files_are_read_whole_or_refused) {
+    char path[] = "/tmp/whirl-XXXXXX";
+    const int file = mkstemp(path);
+    TEST_ASSERT_TRUE(file >= 0);
+    uint64_t seed = 2;
+    for (unsigned c = 0; c < 40; c++) {
+        const size_t size = ((size_t)1 << (14 + c % 12)) + random_bits(&seed) % 5 - 2;
+        TEST_ASSERT_TRUE(ftruncate(file, 0) == 0 && ftruncate(file, (off_t)size) == 0 &&
+                         pwrite(file, "!", 1, (off_t)size - 1) == 1);
+        size_t length = 0;
+        char *text = read_all(path, size + random_bits(&seed) % 3, &length);
+        TEST_ASSERT_NOT_NULL(text);
+        TEST_ASSERT_TRUE(length == size && text[size - 1] == '!' && text[size] == '\0');
+        free(text);
+        const size_t most = size - 1 - random_bits(&seed) % (size / 2);
+        char wanted[100];
+        snprintf(wanted, sizeof wanted, "%s:1:1: error: the text is longer than %zu bytes\n", path,
+                 most);
+        listen_to_errors();
+        text = read_all(path, most, &length);
+        TEST_ASSERT_EQUAL_STRING(wanted, said());
+        TEST_ASSERT_NULL(text);
+    }
+    close(file);
+    TEST_ASSERT_EQUAL_INT(0, unlink(path));
+}
