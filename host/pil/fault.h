@@ -135,10 +135,8 @@ typedef struct fault_case {
     double after_s;
     double duration_s;
     /* While it runs: */
-    int note_at;    /* index of the note in orders.output */
-    int input;      /* index of the scene's input; for FAULT_STUCK the first of two */
-    double healthy; /* the input's normal value, or a sensor's requested one */
-    bool reached;   /* the note has reached its value, or there is no note */
+    int note_at;  /* index of the note in orders.output */
+    bool reached; /* the note has reached its value, or there is no note */
     bool active;
     bool happened; /* the fault was active at least once */
     double begin_s;
