@@ -1,4 +1,4 @@
-/* caught.h: the output to a stream, as text. */
+/* caught.h: collects the output to a stream as text. */
 #ifndef TESTS_HOST_CAUGHT_H
 #define TESTS_HOST_CAUGHT_H
 
@@ -9,7 +9,7 @@
 #include "host/base/alloc.h"
 #include "unity.h"
 
-/* `text` is complete after alloc_text_end(to). The caller frees it. */
+/* `text` is complete after alloc_text_end(to). The caller frees `text`. */
 typedef struct caught {
     char *text;
     size_t length;
@@ -21,7 +21,8 @@ static inline FILE *catch_text(caught *c) {
     return c->to;
 }
 
-/* Compares a text with tests/host/NAME.txt. If it differs, the text is written to build/tests/NAME.txt. */
+/* Fails the test if `text` differs from the file tests/host/NAME.txt. Then `text` is written to
+ * build/tests/NAME.txt, to be compared by hand. */
 static inline void expect_printed(const char *name, const char *text) {
     char *kept = alloc_words("tests/host/%s.txt", name);
     char *now = alloc_words("build/tests/%s.txt", name);

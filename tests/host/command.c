@@ -165,7 +165,8 @@ dice dice_of(const char *suite, unsigned long seed) {
     return (dice){used * 2862933555777941757ULL + 3037000493ULL};
 }
 
-static unsigned long long roll(dice *d) { /* Knuth's MMIX generator; its low bits are poor */
+/* Knuth's MMIX generator: only its high bits are random enough */
+static unsigned long long roll(dice *d) {
     d->state = d->state * 6364136223846793005ULL + 1442695040888963407ULL;
     return d->state >> 11;
 }

@@ -1,4 +1,4 @@
-/* contacts.h: counts of the events of scenes with contacts. */
+/* contacts.h: counts the events of scenes with contacts. */
 #ifndef TESTS_CONTACTS_H
 #define TESTS_CONTACTS_H
 
@@ -10,7 +10,7 @@ static inline uint64_t contacts_overruns(const motion *m) {
     return overruns;
 }
 
-/* Events since the start, including those of steps with more events than are logged. */
+/* Number of events since the start. Steps with more events than the log can take are counted in full. */
 static inline uint64_t contacts_events(const motion *m) {
     uint64_t overruns;
     return m->kind->events(m->run, &overruns);

@@ -206,7 +206,7 @@ void derived_octave(FILE *out, const derived *d, const char *file, bool folded) 
     free(text);
 }
 
-uint64_t random_bits(uint64_t *seed) { /* splitmix64 */
+uint64_t random_bits(uint64_t *seed) { /* the generator splitmix64 */
     uint64_t x = *seed += UINT64_C(0x9e3779b97f4a7c15);
     x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
@@ -228,7 +228,8 @@ char *repeated(const char *front, const char *part, int times, const char *tail)
     size_t at = (size_t)snprintf(text, room, "%s", front);
     for (int i = 1; i <= times; i++) {
         for (const char *c = part; *c != '\0'; c++) {
-            if (*c == '#' || *c == '@') { /* # is the piece's number, @ the number before it */
+            /* # is the number of this piece, @ the number of the piece before */
+            if (*c == '#' || *c == '@') {
                 at += (size_t)snprintf(text + at, room - at, "%d", *c == '#' ? i : i - 1);
             } else {
                 text[at++] = *c;

@@ -2,7 +2,7 @@
 
 #include "derived.h"
 
-/* Solves a x = b by elimination with pivots. Returns false if a is singular. */
+/* Solves a x = b by elimination with pivots. Column n of `a` is b. Returns false if the matrix is singular. */
 static bool solve(int n, double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1], double *x) {
     for (int p = 0; p < n; p++) {
         int pivot = p;
@@ -49,7 +49,7 @@ double drawn_along(const drawn *b, int k, const double *x) {
     return sum;
 }
 
-/* Computes x + M^-1 J^T lambda. */
+/* Computes x = from + M^-1 J^T lambda. */
 static void pushed(const drawn *b, const double *lambda, const double *from, double *x) {
     double force[DRAWN_MOST] = {0.0};
     for (int k = 0; k < b->contacts; k++) {
@@ -63,7 +63,8 @@ static void pushed(const drawn *b, const double *lambda, const double *from, dou
     }
 }
 
-/* Contacts with case[k] 0 reach their targets. Those with 1 or -1 push at their limit in that direction. */
+/* Do the contact laws hold with these cases? A contact of case 0 reaches its target. A contact of case 1 or -1
+ * pushes with its limit in that direction; the limit of a stop is zero. */
 static bool meets(const drawn *b, const int *which, const double *from, double *lambda, double *x) {
     double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1] = {{0.0}};
     double tight[DRAWN_CONTACTS];
@@ -110,7 +111,7 @@ static bool meets(const drawn *b, const int *which, const double *from, double *
     return true;
 }
 
-/* The next case of a contact: a stop has the cases 0 and 1, a friction 0, 1 and -1, a hold 0. */
+/* The next case of a contact: 0 and 1 for a stop; 0, 1 and -1 for a friction; only 0 for a hold. */
 static int next_case(char kind, int which) {
     if (kind == 'h') {
         return 0;
@@ -121,7 +122,6 @@ static int next_case(char kind, int which) {
     return which == 1 ? -1 : which + 1;
 }
 
-/* Finds the only case that meets the conditions. Returns false if contact rows are linearly dependent. */
 bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x) {
     int which[DRAWN_CONTACTS] = {0};
     for (;;) {
@@ -129,8 +129,7 @@ bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x)
             return true;
         }
         int k = 0;
-        for (; k < b->contacts;
-             k++) { /* next combination of cases: contact k + 1 changes only if k is back at 0 */
+        for (; k < b->contacts; k++) {
             which[k] = next_case(b->contact[k].kind, which[k]);
             if (which[k] != 0) {
                 break;
@@ -220,7 +219,7 @@ double drawn_whole(uint64_t *seed, int least, int most) {
     return least + (int)(random_bits(seed) % (uint64_t)(most - least + 1));
 }
 
-/* A positive definite integer matrix: 1 + A^T A. */
+/* Draws the mass matrix 1 + A^T A with an integer A: a positive definite integer matrix. */
 static void draw_mass(drawn *b, uint64_t *seed) {
     double a[DRAWN_MOST][DRAWN_MOST];
     for (int i = 0; i < b->n; i++) {
@@ -238,7 +237,6 @@ static void draw_mass(drawn *b, uint64_t *seed) {
     }
 }
 
-/* Draws a nonzero row; every third has only one coordinate. */
 void drawn_row(const drawn *b, uint64_t *seed, double *row) {
     const bool one = random_bits(seed) % 3U == 0;
     for (int i = 0; i < b->n; i++) {

@@ -1,4 +1,5 @@
-/* drawn_image.h: a random image of names, units and numbers only, for tests of writers. It is never stepped. */
+/* drawn_image.h: a random image of names, units and numbers, without operations, for tests of writers. No test steps
+ * it. */
 #ifndef TESTS_HOST_DRAWN_IMAGE_H
 #define TESTS_HOST_DRAWN_IMAGE_H
 
@@ -17,12 +18,12 @@ typedef struct drawn_image {
     double entry[DRAWN_STATES * (DRAWN_STATES + DRAWN_INPUTS + 1)];
 } drawn_image;
 
-/* Draws an image of second order: unknowns, some of them angles, with their rates. A `matrix` step has a zero last
- * column in half of the cases. The scene's start is the first entries of the matrix. The texts are string literals: do
- * not free them. */
+/* Draws an image of second order: unknowns, some of which are angles, with their rates. In half of the cases, the
+ * last column of a `matrix` step is zero. The scene's start is the first entries of the matrix. The texts are string
+ * literals: do not free them. */
 void drawn_image_draw(drawn_image *d, dice *die, image_matrix_of matrix);
 
-/* The name of a column in text[40]: "theta'" for a component; the inputs follow the components. */
+/* Writes the name of a column to text[40], such as "theta'" for a component. The inputs follow the components. */
 const char *drawn_image_name(const drawn_image *d, int column, char *text);
 const char *drawn_image_unit(const drawn_image *d, int column);
 

@@ -47,7 +47,7 @@ static place draw_place(dice *die) {
     }
     const size_t behind = strcspn(file_text + offset, "\n");
     size_t indent = strspn(file_text + offset, " \t");
-    if (line == 5) { /* the statement on the line after the brace */
+    if (line == 5) { /* line 5 has a brace before its statement */
         indent = strlen("scene s { ");
     }
     return (place){&file, line, 1 + (int)dice_one_of(die, 40),
@@ -296,7 +296,7 @@ int drawn_scene_numbers(const image *im) {
     int numbers = im->reals + im->inputs + im->held;
     numbers += im->settings.compensated ? im->angles + im->reals : 0;
     if (im->ledger.kept) {
-        /* an entry has a total and a carry, an account a start and a correction */
+        /* an entry has a total and a carry; an account has a start and a correction */
         numbers += 2 * (im->ledger.entries + im->ledger.accounts) + im->ledger.inputs;
     }
     return numbers;

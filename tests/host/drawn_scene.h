@@ -1,6 +1,5 @@
 /* drawn_scene.h: a random image with everything that writers write: names, units, starts, contacts, accounts, tables
- * and lists of operations. For tests of writers and descriptions; it is never stepped and its numbers have no
- * meaning. */
+ * and lists of operations. For tests of writers and descriptions. Its numbers have no meaning, and no test steps it. */
 #ifndef TESTS_HOST_DRAWN_SCENE_H
 #define TESTS_HOST_DRAWN_SCENE_H
 
@@ -58,36 +57,39 @@ typedef struct drawn_scene {
     scene_list list[IMAGE_ROLES];
 } drawn_scene;
 
-/* Operations allowed in a list. */
+/* Bits that allow kinds of operations in a list. */
 enum {
-    TAKES_RATES = 1,   /* allowed in every list of second order */
-    TAKES_RECORDS = 2, /* angles with their turns */
+    TAKES_RATES = 1,   /* set for every list of second order */
+    TAKES_RECORDS = 2, /* angles together with their turns */
     TAKES_STATE = 4,   /* time and noise */
     TAKES_ACCEL = 8,
     TAKES_TABLES = 16,
     TAKES_SUMS = 32 /* only sums of states and inputs */
 };
 
-/* A list with `results` results. In one case of six its length is near a limit above which the writer changes the form
- * of the code. */
+/* Draws the operation list of `role`, with `results` results and the operations that `takes` allows. In one case of
+ * six the length is near a limit above which the writer changes the form of the code. */
 void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, unsigned takes);
 
-/* Draws every kind of scene: first and second order, contacts, energy balance, tables, matrix. */
+/* Draws a scene of any kind: first or second order, with or without contacts, energy balance, tables and matrix. */
 void drawn_scene_draw(drawn_scene *d, dice *die);
 
-/* Statement `line` (from 1) of the file to which the scene's source places refer, without indentation and comment. */
+/* Statement number `line` (from 1), without indentation and comment, of the file to which the scene's source places
+ * refer. */
 const char *drawn_scene_statement(int line);
 
-/* "theta''" of a component, in text[40]. */
+/* Writes the name of a component, such as "theta''", to text[40]. */
 const char *drawn_scene_name(const drawn_scene *d, component c, char *text);
 
 extern const char *const drawn_scene_roles[IMAGE_ROLES];
 
-/* Number of reals in the memory of the scene's state, without angles: states, carries, inputs, contacts and accounts. */
+/* Number of real numbers in the memory of the scene's state: states, carries, inputs, contacts and accounts, but no
+ * angles. */
 int drawn_scene_numbers(const image *im);
-/* Bytes of the state's memory without contacts, with `number` bytes for a number and eight for an angle. */
+/* Bytes of the state's memory without contacts. A number has `number` bytes, an angle eight. */
 size_t drawn_scene_bytes(const image *im, size_t number);
-/* Largest number of evaluations in a step: accelerations or slopes, and contact signals. */
+/* drawn_scene_evaluations(): the largest number of evaluations of accelerations or slopes in a step.
+ * drawn_scene_signals(): the largest number of evaluations of contact signals. */
 int drawn_scene_evaluations(const image *im);
 int drawn_scene_signals(const image *im);
 

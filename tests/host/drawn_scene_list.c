@@ -7,8 +7,8 @@ static bool is_value(const op *o) {
     return kind != OP_IS_PHASE && kind != OP_IS_CELL;
 }
 
-/* The index of a random operation before number i that has a value and, if `kind` is given, this kind; -1 if there is
- * none. */
+/* The index of a random operation before operation i that has the kind `kind` (OP_IS_CONSTANT: any operation with a
+ * value). Returns -1 if 40 tries find no such operation. */
 static int before(dice *die, const scene_list *l, int i, op_kind kind) {
     for (int tries = 0; tries < 40; tries++) {
         const int a = (int)dice_one_of(die, (unsigned)i);
@@ -136,7 +136,7 @@ void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, u
         dice_one_of(die, 6) == 0 ? lengths[dice_one_of(die, 7)] : (int)dice_one_of(die, 40);
     l->ops[0] = (op){.code = OP_CONSTANT, .a = -1, .b = -1, .value = dice_between(die, -2.0, 2.0)};
     l->list.count = 1;
-    if ((takes & TAKES_TABLES) != 0) { /* each table is looked up */
+    if ((takes & TAKES_TABLES) != 0) { /* at least one table is looked up */
         l->ops[1] = (op){.code = OP_CELL, .a = -1, .b = -1};
         while (!draw_turns(die, l, 1)) {
         }
@@ -151,7 +151,8 @@ void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, u
         if (drawn && op_rows[l->ops[l->list.count - 1].code].kind == OP_IS_PHASE) {
             l->ops[l->list.count] = (op){.code = dice_one_of(die, 2) == 0 ? OP_SIN : OP_COS,
                                          .a = l->list.count - 1,
-                                         .b = -1}; /* each operation is used */
+                                         /* the operation that was just drawn must be used */
+                                         .b = -1};
             l->list.count++;
         }
     }

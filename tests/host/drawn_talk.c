@@ -112,7 +112,7 @@ void talk_put_end(stream *s, int status, unsigned length) {
 static void begin_line(void) {
     talk_line.length = 0;
     talk_put_hello(&talk_line, &talk_drawn.hello);
-    if (dice_one_of(&die, 2) == 0) { /* the firmware repeats its answer when asked twice */
+    if (dice_one_of(&die, 2) == 0) { /* like a firmware that was asked twice */
         talk_put_hello(&talk_line, &talk_drawn.hello);
     }
 }
@@ -143,9 +143,8 @@ void talk_open_line(bool closed) {
     talk_report = (lockstep_report){.end = LOCKSTEP_DONE};
 }
 
-/* Ends the line; heard->bytes gets the bytes that the firmware received. */
 void talk_close_line(stream *heard) {
-    close(ends[0]); /* the other end belongs to the caller */
+    close(ends[0]);
     heard->length = 0;
     for (ssize_t count = 1; count > 0;) {
         count = read(ends[1], heard->bytes + heard->length, STREAM - heard->length);

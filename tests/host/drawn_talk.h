@@ -1,5 +1,5 @@
-/* drawn_talk.h: a random exchange between a firmware and its host, as a line and as a tape. On the line, all answers
- * are in the socket before the host asks. */
+/* drawn_talk.h: a random exchange of frames between a firmware and its host, as bytes on a line and as a tape. All
+ * answers of the firmware are in the socket before the host sends its first request. */
 #ifndef TESTS_HOST_DRAWN_TALK_H
 #define TESTS_HOST_DRAWN_TALK_H
 
@@ -16,19 +16,19 @@ typedef struct stream {
 typedef struct drawn_talk {
     wh_signal signal[WH_SIGNALS_MAX];
     wh_hello hello;
-    unsigned outputs; /* signals before the notes */
+    unsigned outputs; /* number of signals before the notes */
     unsigned notes;
     unsigned turns;
     uint32_t ticks[TURNS_MOST];
     wh_readings readings[TURNS_MOST];
     wh_orders orders[TURNS_MOST];
-    /* number of bytes to remember before the orders; 99: no such frame */
+    /* number of bytes in the frame of remembered values before the orders; 99 if there is no such frame */
     unsigned remembers[TURNS_MOST];
     uint8_t remembered[TURNS_MOST][WH_REMEMBER_MAX + 8];
 } drawn_talk;
 
 extern drawn_talk talk_drawn;
-extern stream talk_line; /* from the firmware */
+extern stream talk_line; /* bytes sent by the firmware */
 extern stream talk_on_tape;
 extern lockstep_report talk_report;
 extern lockstep_wish talk_wish;
@@ -38,7 +38,8 @@ unsigned talk_one_of(unsigned count);
 
 void talk_draw(void);
 
-/* Each appends a frame to s. Before the orders of turn i, a second frame has the values to be remembered, if any. */
+/* Each function appends a frame to `s`. talk_put_orders() first appends the frame of remembered values, if turn i
+ * has one. */
 void talk_put(stream *s, unsigned kind, unsigned sequence, uint32_t ticks, const uint8_t *payload,
               unsigned length);
 void talk_put_hello(stream *s, const wh_hello *hello);
@@ -46,19 +47,20 @@ void talk_put_readings(stream *s, unsigned i);
 void talk_put_orders(stream *s, unsigned i, unsigned sequence);
 void talk_put_end(stream *s, int status, unsigned length);
 
-/* talk_tape_all() writes the exchange to talk_on_tape; talk_say_all() writes the firmware's answers to talk_line. */
+/* talk_tape_all() writes the exchange to talk_on_tape. talk_say_all() writes the firmware's answers to talk_line. */
 void talk_tape_all(unsigned turns);
 void talk_say_all(unsigned turns);
 
-/* talk_open_line() puts the firmware's answers on the line, and the line into talk_wish. After the answers the line is
- * closed or silent. talk_close_line() returns the bytes that the firmware received, and ends the line. */
+/* talk_open_line() puts the firmware's answers into a socket, and the socket into talk_wish. If `closed`, the line
+ * ends after the answers, else it stays silent. talk_close_line() closes the socket. *heard: the bytes that the host
+ * sent. */
 void talk_open_line(bool closed);
 void talk_close_line(stream *heard);
 
-/* Hash of the answers of the first `turns` turns in order, without counts and remembered values. */
+/* Hash of the orders of the first `turns` turns, without counts and remembered values. */
 uint64_t talk_hash_of(unsigned turns);
 
-/* talk_report must describe `turns` turns. */
+/* Fails the test if talk_report does not have this end and `turns` turns. */
 void talk_expect_report(lockstep_end end, unsigned turns);
 
 #endif

@@ -1,4 +1,4 @@
-/* evaluated.h: independent evaluation of an operation list, with arbitrary values of its leaves. */
+/* evaluated.h: evaluates an operation list independently of the program, with made-up positive values of the leaves. */
 #ifndef TESTS_HOST_EVALUATED_H
 #define TESTS_HOST_EVALUATED_H
 
@@ -6,10 +6,11 @@
 
 enum { EVALUATED_MOST = 2000 };
 
-/* The positive value of a leaf. With OP_PHASE: the value of angle `which`. */
+/* The positive value of leaf `which`. For OP_PHASE: the value of angle `which`. */
 double evaluated_leaf(op_code code, int which);
 
-/* Computes v[t->count], with t->count <= EVALUATED_MOST. Fails the test if an operation comes before its operand. */
+/* Computes the value v[i] of each operation i. The list may have up to EVALUATED_MOST operations. Fails the test if
+ * an operation uses a later one. */
 void evaluated(const op_list *t, double *v);
 
 #endif

@@ -38,7 +38,7 @@ static void leaf(writer *w) {
 
 static void expression(writer *w, int depth);
 
-/* A base above zero if tame, for powers, roots and logarithms. */
+/* Writes the base of a power, a root or a logarithm. If `tame`, the base is positive. */
 static void base(writer *w, int depth) {
     switch (draw(w, w->tame ? 5 : 9)) {
     case 0:
@@ -154,7 +154,7 @@ void expression_write(const expression_names *names, int depth, int tame, uint64
     expression(&w, depth);
 }
 
-/* Writes TEXT, with a random expression of these names in place of each %e. */
+/* Writes `text` and replaces each %e by a random expression of these names. */
 static void filled(writer *w, const expression_names *names, const char *text, int depth) {
     for (; *text != '\0'; text++) {
         if (text[0] == '%' && text[1] == 'e') {
@@ -170,7 +170,7 @@ static void filled(writer *w, const expression_names *names, const char *text, i
 void expression_mechanism(int depth, uint64_t *seed, char *text, size_t size) {
     static const char *const own[] = {"theta1", "x"};
     static const char *const all[] = {"a1", "n_1", "mass_of_it", "Omega_", "x__2", "y1"};
-    /* without inputs, which would change the inertia */
+    /* inputs would make the inertia change with time */
     const expression_names constant = {own, 2, 0, all, 3};
     const expression_names still = {own, 2, 0, all, 6};
     const expression_names force = {own, 2, 1, all, 6};

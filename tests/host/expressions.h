@@ -4,23 +4,24 @@
 
 #include "test.h"
 
-/* Names in expressions, all dimensionless. */
+/* The names that may occur in expressions. All are dimensionless. */
 typedef struct expression_names {
     const char *const *coordinates;
     int coordinate_count;
-    int rates;                    /* true: their rates, times 1 [s], occur, too */
+    int rates;                    /* if true, rates times 1 [s] occur, too */
     const char *const *constants; /* parameters and inputs */
     int constant_count;
 } expression_names;
 
-/* Writes a random dimensionless expression to text[size], at most `depth` operations deep. Each operation has its own
- * parentheses, so that the meaning depends on no precedence rule. All operators, functions, number formats and kinds of
- * exponent occur. With `tame`, its value is mostly real. */
+/* Writes a random dimensionless expression to text[size], up to `depth` operations deep. Each operation has its own
+ * parentheses, so that the meaning depends on no precedence rule. All operators, functions, number formats and kinds
+ * of exponents occur. If `tame`, the value is mostly real. */
 void expression_write(const expression_names *names, int depth, int tame, uint64_t *seed,
                       char *text, size_t size);
 
-/* A random mechanism m with coordinates theta1 and x, or (one in three) a system of two states. Its energies, forces or
- * equations are such expressions. Parameters a1, n_1, mass_of_it and inputs Omega_, x__2, y1 are dimensionless. */
+/* Writes a random mechanism m with coordinates theta1 and x, or (in one case of three) a system of the states theta1
+ * and x. Energies, forces and equations are random expressions. The parameters a1, n_1 and mass_of_it and the inputs
+ * Omega_, x__2 and y1 are dimensionless. */
 void expression_mechanism(int depth, uint64_t *seed, char *text, size_t size);
 
 #endif

@@ -1,5 +1,5 @@
-/* faults.h: the fault campaign against the rig's controller (`make faults`): random faults, the verdict on each run,
- * the summary. */
+/* faults.h: the fault campaign against the rig's controller (`make faults`): random faults, a verdict on each run,
+ * and a summary. */
 #ifndef TESTS_FAULTS_H
 #define TESTS_FAULTS_H
 
@@ -7,7 +7,7 @@
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
 
-/* The firmware's notes in the order of hal/frames/rig_frames.h: HAL_NOTES values. */
+/* HAL_NOTES: the number of the firmware's notes. Their sequence is that of hal/frames/rig_frames.h. */
 #define NOTE_ONE(name, word, unit) +1
 enum { HAL_NOTES = HAL_NOTE_ROWS(NOTE_ONE) };
 #undef NOTE_ONE
@@ -17,8 +17,8 @@ typedef struct campaign {
     const char *firmware;
     const char *board;
     const char *step;
-    const char *only; /* only faults with this word; or NULL */
-    const char *also; /* faults that are added to every run; or NULL */
+    const char *only; /* only faults with this word; NULL: all faults */
+    const char *also; /* faults that are added to every run; NULL: no such faults */
     unsigned runs;
     unsigned first;
     uint32_t seed;
@@ -32,26 +32,26 @@ typedef struct campaign_case {
     unsigned stage;
     uint32_t seed; /* seed of this run */
     double target_rpm;
-    bool breaks;     /* there is a fault besides the noise */
-    bool from_start; /* the fault acts from the start */
-    bool drives;     /* the plant drives more than the controller asks for */
-    /* only calibration can show the fault: a wrong result within this size is accepted */
+    bool breaks;     /* the run has a fault besides the noise */
+    bool from_start; /* the fault acts from the start of the run */
+    bool drives;     /* the plant drives harder than the controller orders */
+    /* only a calibration could show the fault, so the judge accepts wrong results */
     bool calibration;
-    bool runs_away; /* the drive ignores the voltage */
+    bool runs_away; /* the drive ignores the ordered voltage */
     bool blind;     /* a sensor is dead */
     /* the fault delays the controller or its messages, so the watchdog may cut the power */
     bool delays;
     char words[400]; /* arguments of --fault: the fault and the noise of every run */
 } campaign_case;
 
-/* Does the campaign have any fault with the requested word, for this firmware? */
+/* Does any fault of the campaign have the word `only`, with this firmware? */
 bool campaign_has_any(const campaign *c);
 
 void campaign_draw(campaign_case *one, const campaign *c, unsigned i);
 
 /* --- how a run is judged -------------------------------------------------------------------------- */
 
-/* Bins of this many instructions per control step; the last collects all larger counts. */
+/* Histogram of instructions per control step: bins of 250 instructions. The last bin counts all longer steps. */
 enum { STEP_BIN = 250, STEP_BINS = 9 };
 
 typedef enum outcome {
@@ -59,8 +59,8 @@ typedef enum outcome {
     OUTCOME_GOOD,
     OUTCOME_DOUBTFUL,
     OUTCOME_REFUSED,
-    OUTCOME_NONE, /* the run ended without result and without trip */
-    /* the firmware is silent, or for a minute neither ends the run nor switches the motor off */
+    OUTCOME_NONE, /* the run ended without a result and without a trip */
+    /* the firmware is silent, or the end of the run was not reached in time while the motor could drive */
     OUTCOME_HANG,
     OUTCOMES
 } outcome;
@@ -68,45 +68,51 @@ typedef enum outcome {
 typedef struct run_checks {
     unsigned run;
     unsigned row;
-    /* stage at the begin of the fault; -1: the fault never began, or was there from the start */
+    /* stage of the run when the fault began; -1: the fault never began, or was there from the start */
     int stage;
     bool happened;
     outcome outcome;
     int trip;
-    /* the run ended with the enable on, although the motor must not drive or is too fast */
+    /* the run ended with the enable line on although the motor must not drive, or with a driven motor above the
+     * speed limit */
     bool runs_on;
-    /* the enable stayed on for a second, although turns that did not slow down showed a drive */
+    /* the enable line stayed on for more than a second although the rotor's turns showed a drive when none was
+     * allowed */
     bool stays_on;
-    /* no trip within a second of three turns, each faster than the last, with the motor off */
+    /* no trip within a second although successive turns showed a rising speed with the motor off */
     bool untold;
-    bool overspeed;  /* the over-speed was caused by the controller */
-    bool cut;        /* the watchdog cut the power, although nothing was late or lost */
-    double turn_rpm; /* the fastest turn */
-    double peak_rpm; /* the greatest instantaneous speed */
-    /* how far a result of good quality is outside its interval plus 1 %, relative to the true value */
+    bool overspeed;  /* over-speed although the plant drives no harder than ordered */
+    bool cut;        /* the watchdog cut the power although nothing was late or lost */
+    double turn_rpm; /* speed of the fastest turn */
+    double peak_rpm; /* greatest instantaneous speed */
+    /* error of the worst result of good quality: how far it is outside its own interval plus 1 % (amplitude relative
+     * to the true one, phase in rad) */
     double lie;
-    bool lasting; /* the drive ignored the voltage for longer than stopping it may take */
+    /* the drive ignored the voltage for at least the time in which the controller must stop the motor */
+    bool lasting;
     double target_rpm;
-    double began_rpm;  /* speed at the begin of the fault */
-    double off_s;      /* time from the fault's begin until the enable was off; -1: it stayed on */
-    double caught_rpm; /* the greatest speed between the fault's begin and the enable's end */
-    bool halted;       /* stop was pressed or the controller reset */
-    /* time from the stop or reset until the drive ended; -1: it took too long, or drove again */
+    double began_rpm; /* speed when the fault began */
+    /* time from the fault's begin until the enable line was off; -1: the line stayed on */
+    double off_s;
+    double caught_rpm; /* greatest speed until the enable line was off */
+    bool halted;       /* stop was pressed, or the controller was reset */
+    /* time from the stop or reset until the drive ended; -1: the drive ended too late or started again */
     double halted_s;
     bool forgets; /* after a reset the controller does not report the latched trip */
     bool latched;
     double time_s;
     uint64_t overruns;
-    uint32_t steps[STEP_BINS]; /* histogram of control steps; empty if not counted */
-    double most;               /* largest number of instructions of a step */
-    double most_s;             /* time of that step, s */
-    double loop;               /* largest count between two waits: HAL, steps and printing */
-    double start;              /* instructions before the loop */
+    uint32_t steps[STEP_BINS]; /* histogram of instructions per control step; zero if not counted */
+    double most;               /* largest number of instructions in a control step */
+    double most_s;             /* time of the longest control step */
+    /* largest number of instructions between two waits: HAL, control steps and printing */
+    double loop;
+    double start; /* number of instructions before the control loop */
 } verdict;
 
 enum { JUDGE_TURNS = 64 };
 
-/* The first Fourier coefficients over a turn of the arms' true force on the mount. */
+/* First Fourier coefficients, over one turn, of the true force of the arms on the mount. */
 typedef struct true_turn {
     double cosine_N;
     double sine_N;
@@ -118,52 +124,55 @@ typedef struct judge {
     double *until_s;
     bool enabled;
     double enabled_s;   /* time at which the enable was last switched on */
-    double ignored_s;   /* time from which the drive ignored the voltage; -1: it never did */
-    double off_since_s; /* time at which the rig tripped with the motor off; -1: no trip */
-    double halted_s;    /* time of the stop or the first reset */
+    double ignored_s;   /* time since which the drive has ignored the voltage; -1: never */
+    double off_since_s; /* time at which the rig tripped and the motor was off; -1: no trip */
+    double halted_s;    /* time of the stop or of the first reset */
     unsigned resets;    /* resets that the controller reported */
     const plant *plant;
     bound angle;
     bound rate;
     bound force;
-    double per_count; /* instructions per count; 0: not counted */
+    double per_count; /* instructions per count of the firmware's step timer; 0: not counted */
     double ticks_per_s;
-    int at_duty; /* index of the duty in orders.output; -1: there is none */
+    int at_duty; /* index of the duty in orders.output; -1: no such output */
     int at_enable;
     int at_note[HAL_NOTES];
-    /* The current turn: */
+    /* The turn in progress: */
     double theta;
     double force_N;
     double begun_s;
-    bool whole; /* the turn was observed from its begin */
-    bool off;   /* the motor must not drive during the whole turn */
+    bool whole; /* the judge has seen this turn from its begin */
+    bool off;   /* the motor has not been allowed to drive in this turn */
     true_turn sum;
     double last_s;
-    /* Complete turns while the motor must not drive: */
-    double rpm;         /* of the last turn */
-    unsigned on_turns;  /* number of turns with the enable on throughout */
-    unsigned rises;     /* number of successive turns, each faster than the last */
-    double rises_rpm;   /* speed of the first of them */
-    double on_shown_s;  /* time at which turns showed a drive with the enable on; -1: not shown */
-    double off_shown_s; /* the same with the enable off */
+    /* Complete turns during which the motor must not drive: */
+    double rpm;        /* speed of the last complete turn */
+    unsigned on_turns; /* number of successive turns with the enable line on */
+    /* number of successive turns of which each was faster than the one before */
+    unsigned rises;
+    double rises_rpm; /* speed of the first of these rising turns */
+    /* time at which turns showed a drive with the enable line on; -1: not shown */
+    double on_shown_s;
+    /* time at which turns showed a drive with the enable line off; -1: not shown */
+    double off_shown_s;
     true_turn turn[JUDGE_TURNS];
     unsigned turns;
     float told[HAL_NOTES];
-    bool driven; /* the motor drives, according to the last orders */
+    bool driven; /* by its last orders, the firmware drives the motor */
     bool has_result;
     bool began;
     double speed_rpm;
     verdict verdict;
 } judge;
 
-/* *until_s is the end of the run. Some time after a trip nothing more can happen; then *until_s is set to the present
- * time, which ends the run. */
+/* *until_s is the end of the run. Some time after a trip nothing more can happen: then the judge sets *until_s to
+ * the present time and so ends the run. */
 tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double *until_s);
 void judge_end(judge *j, const lockstep_report *report);
 
 /* --- summary --------------------------------------------------------------------------------------- */
 
-/* Prints the matrix and the worst runs in Markdown. Returns the exit status. */
+/* Prints the outcomes by fault and state, and the worst runs, in Markdown. Returns the exit status. */
 int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned count);
 
 #define CAMPAIGN_JITTER "60us"

@@ -1,4 +1,4 @@
-/* faults_campaign.c: the fault campaign: the controller's words, random faults, the verdict on a run, and a campaign in
+/* faults_campaign.c: the fault campaign. It draws random faults, judges each run and prints the campaign in
  * Markdown. */
 #include "core/hash.h"
 #include "core/rig/datasheet.h"
@@ -11,9 +11,9 @@
 /* === the controller's words ==================================================================== */
 
 typedef struct rig_stage {
-    char when[32]; /* the note that shows this state: NOTE=VALUE */
+    char when[32]; /* the note that has this value in the state, as NOTE=VALUE */
     const char *word;
-    double span_s; /* mean duration in a healthy run, s */
+    double span_s; /* mean duration of the state in a healthy run, s */
 } rig_stage;
 
 enum { RIG_STAGES_MAX = 16 };
@@ -45,7 +45,7 @@ static unsigned rig_stages(rig_stage *stage) {
     return STAGES;
 }
 
-/* Index of the stage that the notes show; -1: none. */
+/* Index of the stage that the notes show; -1 if they show no stage. */
 static int rig_stage_of(const float *note) {
     for (int i = 0; i < STAGES; i++) {
         if (healthy[i].stage == (unsigned)note[HAL_NOTE_STATE]) {
@@ -66,7 +66,7 @@ static bool rig_may_drive(const float *note) {
     return stage >= PHASE(WH_PHASE_SPIN_UP) && stage <= PHASE(WH_PHASE_RAMP_DOWN);
 }
 
-/* The note that shows a trip, as NOTE=VALUE. */
+/* The note of a tripped rig, as NOTE=VALUE. */
 static const char *rig_tripped_when(void) {
     static char when[32];
     snprintf(when, sizeof when, "state=%d", (int)WH_RIG_TRIPPED);
@@ -79,18 +79,20 @@ static double rig_limit_rpm(void) { return (double)WH_RIG_SHAFT_LIMIT_RPM; }
 
 static double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 
-/* A fault is detected after two pulses that come too early. They come within a turn of the fault's begin; but a pulse
- * in the first sixth of that turn is not early enough (docs/rig.md). Until then, and for one control period more, full
- * voltage drives the rotor; gravity adds its part of a turn. */
-#define CAUGHT_RPM 470.0 /* least result of rig_caught_rpm() */
+/* The controller detects a drive that ignores the voltage after two slot pulses that come too early. These pulses
+ * come within a turn of the fault's begin, except that a pulse in the first sixth of the turn is not early enough
+ * (docs/rig.md): 7/6 turns. Until then, and for one control period more, full voltage drives the rotor. Gravity can
+ * add speed within a turn. */
+#define CAUGHT_RPM 470.0
 #define TURNS (7.0 / 6.0)
-#define LAG_S 0.23 /* time constant of the rotor under full voltage */
+#define LAG_S 0.23 /* time constant of the rotor at full voltage */
 #define FULL_RPM 568.0
 #define STEP_S 1e-5
-#define PERIOD_STEPS 200 /* the control period, 2 ms */
+#define PERIOD_STEPS 200 /* simulated steps in a control period of 2 ms */
 #define INERTIA_KGM2 5.77e-3
 
-/* The greatest speed allowed before the enable is off, if the drive ignores the voltage in a run at target_rpm. */
+/* If the drive ignores the voltage in a run at target_rpm: the greatest speed allowed until the enable line is off.
+ * At least CAUGHT_RPM. */
 static double rig_caught_rpm(double target_rpm) {
     const double weight_Nm = (double)(WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2);
     double rpm = target_rpm;
@@ -105,17 +107,16 @@ static double rig_caught_rpm(double target_rpm) {
 }
 
 /* === random faults ============================================================================= */
-/* The random choice of a fault, its size, begin and duration. */
 
-/* Noise of the cell in every run. */
+/* Noise of the load cell, N, in every run. */
 #define NOISE "cell-noise=0.07"
-#define GAIN_CALIBRATION 0.05 /* a smaller gain error is visible to calibration only */
+#define GAIN_CALIBRATION 0.05 /* only a calibration can show a smaller gain error */
 
 typedef enum size_drawn {
     NO_SIZE,
     EVEN,   /* uniform from low to high */
-    LOG,    /* uniform logarithm */
-    EITHER, /* uniform logarithm, random sign */
+    LOG,    /* logarithm uniform from low to high */
+    EITHER, /* logarithm uniform from low to high, with a random sign */
     WHOLE,
     ONE_OF_INERTIA
 } size_drawn;
@@ -127,12 +128,12 @@ enum {
     CALIBRATION = 4,
     COUNTED_ONLY = 8,
     HEALTHY = 16,
-    AFTER_TRIP = 32, /* another fault trips the rig first */
-    STARVED = 64,    /* the watchdog resets and does not cut the power */
+    AFTER_TRIP = 32, /* the fault acts only after another fault has tripped the rig */
+    STARVED = 64,    /* the watchdog resets the controller and does not cut the power */
     DELAYS = 128,    /* the watchdog may cut the power */
-    FED = 256,       /* gravity compensation in every run; with `dials`, from the start */
+    FED = 256,       /* every run has gravity compensation; with `dials`, from the start */
     TURNED = 512,    /* gravity compensation with the wrong sign */
-    /* size as a share of the supply; half of the runs have stop pressed and a sensor that fails */
+    /* the size is a share of the supply; half of the runs have stop pressed, half have a dead sensor */
     SHARE = 1024
 };
 
@@ -199,8 +200,8 @@ enum { ROWS = sizeof rows / sizeof rows[0], TWO_FAULTS = ROWS };
 #define TWO_WORD "two faults"
 #define TWO_PART 0.1 /* share of runs with a second fault */
 
-/* May a row be the second fault? Only if it acts while the rig runs, and the verdict does not depend on the time at
- * which it begins. */
+/* May this row be the second fault of a run? Only if the fault acts while the rig runs and the verdict does not
+ * depend on the time at which the fault begins. */
 static bool may_be_second(unsigned row) {
     const fault_kind kind = rows[row].kind;
     return (rows[row].is &
@@ -209,21 +210,22 @@ static bool may_be_second(unsigned row) {
 }
 
 #define NOMINAL_PART 0.25 /* share of runs at the rig's nominal speed */
-#define SLOW_PART 0.25    /* share of runs that are too slow without gravity compensation */
-#define FED_PART 0.2      /* share of the other runs with gravity compensation */
-#define BRAKES_PART 0.3   /* share of all runs: the motor brakes */
-#define SUPPLY_LEAST 0.5  /* least allowed supply, as a share of 24 V */
+/* share of runs at speeds that are too slow without gravity compensation */
+#define SLOW_PART 0.25
+#define FED_PART 0.2     /* share of the other runs that have gravity compensation */
+#define BRAKES_PART 0.3  /* share of all runs in which the motor brakes */
+#define SUPPLY_LEAST 0.5 /* lowest supply voltage, as a share of 24 V */
 #define SUPPLY_MOST 1.5
 #define SLOWEST_RPM 100.0
 #define SLOW_RPM 170.0
 #define FASTEST_RPM 360.0
 #define RADPS_PER_RPM 0.10471975511965977
 
-/* Faults that trip an armed or running rig at once, and an idle rig at the order `start`. */
+/* Faults that trip an armed or running rig at once, and an idle rig when `start` is ordered. */
 static const char *const trip_words[] = {"cell-open",  "cell-dead", "edge-dead",
                                          "supply=0.3", "unkicked",  "jam"};
 
-/* Factors of the inertia. There are few, because each needs its own plant. */
+/* Factors of the inertia. There are few, because each factor needs a plant of its own. */
 static const double inertias[] = {0.5, 0.7, 1.4, 2.0, 3.0, 4.0, 6.0};
 
 static unsigned campaign_rows(void) { return ROWS + 1; }
@@ -251,8 +253,8 @@ typedef struct drawing {
     uint64_t count;
 } drawing;
 
-/* Uniform in [0, 1). The hash alone is almost linear in the run's number: runs that are equal in one draw would be
- * equal in all. Stafford's thirteenth mix removes this dependence. */
+/* Returns a random number in [0, 1). Stafford's thirteenth mix is needed because the hash alone is almost linear in
+ * the run's number: if two runs were equal in one draw, all their draws would be equal. */
 static double draw(drawing *d) {
     uint64_t bits = wh_hash_u64(wh_hash_u64(d->hash, d->count++), 0x64726177U);
     bits = (bits ^ (bits >> 30)) * UINT64_C(0xBF58476D1CE4E5B9);
@@ -328,7 +330,7 @@ static bool campaign_has_dials(const campaign *c) {
     return strstr(c->firmware, "pil_dialled") != NULL;
 }
 
-/* Draws the operator's dials, which the firmware reads as samples 4 to 6: speed, compensation, braking. */
+/* Draws the operator's dials, which the firmware reads as samples 4 to 6: speed, gravity compensation, braking. */
 static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
     const double which = draw(d);
     one->target_rpm = which < NOMINAL_PART ? rig_nominal_rpm()
@@ -344,8 +346,8 @@ static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
     }
 }
 
-/* Writes a fault of a power stage that is stuck at any part of the supply, sometimes with stop pressed or a sensor that
- * fails. */
+/* Writes a power stage that drives with a random share of the supply, whatever the controller orders. In half of the
+ * runs stop is pressed. In half of the runs a sensor is dead. */
 static void put_share(text *t, drawing *d, unsigned row, const rig_stage *stage,
                       campaign_case *one) {
     const double after_s = draw(d) * stage->span_s;
@@ -389,8 +391,8 @@ static void put_fault(text *t, drawing *d, unsigned row, const rig_stage *stage,
                        (kind == FAULT_CELL_GAIN && fabs(size - 1.0) < GAIN_CALIBRATION);
 }
 
-/* Adds a second fault before that of row `first`. If the controller must stop by a deadline, the second must not delay
- * it. */
+/* Writes a second fault before the fault of row `first`. If the controller must stop the motor by a deadline, the
+ * second fault must not delay the controller. */
 static void put_second(text *t, drawing *d, const campaign *c, unsigned first,
                        const rig_stage *stage, campaign_case *one) {
     const bool two = draw(d) < TWO_PART;
@@ -469,21 +471,22 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
 }
 
 /* === verdicts ================================================================================== */
-/* The judge uses the true state of the plant, not the firmware's messages. */
 
 #define TURN_RAD 6.283185307179586477
 #define RPM_PER_RADPS 9.5492965855137202
-#define OFF_SHARE 0.01 /* allowed error of a good result beyond its interval */
+#define OFF_SHARE 0.01 /* a result of good quality may be this far outside its interval */
 #define LASTING_S 1.0
-#define HALT_S 2e-3  /* a control period: the motor may drive for this long */
+#define HALT_S 2e-3  /* for a control period after a stop or reset, the motor may drive */
 #define WATCH_S 1e-3 /* time between two calls of watch() */
 #define WATCHED_S 12.0
-/* after turns that show a drive, the enable must be off or a trip reported within this time */
+/* if turns show a drive, the enable must be off, or a trip reported, within this time */
 #define SHOWN_S 1.0
-#define HAND_RPM 61.0             /* a rotor that a hand turns is at most as fast */
-#define RISE 1.05                 /* rise of the speed over three turns together */
-#define SHIFTS 3                  /* a result may refer to turns that ended this many turns ago */
-enum { GOOD, DOUBTFUL, REFUSED }; /* wh_quality */
+#define HAND_RPM 61.0 /* a hand can turn the rotor at most this fast */
+/* with the motor off, three turns with this total ratio of speeds show a drive */
+#define RISE 1.05
+/* number of turns by which the turns of a result may lag behind the last turn */
+#define SHIFTS 3
+enum { GOOD, DOUBTFUL, REFUSED }; /* the values of wh_quality */
 
 /* --- outputs and notes ------------------------------------------------------------------------------------------ */
 
@@ -538,14 +541,15 @@ static bool start(void *of, const wh_hello *hello, plant *p) {
 /* --- the true force and speed
  * ----------------------------------------------------------------------------------------------------- */
 
-/* Integrates by trapezoids over the angle. They are fine enough: a millisecond is two degrees at 330 rpm. */
+/* Integrates the force times the cosine and sine of the angle, by the trapezoidal rule. A sample each millisecond is
+ * fine enough: at 330 rpm the arms turn by two degrees. */
 static void add_up(judge *j, double from, double force_from, double to, double force_to) {
     const double half = (to - from) / 2.0;
     j->sum.cosine_N += half * (force_from * cos(from) + force_to * cos(to));
     j->sum.sine_N += half * (force_from * sin(from) + force_to * sin(to));
 }
 
-/* Does a whole turn show a drive while the motor must not drive? */
+/* At the end of a complete turn: does it show a drive although the motor must not drive? */
 static void see_undriven(judge *j, double at_s, double rpm) {
     const bool faster = rpm > j->rpm;
     j->on_turns++;
@@ -577,7 +581,7 @@ static void end_turn(judge *j, double at_s) {
     j->whole = true;
 }
 
-/* Time at which the drive ended, in ticks; infinity: the motor still drives. */
+/* Time in ticks since which the motor has not been driven; infinity if the motor still drives. */
 static double off_since_ticks(const judge *j, const plant *p) {
     const int at[] = {j->at_duty, j->at_enable};
     double since = (double)INFINITY;
@@ -589,7 +593,7 @@ static double off_since_ticks(const judge *j, const plant *p) {
     return since;
 }
 
-/* From the halt on nothing may drive the motor: a stopped or reset controller must not start by itself. */
+/* After a stop or reset nothing may drive the motor: the controller must not start by itself. */
 static void watch_halt(judge *j, double time_s, const plant *p) {
     const fault_case *f = &j->plan->fault[j->plan->count - 1U];
     verdict *v = &j->verdict;
@@ -609,7 +613,8 @@ static void watch_halt(judge *j, double time_s, const plant *p) {
     }
 }
 
-/* For times when the motor must not drive: reports an enable that stays on although turns show a drive, or a missing trip. */
+/* While the motor must not drive: reports an enable line that stays on although turns show a drive, or a missing
+ * trip. */
 static void watch_off(judge *j, double time_s, const plant *p) {
     const bool on = p->in_effect[j->at_enable] > 0.0;
     if (rig_may_drive(j->told)) {
@@ -663,8 +668,8 @@ static void watch(void *of, double time_s, const plant *p) {
     watch_off(j, time_s, p);
 }
 
-/* How far a result is outside its interval plus 1 %, relative to the true value. The result may refer to several series
- * of turns: the smallest error counts. */
+/* How far a result is outside its interval plus 1 %: the amplitude relative to the true one, or the phase in rad,
+ * whichever is larger. The result may be for turns that ended up to SHIFTS - 1 turns ago; the smallest error counts. */
 static double off_by(const judge *j, unsigned turns) {
     const double amplitude = (double)j->told[HAL_NOTE_AMPLITUDE];
     const double phase = (double)j->told[HAL_NOTE_PHASE];
@@ -703,7 +708,7 @@ static void look_for_fault(judge *j) {
     }
 }
 
-/* Looks for the first message after a reset, while the notes before it are still known. */
+/* Judges the first message after a reset. The notes from before the reset are still in j->told. */
 static void look_for_reset(judge *j, const wh_orders *orders) {
     float now[HAL_NOTES];
     if (j->plant->reset.count == j->resets) {
@@ -743,7 +748,8 @@ static void take_notes(judge *j, const wh_orders *orders) {
     }
 }
 
-/* Counts the longest step between two answers, if the last answer was late. */
+/* Counts the control step that this message reports. A message without a step is the first: its time counts as the
+ * start. */
 static void count_step(judge *j, double time_s, const wh_orders *orders) {
     const double instructions = (double)orders->step_timer * j->per_count;
     const double loop = (double)orders->busy_timer * j->per_count;
@@ -759,7 +765,7 @@ static void count_step(judge *j, double time_s, const wh_orders *orders) {
     }
 }
 
-/* Ends the run some time after a trip, because the controller may watch the rotor for long. */
+/* Ends the run some time after a trip, because the controller could watch the rotor for long. */
 static void let_go(judge *j, double time_s) {
     if (!rig_is_tripped(j->told) || j->driven) {
         j->off_since_s = -1.0;
@@ -786,7 +792,7 @@ static void hear(void *of, double time_s, wh_orders *orders, double *late_s) {
     let_go(j, time_s);
     if (ignores && enabled && j->ignored_s < 0.0) {
         j->ignored_s = f->begin_s > j->enabled_s ? f->begin_s : j->enabled_s;
-        /* with another fault, the time of detection is not defined */
+        /* if there are two faults, the time at which the controller must detect this one is not defined */
         j->verdict.lasting =
             campaign_is_alone(j->of) && f->begin_s + f->duration_s - j->ignored_s >= LASTING_S;
         j->verdict.began_rpm = j->speed_rpm;
@@ -835,11 +841,11 @@ void judge_end(judge *j, const lockstep_report *report) {
 }
 
 /* === summary =================================================================================== */
-/* The outcome by fault and state, and the worst runs with their commands. */
 
-#define OVERSPEED_SHARE 0.02 /* allowed share of all runs */
-#define CAUGHT_S 0.25      /* deadline for the enable to be off, if the drive ignores the voltage */
-#define CAUGHT_REST_S 0.35 /* the same, if the fault begins below TURNING_RPM */
+#define OVERSPEED_SHARE 0.02 /* allowed share of runs with over-speed */
+/* if the drive ignores the voltage, the enable must be off within this time */
+#define CAUGHT_S 0.25
+#define CAUGHT_REST_S 0.35 /* the same deadline if the fault begins below TURNING_RPM */
 #define TURNING_RPM 250.0
 enum { WORST = 10, LONGEST = 20, TRIPS = 32 };
 
@@ -980,7 +986,7 @@ static double by_lie(const verdict *v) { return v->lie; }
 static double by_off(const verdict *v) { return v->off_s < 0.0 ? 1e9 : v->off_s; }
 static double by_speed(const verdict *v) { return v->turn_rpm; }
 
-/* The worst run that was not printed yet; `count` if there is none. */
+/* The worst run that has not been printed yet; `count` if all have been printed. */
 static unsigned next_worst(const verdict *all, unsigned count, bool (*is)(const verdict *v),
                            double (*by)(const verdict *v), bool *shown) {
     unsigned worst = count;
@@ -1022,8 +1028,8 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
     free(shown);
 }
 
-/* Runs in which a drive ignored the voltage for too long: prints the time until the enable was off, and the speed at
- * that time. */
+/* Prints, for runs in which the drive ignored the voltage for long, the time until the enable line was off and the
+ * greatest speed until then. */
 static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     rig_stage stage[RIG_STAGES_MAX];
     const unsigned stages = rig_stages(stage);
@@ -1051,7 +1057,7 @@ static void print_runaways(FILE *out, const verdict *all, unsigned count) {
     }
 }
 
-/* Prints, for stopped or reset runs, how long the motor still drove, and how many runs had tripped before a reset. */
+/* Prints how long the motor drove after a stop or reset, and how many runs still reported their trip after a reset. */
 static void print_halts(FILE *out, const verdict *all, unsigned count) {
     bool any = false;
     for (unsigned row = 0; row < campaign_rows(); row++) {
@@ -1080,7 +1086,7 @@ static void print_halts(FILE *out, const verdict *all, unsigned count) {
 }
 
 static bool takes_time(const verdict *v) {
-    /* the last includes resets during a hang */
+    /* "two faults" is listed because one of the two may be a hang with resets */
     static const char *const words[] = {"slow", "late", "hang", "two faults"};
     const char *word = campaign_row_word(v->row);
     bool takes = false;
@@ -1093,7 +1099,7 @@ static bool takes_time(const verdict *v) {
 static bool has_steps(const verdict *v) { return v->most > 0.0; }
 static double by_step(const verdict *v) { return v->most; }
 
-/* Each row has the command that repeats its run. */
+/* Each run is printed with the command that repeats it. */
 static void print_longest(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     bool *shown = alloc(count, sizeof *shown);
     fprintf(out, "\nThe longest control steps of %d runs:\n", LONGEST);
@@ -1109,7 +1115,7 @@ static void print_longest(FILE *out, const campaign *c, const verdict *all, unsi
     free(shown);
 }
 
-/* Prints the histogram of instructions per control step, which only the emulator counts. */
+/* Prints the histogram of instructions per control step. Only the emulator counts instructions. */
 static void print_steps(FILE *out, const campaign *c, const verdict *all, unsigned count) {
     uint64_t steps[STEP_BINS] = {0};
     uint64_t sum = 0;

@@ -83,7 +83,7 @@ static double primary(reader *r) {
         r->bad = true;
         return 0.0;
     }
-    if (*r->at == '(' && length == 1 && *name == 'y') { /* an element: y(3) */
+    if (*r->at == '(' && length == 1 && *name == 'y') { /* an element, such as y(3) */
         while (*r->at != ')' && *r->at != '\0') {
             r->at++;
         }
