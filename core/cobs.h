@@ -35,7 +35,8 @@ typedef struct wh_cobs {
 void wh_cobs_start(wh_cobs *cobs, uint8_t *bytes, unsigned room);
 void wh_cobs_put(wh_cobs *cobs, uint8_t byte);
 
-/* Append the final zero. Returns the number of coded bytes, or 0 if there was no room; `bytes` is then useless. */
+/* Append the final zero. Returns the number of coded bytes; or 0 if there was no room, and then `bytes` has no valid
+ * content. */
 unsigned wh_cobs_end(wh_cobs *cobs);
 
 /* Code bytes[1] to bytes[count] in place, count <= 253. The head goes into bytes[0], the zero after the last byte.

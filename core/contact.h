@@ -29,24 +29,25 @@
 #include "step.h"
 #include "step/ledger_step.h"
 
-/* 1: the scene keeps a ledger (ledger.h). A generated scene defines it. */
+/* WH_LEDGER is 1 if the scene keeps a ledger (ledger.h). A generated scene defines it. */
 #ifndef WH_LEDGER
 #define WH_LEDGER 0
 #endif
 
-/* Most contacts of a scene. A generated scene defines its own. */
+/* Maximum number of contacts of a scene. A generated scene defines its own value. */
 #ifndef WH_CONTACTS_MAX
 #define WH_CONTACTS_MAX WH_CONTACTS_LIMIT
 #endif
 
-/* Most values that a scene's crossings assign. A generated scene defines its own. */
+/* Maximum number of values that a scene's crossings assign. A generated scene defines its own value. */
 #ifndef WH_SETS_MAX
 #define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
-/* Most probes to locate an event. The located interval is at most WH_BRACKET times the searched one. Halving alone
- * needs four probes fewer, so better guesses may fall behind it by four: after n probes the interval is at most
- * WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes reach WH_BRACKET_FINE, the limit of round-off. */
+/* The search for an event takes at most WH_PROBES probes and shrinks the searched interval at least to WH_BRACKET times
+ * its length. Halving alone would need four probes fewer. These spare probes let better guesses be up to four halvings
+ * late: after n probes the interval is at most WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes reach
+ * WH_BRACKET_FINE, the limit of round-off. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)
@@ -58,18 +59,18 @@
 #endif
 #define WH_PROBES_SPARE WH_R(8.0)
 
-/* Most probes for a stop that a body enters and leaves within one trial step. */
+/* Maximum number of probes for a stop that a body enters and leaves within one trial step. */
 #define WH_DIP_PROBES 6U
 
 /* If a curved hold or stop slipped by more than this share of the displacement, it is projected twice. One
  * projection leaves an error of second order in the slip. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
-/* Most projections onto the stops and holds after a step with too many events. */
+/* Maximum number of projections onto the stops and holds after a step with too many events. */
 #define WH_SQUEEZE_LOOKS 3U
 
-/* Most projections of a body that is beyond a stop when a step begins, for example after a correction of the state. This
- * round of the step needs no search, so there may be as many projections as probes. A curved gap takes several. */
+/* Maximum number of projections of a body that is beyond a stop when a step begins, for example after a correction of
+ * the state. A curved gap takes several projections. */
 #define WH_PUSH_LOOKS 12U
 
 /* A stop rests if its next flight is shorter than this share of a step. */
@@ -77,9 +78,9 @@
 
 /* Traits of a kind of contact. */
 enum {
-    WH_FORCED = 1,     /* it has a force, and a row of the Jacobian */
-    WH_UNILATERAL = 2, /* it pushes and does not pull */
-    WH_LIMITED = 4     /* it has a limit, slides at it, and gives no impulse */
+    WH_FORCED = 1,     /* the contact has a force, and a row of the Jacobian */
+    WH_UNILATERAL = 2, /* the contact pushes and does not pull */
+    WH_LIMITED = 4     /* the force has a limit: at the limit the contact slides; no impulse */
 };
 
 /* The kinds, in the order in which contacts are numbered: X(name, traits). Each kind has its own events. If you add
@@ -102,22 +103,24 @@ typedef enum wh_contact_kind {
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
     int8_t
-        direction; /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves it between steps, 2 if an
-                    * input with a rate does. Hold: 1 if it is straight (J_k constant), -1 if it follows an input with a
-                    * rate. Otherwise 0. */
-    /* index of the coordinate if the expression is linear in one coordinate (then J_k is constant and its rate
-     * exactly zero); else -1 */
+        /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves the stop between steps, 2 if an input with
+         * a rate does. Hold: 1 if the held expression is straight (J_k constant), -1 if the hold follows an input with
+         * a rate. Otherwise 0. */
+        direction;
+    /* If the expression is linear in one coordinate, pin is this coordinate's index: J_k is then constant, and its rate
+     * is exactly zero. Otherwise pin is -1. */
     int16_t pin;
     uint8_t first_set; /* index of a crossing's first assignment, or of a hold's value in held[] */
     uint8_t sets;
 } wh_contact;
 
-/* The numbers per contact in the result of `forces`. They are followed by two vectors of n. */
+/* Indices into the numbers that `forces` gives for each contact with a force: WH_LAW_ROWS numbers, then J_k[n] and
+ * (M^-1 J_k^T)[n]. */
 enum {
     WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: value */
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
     WH_LAW_BIAS,   /* J_k' q' */
-    WH_LAW_ROWS    /* J_k[n], then (M^-1 J_k^T)[n] */
+    WH_LAW_ROWS    /* index of J_k[0] */
 };
 
 /* Most evaluations of the accelerations in one step, each with at most one evaluation of `forces`.
@@ -140,28 +143,33 @@ enum {
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 
-/* A scene's contacts, constant. The functions are generated as lists of operations, as the accelerations are. */
+/* A scene's contacts. All members are constant. The functions are generated as lists of operations, like the
+ * accelerations. */
 typedef struct wh_contact_system {
-    const void *model;    /* first argument of the functions */
-    wh_accel_fn *accel;   /* accelerations without contact forces */
-    wh_accel_fn *signals; /* result[2 * contacts]: stop: gap, its rate; hold: condition (> 0: true),
-                            * rate of the held expression; friction: rate, 0; crossing: value, 0 */
-    wh_accel_fn *forces;  /* result[forced * (WH_LAW_ROWS + 2 n)] */
-    wh_accel_fn *sets;    /* result[all sets]: the values that crossings assign, SI; or NULL */
-    const wh_contact *contact;    /* [contacts] */
-    const uint8_t *target;        /* [all sets]: component, angles first, then reals */
-    const wh_ledger_form *ledger; /* or NULL */
+    const void *model;  /* first argument of the functions */
+    wh_accel_fn *accel; /* accelerations without contact forces */
+    /* result[2 * contacts], two numbers for each contact. Stop: gap, rate of the gap. Hold: condition (true if > 0),
+     * rate of the held expression. Friction: rate, 0. Crossing: value, 0. */
+    wh_accel_fn *signals;
+    wh_accel_fn *forces; /* result[forced * (WH_LAW_ROWS + 2 n)] */
+    /* result[all sets]: the values that crossings assign, in SI units; or NULL */
+    wh_accel_fn *sets;
+    const wh_contact *contact; /* [contacts] */
+    /* [all sets]: index of the assigned component; angles first, then reals */
+    const uint8_t *target;
+    const wh_ledger_form *ledger; /* NULL: no ledger */
     uint8_t contacts;
-    uint8_t forced;       /* contacts that have a force: all but crossings */
+    uint8_t forced;       /* number of contacts with a force: all except crossings */
     uint8_t kinds;        /* WH_KIND_BIT() of each kind with a force */
-    uint8_t pinned;       /* contacts with a pin */
-    uint8_t held;         /* holds without a pin */
+    uint8_t pinned;       /* number of contacts with a pin */
+    uint8_t held;         /* number of holds without a pin */
     uint16_t evaluations; /* WH_CONTACT_EVALUATIONS; the tests check it */
     wh_method method;
     bool compensated;
     uint8_t angles;
     uint8_t coordinates;
-    uint8_t driven; /* the last coordinates: inputs with a rate (driven.h), which no force moves */
+    /* number of inputs with a rate (driven.h): they set the last coordinates, which no force moves */
+    uint8_t driven;
 } wh_contact_system;
 
 #endif

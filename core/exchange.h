@@ -24,31 +24,34 @@ enum {
     WH_FRAME_HELLO = 1,
     WH_FRAME_ORDERS = 2,
     WH_FRAME_READINGS = 3,
-    WH_FRAME_RESET = 4, /* to a controller that restarts, before its first readings: wh_reset */
-    /* from the controller, before its orders: bytes that outlive a reset, 0 to WH_REMEMBER_MAX */
+    /* wh_reset, to a controller that has restarted, before its first readings */
+    WH_FRAME_RESET = 4,
+    /* From the controller, before its orders: 0 to WH_REMEMBER_MAX bytes that shall survive a reset. */
     WH_FRAME_REMEMBER = 5,
-    /* For a line that shows neither a controller's start nor its end. ASK goes to a controller before its first readings:
-     * send the hello again. END comes from a controller instead of orders: the program ended, with this status (4 bytes). */
+    /* For a line that does not show when a controller starts or ends. ASK goes to a controller before its first
+     * readings and requests the hello again. END comes from a controller instead of orders: the program has ended, with
+     * the exit status in the payload (4 bytes). */
     WH_FRAME_ASK = 6,
     WH_FRAME_END = 7
 };
 
-#define WH_SIGNALS_MAX 20U /* signals of all kinds together */
-#define WH_EDGES_MAX 16U   /* most edges in one exchange; later ones are lost */
+#define WH_SIGNALS_MAX 20U /* maximum number of signals, all kinds together */
+#define WH_EDGES_MAX 16U   /* maximum number of edges in one exchange; later edges are lost */
 #define WH_SAMPLES_MAX 24U
 
 typedef enum wh_signal_kind {
     WH_SIGNAL_OUTPUT, /* a value that the controller sets, in `low`..`high` */
-    WH_SIGNAL_SAMPLE, /* a converter's counts: every period_ticks the integer nearest to value /
-                       * per_count; the converter's range is `low` to `high` */
-    WH_SIGNAL_EDGE,   /* a pulse when the value enters `low`..`high`; for an angle, in any turn */
-    WH_SIGNAL_NOTE    /* a value that the controller reports about itself: no signal of the plant */
+    /* a converter's counts: every period_ticks the integer nearest to value / per_count, within the converter's range
+     * `low` to `high` */
+    WH_SIGNAL_SAMPLE,
+    WH_SIGNAL_EDGE, /* a pulse when the value (angle: modulo a turn) enters `low`..`high` */
+    WH_SIGNAL_NOTE  /* a value that the controller reports about itself: no signal of the plant */
 } wh_signal_kind;
 
 /* Each kind of signal has channels of its own, numbered from 0 in the order of the signals. */
 typedef struct wh_signal {
     wh_signal_kind kind;
-    const char *name; /* its name in the plant: an input; an output, coordinate or rate */
+    const char *name; /* name of an input, an output, a coordinate or a rate of the plant */
     const char *unit; /* an SI unit */
     float low;
     float high;
@@ -73,10 +76,10 @@ enum { WH_ORDER_ALIVE = 1 }; /* wh_orders.flags: the watchdog is kicked */
 
 typedef struct wh_orders {
     uint32_t until_ticks;    /* time of the next readings */
-    uint32_t acted_timer;    /* counts from the readings' arrival until the outputs were set */
-    uint32_t busy_timer;     /* counts until these orders were sent */
+    uint32_t acted_timer;    /* timer counts from the readings' arrival to the outputs */
+    uint32_t busy_timer;     /* timer counts from the readings' arrival to these orders */
     uint32_t step_timer;     /* longest control step since the last orders; 0: not measured */
-    uint32_t watchdog_ticks; /* after this time without WH_ORDER_ALIVE outputs are 0; 0: never */
+    uint32_t watchdog_ticks; /* outputs become 0 after this time without ALIVE; 0: never */
     uint8_t flags;
     unsigned outputs;             /* number of outputs and notes together */
     float output[WH_SIGNALS_MAX]; /* by channel: the outputs, then the notes */
@@ -102,7 +105,7 @@ typedef struct wh_sample {
 
 enum { WH_READING_CUT = 1 }; /* wh_readings.flags: the watchdog has cut the outputs */
 
-/* Edges and samples are in the order of their ticks. The time of the readings is the frame's. */
+/* Edges and samples are sorted by ticks. The time of the readings themselves is the frame's `ticks`. */
 typedef struct wh_readings {
     uint8_t flags;
     unsigned edges;

@@ -1,11 +1,12 @@
-/* fixed.h: fixed-point arithmetic: 32-bit integers that stand for x 2^-bits, the same bits on every machine.
+/* fixed.h: fixed-point arithmetic, for processors without floating-point arithmetic.
  *
- * For processors without floating-point arithmetic. The generator knows a number's `bits`; they are not stored with it.
- * Generated code keeps numbers within 2^30 in size (host/fixed), so nothing here overflows.
+ * A 32-bit integer x stands for the number x 2^-bits. The generator knows each number's `bits`; the program does not
+ * store them. Results have the same bits on every machine. Generated code keeps numbers within 2^30 in size
+ * (host/fixed), so nothing here overflows.
  *
- * The one costly operation is the upper half of a product of two numbers. It is exact (rounded down). It has two
- * implementations with the same bits: one 32 x 32 = 64 bit product if the processor has it, otherwise (Cortex-M0, AVR) four
- * 16 x 16 = 32 bit products. */
+ * The one costly operation is the upper half of a product of two numbers, rounded down. It has two implementations with
+ * the same result: one 32 x 32 = 64 bit product if the processor has it, otherwise (Cortex-M0, AVR) four 16 x 16 = 32
+ * bit products. */
 #ifndef WH_FIXED_H
 #define WH_FIXED_H
 
@@ -15,7 +16,7 @@
 extern "C" {
 #endif
 
-#if defined(WH_FIXED_NARROW) /* requested by a macro */
+#if defined(WH_FIXED_NARROW)
 #elif defined(__AVR__) || defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__) || \
     (defined(__riscv) && !defined(__riscv_mul))
 #define WH_FIXED_NARROW 1
@@ -30,7 +31,8 @@ extern "C" {
 #define WH_FIXED_AVR 0
 #endif
 
-/* Storage classes of generated functions: called ones, and ones that are inlined if flash allows it. */
+/* Storage classes of generated functions. WH_FIXED_CALLED: never inlined. WH_FIXED_LIST: inlined except on an AVR,
+ * whose flash is small. */
 #if defined(__GNUC__)
 #define WH_FIXED_CALLED __attribute__((noinline, unused))
 #else
@@ -47,8 +49,8 @@ WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
     return (int32_t)(((int64_t)a * b) >> 32);
 }
 
-/* 16-bit products: uu of two unsigned numbers, su of a signed and an unsigned one, ss of two signed ones. (From the C
- * product, avr-gcc makes a 32-bit product if an operand is used again.) */
+/* 16-bit products: uu of two unsigned numbers, su of a signed and an unsigned one, ss of two signed ones. (If one of
+ * the operands is used again, avr-gcc makes a 32-bit product of the C expression.) */
 #if WH_FIXED_AVR
 WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) {
     uint32_t product;
@@ -107,7 +109,7 @@ WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
 #define wh_fixed_sine_table WH_NAME(wh_fixed_sine_table)
 #define wh_fixed_seed_table WH_NAME(wh_fixed_seed_table)
 
-/* wh_fixed_high_narrow() as a function call, for processors on which its code is long. */
+/* The same function as wh_fixed_high_narrow(), but called. For processors on which its code is long. */
 int32_t wh_fixed_high_called(int32_t a, int32_t b);
 
 WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
@@ -120,7 +122,8 @@ WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
 #endif
 }
 
-/* x 2^-by to the nearest, halves up, |x| <= 2^30; a negative `by` shifts to the left, modulo 2^32. */
+/* Returns x 2^-by, rounded to nearest with halves upwards, for |x| <= 2^30. If `by` is negative, the result is shifted
+ * left, modulo 2^32. */
 WH_INLINE int32_t wh_fixed_round(int32_t x, int by) {
     return by >= 31   ? 0
            : by > 0   ? (x + (int32_t)(UINT32_C(1) << (by - 1))) >> by
@@ -128,18 +131,18 @@ WH_INLINE int32_t wh_fixed_round(int32_t x, int by) {
                       : (int32_t)((uint32_t)x << -by);
 }
 
-/* a b 2^-(32 + by) to the nearest, halves up; by >= 1. |a b| <= 2^62. */
+/* Returns a b 2^-(32 + by), rounded to nearest with halves upwards, for by >= 1 and |a b| <= 2^62. */
 WH_INLINE int32_t wh_fixed_mul(int32_t a, int32_t b, int by) {
     return wh_fixed_round(wh_fixed_high(a, b), by);
 }
 
-/* (the upper 15 bits of x) * number * 2^-by, for |x| up to 2^28 and a 15-bit number. For terms that are small
- * compared with the sum. */
+/* Returns (x >> 14) * number * 2^-by, rounded, for |x| <= 2^28 and a 15-bit number. For terms that are small compared
+ * with the sum, because the low digits of x are dropped. */
 WH_INLINE int32_t wh_fixed_mul_short(int32_t x, int16_t number, int by) {
     return wh_fixed_round(wh_fixed_ss((int16_t)(x >> 14), number), by);
 }
 
-/* a + b modulo 2^32, opaque to the compiler. For sums in which a term may be larger than the result. */
+/* a + b modulo 2^32, without the undefined behaviour of a signed overflow. */
 WH_INLINE int32_t wh_fixed_add(int32_t a, int32_t b) {
     return (int32_t)((uint32_t)a + (uint32_t)b);
 }
@@ -147,7 +150,6 @@ WH_INLINE int32_t wh_fixed_sub(int32_t a, int32_t b) {
     return (int32_t)((uint32_t)a - (uint32_t)b);
 }
 
-/* x 2^by, modulo 2^32. */
 WH_INLINE int32_t wh_fixed_left(int32_t x, int by) { return (int32_t)((uint32_t)x << by); }
 
 WH_INLINE int32_t wh_fixed_least(int32_t a, int32_t b) { return b < a ? b : a; }
@@ -168,8 +170,8 @@ WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t 
     return x;
 }
 
-/* x >> by for by = 7, 15 or 22, for the sizes of x that occur here. An AVR shifts by whole bytes at no cost, and by
- * one bit at a time otherwise. */
+/* Returns x >> by for by = 7, 15 or 22, and for the sizes of x that occur here. An AVR shifts by whole bytes at no
+ * cost, and by other amounts bit by bit. */
 WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #if WH_FIXED_AVR
     return by == 7    ? (x + x) >> 8
@@ -188,9 +190,9 @@ WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #define WH_FIXED_SECTOR_BITS 7
 #define WH_FIXED_QUARTER (1U << (WH_FIXED_SECTOR_BITS - 2))
 
-/* sin(2 pi i/128) 2^30, for a turn and a quarter. */
+/* Entry i is sin(2 pi i/128) 2^30. The table covers a turn and a quarter. */
 extern const int32_t wh_fixed_sine_table[(1U << WH_FIXED_SECTOR_BITS) + WH_FIXED_QUARTER] WH_FLASH;
-/* 2^31/(128.5 + i) 2^-8: reciprocals of 9 bits. */
+/* Entry i is 2^31/(128.5 + i) 2^-8, a reciprocal of 9 bits. */
 extern const uint16_t wh_fixed_seed_table[128] WH_FLASH;
 
 #if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
@@ -220,9 +222,9 @@ WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
 }
 #endif
 
-/* Sine and cosine of a phase (2^32 per turn), scaled by 2^30: the method of sine.h in integers. s and c come from
- * the table. y is the remaining angle r, with 2^31 for pi/128: sin = s + (c sin r + s (cos r - 1)). Small terms are
- * 16-bit products. */
+/* Sine and cosine of a phase (2^32 per turn), scaled by 2^30: the method of sine.h in integers. s and c are the table's
+ * values next to the phase, r is the remaining angle: sin = s + (c sin r + s (cos r - 1)). y is r scaled so that pi/128
+ * is 2^31. Small terms are 16-bit products. */
 WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
     const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
     const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >>
@@ -237,11 +239,12 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     const int32_t y = (int32_t)(phase << WH_FIXED_SECTOR_BITS);
 #endif
     const int16_t upper = (int16_t)(y >> 16);
-    /* -(upper + 1/2)^2, 2^15 for 1: the digits below `upper` are half a unit on average */
+    /* -(upper + 1/2)^2, scaled so that 1 is 2^15. The added half is the mean of the digits of y below `upper`. */
     const int16_t square = (int16_t)wh_fixed_down(wh_fixed_ss(upper, (int16_t)~upper), 15);
     const int16_t cos_less_1 =
         (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* 2^26 */
-    /* sin r/y is 25735 2^16 plus a remainder, which includes the third-order term of sin r: 2^35/2^31 */
+    /* sin_r is y times a factor. Its main part is 25735 2^16; `rest` is the remainder, including the third-order term
+     * of the sine. */
     const int16_t rest = (int16_t)((wh_fixed_ss(square, 1323) >> 11) + 7594);
     const int32_t sin_r =
         wh_fixed_high(y, INT32_C(25735) * 65536) + (wh_fixed_ss(upper, rest) >> 13);
@@ -265,7 +268,7 @@ WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #endif
 }
 
-/* Sine and cosine for one of several waves in a scene: a call if products are long, inline otherwise. */
+/* Sine and cosine for scenes with several waves: called if products are long, otherwise inlined. */
 WH_INLINE void wh_fixed_sincos_shared(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #if WH_FIXED_NARROW
     wh_fixed_sincos_called(phase, sine, cosine);
@@ -290,8 +293,8 @@ WH_INLINE int wh_fixed_zeros(uint32_t x) {
 #endif
 }
 
-/* 2^61/d for d >= 2^31, relative error below 2^-28: a table, then two Newton steps. The first step computes with 16
- * bits, the second only with the bits that it adds. */
+/* 2^61/d for d >= 2^31, by a table and two Newton steps. The relative error is below 2^-28. The first step computes
+ * with 16 bits, the second only with the bits that it adds. */
 WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t d_high = (uint16_t)(d >> 16);
     const uint16_t d_low = (uint16_t)d;

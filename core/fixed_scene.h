@@ -27,7 +27,7 @@
 extern "C" {
 #endif
 
-/* Format of a component or an input: value 2^bits, from low to high. */
+/* Format of a component or an input: a value is stored as value 2^bits, and limited to low..high. */
 typedef struct wh_fixed_format {
     int16_t bits;
     int32_t low;
@@ -38,9 +38,10 @@ typedef struct wh_fixed_format {
 typedef struct wh_fixed_state {
     uint64_t steps;
     uint32_t saturated; /* number of values that were limited to their range since the start */
-    int64_t *angle;     /* [scene->angles] 2^32 per turn, whole turns included */
-    int32_t *real; /* [scene->reals] as in wh_state. Second order: linear positions, then all rates;
-                * first order: the other components */
+    int64_t *angle;     /* [scene->angles], 2^32 per turn, whole turns included */
+    /* [scene->reals], ordered as in wh_state. Second order: linear positions, then all rates. First order: the
+     * components other than angles. */
+    int32_t *real;
     int32_t *input; /* [scene->inputs] */
 } wh_fixed_state;
 
@@ -51,7 +52,7 @@ struct wh_fixed_scene {
     uint8_t reals;
     uint8_t inputs;
     uint64_t steps;                /* number of steps from the start to the scene's end */
-    const wh_fixed_format *format; /* [reals + inputs] formats of the reals, then of the inputs */
+    const wh_fixed_format *format; /* [reals + inputs]: formats of the reals, then of the inputs */
     const int64_t *start_angle;
     const int32_t *start_real;
     const int32_t *start_input;
@@ -61,7 +62,7 @@ struct wh_fixed_scene {
     wh_status (*advance)(const wh_fixed_scene *scene, wh_fixed_state *state);
 };
 
-/* Bytes of caller memory for this many angles and this many reals and inputs together. */
+/* Bytes of caller memory for `angles` angles, and for `numbers` reals and inputs together. */
 #define WH_FIXED_BYTES(angles, numbers) (WH_SIZE(angles) * 8U + WH_SIZE(numbers) * 4U)
 
 #define wh_fixed_start WH_NAME(wh_fixed_start)
@@ -80,17 +81,18 @@ struct wh_fixed_scene {
 wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, void *memory,
                          size_t bytes);
 
-/* One step, also beyond the scene's end. Returns WH_OK: a step cannot diverge, but it may increase state->saturated.
- * Returns WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_fixed_start(). */
+/* Do one step, also beyond the scene's end. Returns WH_OK; or WH_E_ARGUMENT for a state that was not started: zeroed,
+ * or refused by wh_fixed_start(). A step cannot diverge, but it may increase state->saturated. */
 wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 
-/* Hash of step count, saturations, angles and reals: equal runs on any two machines give equal hashes. 0 for a state
- * that was not started. */
+/* Returns a hash of step count, saturations, angles and reals, or 0 for a state that was not started. Equal runs give
+ * equal hashes on any two machines. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
 /* Conversions in floating point; no step calls them. wh_fixed_of() gives the nearest number of this format, halves away
- * from zero. A value beyond the range gives the nearest end, NaN the low end; both increment *saturated. If the range ends
- * between two numbers of the format, a value up to one unit beyond that end (in float plus its last place) is inside. */
+ * from zero. A value beyond the range gives the nearest end, and NaN the low end; both increment *saturated. If an end
+ * of the range lies between two numbers of the format, values up to one unit beyond that end (in float plus its last
+ * place) count as inside. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 
@@ -101,9 +103,9 @@ wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state,
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                        wh_real value);
 
-/* Set input i to `value`, SI, or to `number`, an integer of the input's format. A value beyond the range sets the
- * nearest end, counts as saturated, and returns WH_E_ARGUMENT. NaN and an input i that does not exist return
- * WH_E_ARGUMENT and change nothing. */
+/* Set input i: wh_fixed_set_input() to `value` in SI units, the other function to `number`, an integer of the input's
+ * format. A value beyond the range sets the nearest end, counts as saturated, and returns WH_E_ARGUMENT. NaN, or an
+ * index i without an input, returns WH_E_ARGUMENT and changes nothing. */
 wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                              wh_real value);
 wh_status wh_fixed_set_raw_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,

@@ -53,11 +53,11 @@ typedef struct wh_frame_reader {
 /* CRC-32 of bytes[count]. `crc` is 0, or the CRC of the preceding bytes. */
 uint32_t wh_frame_crc(uint32_t crc, const uint8_t *bytes, unsigned count);
 
-/* Write the frame, coded and with its final zero, into bytes[room]; the function sets the frame's version. Returns
- * the coded length, or 0 if there is no room; `bytes` is then useless. */
+/* Write the frame, coded and with its final zero, into bytes[room]. The function sets the frame's version. Returns the
+ * coded length; or 0 if there is no room, and then `bytes` has no valid content. */
 unsigned wh_frame_write(const wh_frame *frame, uint8_t *bytes, unsigned room);
 
-/* Begin to read. The reader takes frames of up to room - 1 coded bytes before the final zero: a room of
+/* Begin to read. The reader accepts frames of up to room - 1 coded bytes, not counting the final zero: a room of
  * WH_FRAME_BYTES(payload) is enough. */
 void wh_frame_reader_start(wh_frame_reader *reader, uint8_t *bytes, unsigned room);
 
@@ -67,8 +67,8 @@ bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame);
 
 /* --- numbers in a payload, low byte first -------------------------------------------------------*/
 
-/* A cursor for writing or reading a payload number by number. Beyond the end it writes nothing, reads zeros, and
- * sets `over`. */
+/* A cursor for writing or reading a payload number by number. Beyond the end of the payload, writing does nothing and
+ * reading gives zeros; both set `over`. */
 typedef struct wh_bytes {
     uint8_t *to;         /* for writing */
     const uint8_t *from; /* for reading */
@@ -92,8 +92,8 @@ uint32_t wh_bytes_get(wh_bytes *bytes, unsigned size);
 void wh_bytes_put_float(wh_bytes *bytes, float number);
 float wh_bytes_get_float(wh_bytes *bytes);
 
-/* Write or read a string with its final zero. A string that is read points into the bytes; it is "" if the zero is
- * missing. */
+/* Write or read a string with its final zero. A string that was read points into the payload. If its final zero is
+ * missing, the result is "". */
 void wh_bytes_put_words(wh_bytes *bytes, const char *words);
 const char *wh_bytes_get_words(wh_bytes *bytes);
 

@@ -1,9 +1,9 @@
-/* function.h: the language's functions other than sine, cosine and square root, in the core's own arithmetic.
+/* function.h: the language's functions other than sine, cosine and square root, computed without a library.
  *
- * Every operation is an IEEE 754 addition, multiplication, division, root or conversion of wh_real, or an integer
- * operation. So the bits are the same on every machine, and no library is needed. The float build computes in float alone.
+ * Every operation is an integer operation, or an IEEE 754 addition, multiplication, division, root or conversion of
+ * wh_real. So the result has the same bits on every machine. The float build computes in float alone.
  *
- * Special cases as in C's Annex F: infinities, NaN, signed zeros and subnormals included. */
+ * Special cases (infinities, NaN, signed zeros, subnormals) follow Annex F of the C standard. */
 #ifndef WH_FUNCTION_H
 #define WH_FUNCTION_H
 
@@ -25,7 +25,7 @@ extern "C" {
 #define wh_cosh WH_NAME(wh_cosh)
 #define wh_tanh WH_NAME(wh_tanh)
 
-/* X-macro of all functions: ONE(name) of one argument, TWO(name) of two. */
+/* X-macro of all functions: ONE(name) if the function has one argument, TWO(name) if it has two. */
 #define WH_FUNCTIONS(ONE, TWO) \
     ONE(exp) \
     ONE(log) \
@@ -44,9 +44,9 @@ wh_real wh_tanh(wh_real x);
 
 /* tan(rad), for angles of any size. The error is within two units in the last place in float, one in double. */
 wh_real wh_tan(wh_real rad);
-/* The angle of the point (x, y), from -pi to pi. */
+/* The angle of the point (x, y), from -pi to pi rad. */
 wh_real wh_atan2(wh_real y, wh_real x);
-/* base^exponent; exact if the result is a wh_real. */
+/* base^exponent. If a wh_real equals the true result, the function returns it without an error. */
 wh_real wh_pow(wh_real base, wh_real exponent);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* function_double.h: arithmetic for the double build of function.h (core/function_*_double.c). A pair holds a number as
- * the sum of two doubles, the second at most half a unit of the first: some hundred bits (host/number/double_double.h
- * uses it, too). Pairs are computed by additions, products and quotients alone. A function returns the rounded sum of a
- * pair, so its error is little more than half a unit in the last place. */
+ * the unrounded sum of two doubles, some hundred bits; the second is at most half a unit in the last place of the
+ * first. Pairs are computed by additions, products and quotients alone. A function returns the rounded sum of a pair,
+ * so its error is little more than half a unit in the last place. (host/number/double_double.h uses pairs, too.) */
 #ifndef WH_FUNCTION_DOUBLE_H
 #define WH_FUNCTION_DOUBLE_H
 
@@ -16,7 +16,8 @@ typedef struct wh_pair {
     double low;
 } wh_pair;
 
-/* a + b without loss, for |a| >= |b| and for any two (Dekker, Knuth). */
+/* The sum a + b without round-off: wh_pair_of() for |a| >= |b|, the next function for any two numbers (Dekker,
+ * Knuth). */
 WH_INLINE wh_pair wh_pair_of(double a, double b) {
     const double sum = a + b;
     return (wh_pair){sum, b - (sum - a)};
@@ -40,18 +41,18 @@ WH_INLINE wh_pair wh_pair_sum(double a, double b) {
 #define WH_NAN __builtin_nan("") /* one NaN, with the same bits everywhere */
 #define WH_INFINITY __builtin_inf()
 
-/* sin(rad) for all angles, within one unit in the last place. The core's wh_sincos() has an absolute error instead,
+/* sin(rad) for all angles, within one unit in the last place. wh_sincos() is less accurate: it has an absolute error,
  * and a limited range. */
 double wh_sine(double rad);
 double wh_cosine(double rad);
 
-/* The logarithm of a positive finite number, to 70 bits and more. */
+/* The logarithm of a positive finite number, to at least 70 bits. */
 wh_pair wh_log_pair(double x);
-/* e^exponent, rounded once, including subnormals. |exponent| < 1e4. */
+/* e^exponent for |exponent| < 1e4, rounded once; the result may be subnormal. */
 double wh_exp_pair(wh_pair exponent);
-/* e^exponent as a pair between 0.99 and 2, to 60 bits, and a power of two. */
+/* e^exponent as the product of the returned pair (0.99 to 2, to 60 bits) and 2^*power_of_two. */
 wh_pair wh_exp_parts(wh_pair exponent, int *power_of_two);
-/* A pair between 0.99 and 2 times 2^exponent, rounded once; the result may be infinite or subnormal. */
+/* Returns x 2^exponent, rounded once, for a pair x from 0.99 to 2. The result may be infinite or subnormal. */
 double wh_scaled_pair(wh_pair x, int exponent);
 
 WH_INLINE uint64_t wh_bits(double x) {
@@ -78,7 +79,7 @@ WH_INLINE double wh_power_of_two(int exponent) {
     return wh_of_bits((uint64_t)(exponent + 1023) << 52);
 }
 
-/* The upper 26 bits of a number's 53. */
+/* The number with only the upper 26 of its 53 bits. */
 WH_INLINE double wh_upper(double x) { return wh_of_bits(wh_bits(x) & ~UINT64_C(0x7ffffff)); }
 
 /* The product a b to 106 bits. */

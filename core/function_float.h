@@ -1,10 +1,10 @@
 /* function_float.h: the integer arithmetic of the float functions (included by function_*_float.c only).
  *
- * A number is split into a sign, 32 binary digits and an exponent. The function is computed from these with about 30
- * digits, and one rounding makes a float of it. That is cheaper than pairs of floats, even without floating-point hardware,
- * and compilers have nothing to reorder or fuse.
+ * A number is split into a sign, 32 binary digits and an exponent. The function is computed with about 30 of these
+ * digits, and one rounding makes a float of the result. That is cheaper than pairs of floats, even without
+ * floating-point hardware. Compilers cannot reorder or fuse integer operations.
  *
- * Fixed point: "Q31" is a uint32_t that counts 2^-31, and so on. */
+ * A fixed-point format is named after its binary places: "Q31" is a uint32_t in units of 2^-31. */
 #ifndef WH_FUNCTION_FLOAT_H
 #define WH_FUNCTION_FLOAT_H
 
@@ -15,7 +15,7 @@
 #include "function.h"
 #include "number/flash.h"
 
-/* Bits of a float without its sign: as integers they have the same order as the numbers. */
+/* Without the sign bit, the bits of two floats compare, as integers, like the floats' magnitudes. */
 #define WH_BITS_SIGN UINT32_C(0x80000000)
 #define WH_BITS_ONE UINT32_C(0x3f800000)
 #define WH_BITS_INFINITE UINT32_C(0x7f800000)
@@ -27,7 +27,7 @@ typedef union wh_word {
     uint32_t bits;
 } wh_word;
 
-/* size/2^31 * 2^exponent; the top bit of size is set. */
+/* The number size/2^31 * 2^exponent. The top bit of size is set. */
 typedef struct wh_digits {
     uint32_t size;
     int32_t exponent;
@@ -37,7 +37,7 @@ WH_INLINE uint32_t wh_bits_of(float x) { return (wh_word){.value = x}.bits; }
 
 WH_INLINE float wh_float_of_bits(uint32_t bits) { return (wh_word){.bits = bits}.value; }
 
-/* Reads a number of a WH_FLASH table. On an AVR, flash is read by special instructions; wh_flash_real() issues them for
+/* Reads a number of a table in flash. An AVR reads flash by special instructions, which wh_flash_real() issues for
  * floats. */
 WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 #if defined(__AVR__)
@@ -47,10 +47,9 @@ WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 #endif
 }
 
-/* The upper 32 bits of a b. */
 WH_INLINE uint32_t wh_high(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
 
-/* Leading zeros of x > 0. An int has 16 bits on the smallest machines. */
+/* Number of leading zeros of x > 0. On the smallest machines an int has only 16 bits. */
 WH_INLINE uint32_t wh_leading_zeros(uint32_t x) {
     return (uint32_t)(sizeof(int) >= 4 ? __builtin_clz((unsigned)x)
                                        : __builtin_clzl((unsigned long)x));
@@ -58,7 +57,8 @@ WH_INLINE uint32_t wh_leading_zeros(uint32_t x) {
 
 WH_INLINE uint32_t wh_leading_zeros_64(uint64_t x) { return (uint32_t)__builtin_clzll(x); }
 
-/* The digits of a finite magnitude that is not zero; subnormal magnitudes are allowed. */
+/* Splits a magnitude (a float's bits without the sign) that is finite and not zero. Subnormal magnitudes are
+ * allowed. */
 WH_INLINE wh_digits wh_digits_of(uint32_t magnitude) {
     wh_digits d = {(magnitude << 8) | WH_TOP_BIT, (int32_t)(magnitude >> 23) - 127};
     if (magnitude < UINT32_C(0x00800000)) {
@@ -68,13 +68,13 @@ WH_INLINE wh_digits wh_digits_of(uint32_t magnitude) {
     return d;
 }
 
-/* x^2 as Q32, for x^2 below one. */
+/* x^2 in Q32, if x^2 is below one. */
 WH_INLINE uint32_t wh_square(wh_digits x) {
     const int32_t shift = -2 * x.exponent - 2;
     return shift > 31 ? 0U : wh_high(x.size, x.size) >> shift;
 }
 
-/* series[0] x^(count - 1) + ... + series[count - 1], in fractions of 2^32. */
+/* The polynomial series[0] x^(count - 1) + ... + series[count - 1]. Coefficients, x and the result are in Q32. */
 WH_INLINE uint32_t wh_series(const uint32_t *series, unsigned count, uint32_t x) {
     uint32_t sum = wh_flash_word(&series[0]);
     for (unsigned i = 1; i < count; i++) {
@@ -97,20 +97,21 @@ WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
 #define wh_float_exp2 WH_NAME(wh_float_exp2)
 
 /* The float nearest to size/2^31 * 2^exponent, for size > 0 and any exponent. Ties go to even. Results beyond the
- * largest float are infinite, small ones subnormal or zero. `sign` is WH_BITS_SIGN or 0. */
+ * largest float become infinite, very small results subnormal or zero. `sign` is WH_BITS_SIGN or 0. */
 float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent);
 
-/* num/den in Q31, doubled if it is below one, rounded down. The top bit of num and den is set, and their 8 lowest
- * bits are clear. */
+/* The quotient num/den in Q31, rounded down; if the quotient is below one, twice the quotient. In num and in den, the
+ * top bit is set and the 8 lowest bits are clear. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den);
 
-/* 1/x, x > 0: relative error at most 1e-9. */
+/* 1/x for x > 0. The relative error is at most 1e-9. */
 wh_digits wh_float_inverse(wh_digits x);
 
-/* x log2(e) as Q32, rounded, for x of 24 digits from 2^-27 to below 2^9. */
+/* x log2(e) in Q32, rounded, for x with 24 digits from 2^-27 to below 2^9. */
 uint64_t wh_float_octaves(wh_digits x);
 
-/* 2^(power/2^32), |power/2^32| < 2^10, negative powers in two's complement: relative error at most 6e-10. */
+/* 2^(power/2^32) for |power/2^32| < 2^10; negative powers are in two's complement. The relative error is at most
+ * 6e-10. */
 wh_digits wh_float_exp2(uint64_t power);
 
 #endif

@@ -17,7 +17,7 @@ static inline uint64_t wh_hash_u64(uint64_t hash, uint64_t word) {
     return hash;
 }
 
-/* The bits of a real; a float's 32 are extended by zeros. */
+/* The bits of a real; a float's 32 bits are extended by zeros. */
 static inline uint64_t wh_real_bits(wh_real value) {
 #if WH_DOUBLE
     uint64_t bits;

@@ -1,20 +1,22 @@
-/* ledger.h: accounts of the energy and of each momentum of a run, and the entries that changed them.
+/* ledger.h: accounts of the energy and of each momentum of a run, with entries for the causes of their changes.
  *
  * Account 0 is the energy integral sum q_i' dL/dq_i' - L (Goldstein, Classical Mechanics, section 2.7). It equals T + V
- * if T is a quadratic form of the rates and V does not depend on them. Account 1 + i is the generalized momentum
+ * if T is a quadratic form of the rates and V does not depend on the rates. Account 1 + i is the generalized momentum
  * dL/dq_i' of coordinate i, in the scene's order, conserved coordinates last.
  *
- * Each entry sums the changes of one account since the start by one cause, in this order:
+ * Each entry is the sum of the changes that one cause made to one account since the start. The entries are, in this
+ * order:
  * - the work of each input, the loss of each damper (negative), and the impulse of each generalized force.
- * - for each contact its energy and its impulse along each coordinate.
- * - for each input that the energies name, the work -dL/dt of its changes between steps (it is constant within a step).
+ * - for each contact, its energy and its impulse along each coordinate.
+ * - for each input that the energies name, the work -dL/dt of its changes between steps (an input is constant within a
+ * step).
  * - last, if the scene asks for it, the energy drift that the steps have given back (stabilize.h).
  *
- * The smooth entries' powers and forces, and the contacts' forces, are integrated with the weights of the method's
- * own stages. So the entries have the method's order, and a step costs one more list of operations per stage.
- * Impacts, captures and assignments are entered as they happen. Sums are compensated. The part of an account's
- * change that no entry explains is the run's numerical drift: wh_ledger_error(). The ledger never touches the state:
- * a run with a ledger has the same bits as a run without. ledger_step.h fills the ledger. */
+ * The powers and forces of the first kind, and the contacts' forces, are integrated with the weights of the method's
+ * own stages. So the entries have the method's order, and each stage evaluates one more list of operations. Impacts,
+ * captures and assignments are entered when they happen. Sums are compensated. The part of an account's change that no
+ * entry explains is the run's numerical drift: wh_ledger_error(). The ledger never touches the state: a run with a
+ * ledger has the same bits as a run without. ledger_step.h fills the ledger. */
 #ifndef WH_LEDGER_H
 #define WH_LEDGER_H
 
@@ -25,40 +27,45 @@
 extern "C" {
 #endif
 
-/* The accounts at a state, SI units. level[1 + all coordinates]. */
+/* Computes the accounts at a state, in SI units: level[0] is the energy, level[1 + i] the momentum of coordinate i. */
 typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_real *linear,
                           const wh_real *rate, const wh_real *input, wh_real *level);
 
-/* A scene's ledger, constant. The functions are generated as lists of operations, as the accelerations are. */
+/* A scene's ledger. All members are constant. The functions are generated as lists of operations, like the
+ * accelerations. */
 struct wh_ledger_form {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *powers;  /* result[smooth]: rate of change of each entry's account */
     wh_levels_fn *levels; /* result[1 + all coordinates] */
-    /* replaces powers if an entry needs a turn angle in radians; or NULL. Accelerations never need the angle: a
-     * total derivative in the energies, such as th^2 th', drops out of the equations but not out of dL/dth */
+    /* Replaces `powers` if an entry needs a turn angle in radians; otherwise NULL. Accelerations never need the angle
+     * in radians: a total derivative in the energies, such as th^2 th', drops out of the equations, but not out of
+     * dL/dth. */
     wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] account of each smooth entry */
-    const uint8_t *input;   /* [inputs] inputs that the energies name, for the last entries */
-    uint16_t smooth;        /* number of smooth entries: those of powers and forces */
-    uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
+    /* [inputs] inputs that the energies name: each has one of the last entries */
+    const uint8_t *input;
+    /* number of smooth entries: those of inputs, dampers and generalized forces */
+    uint16_t smooth;
+    uint16_t entries; /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
     uint8_t accounts; /* stored words: two levels for each account, the inputs, one if stabilized */
     uint8_t coordinates; /* number of integrated coordinates */
-    uint8_t angles;      /* number of them that are stored as turn angles */
+    uint8_t angles;      /* number of coordinates that are stored as turn angles */
     uint8_t inputs;
     bool stabilized; /* each step gives back part of the drift (stabilize.h) */
 };
 
-/* Index of the entry of contact k's energy. The entries of the contact's impulses follow, by coordinate. */
+/* Index of the entry of contact k's energy. The entries of the contact's impulses follow, one for each coordinate. */
 WH_INLINE unsigned wh_ledger_of_contact(const wh_ledger_form *form, unsigned k) {
     return form->smooth + k * (1U + form->coordinates);
 }
 
-/* Index of the entry of input form->input[0], in the energy's account; those of the other inputs follow. */
+/* Index of the entry of input form->input[0]. The entries of the other inputs follow. All belong to the energy's
+ * account. */
 WH_INLINE unsigned wh_ledger_of_input(const wh_ledger_form *form) {
     return (unsigned)form->entries - form->inputs - form->stabilized;
 }
 
-/* Index of the entry of the energy given back, if form->stabilized. */
+/* If form->stabilized: index of the entry of the energy given back. */
 WH_INLINE unsigned wh_ledger_of_stabilized(const wh_ledger_form *form) {
     return form->entries - 1U;
 }
@@ -76,7 +83,7 @@ WH_INLINE unsigned wh_ledger_level_count(const wh_ledger_form *form) {
     return ((unsigned)form->accounts - form->inputs - form->stabilized) / 2U;
 }
 
-/* Change of each account by corrections (wh_scene_set_real() and similar), stored after the start's levels. A correction
+/* Changes of the accounts by corrections such as wh_scene_set_real(), stored after the start's levels. A correction
  * also moves the start's levels by the same amount, so the entries still add up to the change since the start. */
 WH_INLINE wh_real *wh_ledger_corrected(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + wh_ledger_level_count(form);
@@ -88,7 +95,7 @@ WH_INLINE wh_real *wh_ledger_kept(const wh_ledger_form *form, const wh_state *st
            form->stabilized;
 }
 
-/* Largest P of stabilize.h so far, J, if form->stabilized; the last stored word. */
+/* If form->stabilized: the largest P of stabilize.h so far, in J. It is the last stored word. */
 WH_INLINE wh_real *wh_ledger_most(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + (unsigned)form->accounts - 1U;
 }
@@ -107,8 +114,8 @@ WH_INLINE void wh_ledger_levels(const wh_ledger_form *form, const wh_state *stat
                  level);
 }
 
-/* The accounts at the present state, computed with the inputs of the last step. The next step enters the effect of
- * changed inputs. */
+/* Computes the accounts at the present state, but with the inputs of the last step. The next step enters the effect of
+ * inputs that were changed since. */
 static inline void wh_ledger_last_levels(const wh_ledger_form *form, const wh_state *state,
                                          wh_real *level) {
     for (unsigned k = 0; k < form->inputs; k++) {

@@ -1,22 +1,22 @@
-/* light_fields.h: the record of a board's first light. An image (boards/programs/firstlight.c) prints it as lines of
- * text, and `whirl firstlight` reads it:
+/* light_fields.h: the record of a board's first light. An image (boards/programs/firstlight.c) prints the record as
+ * lines of text, and `whirl firstlight` reads it:
  *
  *     firstlight record 1
- *     NAME VALUE          a field a line, in the order of WH_LIGHT_FIELDS
+ *     NAME VALUE          one line for each field, in the order of WH_LIGHT_FIELDS
  *     end 0x01234567      CRC-32 (frame.h) of all lines before, each with a line feed and no carriage return
  *
- * A field that is not available on a board or emulator has the value `none`. */
+ * A field that a board or emulator cannot fill has the value `none`. */
 #ifndef WH_LIGHT_FIELDS_H
 #define WH_LIGHT_FIELDS_H
 
-#include "version.h" /* the value of `version` */
+#include "version.h"
 
 #define WH_LIGHT_BEGIN "firstlight record 1"
 #define WH_LIGHT_END "end 0x"
 #define WH_LIGHT_NONE "none"
 
-/* Scenes that the image runs to their end: an angle under gravity, a hinge, a gear on a carriage, a coordinate computed
- * from its momentum, and stops with friction. */
+/* Scenes that the image runs to their end. They cover an angle under gravity, a hinge, a gear on a carriage, a
+ * coordinate that is computed from its momentum, and stops with friction. */
 #define WH_LIGHT_SCENES(X) \
     X(rig_fixed) \
     X(driven_hinge_from_rest) \
@@ -24,8 +24,8 @@
     X(thomson_a_conserved) \
     X(shuttle_buffers)
 
-/* Names of the fields, in order. Each scene has: the hash of its operations; the hash of its last state, with steps
- * and status; the least, median and largest number of cycles of a step. */
+/* The fields of one scene, in order: the hash of its operations; the hash of its last state, with steps and status; the
+ * least, median and largest number of cycles of a step. */
 #define WH_LIGHT_OF_SCENE(scene) "model." #scene, "hash." #scene, "cycles." #scene,
 #define WH_LIGHT_FIELDS \
     "board", "chip", "version", "compiler", WH_LIGHT_SCENES(WH_LIGHT_OF_SCENE) "stack", "clock", \

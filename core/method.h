@@ -94,8 +94,8 @@ typedef enum wh_method { WH_METHOD_ROWS(WH_METHOD_NAME) } wh_method;
 enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
 #undef WH_METHOD_ONE
 
-/* Systems that a method takes: one bit for each wh_form (scene.h), and one that means "only accelerations that do
- * not depend on rates". */
+/* The systems that a method can step: one bit for each wh_form (scene.h). Bit 2 (in WH_NO_RATES) restricts them to
+ * accelerations that do not depend on rates. */
 enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
 #ifdef __cplusplus
@@ -104,11 +104,11 @@ extern "C" {
 
 /* A method's data for users. */
 typedef struct wh_method_row {
-    const char *word;  /* on command lines, in file names */
+    const char *word;  /* the method's name on command lines and in file names */
     const char *name;  /* name in C */
-    const char *title; /* title in sentences */
+    const char *title; /* the method's name in sentences */
     uint8_t order;     /* order of convergence */
-    uint8_t takes;     /* the forms of systems that it can step: the bits above */
+    uint8_t takes;     /* the systems that the method can step: the bits above */
     uint8_t stages;    /* evaluations of the right-hand side per step */
 } wh_method_row;
 
@@ -119,8 +119,8 @@ extern const wh_method_row wh_methods[WH_METHODS];
 }
 #else
 
-/* The available rows. A generated scene defines its method's number of stages (WH_STAGES), which drops the longer
- * rows: room for two more stages costs 8-bit chips 200 bytes of RAM if the compiler stores any of the row. */
+/* The available rows. A generated scene defines WH_STAGES, its method's number of stages. Up to four stages, the longer
+ * rows are dropped: otherwise, if the compiler stores any of a row, 8-bit chips need 200 bytes more RAM. */
 #if defined(WH_STAGES) && WH_STAGES <= 4
 #define WH_TABLEAUS(X) WH_SHORT_METHOD_ROWS(X)
 #define WH_NO_TABLEAUS(X) WH_LONG_METHOD_ROWS(X)
@@ -134,7 +134,7 @@ union wh_method_stages {
     WH_TABLEAUS(WH_METHOD_STAGES)
 };
 #undef WH_METHOD_STAGES
-/* Most stages of an available row. */
+/* The largest number of stages of an available row. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
 /* Weights of the stages: the derivative of stage j has the weight share[j] / parts. Shares are reals, because
@@ -152,7 +152,7 @@ typedef struct wh_places {
 typedef struct wh_tableau {
     unsigned stages;
     wh_shares stage[WH_STAGES_MAX];
-    const wh_places *places; /* positions of the stages; NULL: they follow from the rates */
+    const wh_places *places; /* positions of the stages; NULL: the rates of the stages give them */
     wh_real parts;
     wh_real positions[WH_STAGES_MAX];
     wh_real rates[WH_STAGES_MAX];
@@ -164,8 +164,8 @@ typedef struct wh_tableau {
 WH_TABLEAUS(WH_METHOD_TABLEAU)
 #undef WH_METHOD_TABLEAU
 
-/* One object for each row, not an array. If the method is constant, generated code then contains only its own row,
- * and not even that if the loops over it are unrolled. */
+/* There is one object for each row instead of an array. If the method is constant, generated code then contains only
+ * its own row, and not even that row if the loops over it are unrolled. */
 WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
 #define WH_METHOD_NONE(id, ...) case id:
 #define WH_METHOD_TABLEAU(id, ...) \

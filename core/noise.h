@@ -1,13 +1,14 @@
 /* noise.h: Gaussian noise with the same bits everywhere: a function of a seed and an index, without state.
  *
- * A polynomial of degree 9 maps the sum z of twelve uniform 16-bit numbers, less its mean, to a Gaussian deviate
- * (Teichroew 1953; Knuth, The Art of Computer Programming 2, section 3.4.1). The words 3 index + 1 to 3 index + 3 of
- * splitmix64 supply the uniform numbers (Steele, Lea & Flood, Fast splittable pseudorandom number generators, OOPSLA
- * 2014). The generator starts at a mixed form of the seed. All arithmetic is in 64-bit integers. The result has 21 bits
- * with its sign, so float and double builds give exactly the same number.
+ * The sum of twelve uniform 16-bit numbers, less its mean, is nearly Gaussian. A polynomial of degree 9 corrects it
+ * (Teichroew 1953; Knuth, The Art of Computer Programming 2, section 3.4.1). The uniform numbers are the words 3 index
+ * + 1 to 3 index + 3 of splitmix64 (Steele, Lea & Flood, Fast splittable pseudorandom number generators, OOPSLA 2014),
+ * started at a mixed form of the seed. All arithmetic is in 64-bit integers. The result has 21 bits including the sign,
+ * so float and double builds give exactly the same number.
  *
- * Limits: mean 0, standard deviation 1.0001, kurtosis 3.002. Values beyond three standard deviations are 1.006 times as
- * frequent as a Gaussian's, beyond four 1.05 times; there are none beyond 8.6. For sensors, not for cryptography. */
+ * The mean is 0, the standard deviation 1.0001, the kurtosis 3.002. Values beyond three standard deviations are 1.006
+ * times as frequent as a Gaussian's, values beyond four 1.05 times; no value is beyond 8.6. The noise is meant for
+ * sensors, not for cryptography. */
 #ifndef WH_NOISE_H
 #define WH_NOISE_H
 

@@ -26,7 +26,7 @@
     "Whirl computes the same bits everywhere, which fast-math forbids: compile this file without -ffast-math, -Ofast, -funsafe-math-optimizations and their parts."
 #endif
 
-/* 16, 32: types smaller than float are computed in their own precision. */
+/* The values 16 and 32 are allowed: types smaller than float are then computed in their own precision. */
 #if defined(__FLT_EVAL_METHOD__) && __FLT_EVAL_METHOD__ != 0 && __FLT_EVAL_METHOD__ != 16 && \
     __FLT_EVAL_METHOD__ != 32 && \
     !(WH_DOUBLE && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 64))
@@ -85,16 +85,17 @@ typedef float wh_real;
 #define WH_INLINE_WITH_FPU WH_INLINE
 #endif
 
-/* 1 on a chip with small flash that passes reals in floating-point registers. On such a chip a rare path calls a
- * function that all scenes share. */
+/* 1 on a chip that passes reals in floating-point registers and has small flash. There, all scenes share one function
+ * for a rare path. */
 #if defined(__ARM_PCS_VFP) && !WH_DOUBLE && !(defined(WH_AHEAD) && WH_AHEAD)
 #define WH_REALS_IN_REGISTERS 1
 #else
 #define WH_REALS_IN_REGISTERS 0
 #endif
 
-/* WH_CALLED: a function that is not inlined if flash is scarcer than time (-DWH_SMALL=1): a copy would be larger,
- * whatever the compiler estimates. WH_SHARED: such a function in a header; inlined if flash is not scarce. */
+/* WH_CALLED marks a function that is not inlined if flash is scarcer than time (-DWH_SMALL=1). The compiler's estimate
+ * of the cost of a copy would be too low. WH_SHARED marks such a function in a header; it is inlined if flash is not
+ * scarce. */
 #ifndef WH_SMALL
 #define WH_SMALL 0
 #endif
@@ -121,20 +122,20 @@ typedef float wh_real;
 #define WH_SELDOM(condition) (condition)
 #endif
 
-/* Errors are negative; zero is success. X(name, value, words for consoles: wh_status_text()). */
+/* Errors are negative; zero is success. X(name, value, the text that wh_status_text() returns). */
 #define WH_STATUS_ROWS(X) \
     X(WH_OK, 0, "ok") \
-    /* a step gave a non-finite or absurd state; the last good one is kept */ \
+    /* A step gave a state that is not finite or absurdly large; the last good state is kept. */ \
     X(WH_E_DIVERGED, -1, "the state diverged") \
-    /* the caller's memory */ \
+    /* The caller gave too little memory. */ \
     X(WH_E_MEMORY, -2, "the memory is too small for this scene") \
-    /* an argument is outside its documented range */ \
+    /* An argument is outside its documented range. */ \
     X(WH_E_ARGUMENT, -3, "an argument is out of range") \
-    /* the last good state is kept */ \
+    /* The last good state is kept. */ \
     X(WH_E_UNDEFINED, -4, "an expression of a contact is not a finite number") \
-    /* from here the holds allow more than one motion; the last good state is kept */ \
+    /* At this state the holds allow more than one motion; the last good state is kept. */ \
     X(WH_E_SINGULAR, -5, "holds leave more than one motion") \
-    /* compiled or set up so that the bits would differ from all other builds': see arithmetic.h */ \
+    /* The program is compiled or set up so that its bits would differ from those of all other builds: see arithmetic.h. */ \
     X(WH_E_ARITHMETIC, -6, "compiled or set up for other arithmetic than IEEE 754")
 
 #define WH_STATUS_VALUE(name, value, words) name = (value),

@@ -7,18 +7,16 @@
  *     x  = x + h/6 (k1 + 2 k2 + 2 k3 + k4)
  *
  * (Kutta, Zeitschrift fuer Mathematik und Physik 46, 1901; Hairer, Norsett & Wanner, Solving Ordinary Differential
- * Equations I, section II.1). A step evaluates f four times, its error is of order h^5, and its arrays have a size that
- * the compiler knows.
+ * Equations I, section II.1). A step evaluates f four times, and its error is of order h^5.
  *
- * x are the components of a scene's state (state.h): its angles, then its reals. Of a mechanism, q'' = f(q, q', u),
- * these are the positions q and the rates q'; the slopes of positions are the rates, those of rates the accelerations.
- * Angles are not reals: wh_angle_move() moves one by slope times time, and it keeps its digits after a million turns
- * (angle.h).
+ * The vector x is a scene's state (state.h): its angles, then its reals. In a mechanism, q'' = f(q, q', u), x holds the
+ * positions q and the rates q'. The slopes of the positions are the rates, and the slopes of the rates are the
+ * accelerations. Angles are integers: wh_angle_move() moves an angle by slope times time, without a loss of digits
+ * after a million turns (angle.h).
  *
- * `--method rk4-plain` runs a scene by this step. The method `rk4` has the same formulas as a row of method.h. Its
- * steps (step.h) share sums between positions and rates, and look each sine up only once (stage_turn.h), so they cost
- * less. `build/tests/host rk4` compares both.
- * */
+ * `--method rk4-plain` runs a scene by this step. The method `rk4` has the same formulas as a row of method.h. The
+ * steps of step.h share sums between positions and rates, and look each sine up only once (stage_turn.h), so they cost
+ * less. `build/tests/host rk4` compares both. */
 #ifndef WH_RK4_H
 #define WH_RK4_H
 
@@ -33,8 +31,8 @@
 typedef void wh_slope_fn(const void *model, const wh_phase *phase, const wh_real *real,
                          const wh_real *input, wh_real *slope);
 
-/* The system x' = f(x, u). Either `slope` computes all slopes, or `accel` the accelerations of a mechanism with
- * `coordinates` positions, of which the first `angles` are angles. The other pointer is NULL. */
+/* The system x' = f(x, u). Either `slope` computes all slopes, or `accel` computes the accelerations of a mechanism
+ * with `coordinates` positions, of which the first `angles` are angles. The unused pointer is NULL. */
 typedef struct wh_rk4_system {
     const void *model;
     wh_slope_fn *slope;
@@ -44,7 +42,6 @@ typedef struct wh_rk4_system {
     unsigned reals; /* number of reals in the state: linear positions, then rates */
 } wh_rk4_system;
 
-/* One slope for each component of the state. */
 typedef struct wh_rk4_slopes {
     wh_real angle[WH_COORDS]; /* rad/s */
     wh_real real[2 * WH_COORDS];
@@ -93,7 +90,6 @@ WH_INLINE unsigned wh_rk4_stage(const wh_rk4_system *f, const wh_state *x, wh_re
     return f->angles;
 }
 
-/* k1 + 2 k2 + 2 k3 + k4 */
 WH_INLINE wh_real wh_rk4_sum(wh_real k1, wh_real k2, wh_real k3, wh_real k4) {
     return k1 + WH_R(2.0) * (k2 + k3) + k4;
 }

@@ -1,8 +1,8 @@
 /* root.h: the square root, correctly rounded, without a library.
- * WH_SQRT(x) is the processor's instruction if the compiler surely emits only that, and wh_sqrt() otherwise, with the same
- * bits. The obstacle is errno: without -fno-math-errno, compilers add a call of libm's sqrtf for negative numbers, or emit
- * only the call (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors the flag saves
- * time. */
+ *
+ * If WH_ROOT_BUILTIN is 1, WH_SQRT(x) is the processor's instruction; otherwise it is wh_sqrt(), with the same bits.
+ * Without -fno-math-errno, compilers add a call of libm's sqrtf that sets errno for negative numbers, or emit only the
+ * call (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors the flag saves time. */
 #ifndef WH_ROOT_H
 #define WH_ROOT_H
 
@@ -15,14 +15,14 @@ extern "C" {
 #define wh_sqrt WH_NAME(wh_sqrt)
 
 /* The square root rounded to the nearest real, computed in integers. As in IEEE 754, infinity and both zeros are their
- * own roots; the roots of NaN and of negative numbers are NaN. */
+ * own roots; NaN and negative numbers give NaN. */
 wh_real wh_sqrt(wh_real x);
 
-/* WH_ROOT_BUILTIN: the compiler's square root is one instruction, without a call. */
+/* WH_ROOT_BUILTIN is 1 if the compiler's square root is one instruction without a call. */
 #if defined(__GNUC__) && defined(__NO_MATH_ERRNO__)
 #if defined(__aarch64__) || defined(__wasm__)
 #define WH_ROOT_BUILTIN 1
-#elif defined(__ARM_FP) /* bits 4 and 8 are the supported sizes in bytes */
+#elif defined(__ARM_FP) /* bit 4: float, bit 8: double */
 #define WH_ROOT_BUILTIN (__ARM_FP >> (WH_DOUBLE ? 3 : 2) & 1)
 #elif defined(__riscv_flen) && defined(__riscv_fsqrt)
 #define WH_ROOT_BUILTIN (__riscv_flen >= (WH_DOUBLE ? 64 : 32))
@@ -34,7 +34,7 @@ wh_real wh_sqrt(wh_real x);
 
 #if defined(__GNUC__) && defined(__SSE2_MATH__) /* x86, computing with SSE */
 WH_INLINE wh_real wh_root_sse(wh_real x) {
-    /* the same number in all lanes: cheaper than zeros in the unused ones */
+    /* All lanes of the register get the same number, because this is cheaper than zeros in the unused lanes. */
 #if WH_DOUBLE
     typedef double reals __attribute__((vector_size(16)));
     const reals all = {x, x};

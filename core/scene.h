@@ -1,16 +1,16 @@
-/* scene.h: a scene is one mechanism, compiled with only the effects it names, ready to step.
+/* scene.h: a scene is one mechanism, compiled with only the effects that it names, ready to step.
  *
- * A generated file (build/gen/NAME.c) defines one constant `wh_scene`, which lives in flash. The variables of a run live in
- * a `wh_state` and in memory that the caller owns. The generated header (build/gen/NAME.h) gives the memory's size and the
- * indices of coordinates, inputs and outputs:
+ * A generated file (build/gen/NAME.c) defines one constant `wh_scene`, which lives in flash. The variables of a run
+ * live in a `wh_state` and in memory that the caller owns. The generated header (build/gen/NAME.h) gives the memory's
+ * size and the indices of coordinates, inputs and outputs:
  *
  *     static uint64_t memory[thomson_a_MEMORY_WORDS];
  *     wh_state state;
  *     wh_scene_start(&thomson_a, &state, memory, sizeof memory);
  *     while (wh_scene_step(&thomson_a, &state) == WH_OK) { ... }
  *
- * Verbs follow eFMI's Startup / DoStep. Nothing here allocates, recurses or calls a library. This file, the generated
- * header and their includes are C11 and C++11; generated .c files and the core's own are C. */
+ * The function names follow eFMI's Startup / DoStep. Nothing here allocates, recurses or calls a library. This file,
+ * the generated header and their includes are C11 and C++11; generated .c files and the core's .c files are C only. */
 #ifndef WH_SCENE_H
 #define WH_SCENE_H
 
@@ -23,7 +23,7 @@
 extern "C" {
 #endif
 
-/* Can this method (method.h) step a system of this form? */
+/* True if the method (method.h) can step a system of this form. */
 WH_INLINE bool wh_method_takes(wh_method method, wh_form form) {
 #define WH_METHOD_TAKES(id, word, title, order, takes, ...) | ((unsigned)(takes) >> 1 & 1U) << (id)
     const unsigned first_order = 0U WH_METHOD_ROWS(WH_METHOD_TAKES);
@@ -32,13 +32,13 @@ WH_INLINE bool wh_method_takes(wh_method method, wh_form form) {
            (form == WH_SECOND_ORDER || (first_order >> method & 1U) != 0);
 }
 
-/* numerator / denominator, both below 2^63. */
+/* The fraction numerator / denominator; both are below 2^63. */
 typedef struct wh_fraction {
     uint64_t numerator;
     uint64_t denominator;
 } wh_fraction;
 
-/* A time, seconds: whole_s + fraction_s. */
+/* The time whole_s + fraction_s, in seconds. */
 typedef struct wh_time {
     uint64_t whole_s;
     wh_real fraction_s; /* 0 <= fraction_s < 1 */
@@ -49,13 +49,14 @@ struct wh_scene {
     const char *name;
     wh_form form;
     wh_method method;
-    uint8_t angles;   /* components kept as a turn angle */
-    uint8_t reals;    /* components kept as a real */
-    uint8_t inputs;   /* number of inputs: they may change between steps */
-    uint8_t outputs;  /* computed by observe(), never in the step */
-    uint8_t contacts; /* stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
-    uint8_t held;     /* holds that could slip: they involve several coordinates, or are curved */
-    uint8_t driven;   /* inputs with a rate: they set the last positions and the last rates */
+    uint8_t angles;   /* number of components stored as a turn angle */
+    uint8_t reals;    /* number of components stored as a real */
+    uint8_t inputs;   /* number of inputs: values that may change between steps */
+    uint8_t outputs;  /* number of outputs: observe() computes them, a step does not */
+    uint8_t contacts; /* number of stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
+    uint8_t held;     /* number of holds that could slip: curved, or of several coordinates */
+    /* number of inputs with a rate: they set the last positions and the last rates */
+    uint8_t driven;
     bool compensated; /* sums are compensated for round-off */
     wh_real step_s;   /* fixed step, seconds, > 0 */
     wh_fraction step; /* step_s as an exact fraction, for wh_scene_time(); {0, 0}: not known */
@@ -66,40 +67,39 @@ struct wh_scene {
     const wh_ledger_form *ledger; /* NULL: the scene has no ledger */
     const void *model;            /* the interpreter's operation list; NULL in generated code */
     uint64_t model_hash;          /* hash of the operation list: identifies the physics */
-    /* Does one step and counts it in state->steps. Returns WH_E_DIVERGED on divergence. Returns WH_E_UNDEFINED if a
-     * contact's gap, condition, value, friction or restitution is not a finite number. On an error it sets state->fault
-     * and leaves the rest unchanged. */
+    /* Does one step and counts it in state->steps. Returns WH_OK or an error: see wh_scene_step(). On an error it sets
+     * state->fault and leaves the rest unchanged. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
     /* Does `steps` steps, at least one, and counts them in state->steps: see wh_scene_steps(). NULL: wh_scene_steps()
      * calls advance() in a loop. Generated code has this function if it is compiled with -DWH_AHEAD=1. */
     wh_status (*ahead)(const wh_scene *scene, wh_state *state, uint32_t steps);
-    /* The outputs at the present state: output[scene->outputs], SI units. May be NULL. */
+    /* Computes the outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
-    /* Shows how the file of advance() was compiled: wh_arithmetic() of arithmetic.h; or NULL. */
+    /* Shows how the file of advance() was compiled (wh_arithmetic() of arithmetic.h). May be NULL. */
     void (*arithmetic)(wh_real *result);
 };
 
-/* Bytes of caller memory that wh_scene_start() takes for a scene's angles, reals and contacts. all_reals counts the
- * state's reals, a low part for each component if compensated, the inputs, the holds' values and the ledger's reals.
- * The result is constant if the arguments are. The generated header computes it with the scene's own numbers. */
+/* Bytes of caller memory that wh_scene_start() needs. all_reals counts the state's reals, a low part for each component
+ * if the scene is compensated, the inputs, the holds' values and the ledger's reals. The result is constant if the
+ * arguments are. The generated header computes it with the scene's own numbers. */
 #define WH_MEMORY_BYTES(angles, all_reals, contacts) \
     ((contacts) > 0 ? (WH_NUMBER_BYTES(angles, all_reals) + 7U) / 8U * 8U + sizeof(wh_contacts) \
                     : WH_NUMBER_BYTES(angles, all_reals))
 #define WH_NUMBER_BYTES(angles, all_reals) \
     (WH_SIZE(angles) * sizeof(wh_angle) + WH_SIZE(all_reals) * sizeof(wh_real))
 
-/* Eight-byte words of caller memory for a state with this many angles, reals and inputs, for arrays sized by hand.
- * Enough for float and double, and for compensated sums. */
+/* Eight-byte words of caller memory for a state with `angles` angles, `reals` reals and `inputs` inputs, for arrays
+ * sized by hand. Enough for float and double, and for compensated sums. */
 #define WH_STATE_WORDS(angles, reals, inputs) \
     (WH_SIZE(angles) + (2U * WH_SIZE(reals) + WH_SIZE(angles) + WH_SIZE(inputs)))
 
-/* Words to add for a scene with this many contacts. */
+/* Words to add for `contacts` contacts. */
 #define WH_CONTACT_WORDS(contacts) ((contacts) > 0 ? (sizeof(wh_contacts) + 7U) / 8U : 0U)
 
-/* Words to add for this many holds that could slip. */
+/* Words to add for `held` holds that could slip. */
 #define WH_HELD_WORDS(held) (WH_SIZE(held))
 
-/* Words to add for a ledger with this many entries and accounts. */
+/* Words to add for a ledger with `entries` entries and `accounts` stored words besides. */
 #define WH_LEDGER_WORDS(entries, accounts) (2U * WH_SIZE(entries) + WH_SIZE(accounts))
 
 #define wh_scene_start WH_NAME(wh_scene_start)
@@ -124,7 +124,7 @@ struct wh_scene {
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step; `scene` and `state` must not be NULL. Returns WH_OK; or WH_E_DIVERGED, WH_E_UNDEFINED or WH_E_SINGULAR
- * with the last good state and state->fault set. While the inputs stay the same, a further call fails in the same way.
+ * with the last good state and state->fault set. While the inputs stay the same, another call fails in the same way.
  * Returns WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_scene_start(). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
@@ -134,35 +134,39 @@ wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 
 /* Correct the state from a measurement, between two steps; SI units. `real` and `angle` are the generated header's
- * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. The next step goes on like a run that starts from the
- * corrected state. It puts a coordinate beyond a stop back onto the stop, finds every contact's mode again, and each
- * hold takes its present value as the one to keep. The corrected component loses its compensation. With a ledger, the
- * change of each account is stored apart (wh_ledger_corrected()). wh_scene_move_angle() adds to the angle, so the angle
- * keeps all its digits after many turns. Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged, for a state that
- * was not started, an unknown index, and a value that is not finite or out of bounds. An index that follows an input
- * with a rate also gives WH_E_ARGUMENT: set the input instead. */
+ * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. wh_scene_move_angle() adds to the angle, so the angle
+ * keeps all its digits after many turns.
+ *
+ * The next step goes on like a run that starts from the corrected state. A coordinate beyond a stop goes back onto the
+ * stop, every contact's mode is found again, and each hold keeps its present value. The corrected component loses its
+ * compensation. With a ledger, the change of each account is stored apart (wh_ledger_corrected()).
+ *
+ * Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged, for a state that was not started, an unknown index, or a
+ * value that is not finite or out of bounds. An index that follows an input with a rate also gives WH_E_ARGUMENT: set
+ * the input instead. */
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
 wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,
                               wh_real by_rad);
 
-/* Time of the state: state->steps * scene->step, exact except for one rounding of the fraction to the nearest real.
- * Valid for all times below 2^64 s: float resolves a microsecond in a run of years. If the scene does not give its step
- * as a fraction, this is wh_scene_time_s(), split. */
+/* Time of the state: state->steps * scene->step. Only the fraction of a second is rounded, once, to the nearest real.
+ * Valid for all times below 2^64 s: float resolves a microsecond in a run of years. If the scene's step is not given as
+ * a fraction, the result is wh_scene_time_s(), split. */
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
 
-/* Time of the state as one real: steps * step_s. The error is at most 1.5 U of the result plus the error of step_s
- * (U = 2^-24 in float: a millisecond at 4.7 h). The outputs of generated scenes use this time. */
+/* Time of the state as one real: steps * step_s. The error is at most 1.5 U of the result plus the error of step_s. (U
+ * = 2^-24 in float: 1 U of 4.7 h is 1 ms.) The outputs of generated scenes use this time. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
-/* Hash of step count, angles, reals, holds' values and contact modes: equal runs on any two machines give equal hashes.
- * 0 for a state that was not started. */
+/* Returns a hash of step count, angles, reals, holds' values and contact modes, or 0 for a state that was not started.
+ * Equal runs give equal hashes on any two machines. */
 uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state);
 
-/* The first of the rates of a second-order scene, in state->real. NULL for a state that was not started. */
+/* Returns a pointer to the first rate of a second-order scene, in state->real; NULL for a state that was not
+ * started. */
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state);
 
-/* A status in words, for consoles. */
+/* Returns a status in words, for consoles. */
 const char *wh_status_text(wh_status status);
 
 #ifdef __cplusplus

@@ -17,18 +17,18 @@ extern "C" {
  * First order (systems stated directly): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 
-/* Most moments with events in one step, and most logged events. */
+/* Maximum number of moments with events in one step, and of logged events. */
 #define WH_EVENTS_MAX 8
 #define WH_EVENT_LOG 16
 
-/* Most contacts of any scene. */
+/* Maximum number of contacts of any scene. */
 #define WH_CONTACTS_LIMIT 16
 
-/* Modes of a contact. The mode of a sliding friction is the sign of its rate; the mode of a crossing is the side of
- * zero that its value is on. */
+/* Modes of a contact. The mode of a sliding friction is the sign of its rate; the mode of a crossing is the sign of its
+ * value. */
 enum {
-    WH_FREE = 0,   /* stop out of touch; released hold */
-    WH_ACTIVE = 1, /* resting stop; closed hold */
+    WH_FREE = 0,   /* stop that is not touched, or released hold */
+    WH_ACTIVE = 1, /* resting stop, or closed hold */
     WH_STUCK = 0,  /* sticking friction */
     WH_UNSET = 127 /* after the start and after a correction, until the next step */
 };
@@ -43,8 +43,8 @@ typedef struct wh_event {
 
 typedef struct wh_contacts {
     uint64_t events; /* number of events since the start */
-    /* number of steps with more than WH_EVENTS_MAX moments with events, or in which a stop rested because the last
-     * of these moments was reached */
+    /* Number of steps that had more than WH_EVENTS_MAX moments with events, or in which a stop came to rest only
+     * because the last of these moments was reached. */
     uint64_t overruns;
     uint32_t logged; /* number of events of the last step, in log[] */
     wh_event log[WH_EVENT_LOG];
@@ -56,20 +56,23 @@ typedef struct wh_state {
     uint64_t steps;  /* number of steps done; time is computed from it and is never a running sum */
     wh_angle *angle; /* [scene->angles] */
     wh_real *real;   /* [scene->reals] SI units */
-    wh_real *carry;  /* [scene->angles + scene->reals] low parts if compensated, else NULL */
-    wh_real *input;  /* [scene->inputs] SI units; the caller may change them between steps */
+    /* [scene->angles + scene->reals] low parts if the scene is compensated, else NULL */
+    wh_real *carry;
+    wh_real *input;        /* [scene->inputs] SI units; the caller may change them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    wh_real *held;         /* [scene->held] SI: value of a curved hold, slip of a straight one */
-    wh_real *ledger;       /* totals, carries, levels at the start, corrections; or NULL */
-    /* after WH_E_DIVERGED: the component that diverged, angles first, then reals; after WH_E_UNDEFINED or
-     * WH_E_SINGULAR: the contact, in the order of contact.h; after WH_E_ARITHMETIC: the failed probe, a wh_probed
-     * (arithmetic.h) */
+    /* [scene->held] SI units: value of a curved hold, slip of a straight one */
+    wh_real *held;
+    /* totals, carries, levels at the start, corrections; NULL without a ledger */
+    wh_real *ledger;
+    /* After WH_E_DIVERGED: index of the component that diverged; angles first, then reals. After WH_E_UNDEFINED or
+     * WH_E_SINGULAR: index of the contact, numbered as in contact.h. After WH_E_ARITHMETIC: the failed probe, a
+     * wh_probed (arithmetic.h). */
     int fault;
 } wh_state;
 
-typedef struct wh_ledger_form wh_ledger_form; /* ledger.h */
+typedef struct wh_ledger_form wh_ledger_form;
 
-/* Accelerations of a second-order system. accel[coordinates]. */
+/* Computes the accelerations of a second-order system: accel[coordinates]. */
 typedef void wh_accel_fn(const void *model, const wh_phase *phase, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *accel);
 

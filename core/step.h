@@ -1,21 +1,21 @@
-/* step.h: the fixed-step integrators, one readable inline source.
+/* step.h: the fixed-step integrators, as inline functions.
  *
- * A generated scene and the host's interpreter both include this file. In a generated scene the counts, the method and
- * `compensated` are constants and the right-hand side is inlined, so the compiler unrolls the loops and drops unused
- * operations. Both have the same order of floating-point operations, and so the same bits. Both are C only: programs that
- * embed a scene include scene.h and the generated header.
+ * A generated scene and the host's interpreter both include this file, so both have the same order of floating-point
+ * operations and the same bits. In a generated scene the counts, the method and `compensated` are constants and the
+ * right-hand side is inlined, so the compiler unrolls the loops and drops unused operations. The file is C only:
+ * programs that embed a scene include scene.h and the generated header.
  *
  * One loop over the stages of a row of method.h serves all methods.
  *
- * For q'' = f(q, q', u) the position stages are written out. The result is that of the same method on the first-order form,
- * up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, section
- * II.14). The classic method:
+ * For q'' = f(q, q', u) the position stages are written out. The result is that of the same method on the first-order
+ * form, up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
+ * section II.14). The classic method:
  *
- *     v2 = v + h/2 a1          q2 = q + h/2 v          a2 = f(q2, v2)
- *     v3 = v + h/2 a2          q3 = q + h/2 v2         a3 = f(q3, v3)
- *     v4 = v + h a3            q4 = q + h v3           a4 = f(q4, v4)
- *     q+ = q + h (v + h/6 (a1 + (a2 + a3)))
- *     v+ = v + h/6 ((a1 + (a2 + a3)) + ((a2 + a3) + a4)) */
+ *      v2 = v + h/2 a1          q2 = q + h/2 v          a2 = f(q2, v2)
+ *      v3 = v + h/2 a2          q3 = q + h/2 v2         a3 = f(q3, v3)
+ *      v4 = v + h a3            q4 = q + h v3           a4 = f(q4, v4)
+ *      q+ = q + h (v + h/6 (a1 + (a2 + a3)))
+ *      v+ = v + h/6 ((a1 + (a2 + a3)) + ((a2 + a3) + a4)) */
 #ifndef WH_STEP_H
 #define WH_STEP_H
 
@@ -30,8 +30,8 @@
 #include "step/ahead.h"
 #include "step/step_end.h"
 
-/* The angle at a stage whose shares of the rates add up to `sum`. A stage in the middle of the step moves the angle
- * by half of the whole step's change. Returns false as wh_phase_move() does. */
+/* Computes the angle at a stage whose shares of the rates add up to `sum`. A stage in the middle of the step moves the
+ * angle by half of the whole step's change. Returns false if wh_phase_move() does. */
 WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real parts,
                               wh_phase *phase) {
     return parts == WH_R(2.0)
@@ -39,8 +39,8 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
-/* The arguments of a step that all its stages share. The struct has scalars only: compilers keep them in registers,
- * and know the constant ones before they unroll loops. */
+/* The arguments of a step that all its stages share. All are scalars: compilers keep them in registers, and know the
+ * constant ones before they unroll loops. */
 typedef struct wh_stepping {
     const wh_tableau *by; /* the method */
     const wh_state *state;
@@ -50,7 +50,7 @@ typedef struct wh_stepping {
     bool compensated;
 } wh_stepping;
 
-/* Arguments and results of an operation list. They have their own struct, so that all other variables stay in registers
+/* Arguments and results of an operation list. The separate struct lets compilers keep all other variables in registers
  * if the list is called. */
 typedef struct wh_stepped_list {
     wh_phase phase[WH_COORDS];
@@ -59,7 +59,7 @@ typedef struct wh_stepped_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_stepped_list;
 
-/* Zeroes the entries that no scene uses, because the compiler cannot know that they are unused. */
+/* Zeroes the entries that no scene uses. The compiler cannot know that they are unused. */
 WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned linears,
                                 wh_stepped_list *list) {
     WH_UNROLL
@@ -82,7 +82,7 @@ typedef struct wh_stepped_second {
     wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
 } wh_stepped_second;
 
-/* The positions of stage s, for a method whose rows have a reach. Returns as wh_step_second_stage() does. */
+/* Computes the positions of stage s, for a method whose rows have a reach. Returns as wh_step_second_stage() does. */
 WH_INLINE unsigned wh_step_reach(const wh_stepping *to, unsigned s, wh_given accels,
                                  wh_stepped_list *list, const wh_stepped_second *k) {
     const unsigned angles = to->angles;
@@ -102,7 +102,8 @@ WH_INLINE unsigned wh_step_reach(const wh_stepping *to, unsigned s, wh_given acc
     return angles;
 }
 
-/* Stage s > 0. Returns the angle that would move by half a turn or more, or `angles` if there is none. */
+/* Computes stage s > 0. Returns the first angle that would move by half a turn or more, or `angles` if there is
+ * none. */
 WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel,
                                         const wh_stepping *to, unsigned s, wh_stepped_list *list,
                                         wh_stepped_second *k) {
@@ -184,7 +185,7 @@ typedef struct wh_stepped_first {
     wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
 } wh_stepped_first;
 
-/* Stage s > 0. Returns as wh_step_second_stage() does. */
+/* Computes stage s > 0. Returns as wh_step_second_stage() does. */
 WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, const wh_stepping *to,
                                        unsigned s, wh_stepped_list *list, wh_stepped_first *k) {
     const wh_tableau *by = to->by;
@@ -213,9 +214,9 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
 }
 
 /* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. Returns
- * WH_E_ARGUMENT, with the state unchanged, if the method does not take such a system. Semi-implicit Euler does not:
- * it moves rates before positions, and a first-order system does not distinguish rates from positions. Otherwise
- * returns as wh_step_second() does. */
+ * WH_E_ARGUMENT, with the state unchanged, if the method cannot step such a system. Semi-implicit Euler cannot: it
+ * moves rates before positions, and a first-order system does not distinguish them. Otherwise returns as
+ * wh_step_second() does. */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_two_part h,
                                   wh_state *state) {

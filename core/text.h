@@ -21,9 +21,9 @@ extern "C" {
 
 typedef struct wh_text {
     char *bytes;     /* the caller's buffer, NUL-terminated */
-    unsigned size;   /* of the buffer, including the NUL */
+    unsigned size;   /* size of the buffer, including the NUL */
     unsigned length; /* characters written so far, without the NUL */
-    bool truncated;  /* something did not fit */
+    bool truncated;  /* true if characters were dropped */
 } wh_text;
 
 #define wh_text_start WH_NAME(wh_text_start)
@@ -35,7 +35,7 @@ typedef struct wh_text {
 #define wh_text_add_fixed WH_NAME(wh_text_add_fixed)
 #define wh_words_item WH_NAME(wh_words_item)
 
-/* Most decimals wh_text_add_fixed() prints. */
+/* Maximum number of decimals that wh_text_add_fixed() prints. */
 #define WH_TEXT_DECIMALS_MAX 18U
 
 /* Begin an empty text in bytes[size], size >= 1. */
@@ -45,19 +45,20 @@ void wh_text_start(wh_text *text, char *bytes, unsigned size);
 void wh_text_add_char(wh_text *text, char character);
 void wh_text_add(wh_text *text, const char *string);
 
-/* Item `number` of static const char list[] WH_WORD_LIST = "one\0" "two\0"; beyond the end, the last item. */
+/* Returns item `number` of a list such as static const char list[] WH_WORD_LIST = "one\0" "two\0"; beyond the end, the
+ * last item. */
 const char *wh_words_item(const char *list, unsigned number);
 
 /* Add a decimal number. */
 void wh_text_add_unsigned(wh_text *text, uint64_t value);
 void wh_text_add_signed(wh_text *text, int64_t value);
 
-/* Add the low `digits` hexadecimal digits of value, 1 to 16: lower case, with leading zeros. */
+/* Add the low `digits` (1 to 16) hexadecimal digits of `value`, in lower case, with leading zeros. */
 void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits);
 
-/* Add value with `decimals` digits after the point (at most WH_TEXT_DECIMALS_MAX), correctly rounded, ties to even. The
- * characters are those of C's "%.*f", except that a value that rounds to zero has no sign. Not-a-number gives "nan",
- * infinities "inf" and "-inf". A double of magnitude 2^128 or more gives "huge" or "-huge" (no float is so large). */
+/* Add `value` with `decimals` digits after the point (at most WH_TEXT_DECIMALS_MAX), correctly rounded, ties to even.
+ * The characters are those of C's "%.*f", except that a value that rounds to zero has no sign. NaN gives "nan",
+ * infinities give "inf" and "-inf". A double of magnitude 2^128 or more gives "huge" or "-huge". */
 void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals);
 
 #ifdef __cplusplus

@@ -4,12 +4,12 @@
 
 #define WH_VERSION "0.3.0"
 
-#define WH_VERSION_NUMBER 300 /* 10000 major + 100 minor + patch: generated headers check it */
+#define WH_VERSION_NUMBER 300 /* 10000 major + 100 minor + patch; generated headers check it */
 
 enum { WH_VERSION_MAJOR = 0, WH_VERSION_MINOR = 3, WH_VERSION_PATCH = 0 };
 
-/* A scene's header refers to the scene by a name with a hash of the header, WH_LINKS_TO. The .c file gives the scene
- * that second name, WH_LINKED_AS. If the header belongs to another version of the scene, the linker reports an
+/* A scene's header refers to the scene by WH_LINKS_TO, with a name that contains a hash of the header. The .c file
+ * gives the scene the same name by WH_LINKED_AS. If header and .c file are of different versions, the linker reports an
  * undefined symbol. This costs no byte. */
 #if defined(__GNUC__) && defined(__ELF__)
 #define WH_STRING_OF(text) #text

@@ -27,26 +27,27 @@ typedef enum hal_start {
  * hal_motor_off(). On any result other than HAL_STARTED, do not drive the motor. */
 hal_start hal_clock_start(void);
 
-/* The source of the timer's clock. */
 typedef enum hal_clock_source {
     HAL_CLOCK_CRYSTAL,
     HAL_CLOCK_FALLBACK, /* the crystal does not oscillate: too inaccurate for a speed */
-    HAL_CLOCK_PLAYED    /* the time of a model, or of an emulator */
+    HAL_CLOCK_PLAYED    /* the time comes from a model, or from an emulator */
 } hal_clock_source;
 hal_clock_source hal_clock_source_now(void);
 
-/* Tolerance of the timer: 100 ppm for a crystal, 10,000 ppm for a fallback, 0 for a timer that defines the time. */
+/* Returns the tolerance of the timer: 100 ppm for a crystal, 10,000 ppm for a fallback, 0 for a timer that defines the
+ * time. */
 uint32_t hal_clock_tolerance_ppm(void);
 
-/* The timer now, in ticks. */
+/* Returns the timer's present count, in ticks. */
 uint32_t hal_clock_ticks(void);
 
-/* Wait until the timer has reached `ticks` (less than half the timer's range ahead). Returns at once if the timer is
- * already past it. Interrupts or a model's step may delay the return: at most 0.1 ms on a real board, a millisecond
+/* Wait until the timer reaches `ticks`, less than half of the timer's range ahead. Returns at once if the timer is
+ * already past `ticks`. Interrupts or a model's step may delay the return: by at most 0.1 ms on a real board, by 1 ms
  * in simulated time. */
 void hal_clock_wait_until(uint32_t ticks);
 
-/* The largest delay of a wait since the last call, in ticks. Waits that were called too late count as delayed. */
+/* Returns the largest delay of a return from hal_clock_wait_until() since the last call, in ticks. A wait that was
+ * called too late counts as delayed. */
 uint32_t hal_clock_late_ticks(void);
 
 #ifdef __cplusplus

@@ -10,16 +10,17 @@ extern "C" {
 
 #define HAL_CONSOLE_STOP 0x1B /* Escape */
 
-/* Write `count` bytes, waiting by polling until all are taken: works with interrupts off and in a fault handler. Do
- * not call it in a control loop: at 115,200 baud a byte takes 87 us. */
+/* Write `count` bytes. The function polls until the device has taken all bytes, so it works with interrupts off and in
+ * a fault handler. Do not call it in a control loop: at 115,200 baud a byte takes 87 us. */
 void hal_console_write(const char *bytes, unsigned count);
 
-/* Versions for control loops, which do not wait. hal_console_read() takes the oldest received bytes, at most `room`;
+/* Versions for control loops: they do not wait. hal_console_read() takes the oldest received bytes, at most `room`.
  * hal_console_offer() writes as many bytes as the device takes at once. Both return the number of bytes: 0 if nobody is
- * connected. If a device stores only one or two bytes, read it in every control step: otherwise bytes are lost. A zero
- * byte replaces each damaged byte, and lost bytes if the board notices the loss: do not execute a line that contains a
- * zero byte. But a damaged Escape counts as Escape: a needless stop is harmless. Not from an interrupt or a fault
- * handler. */
+ * connected. Do not call them in an interrupt or a fault handler.
+ *
+ * Read in every control step, because some devices store only one or two bytes. A zero byte replaces each damaged byte,
+ * and lost bytes if the board notices the loss: do not execute a line that contains a zero byte. A damaged Escape still
+ * counts as Escape, because a needless stop is harmless. */
 unsigned hal_console_read(char *bytes, unsigned room);
 unsigned hal_console_offer(const char *bytes, unsigned count);
 

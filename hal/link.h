@@ -1,7 +1,7 @@
 /* link.h: a two-way line of bytes to the simulator of the plant. The board implements it (boards/<family>/link.c): by
  * semihosting with files on the debugger's side under an emulator, by two file descriptors on the PC, by the console on
- * real boards (boards/shared/link_console.c). Bytes arrive in order; a read may return fewer than there is room for. If
- * the simulator is seen to be gone, these functions end the program, with exit status HAL_LINK_GONE. */
+ * real boards (boards/shared/link_console.c). Bytes arrive in order. If these functions notice that the simulator is
+ * gone, they end the program, with exit status HAL_LINK_GONE. */
 #ifndef HAL_LINK_H
 #define HAL_LINK_H
 
@@ -14,7 +14,8 @@ extern "C" {
 
 #define HAL_LINK_GONE 3
 
-/* File descriptors that the other side passes to the program, or to its emulator: one to read, one to write. */
+/* File descriptors that the simulator passes to the program or to its emulator: HAL_LINK_DOWN to read, the other to
+ * write. */
 #define HAL_LINK_DOWN 3
 #define HAL_LINK_UP 4
 
@@ -26,8 +27,8 @@ unsigned hal_link_read(uint8_t *bytes, unsigned room);
 
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
-/* A free-running counter to measure computing time, wrapping at 2^32, and its counts per second (0: the counter is
- * unusable). */
+/* hal_link_timer() is a free-running counter that measures computing time and wraps at 2^32. The next function returns
+ * its counts per second, or 0 if the counter is unusable. */
 uint32_t hal_link_timer(void);
 uint32_t hal_link_timer_per_s(void);
 

@@ -11,8 +11,7 @@
 extern "C" {
 #endif
 
-/* Full scale of the 16-bit counts: +-50 lbf (222.41 N), 6.79 mN per count, for any converter. The ticks of a sample
- * are the instant of the force: if a converter averages, the middle of the averaging interval (averaged.h). */
+/* Full scale of the 16-bit counts: +-50 lbf (222.41 N), 6.79 mN per count, for any converter. */
 #define HAL_LOADCELL_FULL_SCALE_N 222.41108f
 #define HAL_LOADCELL_RAW_MAX 32767
 #define HAL_LOADCELL_N_PER_COUNT (HAL_LOADCELL_FULL_SCALE_N / 32768.0f)
@@ -33,13 +32,14 @@ typedef enum hal_load_status {
 } hal_load_status;
 
 typedef struct hal_load_sample {
-    uint32_t ticks; /* of the capture timer (clock.h) at the force's instant */
-    int32_t raw;    /* counts; +-full scale if the cell is overloaded */
+    uint32_t ticks; /* time on the capture timer (clock.h): middle of the averaging interval */
+    int32_t raw;    /* counts; an overloaded cell gives plus or minus full scale */
     uint8_t status; /* a hal_load_status */
 } hal_load_sample;
 
-/* Take the oldest sample not yet taken. Returns false if there is none. At least 4 samples are stored between calls;
- * if more come, the newest are lost. Not from an interrupt: one reader only. */
+/* Take the oldest sample that was not taken before. Returns false if there is none. At least 4 samples are stored
+ * between two calls; if more come, the newest are lost. Do not call it from an interrupt: the queue has one reader
+ * only. */
 bool hal_loadcell_take(hal_load_sample *sample);
 
 #ifdef __cplusplus

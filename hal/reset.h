@@ -14,26 +14,27 @@ typedef enum hal_reset {
     HAL_RESET_POWER_ON, /* the supply came on: no data survive */
     HAL_RESET_WATCHDOG, /* the watchdog timed out and reset the processor */
     HAL_RESET_OTHER,    /* a pin or a debugger; or the cause is unknown */
-    HAL_RESET_FAULT,    /* a fault of program or crystal; the handler switched the motor off */
-    HAL_RESET_SUPPLY    /* a dip of the processor's supply */
+    /* a fault of the program or of the crystal; the handler switched the motor off */
+    HAL_RESET_FAULT,
+    HAL_RESET_SUPPLY /* a dip of the processor's supply voltage */
 } hal_reset;
 
-/* The cause, after hal_clock_start() (clock.h). */
+/* Returns the cause. Call it after hal_clock_start() (clock.h). */
 hal_reset hal_reset_cause(void);
 
-/* The cause in words, for consoles; for a fault also its kind, address, time and stage. Writes at most room - 1 bytes
- * and a zero; the text is never empty. Returns its length without the zero. */
+/* Writes the cause in words, for consoles; for a fault also its kind, address, time and stage. Writes at most room - 1
+ * characters and a zero; the text is never empty. Returns its length without the zero. */
 unsigned hal_reset_words(char *words, unsigned room);
 
-/* Set the program's stage, a number that the program chooses: the record of a fault contains the last one. It takes
- * one store; call it in every control step. */
+/* Sets the program's stage, a number that the program chooses. The record of a fault contains the last stage. The call
+ * takes one store instruction, so a program can call it in every control step. */
 void hal_reset_mark(uint32_t state);
 
-/* Bytes that can survive a reset. */
+/* Maximum number of bytes that can survive a reset. */
 #define HAL_REMEMBER_BYTES 32U
 
-/* From now on bytes[count] survive a reset and replace those of earlier calls; count <= HAL_REMEMBER_BYTES, 0 for no
- * bytes. If a reset interrupts the call, the earlier bytes survive. Not from an interrupt. */
+/* Keeps bytes[count] through a reset, in place of the bytes of earlier calls; count <= HAL_REMEMBER_BYTES, 0 for no
+ * bytes. If a reset interrupts the call, the earlier bytes survive. Do not call it from an interrupt. */
 void hal_remember(const void *bytes, unsigned count);
 
 /* Copy the bytes that were remembered at the processor's start to bytes[HAL_REMEMBER_BYTES]. Returns their number: 0

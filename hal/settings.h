@@ -10,26 +10,28 @@
 extern "C" {
 #endif
 
-/* Least size of a slot. */
+/* Least size of a slot, in bytes. */
 #define HAL_SETTINGS_BYTES 256U
 
-/* The longest time of one call, in ticks of the capture timer (clock.h). */
+/* The longest time that one call takes, in ticks of the capture timer (clock.h). */
 #define HAL_SETTINGS_TICKS 1000000U
 
 typedef enum hal_settings_result {
     HAL_SETTINGS_DONE,
-    HAL_SETTINGS_OUTSIDE, /* no such slot or bytes, or a forbidden start: nothing was changed */
-    HAL_SETTINGS_BUSY,    /* the memory stays busy: nothing was changed */
-    HAL_SETTINGS_FAILED   /* the memory reports an error: it is protected, worn out or absent */
+    /* the slot or the bytes do not exist, or `at` is not allowed: nothing was changed */
+    HAL_SETTINGS_OUTSIDE,
+    HAL_SETTINGS_BUSY,  /* the memory stays busy: nothing was changed */
+    HAL_SETTINGS_FAILED /* the memory reports an error: it is protected, worn out or absent */
 } hal_settings_result;
 
-/* `slot` is 0 or 1; at + count <= HAL_SETTINGS_BYTES. A power failure during a call leaves arbitrary bytes in this
- * slot and does not touch the other one. */
+/* For the next functions: `slot` is 0 or 1; at + count <= HAL_SETTINGS_BYTES. A power failure during a call leaves
+ * arbitrary bytes in this slot and does not touch the other one. */
 
 /* Set all bytes of the slot to 0xFF. */
 hal_settings_result hal_settings_erase(unsigned slot);
 
-/* Write to an erased slot, front to back; `at` is a multiple of 4, `count` any number. */
+/* Write bytes[count] to the slot, beginning at byte `at`, a multiple of 4. Erase the slot first, then write it front to
+ * back. `count` may be any number. */
 hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
                                        unsigned count);
 
