@@ -1,4 +1,5 @@
-/* algebra.h: tables that intern the objects of normal_form.h, and their constructors. For host/algebra only. */
+/* algebra.h: the tables that keep one copy of equal objects of normal_form.h (interning), and the functions that make
+ * these objects. Only for host/algebra. */
 #ifndef ALGEBRA_ALGEBRA_H
 #define ALGEBRA_ALGEBRA_H
 
@@ -18,7 +19,7 @@ typedef struct intern_table {
     size_t count;
 } intern_table;
 
-/* A memoized result. */
+/* The stored result of an operation on `left` and `right`. */
 typedef struct memo_pair {
     const void *left;
     const void *right;
@@ -30,22 +31,23 @@ struct algebra {
     intern_table atoms;
     intern_table monos;
     intern_table polys;
-    intern_table products;    /* memo_pair: poly, poly */
-    intern_table derivatives; /* memo_pair: poly, atom */
-    intern_table lets;        /* memo_pair: symbol, NULL */
-    /* terms processed and bytes allocated so far: the limit bounds time and memory */
+    intern_table products;    /* memo_pair of two polys */
+    intern_table derivatives; /* memo_pair of a poly and an atom */
+    intern_table lets;        /* memo_pair of a symbol and NULL */
+    /* work so far, in bytes: terms processed and objects made; its limit bounds time and memory */
     size_t work;
     bool overflow;
     const poly *zero;
     const poly *one;
 };
 
-/* Interning (poly.c). The caller frees scratch objects; the arena owns interned ones. */
+/* Interning returns the one object with these contents. The caller frees scratch objects; the arena owns interned
+ * ones. */
 mono *mono_scratch(int factors);
 const mono *mono_intern(algebra *a, mono *candidate);
 const mono *mono_make(algebra *a, const mono_factor *factors, int count, trig kind,
                       const poly *angle);
-/* The bit of a symbol in Bloom sets. */
+/* The bit of a symbol in the Bloom set of an expression's symbols. */
 uint64_t symbol_bit(const symbol *sym, int primes);
 poly *poly_scratch(int terms);
 const poly *poly_intern(algebra *a, poly *candidate);
@@ -55,16 +57,16 @@ const poly *poly_intern(algebra *a, poly *candidate);
 const poly *function_slope(algebra *a, function_id function, int which, const poly *x,
                            const poly *y);
 
-/* --- the order of the normal form (poly.c): negative, 0 for the same, positive -------------------*/
+/* order of the normal form (poly.c) */
 
-/* The order of two sums. */
+/* Negative if x comes before y, 0 if they are equal, else positive. */
 int poly_order(const poly *x, const poly *y);
 
 /* --- questions (poly.c) -------------------------------------------------------------------------*/
 
-/* x + y, or zero if the sum is only a rounding error of decimals. */
+/* x + y, or 0 if the sum is only the round-off of decimals. */
 double coefficient_sum(double x, double y);
-/* Is p a sum of positions, parameters and numbers only, without rates and functions? */
+/* Is p a sum of at least two terms, made of positions, parameters and numbers only, without rates and functions? */
 bool poly_is_place(const poly *p);
 
 /* --- sums of many polys (poly.c) ------------------------------------------------------------------*/
@@ -72,25 +74,26 @@ bool poly_is_place(const poly *p);
 typedef struct sum_item {
     const mono *mono;
     double coefficient;
-    size_t turn; /* the order of entry */
+    /* number of the call of sum_add() or later: equal products are added in this order */
+    size_t turn;
 } sum_item;
 
-/* Starts as {0}. */
+/* A sum that is being built. Its initial value is {0}. */
 typedef struct poly_sum {
     sum_item *items;
     size_t count;
     size_t room;
 } poly_sum;
 
-/* Adds scale * p. Counts the work, and sets a->overflow above the limit. */
+/* Adds scale * p to the sum. Counts the work, and sets a->overflow if the work exceeds its limit. */
 void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
-/* The sum; frees the memory of `s`. */
+/* Returns the sum, and frees the memory of `s`. */
 const poly *sum_close(algebra *a, poly_sum *s);
 
 /* base^exponent. Whole powers of sums of positions are not expanded if the exponent is `kept` or more. */
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 
-/* memo_get(): the stored result for the pair, or NULL. memo_put(): stores it. */
+/* memo_get() returns the stored result for the pair, or NULL. memo_put() stores a result. */
 const poly *memo_get(intern_table *table, const void *left, const void *right);
 void memo_put(algebra *a, intern_table *table, const void *left, const void *right,
               const poly *result);

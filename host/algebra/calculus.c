@@ -20,7 +20,7 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
     case FN_ASIN: return poly_pow(a, poly_sub(a, a->one, square(a, x)), -0.5);
     case FN_ACOS: return negative(a, poly_pow(a, poly_sub(a, a->one, square(a, x)), -0.5));
     case FN_ATAN: return poly_pow(a, poly_add(a, a->one, square(a, x)), -1.0);
-    case FN_ATAN2: { /* x is the numerator */
+    case FN_ATAN2: { /* atan2(x, y) is the angle with the tangent x / y */
         const poly *top = which == 0 ? y : negative(a, x);
         return poly_mul(a, top, poly_pow(a, poly_add(a, square(a, x), square(a, y)), -1.0));
     }
@@ -30,10 +30,11 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
     case FN_ABS: return poly_call(a, FN_SIGN, x, NULL);
     case FN_SINH: return poly_call(a, FN_COSH, x, NULL);
     case FN_COSH: return poly_call(a, FN_SINH, x, NULL);
-    case FN_TANH: /* cosh(x)^-2 is precise even if tanh(x) is near one */
+    case FN_TANH: /* cosh(x)^-2 is precise; 1 - tanh(x)^2 is not if tanh(x) is near 1 */
         return poly_pow(a, poly_call(a, FN_COSH, x, NULL), -2.0);
     case FN_MIN:
-    case FN_MAX: { /* 1 for the selected argument, 1/2 for each at equality */
+    /* 1 for the selected argument, 0 for the other; 1/2 for both if they are equal */
+    case FN_MAX: {
         const poly *lead = poly_call(a, FN_SIGN, poly_sub(a, x, y), NULL);
         const double side = (which == 0) == (function == FN_MAX) ? 0.5 : -0.5;
         return poly_add(a, poly_number(a, 0.5), poly_scale(a, lead, side));
@@ -44,7 +45,7 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
 }
 
 /* === the number of a poly ===================================================================== */
-/* The value of a constant poly, for checks and constants; runs use operation lists. */
+/* The value of an atom, for checks and constants. Runs use operation lists instead. */
 
 static double atom_value(const atom *x, poly_value *value, void *context) {
     if (x->kind == ATOM_SYMBOL) {
@@ -120,7 +121,7 @@ bool poly_is_finite(const poly *p) {
 
 /* === derivatives and substitution ============================================================= */
 
-/* b^e: e b^(e-1) b' + b^e log(b) e' */
+/* (b^e)' = e b^(e-1) b' + b^e log(b) e' */
 static const poly *power_derivative(algebra *a, const atom *x, const symbol *sym, int primes) {
     const poly *base = x->argument[0];
     const poly *exponent = x->argument[1];
@@ -240,7 +241,7 @@ const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned r
     return sum;
 }
 
-/* --- substitution -------------------------------------------------------------------------------- */
+/* --- search for a symbol ------------------------------------------------------------------------- */
 
 bool poly_contains(const poly *p, const symbol *sym, int primes) {
     if (primes >= 0 && !poly_may_contain(p, sym, primes)) {
@@ -274,8 +275,8 @@ bool poly_contains(const poly *p, const symbol *sym, int primes) {
 typedef struct substitution {
     poly_replacement *replace;
     void *context;
-    double kept;       /* exponent from which whole powers of groups stay powers, if possible */
-    intern_table done; /* memo_pair: poly or atom, NULL */
+    double kept;       /* whole powers of sums of positions stay powers from this exponent on */
+    intern_table done; /* memo_pair of a poly or atom and NULL */
 } substitution;
 
 static const poly *substitute(algebra *a, const poly *p, substitution *s);
@@ -332,7 +333,7 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
 }
 
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context) {
-    /* (x - b)^2, the slope of (x - b)^3, also stays a power */
+    /* 2.0, so that (x - b)^2, the slope of (x - b)^3, also stays a power */
     substitution s = {replace, context, 2.0, {0}};
     const poly *result = substitute(a, p, &s);
     free(s.done.slots);

@@ -37,15 +37,16 @@ typedef enum atom_kind {
 
 struct atom {
     atom_kind kind;
-    unsigned id;          /* for hash tables only; poly.c defines the order */
-    uint64_t rank;        /* rank in the order of atoms, which poly.c defines */
-    const symbol *symbol; /* ATOM_SYMBOL */
+    unsigned id;          /* only for hash tables */
+    uint64_t rank;        /* rank in the order of atoms: see atom_rank() in poly.c */
+    const symbol *symbol; /* for ATOM_SYMBOL only */
     int primes;
-    function_id function;    /* ATOM_CALL, else FUNCTION_NONE or unused */
-    const poly *argument[2]; /* ATOM_CALL; base and exponent of ATOM_POWER; [0] of ATOM_GROUP */
-    uint64_t symbols;        /* Bloom set of the symbols inside: see poly_may_contain() */
-    bool keeps_powers;       /* contains a power of a sum that was not multiplied out */
-    double size;             /* number of leaves when written out */
+    function_id function; /* for ATOM_CALL only */
+    /* ATOM_CALL: arguments; ATOM_POWER: base and exponent; ATOM_GROUP: [0] is the sum */
+    const poly *argument[2];
+    uint64_t symbols;  /* Bloom set of the symbols inside: see poly_may_contain() */
+    bool keeps_powers; /* contains a power of a sum that was not multiplied out */
+    double size;       /* number of operands when written out */
 };
 
 typedef enum trig { TRIG_NONE, TRIG_COS, TRIG_SIN } trig;
@@ -63,7 +64,7 @@ struct mono {
     uint64_t symbols;
     bool keeps_powers;
     double size;
-    mono_factor factors[]; /* in atom_order() */
+    mono_factor factors[]; /* sorted by atom_order() */
 };
 
 typedef struct term_of_poly {
@@ -76,8 +77,8 @@ struct poly {
     int count;
     uint64_t symbols;
     bool keeps_powers;
-    double size;       /* number of leaves when written out: a shared part counts at each use */
-    poly_term terms[]; /* in mono_order(); zero has no terms */
+    double size;       /* number of operands when written out: a shared part counts at each use */
+    poly_term terms[]; /* sorted by mono_order(); zero has no terms */
 };
 
 #endif

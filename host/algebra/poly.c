@@ -14,12 +14,12 @@ static void algebra_work(algebra *a, size_t amount);
 
 /* === the order of the normal form ============================================================= */
 /* The order of atoms, products and sums depends on their contents, never on the time of creation. So an expression has
- * the same form after any other work, and with any compiler. Equal objects are identical, so two different pointers
- * differ somewhere. A comparison ends at the first difference and skips shared parts in one step. */
+ * the same form whatever was computed before, and with any compiler. Equal objects have the same address, so a
+ * comparison skips shared parts in one step. It ends at the first difference. */
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
-/* An integer with the same order as the numbers: a total order that includes both zeros and NaN. */
+/* Maps a number to an integer of the same order. The order includes both zeros and NaN. */
 static uint64_t place_of(double x) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
@@ -32,7 +32,8 @@ static int of_numbers(double x, double y) {
     return (left > right) - (left < right);
 }
 
-/* Symbols first: positions, then rates, then accelerations, each as declared; then calls, powers, groups. */
+/* Symbols come first: positions, then rates, then accelerations, each in the order of declaration. Then come calls,
+ * powers and groups. */
 static uint64_t atom_rank(const atom *x) {
     uint64_t rank = (uint64_t)x->kind << 60;
     if (x->kind == ATOM_SYMBOL) {
@@ -56,7 +57,7 @@ static int atom_order(const atom *x, const atom *y) {
     return order;
 }
 
-/* The pure number comes first: size_of_sum() relies on it. */
+/* The product without factors comes first: size_of_sum() relies on this. */
 static int mono_order(const mono *x, const mono *y) {
     if (x == y) {
         return 0;
@@ -90,9 +91,9 @@ int poly_order(const poly *x, const poly *y) {
 
 /* === questions about a poly =================================================================== */
 
-/* A sum below this part of its addends is a rounding error of decimals. */
+/* A sum that is smaller than this, relative to its addends, is a rounding error of decimals. */
 #define CANCELLED 1e-14
-/* A whole power of a sum is multiplied out if that takes at most this many products of terms. */
+/* A whole power of a sum is multiplied out if this takes at most this many products of terms. */
 #define POWER_TERMS_MAX 64
 
 bool poly_is_zero(const poly *p) { return p->count == 0; }
@@ -110,7 +111,7 @@ bool poly_is_number(const poly *p, double *value) {
 }
 
 double coefficient_sum(double x, double y) {
-    if (!isfinite(x + y)) { /* infinity is not small relative to itself */
+    if (!isfinite(x + y)) { /* folding_cancels() would take any infinite sum for zero */
         return x + y;
     }
     return folding_cancels(x + y, number_most(fabs(x), fabs(y)), CANCELLED) ? 0.0
@@ -134,21 +135,22 @@ bool poly_is_place(const poly *p) {
     return p->count > 1;
 }
 
-/* Is a power of a sum multiplied out? Powers of sums of positions are not, from the exponent `kept` on. */
+/* Returns true if the power is to be multiplied out. A sum of positions stays a power if the exponent is `kept` or
+ * more. */
 static bool power_multiplies_out(const poly *base, double exponent, double kept) {
     if (exponent <= 0.0 || !exponent_is_whole(exponent) ||
         (exponent >= kept && poly_is_place(base))) {
         return false;
     }
-    int terms = 1; /* called for each product with a power, so without pow() */
+    int terms = 1; /* without pow(), because each product with a power comes here */
     for (int i = 0; i < (int)exponent && base->count > 1 && terms <= POWER_TERMS_MAX; i++) {
         terms *= base->count;
     }
     return terms <= POWER_TERMS_MAX;
 }
 
-/* === many polys at once ======================================================================= */
-/* Sums of many polys at once. Adding one by one would build and keep every partial sum. */
+/* === sums of many polys ======================================================================= */
+/* Adding polys one by one would build and keep every partial sum. Here the terms are collected first. */
 
 static void push(poly_sum *s, const mono *m, double coefficient) {
     if (s->count == s->room) {
@@ -175,7 +177,7 @@ static int by_mono(const void *x, const void *y) {
     return left->turn < right->turn ? -1 : 1;
 }
 
-/* Sort the terms, and add those of the same product in their original order. */
+/* Sorts the terms, and adds those with the same product in the order of their entry. */
 static void collect(poly_sum *s) {
     if (s->count > 1) {
         qsort(s->items, s->count, sizeof *s->items, by_mono);
@@ -216,14 +218,14 @@ const poly *sum_close(algebra *a, poly_sum *s) {
 }
 
 /* === one object for equal things ============================================================== */
-/* Interning: atoms, products and sums are looked up before they are made. */
 
-/* Limit of the work of a derivation: some 500 MB, or half a minute. An arm of six joints with no zero length needs 0.42e9. */
+/* Limit of the work of a derivation, in bytes: some 500 MB, or half a minute. An arm of six joints without zero lengths
+ * needs 0.42e9. */
 #define WORK_MAX ((size_t)1 << 29)
-/* Work of handling a term, in bytes. */
+/* Work of processing a term, in bytes. */
 #define WORK_OF_TERM 2U
-/* The work of making an object, in bytes: its size on a 64-bit host. Fixed numbers, so that the limit does not depend
- * on the host. */
+/* Work of making an object, in bytes: its size on a 64-bit host. The numbers are fixed, so that the limit does not
+ * depend on the host. */
 enum { ATOM_BYTES = 72, MONO_BYTES = 48, POLY_BYTES = 32, PART_BYTES = 16, PAIR_BYTES = 24 };
 
 static uint64_t bits_of(double value) {
@@ -251,7 +253,7 @@ static void table_grow(intern_table *table) {
     table->size = size;
 }
 
-/* The slot of an equal object, or the empty slot for a new one. */
+/* Returns the slot of an equal object, or the empty slot for a new one. */
 static intern_slot *table_find(intern_table *table, uint64_t hash, const void *candidate,
                                bool (*equal)(const void *, const void *)) {
     if (table->count * 2 >= table->size) {
@@ -279,7 +281,7 @@ char *algebra_limit(const algebra *a) {
 
 static void algebra_work(algebra *a, size_t amount) { count_bytes(a, amount * WORK_OF_TERM); }
 
-/* The number of a new object of `bytes` bytes. Its slots in the hash table are counted as 48 more. */
+/* Returns the number of a new object of `bytes` bytes. Its slots in the hash table count as 48 further bytes. */
 static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
     count_bytes(a, bytes + 48);
     return (unsigned)table->count++;
@@ -491,7 +493,7 @@ const poly *poly_number(algebra *a, double value) {
     return poly_of_term(a, value, mono_make(a, NULL, 0, TRIG_NONE, NULL));
 }
 
-/* --- results remembered --------------------------------------------------------------------------*/
+/* --- stored results -----------------------------------------------------------------------------*/
 
 static bool pair_equal(const void *x, const void *y) {
     const memo_pair *left = x;
@@ -524,10 +526,10 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 
 /* === sums, products and powers ================================================================ */
 
-/* A product of sums with more terms than this is not expanded. */
+/* A product of two sums is not expanded if it has more products of terms than this. */
 #define PRODUCT_TERMS_MAX 400000
-/* Whole powers of a sum of positions from this one on stay powers: expanded, (x - b)^3 would lose its digits near x =
- * b. Squares are expanded, since some are equal only in expanded form. */
+/* A sum of positions with this whole exponent or a larger one stays a power: expanded, (x - b)^3 would lose its
+ * digits near x = b. Squares are expanded, since some are equal only in expanded form. */
 #define POWER_KEPT 3.0
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
@@ -591,7 +593,8 @@ const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double 
                              double by) {
     algebra_work(a, (size_t)p->count);
     poly *changed = poly_scratch(p->count);
-    for (int i = 0; i < p->count; i++) { /* the order depends on the products alone */
+    /* the terms stay sorted, because only their numbers change */
+    for (int i = 0; i < p->count; i++) {
         const double number = change(p->terms[i].coefficient, by);
         if (number != 0.0) {
             changed->terms[changed->count++] = (poly_term){number, p->terms[i].mono};
@@ -639,8 +642,8 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
 
 /* --- products ------------------------------------------------------------------------------------*/
 
-/* The expression that replaces a power: |p|^n = p^n for an even n, and a small whole power of a group, which is
- * multiplied out. Returns NULL for all others. */
+/* Replaces a power: |p|^n by p^n for an even n, or by p^(n - 1) |p| and the like; a small whole power of a group by
+ * its product. Returns NULL for other powers. */
 static const poly *power_expands(algebra *a, const mono_factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
         const poly *inside = f->atom->argument[0];
@@ -659,7 +662,7 @@ static const poly *power_expands(algebra *a, const mono_factor *f) {
     return NULL;
 }
 
-/* The product of two products; several terms if sines multiply or a group is expanded. */
+/* The product of two products. It has several terms if sines are multiplied or a group is expanded. */
 static const poly *mono_product(algebra *a, const mono *left, const mono *right) {
     mono *product = mono_scratch(left->count + right->count);
     const poly *extra = NULL;
@@ -739,8 +742,8 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
     if (a->overflow) {
         return a->zero;
     }
-    if (poly_order(right, left) < 0) { /* a fixed order makes rounding independent of the arguments'
-                                        * order */
+    /* The order of the operands is fixed, so that rounding does not depend on the order of the arguments. */
+    if (poly_order(right, left) < 0) {
         const poly *swap = left;
         left = right;
         right = swap;
@@ -755,7 +758,7 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
 
 /* --- powers and functions ------------------------------------------------------------------------*/
 
-/* A product to a power, by rules valid for every real value of the atoms: (x^2)^(1/2) is not x. */
+/* A power of a term, by rules that hold for every real value of the atoms: (x^2)^(1/2) is not x. */
 static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     const mono *m = t->mono;
     const bool whole = exponent_is_whole(exponent);
@@ -789,7 +792,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
         return poly_mul(a, poly_pow(a, poly_of_term(a, t->coefficient, plain), exponent),
                         poly_pow(a, poly_of_term(a, 1.0, wave), exponent));
     }
-    /* takes out the size of the number; its sign stays inside, unless the exponent is whole */
+    /* The absolute value of the coefficient is taken out. Its sign stays inside, unless the exponent is whole. */
     const double sign = t->coefficient < 0.0 ? -1.0 : 1.0;
     const double outside = whole ? folding_power(t->coefficient, exponent)
                                  : folding_power(fabs(t->coefficient), exponent);
@@ -800,8 +803,8 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), outside);
 }
 
-/* The divisor that makes sums which differ only by a factor one object. In a whole power the constant term does not
- * decide it, so that x - b keeps its form if b becomes a number. */
+/* The divisor that turns sums which differ only by a factor into one object. In a positive whole power it is not the
+ * constant term, so that x - b keeps its form if b becomes a number. */
 static double size_of_sum(const poly *p, double exponent) {
     const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;
     return constant && exponent_is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient
@@ -829,7 +832,7 @@ const poly *poly_power(algebra *a, const poly *base, double exponent, double kep
         }
         return p;
     }
-    /* The sign stays inside a fractional power. */
+    /* In a fractional power the sign stays inside. */
     const double size = size_of_sum(base, exponent);
     const double outside = exponent_is_whole(exponent) ? size : fabs(size);
     const poly *inside = poly_scale(a, base, 1.0 / outside);

@@ -7,12 +7,12 @@
 algebra *algebra_new(void);
 void algebra_free(algebra *a);
 
-/* Greatest size of an expression. It limits the time of functions that visit shared parts repeatedly. */
+/* Largest number of operands in an expression. It limits the time of functions that visit shared parts repeatedly. */
 #define POLY_SIZE_MAX 1e6
 
-/* True after an expression exceeded a limit of the algebra; results are then meaningless. */
+/* Returns true if an expression has exceeded a limit of the algebra. All results are then meaningless. */
 bool algebra_overflow(const algebra *a);
-/* The exceeded limit in words, with its number; the caller frees it. */
+/* The exceeded limit, in words and with its number. The caller frees the text. */
 char *algebra_limit(const algebra *a);
 
 const poly *poly_number(algebra *a, double value);
@@ -23,7 +23,7 @@ const atom *atom_symbol(algebra *a, const symbol *sym, int primes);
 const poly *poly_add(algebra *a, const poly *left, const poly *right);
 const poly *poly_sub(algebra *a, const poly *left, const poly *right);
 const poly *poly_scale(algebra *a, const poly *p, double scale);
-/* p with change(number, by) applied to the number of each term. */
+/* Returns p with each coefficient replaced by change(coefficient, by). */
 const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),
                              double by);
 const poly *poly_mul(algebra *a, const poly *left, const poly *right);
@@ -37,40 +37,42 @@ const poly *poly_cos(algebra *a, const poly *angle);
 const poly *poly_of_term(algebra *a, double coefficient, const mono *m);
 
 bool poly_is_zero(const poly *p);
-/* True if p is a number, which goes to *value. */
+/* Returns true if p is a number, and stores it in *value. */
 bool poly_is_number(const poly *p, double *value);
-/* False only if p certainly does not contain the symbol with `primes` primes. */
+/* Returns false only if p certainly does not contain the symbol with `primes` primes. It is quick, but may return
+ * true without cause. */
 bool poly_may_contain(const poly *p, const symbol *sym, int primes);
-/* Exact test: does p contain the symbol with so many primes (-1: any number of primes)? */
+/* Exact test: does p contain the symbol with `primes` primes? For primes = -1, any number of primes counts. */
 bool poly_contains(const poly *p, const symbol *sym, int primes);
 
 /* --- calculus.c ---------------------------------------------------------------------------------*/
 
-/* Determinant of the given rows and columns (bit sets of equal size) of the n by n matrix m, n <= 32. Expansion by
- * cofactors: for a few rows only. */
+/* Determinant of a part of the n by n matrix m, n <= 32: of the rows and columns in two bit sets of equal size. It is
+ * expanded by cofactors, so it is only for a few rows. */
 const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
                              unsigned columns);
 
 /* Partial derivative by the symbol with `primes` primes. */
 const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int primes);
 
-/* p with atoms replaced: `replace` returns the replacement of an atom, or NULL. */
+/* poly_substitute() replaces symbols in p. `replace` returns the replacement of a symbol with `primes` primes, or
+ * NULL to keep it. */
 typedef const poly *poly_replacement(void *context, algebra *a, const symbol *sym, int primes);
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context);
 
-/* p with its powers of sums multiplied out, unless the result is large: a test for zero. */
+/* Returns p with its powers of sums multiplied out, unless the result is large. It shows whether p is zero. */
 const poly *poly_expanded(algebra *a, const poly *p);
 
 /* The value of p; `value` returns the value of each symbol. */
 typedef double poly_value(void *context, const symbol *sym, int primes);
 double poly_evaluate(const poly *p, poly_value *value, void *context);
-/* The sum of the sizes of p's terms, the reference for the round-off in poly_evaluate(). Sines and cosines count as one,
- * because their errors are absolute. */
+/* The sum of the absolute values of p's terms, as a reference for the round-off in poly_evaluate(). Sines and cosines
+ * count as one, because their errors are absolute. */
 double poly_magnitude(const poly *p, poly_value *value, void *context);
 /* Are all numbers in p finite, including those inside functions? */
 bool poly_is_finite(const poly *p);
 
-/* The poly of a parsed expression; lets are replaced by their expressions. */
+/* Converts a parsed expression. Lets are replaced by their expressions. */
 const poly *poly_from_expr(algebra *a, const expr *e);
 
 #endif

@@ -1,6 +1,3 @@
-/* alloc.c: heap allocation for the whole host. Out of memory ends the program with a message and exit status 1, so no
- * function returns NULL. free() releases the memory. Counts are of elements, sizes of one element in bytes. A product
- * above SIZE_MAX or a negative count counts as out of memory. */
 #include "host/base/alloc.h"
 
 #include <stdalign.h>
@@ -96,7 +93,7 @@ void *arena_push(struct arena *arena, const void *array, int *count, const void 
 
 /* === the heap ================================================================================= */
 
-/* Bytes of all elements, at least one. */
+/* Bytes of all elements; of one element if `count` is 0, so that realloc() does not free the array. */
 static size_t bytes_of(int64_t count, size_t size) {
     size_t bytes;
     if (count < 0 || __builtin_mul_overflow((size_t)count, size, &bytes)) {

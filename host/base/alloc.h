@@ -1,6 +1,6 @@
-/* alloc.h: heap allocation for the whole host. Out of memory ends the program with a message and exit status 1, so no
- * function returns NULL. free() releases the memory. Counts are of elements, sizes of one element in bytes. A product
- * above SIZE_MAX or a negative count counts as out of memory. */
+/* alloc.h: heap allocation for the whole host. If memory runs out, the program ends with a message and exit status 1,
+ * so no function returns NULL. free() releases the memory. `count` is a number of elements, `size` the bytes of one
+ * element. A product above SIZE_MAX, or a negative count, is treated as if memory had run out. */
 #ifndef BASE_ALLOC_H
 #define BASE_ALLOC_H
 
@@ -8,13 +8,14 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* `count` zeroed elements; for count 0 a pointer that must not be dereferenced. */
+/* Returns `count` zeroed elements. If `count` is 0, the pointer must not be dereferenced. */
 void *alloc(int64_t count, size_t size);
 
-/* Resize `array` to `count` elements and keep its contents; NULL allocates. New elements are uninitialized. */
+/* Resizes `array` to `count` elements and keeps its contents. If `array` is NULL, it is allocated. New elements are
+ * not initialized. */
 void *alloc_more(void *array, int64_t count, size_t size);
 
-/* One structure of `head` bytes followed by `count` zeroed elements. */
+/* Returns a zeroed structure of `head` bytes, followed by `count` zeroed elements. */
 void *alloc_tail(size_t head, int64_t count, size_t size);
 
 /* A copy of `length` bytes with a zero byte after them. */
@@ -23,7 +24,8 @@ char *alloc_copy(const char *text, size_t length);
 /* The formatted text, as printf() would print it. */
 char *alloc_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* A stream into memory. alloc_text_end() closes it; *text, to be freed, then has its `length` bytes and a zero byte. */
+/* Opens a stream that writes into memory. alloc_text_end() closes it. *text then has `length` bytes, followed by a zero
+ * byte; the caller frees it. */
 FILE *alloc_text(char **text, size_t *length);
 void alloc_text_end(FILE *stream);
 
@@ -31,9 +33,8 @@ void alloc_text_end(FILE *stream);
 
 struct arena;
 
-/* Out of memory, the program ends with a message: no function returns NULL. */
 struct arena *arena_new(void);
-void arena_free(struct arena *arena); /* NULL is allowed */
+void arena_free(struct arena *arena); /* `arena` may be NULL */
 
 /* `size` zeroed bytes, aligned for any type. */
 void *arena_alloc(struct arena *arena, size_t size);
@@ -41,11 +42,11 @@ void *arena_alloc(struct arena *arena, size_t size);
 /* A copy of `length` bytes with a zero byte after them. */
 char *arena_copy(struct arena *arena, const char *text, size_t length);
 
-/* Space for one more element after the first `count` of `array`. Returns `array`, or a copy of twice the size. The
- * capacity is always the smallest power of two that is at least `count`. */
+/* Makes room for one more element after the first `count` of `array`. Returns `array`, or a copy of twice the size.
+ * The capacity is always the smallest power of two that is at least `count`. */
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size);
 
-/* The array with a copy of `element` after its last element; *count becomes one more. */
+/* Appends a copy of `element` to the array and adds one to *count. Returns the array, which may have moved. */
 void *arena_push(struct arena *arena, const void *array, int *count, const void *element,
                  size_t element_size);
 

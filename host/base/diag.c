@@ -1,4 +1,3 @@
-/* diag.c: errors in a user's file, each with its place, source line, caret and hint. */
 #include "host/base/diag.h"
 
 #include <stdarg.h>
@@ -42,8 +41,7 @@ void statement_text(place at, char *text, size_t size) {
 /* === messages ================================================================================= */
 
 enum {
-    LINE_WIDTH = 100, /* characters of a source line in a message; a longer one is cut around the
-                       * caret */
+    LINE_WIDTH = 100, /* characters of a source line in a message; a longer line is cut */
     CARET_MOST = 70,  /* furthest column of the caret in a line that is cut */
     TEXT_SIZE = 400,
     FILE_SIZE = 256
@@ -86,7 +84,8 @@ int diags_count(const diags *all) { return all->reported; }
 
 size_t diags_calls(const diags *all) { return all->calls; }
 
-/* Copy the line around the place, one character a column, without control characters. */
+/* Copies the source line around the place. Each column shows one character. Control characters and invalid bytes
+ * become "?", tabs become spaces. */
 static void copy_line(entry *made, place at) {
     const char *text = at.source->text;
     const size_t length = at.source->length;
@@ -115,7 +114,7 @@ static void copy_line(entry *made, place at) {
             made->shown[used++] = c == '\t' ? ' ' : '?';
             i++;
             while (c >= 0x80 && i < length && ((unsigned char)text[i] & 0xc0) == 0x80) {
-                i++; /* UTF-8 continuation bytes do not count */
+                i++; /* the bytes of an invalid character take one column together */
             }
         } else {
             memcpy(made->shown + used, text + i, bytes);

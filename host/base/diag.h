@@ -5,10 +5,10 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#define DIAG_MAX 20 /* errors reported for one file; if there were more, a last line says so */
+#define DIAG_MAX 20 /* largest number of errors printed; if there were more, a last line says so */
 
-/* A place in a source text. Line and column count from 1, the column in characters. `text` is the whole text, from
- * which the line is printed, or NULL. */
+/* A source text, and a place in it. Lines and columns count from 1; a column is a character. If `text` is NULL,
+ * messages show no source line. */
 typedef struct source {
     const char *file;
     const char *text;
@@ -28,20 +28,21 @@ typedef struct diags diags;
 diags *diags_new(void);
 void diags_free(diags *diags);
 
-/* Report an error at `at`; `hint` may be NULL or "". Copies its texts. A repeat at the same place is dropped. */
+/* Reports an error at `at`. `hint` may be NULL or "". All texts are copied. A second error at the same place is
+ * dropped. */
 void diag_error(diags *diags, place at, const char *hint, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Number of errors, including those beyond DIAG_MAX, without repeats. */
+/* Number of errors since the last diags_flush(), without the dropped ones. It may exceed DIAG_MAX. */
 int diags_count(const diags *diags);
 
-/* Calls of diag_error() since diags_new(), repeats included: unchanged means no error. */
+/* Number of calls of diag_error() since diags_new(). If it has not changed, there was no error in between. */
 size_t diags_calls(const diags *diags);
 
-/* Print all errors, ordered by place, and forget them:
+/* Prints all errors, sorted by place, and forgets them:
  *   file:line:column: error: text
- *       source line
- *            ^
+ *     source line
+ *          ^
  *   hint: ... */
 void diags_flush(diags *diags, FILE *out);
 
@@ -50,8 +51,8 @@ void diags_flush(diags *diags, FILE *out);
 /* Size of a buffer for the text that a message quotes. */
 #define STATEMENT_SIZE 161
 
-/* The source line at a place, without indentation and comment, in text[size], size > 4. A longer line is cut and ends
- * in "...". Empty if the place has no source. */
+/* Writes the statement at `at` to text[size], size > 4: its part of the source line, without indentation, comment and
+ * enclosing braces. A longer text is cut and ends in "...". If the place has no source, the text is empty. */
 void statement_text(place at, char *text, size_t size);
 
 #endif

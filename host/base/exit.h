@@ -1,4 +1,4 @@
-/* exit.h: exit statuses. */
+/* exit.h: the program's exit statuses. */
 #ifndef BASE_EXIT_H
 #define BASE_EXIT_H
 
@@ -9,7 +9,7 @@
     X(EXIT_DONE, 0, "done") \
     X(EXIT_RUN_FAILED, 1, "failed") \
     X(EXIT_BAD_INPUT, 2, "bad input") \
-    X(EXIT_INTERRUPTED, 130, "interrupted") /* 128 + SIGINT, as in shells */
+    X(EXIT_INTERRUPTED, 130, "interrupted") /* 128 + 2, the number of SIGINT, as in shells */
 
 #define EXIT_VALUE(name, status, meaning) name = status,
 enum { EXIT_ROWS(EXIT_VALUE) };
@@ -19,8 +19,9 @@ enum { EXIT_ROWS(EXIT_VALUE) };
 enum { EXITS = 0 EXIT_ROWS(EXIT_ONE) };
 #undef EXIT_ONE
 
-/* Print the part of a help text that lists the exit statuses, one line each. why[EXITS], in the order of the rows, adds the
- * meaning for this command: "" adds nothing, NULL omits the line. Further lines of an entry begin with seven spaces. */
+/* Prints the part of a help text that lists the exit statuses, with a line for each. why[EXITS] has a text for each
+ * row: its meaning for this command. If the text is "", only the general meaning is printed; if it is NULL, the line is
+ * omitted. If a text has several lines, the further ones must begin with seven spaces. */
 void exit_describe(FILE *out, const char *const *why);
 
 #endif

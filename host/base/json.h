@@ -13,7 +13,7 @@ typedef struct json {
     bool filled; /* the innermost object or array is not empty */
 } json;
 
-/* `key` is NULL within an array and at the top level. */
+/* In an array and at the top level, `key` is NULL. */
 void json_open(json *j, const char *key, char bracket);
 void json_close(json *j, char bracket);
 

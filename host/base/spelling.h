@@ -6,8 +6,8 @@
 
 /* === well-formed, printable UTF-8 characters ================================================== */
 
-/* Length in bytes of the character at `text`, with `left` > 0 bytes remaining. Returns 0 if it is malformed, or a
- * control character above ASCII: these could steer a terminal, as ASCII ones do. */
+/* Length in bytes of the character at `text`; `left` > 0 bytes of the text remain. Returns 0 if the character is
+ * malformed, or is a control character above ASCII, which could steer a terminal. */
 size_t utf8_length(const char *text, size_t left);
 
 /* === the known name closest to a misspelt one ================================================= */
@@ -22,7 +22,7 @@ typedef struct nearest {
 
 nearest nearest_start(const char *wanted, size_t length);
 void nearest_offer(nearest *search, const char *candidate);
-/* "did you mean 'NAME'?" in hint[size], or "" without a similar name. Returns `hint`. */
+/* Writes "did you mean 'NAME'?" to hint[size], or "" if no name is similar. Returns `hint`. */
 char *nearest_hint(const nearest *search, char *hint, size_t size);
 
 #endif

@@ -1,5 +1,5 @@
-/* decimal.c: correctly rounded decimal input without floating-point arithmetic, so independent of the
- * host's. The number is a fraction of two whole numbers of any size. Its first 63 bits come from a long
+/* decimal.c: correctly rounded decimal input. Floating-point arithmetic is not used, because its results could depend
+ * on the host. The number is a fraction of two whole numbers of any size. Its first 63 or 64 bits come from a long
  * division. If these do not decide the rounding, the remainder does. */
 #include "host/number/decimal.h"
 
@@ -29,7 +29,7 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
     digits[count > 1 ? count : 0] = '\0';
     int exponent = scale > 0 ? scale - BIAS : 1 - BIAS;
     if (scale == 0 && count == 1) {
-        exponent = 0; /* zero */
+        exponent = 0; /* 0x0p+0 */
     }
     snprintf(text, HEX_SIZE, "%s0x%d%sp%+d", sign, scale > 0 ? 1 : 0, digits, exponent);
     return text;
@@ -38,16 +38,17 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
 /* === decimal notation ========================================================================= */
 
 enum {
-    /* A midpoint of two doubles has at most 768 significant digits (next to 2^-1074 and 2^-1022). So a longer number is
-     * on the same side of every midpoint as its first DIGITS_MAX digits, with one more digit if the rest is not zero. */
+    /* A midpoint of two doubles has at most 768 significant digits. So a longer number is on the same side of every
+     * midpoint as its first DIGITS_MAX digits, with a digit 1 appended if the rest is not zero. */
     DIGITS_MAX = 780,
-    /* The least and the largest exponent of the first digit. A smaller number is below half of 2^-1074, which is zero;
-     * a larger one is infinity. */
+    /* The least and the largest decimal exponent of the first digit. A number with a smaller exponent is below half of
+     * 2^-1074 and becomes zero; one with a larger exponent becomes infinity. */
     PLACE_LEAST = -324,
     PLACE_MOST = 308,
-    /* 5^1106 has 2569 bits, 781 digits have 2595; either may be shifted to the other's length plus one bit. */
+    /* 5^1106 has 2569 bits, a number of 781 digits has 2595. The shorter of two numbers is shifted to the length of
+     * the longer one plus one bit. */
     WORDS = 84,
-    FIVES = 13, /* 5^13 is the largest power in a word */
+    FIVES = 13, /* 5^13 is the largest power of 5 in a word */
     QUOTIENT_BITS = 64,
     MANTISSA = 53,
     EXPONENT_LEAST = -1022,
@@ -110,7 +111,7 @@ static bool below(const big *a, const big *b) {
     return false;
 }
 
-/* a -= b, for b <= a */
+/* Computes a -= b for b <= a. */
 static void take_away(big *a, const big *b) {
     uint64_t borrow = 0;
     for (int i = 0; i < a->count; i++) {
@@ -123,11 +124,11 @@ static void take_away(big *a, const big *b) {
     }
 }
 
-/* The significant digits of a number as a whole number, times 10^exponent. */
+/* A number as a whole number, made of its significant digits, times 10^exponent. */
 typedef struct digits {
     big whole; /* count 0: zero */
     int held;  /* number of significant digits taken so far */
-    bool more; /* a digit other than zero follows them */
+    bool more; /* a later digit is not zero */
     int64_t exponent;
 } digits;
 
@@ -144,7 +145,8 @@ static void take_digit(digits *d, int digit, bool behind_point) {
     d->exponent -= behind_point ? 1 : 0;
 }
 
-/* Adds the exponent after an e at `text` to *exponent; its size is limited to some 1e13. Returns its end, or NULL without one. */
+/* Reads the exponent whose e is at `text`, and adds it to *exponent. Its size is limited to some 1e13. Returns the end
+ * of the exponent, or NULL if there is none. */
 static const char *read_exponent(const char *text, int64_t *exponent) {
     const bool negative = text[1] == '-';
     const char *at = text + (negative || text[1] == '+' ? 2 : 1);
@@ -159,7 +161,7 @@ static const char *read_exponent(const char *text, int64_t *exponent) {
     return at;
 }
 
-/* floor(n / m * 2^63) with n / m between 1/2 and 2; *rest: is there a remainder? Overwrites both. */
+/* Returns floor(n / m * 2^63) for n / m between 1/2 and 2, and overwrites n. *rest: true if there is a remainder. */
 static uint64_t divide(big *n, const big *m, bool *rest) {
     uint64_t quotient = 0;
     for (int i = 0; i < QUOTIENT_BITS; i++) {
@@ -174,8 +176,8 @@ static uint64_t divide(big *n, const big *m, bool *rest) {
     return quotient;
 }
 
-/* The bits of the double nearest to quotient * 2^exponent, plus a little more if `rest`. The quotient's highest bit
- * is 62 or 63. *side: the side of the double on which that number lies. */
+/* The bits of the double nearest to quotient * 2^exponent, or, if `rest` is true, to a slightly larger number. The
+ * quotient's highest bit is bit 62 or 63. *side: the side of the double on which the number lies. */
 static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
     const int power = exponent + bits - 1; /* exponent of the highest bit */
@@ -190,7 +192,7 @@ static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const uint64_t left = quotient & (half | (half - 1));
     const bool is_exact = left == 0 && !rest;
     const bool up = left > half || (left == half && (rest || (whole & 1U) != 0));
-    /* a normal number's highest bit, and a carry, count into the exponent above it */
+    /* Added, because a normal number's highest bit, and a carry, must increase the exponent field. */
     const uint64_t scale =
         power >= EXPONENT_LEAST ? (uint64_t)(power - EXPONENT_LEAST) << (MANTISSA - 1) : 0;
     const uint64_t made = scale + whole + (up ? 1U : 0U);

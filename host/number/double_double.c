@@ -1,4 +1,3 @@
-/* double_double.c: sums and products of two doubles each. */
 #define WH_DOUBLE 1
 #include "double_double.h"
 
@@ -57,7 +56,7 @@ bool double_double_is_zero(twofold a) { return a.high == 0.0; }
 bool double_double_is_finite(twofold a) { return isfinite(a.high) && isfinite(a.low); }
 
 double double_double_constant(twofold a) {
-    static const uint64_t beyond_float = (UINT64_C(1) << 29) - 1; /* digits that float lacks */
+    static const uint64_t beyond_float = (UINT64_C(1) << 29) - 1; /* the 29 bits that float lacks */
     uint64_t bits;
     double nearest;
     memcpy(&bits, &a.high, sizeof bits);

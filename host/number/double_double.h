@@ -1,6 +1,7 @@
 /* double_double.h: numbers of some 106 bits: the unevaluated sum of two doubles (Dekker; Muller et al., Handbook of
- * Floating-Point Arithmetic, chapter 14). Constants are correct to the last bit of a double after many operations.
- * It uses only IEEE additions, products and divisions, so all hosts have the same bits. */
+ * Floating-Point Arithmetic, chapter 14). A constant computed with them is correct to the last bit of a double, after
+ * many operations, too. Only IEEE additions, products and divisions are used, so results have the same bits on every
+ * host. */
 #ifndef NUMBER_DOUBLE_DOUBLE_H
 #define NUMBER_DOUBLE_DOUBLE_H
 
@@ -9,29 +10,30 @@
 
 #include "core/function_double.h"
 
-/* high is the double nearest to the sum, low the remainder. */
+/* `high` is the double nearest to the sum, `low` the remainder. */
 typedef wh_pair twofold;
 
 twofold double_double_of(double value);
 twofold double_double_ratio(uint64_t numerator, uint64_t denominator);
 
-/* Relative error a few times 2^-104, for normal numbers below about 2^990. For larger numbers the result is not finite;
- * for subnormal ones it has only the digits of a double. */
+/* The relative error of these four functions is a few times 2^-104 for normal numbers below about 2^990. For larger
+ * numbers the result is not finite; for subnormal ones it has only the digits of a double. */
 twofold double_double_add(twofold a, twofold b);
 twofold double_double_sub(twofold a, twofold b);
 twofold double_double_mul(twofold a, twofold b);
 twofold double_double_div(twofold a, twofold b);
-/* a times a power of two, exactly. */
+/* `a` times a power of two, exactly. */
 twofold double_double_scale(twofold a, double power_of_two);
 
 bool double_double_is_zero(twofold a);
 bool double_double_is_finite(twofold a);
 
-/* The double of a scene's constant: the nearest one to `a`. If that is the midpoint of two floats, and `a` is not, the result
- * is the next double on the side of `a`. Then (float) of the result is the float nearest to `a`, as after a single rounding. */
+/* Returns the double nearest to `a`, for a constant of a scene. If that double is the midpoint of two floats, and `a`
+ * is not, the result is the next double on the side of `a`. Then (float) of the result is the float nearest to `a`, as
+ * after a single rounding. */
 double double_double_constant(twofold a);
 
-/* `a` less the float nearest to it, as a double. */
+/* `a` minus the float nearest to `a`, as a double. */
 double double_double_beyond_float(twofold a);
 
 #endif

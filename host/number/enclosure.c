@@ -1,4 +1,4 @@
-/* enclosure.c: interval functions by series. The series alternate with falling terms, or have a geometric bound; the
+/* enclosure.c: interval functions by series. The terms of a series alternate and fall, or have a geometric bound. The
  * truncation error is added as an interval. */
 #include "enclosure.h"
 
@@ -69,11 +69,12 @@ bool enclosure_has(enclosure a, double x) { return a.low <= x && x <= a.high; }
 
 enclosure enclosure_pi(void) { return (enclosure){0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1}; }
 
-/* Terms of the series, for arguments within 1. */
+/* Number of terms of the series, for arguments from -1 to 1. */
 enum { TERMS = 13 };
 
-/* sum of (-t)^i / ((from + 1) (from + 2) ... (from + 2 i)), t = x^2 from 0 to 1. The terms fall and alternate, so the
- * truncation error is within the first omitted term. */
+/* Encloses the sum of (-t)^i / ((from + 1) (from + 2) ... (from + 2 i)) over i, for t = x^2 from 0 to 1. It is cos x
+ * if `from` is 0, and sin(x) / x if `from` is 1. The terms fall and alternate, so the truncation error is within the
+ * first omitted term. */
 static enclosure waves(enclosure t, int from) {
     enclosure sum = {0.0, 1.0};
     for (int i = TERMS; i > 0; i--) {
@@ -100,7 +101,7 @@ static bool reduce(enclosure x, enclosure *rest, int *quarters) {
            enclosure_size(enclosure_of(enclosure_middle(*rest))) <= 1.0;
 }
 
-/* The sine of `rest` plus this many quarter turns, by the addition theorem for the middle of `rest`. */
+/* The sine of `rest` plus this many quarter turns. It uses the addition theorem at the middle of `rest`. */
 static enclosure wave(enclosure rest, int quarters) {
     const double middle = enclosure_middle(rest);
     const double radius = enclosure_radius(rest);
@@ -143,7 +144,7 @@ enclosure enclosure_cosine(enclosure a) {
 
 /* --- roots, exponentials, powers -----------------------------------------------------------------------*/
 
-/* Is `root` the exact root of `of`? Then the enclosure of a whole number stays a point. */
+/* Returns true if `root` is a whole number and the exact root of `of`. Then the enclosure stays a point. */
 static bool is_whole_root(double root, double of) {
     return root <= 0x1p26 && number_nearest(root) == root && root * root == of;
 }
@@ -159,7 +160,7 @@ enclosure enclosure_root(enclosure a) {
                        is_whole_root(high, a.high) ? high : enclosure_above(high)};
 }
 
-/* e^x of one number: the series of x / 2^n, squared n times. */
+/* Encloses e^x: the series at x / 2^n, squared n times. */
 static enclosure exponential(double x) {
     const double size = x < 0.0 ? -x : x;
     int halvings = 0;
@@ -193,7 +194,7 @@ enclosure enclosure_exp(enclosure a) {
                                                                  : none();
 }
 
-/* log x = y + log(1 + z), z = x e^-y - 1, with y an approximation of log x from any source; z / (1 + z) <= log(1 + z) <= z. */
+/* log x = y + log(1 + z) with z = x e^-y - 1, for any approximation y of log x, and z / (1 + z) <= log(1 + z) <= z. */
 static enclosure logarithm(double x) {
     const double y = number_call(FN_LOG, x, 0.0);
     const enclosure z = enclosure_sub(
@@ -241,8 +242,8 @@ enclosure enclosure_power(enclosure a, enclosure exponent) {
 
 /* --- the language's functions ---------------------------------------------------------------------------*/
 
-/* Encloses a function that is monotonic between `least` and `most`. Its values have errors of at most 0.6 units in the
- * last place. */
+/* Encloses a function that is monotonic between `least` and `most`. Its computed values have errors of at most 0.6
+ * ulp. */
 static enclosure steady(function_id function, enclosure a, double least, double most) {
     const double low = enclosure_lesser(enclosure_larger(a.low, least), most);
     const double high = enclosure_larger(enclosure_lesser(a.high, most), least);
@@ -257,7 +258,8 @@ static enclosure size_of(enclosure a) {
     return (enclosure){across ? 0.0 : enclosure_lesser(low, high), enclosure_larger(low, high)};
 }
 
-/* The angle of (x, y): between the angles of the corners, unless the rectangle contains zero or the jump from -pi to pi. */
+/* The angle of the vector (x, y). It lies between the angles of the corners, unless the rectangle contains zero or the
+ * jump from -pi to pi. */
 static enclosure angle_of(enclosure y, enclosure x) {
     if (x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0) {
         return (enclosure){-enclosure_pi().high, enclosure_pi().high};

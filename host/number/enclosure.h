@@ -1,12 +1,13 @@
 /* enclosure.h: interval arithmetic with outward rounding: two doubles that enclose a real number for certain (Moore,
  * Kearfott, Cloud, Introduction to Interval Analysis, 2009).
  *
- * The rounding mode is the usual one, to nearest. After each operation the ends are moved outwards by one or two units of
- * the last place. That takes an addition and a product, without access to the number's bits (Rump, Zimmermann, Boldo,
- * Melquiond, Computing predecessor and successor in rounding to nearest, BIT 49, 2009). An exact zero stays exact.
+ * The processor rounds to nearest, as usual. After each operation the ends are moved outwards by one or two ulp. That
+ * takes an addition and a product, without access to the number's bits (Rump, Zimmermann, Boldo, Melquiond, Computing
+ * predecessor and successor in rounding to nearest, BIT 49, 2009). An exact zero stays exact.
  *
- * A failed enclosure (division by an interval with zero, a root of a possibly negative one, overflow) is NaN at both ends.
- * So are all results that depend on it: enclosure_is_finite() of the last result covers all. */
+ * A failed enclosure is NaN at both ends, for example after a division by an interval that contains zero, a root of a
+ * possibly negative number, or an overflow. A result that depends on a failed enclosure is NaN, too. So a single
+ * enclosure_is_finite() of the last result is enough. */
 #ifndef NUMBER_ENCLOSURE_H
 #define NUMBER_ENCLOSURE_H
 
@@ -25,7 +26,8 @@ typedef struct enclosure {
     double high;
 } enclosure;
 
-/* A bound at or below the next lower double, and one at or above the next higher double. */
+/* enclosure_below() returns a bound at or below the next lower double, enclosure_above() one at or above the next
+ * higher double. */
 static inline double enclosure_below(double x) {
     return x - (0x1.0000000000001p-53 * (x < 0.0 ? -x : x) + 0x1p-1074);
 }
@@ -67,7 +69,7 @@ static inline enclosure enclosure_mul(enclosure a, enclosure b) {
     const double q = a.low * b.high;
     const double r = a.high * b.low;
     const double s = a.high * b.high;
-    const double bad = (p + q) + (r + s); /* an infinity or a NaN among them does not get lost */
+    const double bad = (p + q) + (r + s); /* not finite if one of the four is not */
     if (!(bad - bad == 0.0)) {
         return (enclosure){bad - bad, bad - bad};
     }
@@ -92,7 +94,7 @@ static inline enclosure enclosure_times(enclosure a, double x) {
     return (enclosure){enclosure_below(x < 0.0 ? q : p), enclosure_above(x < 0.0 ? p : q)};
 }
 
-/* The least enclosure that contains both. */
+/* The smallest enclosure that contains both. */
 static inline enclosure enclosure_hull(enclosure a, enclosure b) {
     if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
         return enclosure_is_finite(a) ? b : a;
@@ -102,14 +104,16 @@ static inline enclosure enclosure_hull(enclosure a, enclosure b) {
 
 enclosure enclosure_div(enclosure a, enclosure b);
 enclosure enclosure_square(enclosure a);
-/* From the next lower to the next higher double, widened by `more` on each side. */
+/* The enclosure from the next lower to the next higher double of `value`, with each end moved outwards `more` further
+ * times. */
 enclosure enclosure_about(double value, int more);
-/* A double near the middle, and an upper bound on its distance to either end. */
+/* enclosure_middle() returns a double near the middle, enclosure_radius() an upper bound on the distance from that
+ * double to either end. */
 double enclosure_middle(enclosure a);
 double enclosure_radius(enclosure a);
-/* An upper bound on the size of all numbers in a. */
+/* The largest absolute value in `a`. */
 double enclosure_size(enclosure a);
-/* Is a between the ends of b, and touches neither? */
+/* Returns true if `a` lies between the ends of `b` and touches neither end. */
 bool enclosure_inside(enclosure a, enclosure b);
 bool enclosure_has(enclosure a, double x);
 
@@ -120,9 +124,10 @@ enclosure enclosure_cosine(enclosure a);
 enclosure enclosure_exp(enclosure a);
 enclosure enclosure_log(enclosure a);
 enclosure enclosure_whole_power(enclosure a, int n);
-/* a^exponent for a > 0; for all a if the exponent is a whole number. */
+/* a^exponent. If the exponent is not a whole number, `a` must be above zero. */
 enclosure enclosure_power(enclosure a, enclosure exponent);
-/* The language's function over that part of a, or of (a, b), that lies in its domain. Exponentials beyond 700 count as e^700. */
+/* Encloses the function's values on the part of `a`, or of (a, b), that lies in its domain. Arguments of exp(), sinh()
+ * and cosh() beyond 700 in size count as 700. */
 enclosure enclosure_call(function_id function, enclosure a, enclosure b);
 
 #endif

@@ -10,13 +10,13 @@
 
 /* Unit round-off of double. */
 #define UNIT 0x1p-53
-/* Round-off of a few operations: 0.1 + 0.2 - 0.3. */
+/* Relative round-off of a few operations, such as 0.1 + 0.2 - 0.3. */
 #define GHOST (16.0 * UNIT)
 
-/* A residue larger than this, in SI units, may be a real quantity, such as a soft spring. */
+/* A residue above this, in SI units, is recorded as a loss: it may be a real quantity, such as a soft spring. */
 #define REST_COUNTS 1e-12
 
-static folding plain; /* the default */
+static folding plain; /* used before folding_use() */
 static folding *now = &plain;
 
 folding *folding_use(folding *f) {
@@ -40,8 +40,8 @@ static uint64_t mixed(uint64_t z) {
     return z ^ (z >> 31);
 }
 
-/* The number of doubles by which a result of these operands is moved, up or down. Some ways derive it only from the operands'
- * digits, independent of their signs, powers of two and order. */
+/* The number of doubles by which a result of these operands is moved; positive is up. In the ways from FOLDING_SOME on,
+ * it depends only on the operands' digits, not on their signs, powers of two and order. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {
@@ -62,8 +62,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* The nearest double, moved as moved_by() says. FOLDING_OTHER moves it two doubles across the exact value, because
- * several round-offs may add up to as much. Unchanged if the nearest double is exact. */
+/* Returns the nearest double, moved by moved_by(). If the nearest double is exact, it is not moved. FOLDING_OTHER
+ * moves it two doubles across the exact value, because several round-offs may add up to as much. */
 static double other_neighbour(twofold exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -73,7 +73,7 @@ static double other_neighbour(twofold exact, double x, double y) {
 
 static bool is_short(double x) { return (digits_of(x) & ((UINT64_C(1) << 26) - 1)) == 0; }
 
-/* The other value of a result of which only the double is known. */
+/* As other_neighbour(), for a result whose exact value is unknown. */
 static double other_value(double value, double x) {
     return isfinite(value) ? moved(value, moved_by(value, x, (digits_of(value) >> 26 & 1U) != 0))
                            : value;
@@ -101,7 +101,8 @@ static void note_rest(double x) {
     }
 }
 
-/* A sum that cancels, or a sum of two residues, is a residue. A residue added to a number counts as its part of that number. */
+/* Records the loss in x + y. A sum that cancels, or a sum of two residues, is a residue. If one addend is a residue,
+ * its ratio to the other addend is the loss. */
 static void note_sum(double x, double y, double sum) {
     if (x == 0.0 || y == 0.0) {
         return;
@@ -120,7 +121,7 @@ static void note_sum(double x, double y, double sum) {
     note_lost(UNIT * most / number_least(fabs(sum), number_least(fabs(x), fabs(y))));
 }
 
-/* A negative power of a residue has no correct digit; another power is a residue. */
+/* Records the loss in a power of a residue. A negative power has no correct digit; any other power is a residue. */
 static void note_power(double base, double exponent, double power) {
     if (is_rest(base)) {
         if (exponent < 0.0) {
@@ -131,8 +132,8 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* A function of a residue. If its value differs from the value at zero, no digit is correct. If the value at zero is
- * zero, the function's value is a residue, too. */
+/* Records the loss in a function of a residue. If its value differs from the value at zero, no digit is correct. If
+ * the value at zero is zero, the function's value is a residue, too. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -141,8 +142,8 @@ static void note_call(double value, double at_zero) {
     }
 }
 
-/* A function that hardly depends on x loses digits of x, such as cos(1e-9). This does not count if the slope is only the round-off
- * of x modulo quarter turns. */
+/* Records the loss in a function that hardly depends on x: cos(1e-9) loses digits of x. A slope that is only the
+ * round-off of x modulo quarter turns is no loss. */
 static void note_slope(double value, double x, double slope, bool turns) {
     if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));
@@ -159,8 +160,8 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* Are products and quotients changed, too? If all results were moved to the other side, a quotient could cancel the
- * change of a sum in it: (K + k)/K - 1. */
+/* Returns true if this way changes products and quotients, too. FOLDING_OTHER does not: in (K + k)/K - 1, the change
+ * of the quotient could cancel the change of the sum. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }
@@ -197,7 +198,8 @@ double folding_power(double base, double exponent) {
     return power;
 }
 
-/* Is the value exact? abs(), sign(), min(), max(): always. Roots: if short. Other functions: if short, at 0, 1 and -1. */
+/* Returns true if the value has no round-off. abs(), sign(), min() and max() have none. A root has none if it is short.
+ * Another function has none if it is short and x is 0, 1 or -1. */
 static bool is_exact(function_id function, double x, double value) {
     switch (function_takes(function)) {
     case TAKES_SIZE:

@@ -1,4 +1,4 @@
-/* functions.c: the language's functions in double. The core's double build computes the rounded ones. */
+/* functions.c: the language's functions in double. Functions that round are computed by the core's double build. */
 #include "host/number/functions.h"
 
 #define WH_DOUBLE 1
@@ -58,9 +58,10 @@ _Static_assert(1 FUNCTION_ROWS(OF_CORE) == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
 #undef FUNCTION_OWN
 #undef FUNCTION_CORE
 
-/* NaN stays NaN. */
+/* The sign of x; zeros and NaN are returned unchanged. */
 static double sign_of(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
-/* The slope of max() by an argument that is larger than the other by `lead`, or of min() by one that is smaller. */
+/* The slope of max() by an argument that is larger than the other by `lead`, or of min() by an argument that is
+ * smaller by `lead`. */
 static double share_of(double lead) { return 0.5 + 0.5 * sign_of(lead); }
 
 #define FUNCTION_CORE(value) value
@@ -91,11 +92,11 @@ double number_slope(function_id function, int which, double x, double y) {
 }
 
 /* --- whole numbers ------------------------------------------------------------------------------- */
-#define ALL_WHOLE 0x1p52 /* no number from here on has a fraction */
+#define ALL_WHOLE 0x1p52 /* every double of at least this size is whole */
 
 static double whole_part(double size) { return (double)(int64_t)size; }
 
-/* `size` with the sign of x, also for zeros. */
+/* Returns `size` with the sign of x, also if x is zero. */
 static double like(double size, double x) { return wh_signed(size, wh_bits(x) >> 63 != 0); }
 
 double number_floor(double x) {
@@ -138,7 +139,7 @@ double number_scaled(double x, int exponent) {
         x *= 0x1p1023;
         exponent -= 1023;
     }
-    while (exponent < -1022) { /* steps of 2^-969 leave 53 bits: only the last step rounds */
+    while (exponent < -1022) { /* a step of 2^-969 keeps 53 bits, so only the last step rounds */
         if (x == 0.0 || !(WH_ABS(x) < WH_INFINITY)) {
             return x;
         }
@@ -161,7 +162,8 @@ double number_split(double x, int *exponent) {
 }
 
 /* --- remainders ---------------------------------------------------------------------------------- */
-/* A size as a whole number and an exponent of two, -1074 or more. */
+/* Splits a finite number >= 0 into a whole number, which is returned, and a power of two, whose exponent is at least
+ * -1074. */
 static uint64_t whole_of(double size, int *exponent) {
     const uint64_t bits = wh_bits(size);
     const int field = (int)(bits >> 52);
@@ -183,7 +185,7 @@ double number_remainder(double x, double y) {
         return x;
     }
     rest %= divisor;
-    while (exponent > by_exponent) { /* 64 bits have room for 11 bits beside the 53 */
+    while (exponent > by_exponent) { /* a product of 53 and 11 bits fits into 64 bits */
         const int bits = exponent - by_exponent < 11 ? exponent - by_exponent : 11;
         rest = (rest << bits) % divisor;
         exponent -= bits;

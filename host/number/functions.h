@@ -1,9 +1,9 @@
-/* functions.h: the program's own numerics: the language's functions and a few others. It
- * depends only on the core, and all of the host may use it.
+/* functions.h: the functions of the language, and a few others. The file depends only on the core, and all of the
+ * host may use it.
  *
- * The machine's library is not used, so results have the same bits on every host. Sine, cosine, tangent,
- * logarithm and the like err by less than 0.6 units of the last place over the whole range (core/function.h).
- * The root is correctly rounded; all others here are exact. Special cases are as in C's Annex F. */
+ * The machine's library is not used, so results have the same bits on every host. The functions of core/function.h,
+ * such as sines, logarithms and powers, err by less than 0.6 ulp over the whole range. The root is correctly rounded.
+ * Whole parts, remainders, minima and maxima are exact. Special cases are as in C's Annex F. */
 #ifndef NUMBER_FUNCTIONS_H
 #define NUMBER_FUNCTIONS_H
 
@@ -12,22 +12,22 @@
 #include <stddef.h>
 
 /* === rows of functions ================================================================== */
-/* The language's functions, a row each. All code that lists the functions uses these rows, or
+/* The language's functions, one row for each. All code that lists the functions uses these rows, or
  * switches over function_id with -Wswitch-enum. A new function is a new row, at the end. If a part of it is
  * missing, the build fails.
  *
  * X(id, word, arguments, dimensions, range, latex, value, slope by x, slope by y)
  *
- *   id           the name in FN_id. The order of rows enters the hashes of models and the order of expressions.
- *   word         its name in the language and in text, in Octave, and after wh_ in C
+ *   id           its constant is FN_id. The order of rows enters the hashes of models and the order of expressions.
+ *   word         its name in the language, in text and in Octave; its name in C is wh_word
  *   arguments    1: x, 2: x and y, in the order in which they are written
- *   dimensions   the name in TAKES_...: dimensions of the arguments and the result
- *   range        EVERYWHERE: real for all real numbers. SOMEWHERE: NaN elsewhere, where Octave's result is complex.
+ *   dimensions   the name after TAKES_: dimensions of the arguments and the result
+ *   range        EVERYWHERE: real for all real numbers. SOMEWHERE: for some arguments NaN, and complex in Octave.
  *   latex        the text before the parenthesis
- *   value        FUNCTION_CORE(...): a function of core/function.h, in both numbers, on every board.
+ *   value        FUNCTION_CORE(...): a function of core/function.h, in float and double, on every board.
  *                FUNCTION_OWN(operation, ...): its own operation in the operation list, and its value in double.
- *                The users of this column define the two macros.
- *   slopes       in double. In symbols: host/algebra/calculus.c, which has a case for each row */
+ *                The code that uses this column defines the two macros.
+ *   slopes       in double. Symbolic slopes: function_slope() in host/algebra/calculus.c, with a case for each row */
 
 /* clang-format off */
 #define FUNCTION_ROWS(X) \
@@ -67,15 +67,14 @@
       FUNCTION_CORE(wh_tanh(x)), 1.0 / (wh_cosh(x) * wh_cosh(x)), 0.0)
 /* clang-format on */
 
-/* === zeros for readers ======================================================================== */
+/* === printed zeros ============================================================================ */
 
-/* The value for printing: zeros and NaNs have no sign, since "-0" says no more than "0". States and their
- * hashes keep their signs, because only printed values go through here. */
+/* Removes the sign of zeros and NaNs before printing, since "-0" says no more than "0". States and their hashes keep
+ * the signs, because only printed values go through here. */
 static inline double number_shown(double value) {
     return isnan(value) ? (double)NAN : value + 0.0; /* -0 + 0 is 0, by IEEE 754 */
 }
 
-/* The language's functions: FN_SIN, FN_COS, ... */
 #define FUNCTION_ID(id, ...) FN_##id,
 typedef enum function_id { FUNCTION_ROWS(FUNCTION_ID) } function_id;
 #undef FUNCTION_ID
@@ -86,29 +85,31 @@ enum { FUNCTIONS = 0 FUNCTION_ROWS(FUNCTION_ONE) }; /* number of functions */
 
 #define FUNCTION_NONE ((function_id)FUNCTIONS) /* no function */
 
-/* Dimensions of the arguments: of the result. */
+/* The dimensions of the arguments, and the dimension of the result. */
 typedef enum function_dimensions {
-    TAKES_ANGLE,  /* a number that is an angle in radians: a number */
-    TAKES_NUMBER, /* a number: a number */
-    TAKES_SQUARE, /* any: its root */
-    TAKES_SIZE,   /* any dimension: the result has the same */
-    TAKES_ANY,    /* any: a number */
-    TAKES_RATIO,  /* two of one dimension: a number */
-    TAKES_CHOICE  /* two of one dimension: the result has the same */
+    TAKES_ANGLE,  /* an angle in radians -> a number */
+    TAKES_NUMBER, /* a number -> a number */
+    TAKES_SQUARE, /* any dimension -> its square root */
+    TAKES_SIZE,   /* any dimension -> the same dimension */
+    TAKES_ANY,    /* any dimension -> a number */
+    TAKES_RATIO,  /* two arguments of one dimension -> a number */
+    TAKES_CHOICE  /* two arguments of one dimension -> the same dimension */
 } function_dimensions;
 
 const char *
-function_name(function_id function); /* in the language, in text, in Octave; wh_... in C */
-const char *function_latex(function_id function); /* "\\sin" */
+/* Its name in the language, in text and in Octave; in C, wh_ stands before it. */
+function_name(function_id function);
+const char *function_latex(function_id function); /* such as "\\sin" */
 int function_arguments(function_id function);     /* 1 or 2 */
 function_dimensions function_takes(function_id function);
-bool function_is_real(function_id function); /* real for all real arguments */
-/* The function with that name, in *function; false: unknown. */
+bool function_is_real(function_id function); /* false if the result is NaN for some arguments */
+/* Sets *function to the function with that name. Returns false if there is none. */
 bool function_find(const char *text, size_t length, function_id *function);
 
 /* The function at x, or at (x, y). With a NaN argument the result is NaN, also for min() and max(). */
 double number_call(function_id function, double x, double y);
-/* The function's slope by x (which = 0) or y (1). At equal arguments min() and max() have the slope 1/2 by each. */
+/* The partial derivative by x (which = 0) or y (which = 1). If the arguments of min() or max() are equal, both
+ * derivatives are 1/2. */
 double number_slope(function_id function, int which, double x, double y);
 
 double number_sine(double rad);
@@ -116,22 +117,25 @@ double number_cosine(double rad);
 double number_root(double x);
 double number_power(double base, double exponent);
 
-/* Rounding to a whole number: down, up, to nearest with halves away from zero, and to nearest with halves to even. */
+/* Rounding to a whole number: down, up, to the nearest with halves away from zero, and to the nearest with halves to
+ * even. */
 double number_floor(double x);
 double number_ceiling(double x);
 double number_nearest(double x);
 double number_even(double x);
 
-/* The remainder of x after whole multiples of y: with the sign of x, and within y/2. */
+/* number_remainder() subtracts whole multiples of y from x; the result has the sign of x and is smaller than y in
+ * size. number_centred() subtracts the multiple nearest to x; the result lies within y/2 of zero. */
 double number_remainder(double x, double y);
 double number_centred(double x, double y);
 
-/* number_scaled() is x 2^exponent. number_split() returns y with x = y 2^*exponent and 0.5 <= |y| < 1; zeros, infinities and NaN are
- * unchanged. */
+/* number_scaled() returns x times 2^exponent. number_split() returns the mantissa y and *exponent: x = y 2^*exponent
+ * and 0.5 <= |y| < 1. It returns zeros, infinities and NaN unchanged. */
 double number_scaled(double x, int exponent);
 double number_split(double x, int *exponent);
 
-/* The lesser and the larger of two numbers. If one is NaN, the other; of two zeros, a. */
+/* The smaller and the larger of two numbers. If one of them is NaN, the result is the other. If both are zero, it is
+ * `a`. */
 double number_least(double a, double b);
 double number_most(double a, double b);
 

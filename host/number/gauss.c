@@ -10,7 +10,7 @@ static void swap_rows(double *a, double *b, int columns) {
     }
 }
 
-/* Subtracts a multiple of row `of` from `row`, so that its entry in the pivot's column is 0. */
+/* Subtracts a multiple of row `of` from `row`, so that the entry of `row` in the pivot's column becomes 0. */
 static void clear(double *row, const double *of, int columns, int pivot) {
     const double part = row[pivot] / of[pivot];
     for (int k = 0; k < columns && part != 0.0; k++) {

@@ -1,17 +1,18 @@
-/* gauss.h: Gauss's elimination of matrices of doubles, by rows. */
+/* gauss.h: Gauss elimination of matrices of doubles, stored by rows. */
 #ifndef NUMBER_GAUSS_H
 #define NUMBER_GAUSS_H
 
 #include <stdbool.h>
 
-/* Reduces m[rows * columns] until each pivot is the only nonzero entry of its column. Rows with a pivot come first, and are not
- * divided by it. Pivots are searched in the first `pivots` columns, one column after the other, or with `full` in all of them for
- * the largest entry. An entry of at most `zero` in size is no pivot. Returns the rank; lead[rank] has the pivots' columns, in rising
- * order except with `full`. */
+/* Reduces m[rows * columns] until each pivot is the only nonzero entry of its column. The rows with a pivot come first,
+ * and are not divided by it. If `full` is false, the first `pivots` columns are searched one after the other, and the
+ * largest entry of a column is its pivot. If `full` is true, the next pivot is the largest entry in any of these
+ * columns. An entry with a size of at most `zero` is no pivot. Returns the rank. lead[rank]: the columns of the pivots;
+ * they rise if `full` is false. */
 int gauss_reduce(double *m, int rows, int columns, int pivots, bool full, double zero, int *lead);
 
-/* Eliminates below the diagonal of m[n * n] without exchanging rows, which leaves the pivots on the diagonal. A zero pivot eliminates
- * nothing. */
+/* Eliminates below the diagonal of m[n * n] without exchanging rows. The pivots are then on the diagonal. Below a pivot
+ * that is zero, nothing is eliminated. */
 void gauss_pivots(double *m, int n);
 
 #endif

@@ -12,7 +12,7 @@ void phase_factor(double multiple, uint32_t *whole, uint64_t *part) {
     const double rest = (size - units) * 0x1p64; /* exact, and below 2^64 */
     *whole = (uint32_t)number_remainder(units, 0x1p32);
     *part = (uint64_t)(rest < 0x1p52 ? number_floor(rest + 0.5) : rest);
-    if (multiple < 0.0) { /* negates *whole and *part together, as one number */
+    if (multiple < 0.0) { /* negates *whole and *part as one number of 96 bits */
         *whole = 0U - *whole - (*part != 0 ? 1U : 0U);
         *part = 0U - *part;
     }

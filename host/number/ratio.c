@@ -21,7 +21,7 @@ uint128 uint128_minus(uint128 a, uint128 b) {
     return (uint128){a.high - b.high - (a.low < b.low ? 1U : 0U), a.low - b.low};
 }
 
-/* The product of two words, with all 128 bits, from their halves. */
+/* The full product of two words of 64 bits, computed from their halves. */
 static uint128 product(uint64_t a, uint64_t b) {
     const uint64_t half = UINT32_MAX;
     const uint64_t low = (a & half) * (b & half);
@@ -64,7 +64,7 @@ uint128 uint128_over(uint128 a, uint128 b, uint128 *rest) {
     uint128 left = {0, 0};
     uint128 quotient = {0, 0};
     for (int bit = 127; bit >= 0; bit--) {
-        /* `left` is then 2^128 or more, and so above b */
+        /* the shifted number is 2^128 or more, and so above `b` */
         const bool carried = left.high >> 63 != 0;
         left = uint128_plus(uint128_left(left, 1), uint128_of(uint128_right(a, bit).low & 1U));
         if (carried || !uint128_below(left, b)) {
@@ -81,18 +81,18 @@ uint128 uint128_over(uint128 a, uint128 b, uint128 *rest) {
 /* === ratios =================================================================================== */
 
 enum { MANTISSA = 53, DIGITS_MOST = 15 };
-#define TENTH (UINT64_MAX / 10) /* below this, ten times the number has room */
+#define TENTH (UINT64_MAX / 10) /* ten times a number below this fits into 64 bits */
 
-/* A rational number; `in` may be 0: infinity. */
+/* The rational number of / in; infinity if `in` is 0. */
 typedef struct end {
     uint128 of, in;
 } end;
 
-/* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete
- * Mathematics, section 4.5). As long as there is no whole number between them, both have the same whole
- * part. */
+/* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete Mathematics,
+ * section 4.5). If no whole number lies between the ends, both have the same whole part. */
 static whole_ratio between(end low, end high) {
-    uint128 p = uint128_of(1); /* convergents: the last, and the one before */
+    /* p / q: the last convergent; p_before / q_before: the one before it */
+    uint128 p = uint128_of(1);
     uint128 q = uint128_of(0);
     uint128 p_before = uint128_of(0);
     uint128 q_before = uint128_of(1);
@@ -118,7 +118,7 @@ static whole_ratio between(end low, end high) {
     }
 }
 
-/* The simplest fraction within a relative error between 2^-52 and 2^-51. */
+/* The simplest fraction strictly within two units of the 53rd bit of `value`: a relative error below 2^-51. */
 static whole_ratio simplest(double value) {
     int exponent;
     /* below one, with 53 bits after the point */
@@ -141,8 +141,8 @@ uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* The decimal of fewest digits within the error; *said is 10 to the power of their number. Returns false if it needs
- * more than 15 digits, or more than 60 bits as a fraction. */
+/* Finds the decimal with the fewest digits within a relative error of 2^-52. *said is 10 to the power of its number
+ * of digits. Returns false if it needs more than 15 digits, or more than 60 bits as a fraction. */
 static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {
@@ -153,7 +153,7 @@ static bool decimal(double value, whole_ratio *found, uint64_t *said) {
         int power = (int)strtol(strchr(text, 'e') + 1, NULL, 10) - (digits - 1);
         uint64_t of = 0;
         for (const char *at = text; *at != 'e'; at++) {
-            of = *at == '.' ? of : 10 * of + (unsigned)(*at - '0'); /* 15 digits */
+            of = *at == '.' ? of : 10 * of + (unsigned)(*at - '0'); /* at most 15 digits */
         }
         uint64_t in = 1;
         *said = 1;
@@ -201,7 +201,7 @@ bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count) {
     return !uint128_below(uint128_left(uint128_of(1), 63), nearest);
 }
 
-/* As ratio_count(), for a time that was read or computed in double. */
+/* As ratio_count(), for a time in seconds that was read or computed in double. */
 static bool nearest_count(double time_s, whole_ratio step, uint64_t *count) {
     if (time_s < RATIO_LEAST) {
         *count = 0;
@@ -227,13 +227,15 @@ double ratio_times(uint64_t count, whole_ratio each) {
     uint128 of = uint128_times(uint128_of(count), uint128_of(each.numerator));
     int shift = 0;
     while (!uint128_is_zero(of) &&
-           of.high >> 62 == 0) { /* a denominator has at most 60 bits: 66 remain */
+           /* then the quotient has at least 66 bits, since a denominator has at most 60 */
+           of.high >> 62 == 0) {
         of = uint128_left(of, 1);
         shift++;
     }
     uint128 rest;
     uint128 quotient = uint128_over(of, uint128_of(each.denominator), &rest);
-    bool below = !uint128_is_zero(rest); /* so that only the conversion to double rounds */
+    /* becomes the lowest bit, so that only the conversion to double rounds */
+    bool below = !uint128_is_zero(rest);
     while (quotient.high != 0 || quotient.low >> 63 != 0) {
         below = below || (quotient.low & 1U) != 0;
         quotient = uint128_right(quotient, 1);
