@@ -4,14 +4,13 @@
 #include "host/lang/builtin.h"
 #include "host/study/reference_run.h"
 
-/* Largest number of samples of the reference. */
 enum { LOOKS = 10000 };
 
 typedef struct reference_of {
-    extrapolation *smooth; /* the reference without contacts; with contacts it is `run` */
+    extrapolation *smooth; /* the reference if there are no contacts; with contacts it is `run` */
     image fine;
     void *run;
-    uint64_t each; /* the reference's steps in one step of the run */
+    uint64_t each; /* number of reference steps in one step of the run */
     long_rows *rows;
     records *records;
     long double *row;
@@ -50,7 +49,7 @@ static void reference_close(reference_of *r) {
     }
 }
 
-/* Advances the reference to time_s, `steps` of the run's steps later. */
+/* Advances the reference by `steps` steps of the run, to time_s. */
 static void reference_go(reference_of *r, const image *im, uint64_t steps, double time_s) {
     if (r->smooth != NULL) {
         const long double span_s = (long double)steps * (long double)im->step.numerator /
@@ -73,7 +72,7 @@ typedef struct beside {
     horizons *h;
     reference_of fine, other;
     records *now;
-    double *last; /* the difference at the last sample [columns] */
+    double *last; /* [columns] difference between run and reference at the previous sample */
     double before_s, look_s;
     int open; /* number of columns that are still accurate */
 } beside;
@@ -95,7 +94,7 @@ static void enter(beside *b) {
         h->true_s[k] = events ? b->before_s : b->look_s;
         b->open--;
         const double differ = (double)fabsl(b->other.row[k] - b->fine.row[k]) / level;
-        if (!events) { /* near events the runs may differ for one step */
+        if (!events) { /* with events, the two references may differ for one step */
             h->known = fmax(h->known, isfinite(differ) ? differ : (double)INFINITY);
         }
     }

@@ -1,9 +1,9 @@
-/* horizons.h: the time until which a run is accurate, from a reference with other steps. It is compared with the
- * estimate of `whirl trust`.
+/* horizons.h: the time until which a run is accurate, from a comparison with a reference. Tests compare this true time
+ * with the estimate of `whirl trust`.
  *
- * Without contacts, the reference is the extrapolation in long double (host/study/reference_run.h) of order 12, checked
- * by one of order 10. Until the run fails the tolerance, their difference must be far below it. With contacts, it
- * is RK4 in double with a 32nd of the run's step, checked by a 16th. */
+ * Without contacts, the reference is the extrapolation of order 12 in long double (host/study/reference_run.h); a
+ * second one has order 10. With contacts, the reference is RK4 in double with 1/32 of the run's step; a second one
+ * has 1/16. The difference of the two references must be far below the tolerance. */
 #ifndef TESTS_HORIZONS_H
 #define TESTS_HORIZONS_H
 
@@ -20,27 +20,29 @@ typedef struct horizons_setting {
 
 typedef struct horizons {
     derived made;
-    image *image; /* image with the setting of the run */
-    /* image with the settings of the finer run (host/check/step_doubling.h), and of the reference */
+    image *image; /* image with the settings of the run */
+    /* image with the settings of the finer run (host/check/step_doubling.h); the reference uses it, too */
     image *plain;
     step_doubling *twins;
     horizon estimate;
-    /* [columns] time of the last accurate sample; infinite: accurate to the end */
+    /* [columns] time until which the column is accurate; infinite: until the end of the run */
     double *true_s;
-    double true_until_s; /* the least of true_s, at most the end of the run */
-    /* largest difference of the two references, divided by tolerance times range */
+    double true_until_s; /* least of true_s, or the end of the run */
+    /* without contacts: largest difference of the two references, divided by tolerance times range */
     double known;
     double look_s; /* time between two samples */
 } horizons;
 
-/* A scene of a text; `tolerance` as of `whirl trust`. */
+/* Runs the scene `name` of a text, its reference and the estimate. `tolerance` has the meaning of `whirl trust`. */
 horizons horizons_of(const char *text, const char *name, horizons_setting how, double tolerance);
 void horizons_free(horizons *h);
-/* Estimated time divided by the true one, for all columns together or for one; 1 if both are the run's end. */
+/* horizons_ratio(): the estimated time divided by the true time. horizons_column_ratio(): the same for one column. 1
+ * if both times are the end of the run. */
 double horizons_ratio(const horizons *h);
 double horizons_column_ratio(const horizons *h, int column);
 
-/* The text of a built-in file, "thomson.whirl", or of a file, with `more` appended; to be freed. */
+/* The text of a built-in file such as "thomson.whirl", or of the file at `path`, followed by `more`. The caller
+ * frees the text. */
 char *horizons_builtin(const char *file, const char *more);
 char *horizons_file(const char *path, const char *more);
 

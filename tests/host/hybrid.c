@@ -1,7 +1,6 @@
-/* hybrid.c: motion between events. Active contacts (stops at rest, sticking friction) are constraints, sliding friction
- * is a force:
+/* hybrid.c: motion between events. Closed stops and sticking frictions are constraints; sliding friction is a force:
  *
- * M q'' = force - sum sign limit + J^T lambda, J q'' = -J' q' for each active contact. */
+ *   M q'' = force - sum sign limit + J^T lambda, with J q'' = -J' q' for each constraint. */
 #include "hybrid.h"
 
 #include "drawn.h"
@@ -11,18 +10,18 @@ _Static_assert((int)LINKAGE_BODIES <= (int)DRAWN_MOST, "drawn.h tries the cases"
 
 enum { STATE = 2 * LINKAGE_BODIES };
 
-/* Mode of a contact. Friction: the direction of sliding, or STUCK. */
+/* Modes of a contact: OPEN and CLOSED for a stop; STUCK, or the direction of sliding (UP, DOWN), for a friction. */
 typedef enum mode { OPEN, CLOSED, STUCK, UP, DOWN } mode;
 
 typedef struct runner {
     const hybrid *h;
     mode mode[HYBRID_CONTACTS];
-    bool pressed[HYBRID_CONTACTS]; /* a friction whose limit is above zero */
+    bool pressed[HYBRID_CONTACTS]; /* the limit of this friction is above zero */
     long double state[STATE];
     hybrid_motion *motion;
 } runner;
 
-/* A contact's gap or a friction's coordinate, with its rate and its curvature term. */
+/* The gap of a stop or the coordinate of a friction. rate = row . q', and the second derivative is row . q'' + bend. */
 typedef struct gauge {
     long double gap;
     long double rate;
@@ -48,7 +47,7 @@ static gauge gauge_of(const hybrid *h, int k, const linkage_numbers *at, const l
     return g;
 }
 
-/* Limit of a friction; not positive: no friction. */
+/* The limit of a friction before it is cut at zero. */
 static long double load_of(const hybrid_contact *c, const long double *state) {
     return (long double)c->limit + (long double)c->load * state[c->loaded_by];
 }
@@ -59,7 +58,7 @@ static long double limit_of(const hybrid_contact *c, const long double *state) {
 
 static bool holds(mode m) { return m == CLOSED || m == STUCK; }
 
-/* Accelerations in the present modes, and lambda of the active contacts; *at gets the numbers of this state. */
+/* Accelerations in the present modes, and lambda of the constraints. *at: the matrices and forces of this state. */
 static void accelerate(const runner *r, const long double *state, long double *accel,
                        long double *lambda, linkage_numbers *at) {
     const hybrid *h = r->h;
@@ -84,7 +83,8 @@ static void accelerate(const runner *r, const long double *state, long double *a
         }
     }
     linkage_solve(&h->of, at, force, accel);
-    for (int i = 0; i < count; i++) { /* J M^-1 J^T lambda = -J' q' - J q'' */
+    /* J M^-1 J^T lambda = -J' q' - J q'', with q'' from the forces alone */
+    for (int i = 0; i < count; i++) {
         a[i][count] = -g[i].bend;
         for (int x = 0; x < n; x++) {
             a[i][count] -= g[i].row[x] * accel[x];
@@ -120,7 +120,7 @@ static void slope_of(const runner *r, const long double *state, long double *slo
     accelerate(r, state, slope + LINKAGE_BODIES, lambda, &at);
 }
 
-/* A step of Kutta's 3/8 rule, a method that the program's own runs do not use here. */
+/* A step of Kutta's 3/8 rule. The program's runs in these tests use other methods. */
 static void step_of(const runner *r, long double h, long double *to) {
     static const long double share[3][3] = {
         {1.0L / 3.0L, 0.0L, 0.0L}, {-1.0L / 3.0L, 1.0L, 0.0L}, {1.0L, -1.0L, 1.0L}};
@@ -145,10 +145,10 @@ static void step_of(const runner *r, long double h, long double *to) {
     }
 }
 
-/* Twice the tolerance of drawn_solved(), N or N m. A mode that it has just chosen must not count as ended. */
+/* Twice the tolerance of drawn_solved(), in N or N m: a mode that drawn_solved() has just chosen must not count as
+ * ended. */
 #define SLACK 2e-9L
 
-/* Has a contact's mode ended in this state? */
 static bool ended(const runner *r, const long double *state) {
     const hybrid *h = r->h;
     linkage_numbers at;
@@ -169,10 +169,10 @@ static bool ended(const runner *r, const long double *state) {
     return false;
 }
 
-/* Tolerance for zero after the bisection of an event. */
+/* Gaps (m) and rates (m/s) below this count as zero at an event, which the bisection finds only to round-off. */
 #define NEAR 1e-9L
 
-/* The contacts listed in `member` at this moment, as a problem for drawn_solved(). */
+/* The contacts with numbers member[count], as a problem for drawn_solved(). */
 static drawn cases_of(const runner *r, const linkage_numbers *at, const gauge *g, const int *member,
                       int count) {
     drawn b = {.n = r->h->of.bodies, .contacts = count};
@@ -192,7 +192,8 @@ static drawn cases_of(const runner *r, const linkage_numbers *at, const gauge *g
     return b;
 }
 
-/* The impact of the stops that are hit, together with resting stops. Returns false if no case fits. */
+/* Computes the impact if a stop is hit. Closed stops take part in the impact. Returns false if no case fits, or if a
+ * stop would soon be hit again. */
 static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double least_flight_s) {
     const hybrid *h = r->h;
     int member[HYBRID_CONTACTS];
@@ -224,13 +225,13 @@ static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double l
     }
     r->motion->impacts++;
     for (int i = 0; i < b.n; i++) {
-        /* integrates only the small change, to keep the digits of long double */
+        /* adds only the change, which is computed in double, so that the state keeps the digits of long double */
         r->state[LINKAGE_BODIES + i] += (long double)to[i] - (long double)from[i];
     }
     for (int k = 0; k < h->contacts; k++) {
         g[k] = gauge_of(h, k, at, r->state);
     }
-    for (int c = 0; c < count; c++) { /* would the stop soon be hit again? */
+    for (int c = 0; c < count; c++) { /* would this stop soon be hit again? */
         const int k = member[c];
         long double accel[LINKAGE_BODIES];
         long double towards = -g[k].bend;
@@ -246,7 +247,7 @@ static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double l
     return true;
 }
 
-/* Determines which contacts act from now on, from the accelerations. Returns false if no case fits. */
+/* Decides from the accelerations which contacts act from now on. Returns false if no case fits. */
 static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     const hybrid *h = r->h;
     int member[HYBRID_CONTACTS];
@@ -282,7 +283,7 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     for (int c = 0; c < count; c++) {
         const int k = member[c];
         const double off = drawn_along(&b, c, to) - b.contact[c].target;
-        /* a contact that acts reaches its target exactly */
+        /* an active contact reaches its target to the last bit */
         const bool slides = fabs(lambda[c]) >= b.contact[c].limit;
         const bool up = lambda[c] < 0.0 || (lambda[c] == 0.0 && off > 0.0);
         if (b.contact[c].kind == 's') {
@@ -295,7 +296,8 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     return true;
 }
 
-/* At an event, the rates of active contacts and of closed gaps become exactly zero. */
+/* Computes the impact, if any, and the modes after it. Returns false if this motion has no reference
+ * (hybrid_motion.aside). */
 static bool event(runner *r, long double least_flight_s) {
     linkage_numbers at;
     gauge g[HYBRID_CONTACTS];
@@ -307,7 +309,7 @@ static bool event(runner *r, long double least_flight_s) {
     if (!impact(r, &at, g, least_flight_s)) {
         return false;
     }
-    /* forces depend on the rates, which the impact has changed */
+    /* the impact has changed the rates, on which forces depend */
     linkage_evaluate(&r->h->of, r->state, r->state + LINKAGE_BODIES, &at);
     for (int k = 0; k < r->h->contacts; k++) {
         g[k] = gauge_of(r->h, k, &at, r->state);
@@ -332,7 +334,7 @@ hybrid_motion hybrid_move(const hybrid *h, double step_s, double until_s, double
         step_of(&r, step, to);
         const bool happens = ended(&r, to);
         if (happens) {
-            /* bisects to the first end of a mode; the state then passes this point by round-off at most */
+            /* bisects to the end of the first mode that ends; the state passes this point only by round-off */
             long double before = 0.0L;
             for (int i = 0; i < HALVINGS && step - before > 1e-17L; i++) {
                 const long double middle = before + (step - before) / 2.0L;

@@ -6,7 +6,7 @@ static double eighths(uint64_t *seed, int least, int most) {
     return (least + (int)(random_bits(seed) % (uint64_t)(most - least + 1))) / 8.0;
 }
 
-/* Draws a stop that is open at the start; false if there is no room for it. */
+/* Draws a stop that is open at the start. Returns false if there is no room for a stop. */
 static bool stop_draw(const hybrid *h, const linkage_numbers *at, uint64_t *seed,
                       hybrid_contact *c) {
     c->kind = (hybrid_kind)(random_bits(seed) % 3);
@@ -28,7 +28,7 @@ static bool stop_draw(const hybrid *h, const linkage_numbers *at, uint64_t *seed
     return true;
 }
 
-/* Draws dry friction on a coordinate that has none. */
+/* Draws dry friction on a coordinate. Returns false if the coordinate has a friction already. */
 static bool friction_draw(const hybrid *h, uint64_t *seed, hybrid_contact *c) {
     c->kind = HYBRID_FRICTION;
     c->body = (int)(random_bits(seed) % (uint64_t)h->of.bodies);

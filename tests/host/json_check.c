@@ -8,7 +8,7 @@ enum { WHY_SIZE = 100, VALUE_SIZE = 100, KEYS_MOST = 200, DEPTH_MOST = 20 };
 typedef struct reader {
     const char *text;
     size_t at;
-    const char *wrong; /* the first error, or NULL */
+    const char *wrong; /* the first error; NULL if there is none */
     int depth;
 } reader;
 
@@ -91,7 +91,7 @@ static bool read_number(reader *r) {
 
 static bool read_value(reader *r);
 
-/* Reads a key of an object, which must not repeat. */
+/* Reads a key of an object. A key that occurs twice is an error. */
 static bool read_key(reader *r, size_t *keys, int count) {
     const size_t at = r->at;
     if (!read_string(r)) {

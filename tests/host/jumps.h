@@ -1,4 +1,4 @@
-/* jumps.h: runs that may step over a pole (host/check/pole.h) and their messages, for the suites `jumped` and
+/* jumps.h: runs that may step over a pole (host/check/pole.h), and their messages, for the suites `jumped` and
  * `unjumped`. */
 #ifndef TESTS_JUMPS_H
 #define TESTS_JUMPS_H
@@ -12,16 +12,19 @@ enum { JUMPS_TEXT = 1500, JUMPS_WORDS = 6 };
 
 extern said jumps_said;
 
-/* The number of cases: `few`; `all` if WHIRL_FULL is set; `fewest`, with some of every class, if WHIRL_FEW is set. */
+/* Number of cases: usually `few`; `all` if WHIRL_FULL is set; `fewest` if WHIRL_FEW is set. `fewest` must cover each
+ * class of cases. */
 unsigned jumps_cases(unsigned few, unsigned all, unsigned fewest);
 
-/* Runs `whirl run` in that number format, with more options, which may choose another. */
+/* Runs `whirl run` on a text with the number type `number` and further options. If the options choose a number type,
+ * that one is used. */
 void jumps_run(const char *text, const char *number, char *const more[static JUMPS_WORDS]);
 bool jumps_told(void);
-/* Writes to `text` the options that a warning names as tried; false if it names none. */
+/* Finds the options that a warning names as tried: text[] receives the options, words[] points to each of them.
+ * Returns false if no warning names options. */
 bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]);
 
-/* Runs to the end. Returns true if some step jumped over a pole. */
+/* Runs the scene to its end. Returns true if any step jumped over a pole. */
 bool jumps_some(motion *m);
 
 #endif

@@ -1,14 +1,14 @@
 #include "latex.h"
 #include "test.h"
 
-/* TeX limits groups to 255; the page around the formula takes a few. */
+/* TeX allows 255 nested groups; the page around the formula needs some of them. */
 enum { DEPTH_MAX = 240 };
 
 typedef struct reader {
     const char *at;
     const char *problem;
     int depth;
-    int width; /* width of the row so far, in hundredths of a point */
+    int width; /* width of the present row up to here, in hundredths of a point */
 } reader;
 
 static void list(reader *r, char until);
@@ -38,7 +38,8 @@ static void argument(reader *r) {
     }
 }
 
-/* Widths of Computer Modern at 10 pt in hundredths of a point: cmmi10 a to z and A to Z, digits, signs with spaces. */
+/* Width of a character in Computer Modern at 10 pt, in hundredths of a point: letters of the font cmmi10, digits,
+ * and signs with their spaces. */
 static int width_of(char c) {
     static const int small[] = {529, 429, 433, 520, 466, 490, 477, 576, 345, 412, 521, 298, 878,
                                 600, 485, 503, 446, 451, 469, 361, 572, 485, 716, 572, 490, 465};
@@ -52,7 +53,7 @@ static int width_of(char c) {
                                   : 500;
 }
 
-/* `name` follows the backslash and has been read. */
+/* Reads the arguments of a command. `name` is the command's name without its backslash, which has been read already. */
 static void command(reader *r, const char *name, size_t length) {
     static const struct {
         const char *name;
@@ -77,7 +78,8 @@ static void command(reader *r, const char *name, size_t length) {
                 widest = r->width - before > widest ? r->width - before : widest;
             }
             const char *at = strstr(wide, known[i].name);
-            /* the arguments are set one above the other; a name, a fraction's line or a root's sign add width */
+            /* the arguments stand one above the other; a function's name, a fraction's line or a root's sign adds
+             * width */
             r->width = before + widest;
             for (size_t k = 0; at != NULL && k < length; k++) {
                 r->width += width_of(name[k]);
@@ -101,7 +103,7 @@ static void command(reader *r, const char *name, size_t length) {
     fail(r, "an unknown command");
 }
 
-/* Reads a base, which may get an exponent and an index. */
+/* Reads a base, that is, the part before an exponent or an index. */
 static void nucleus(reader *r) {
     const char c = *r->at;
     if (c == '{') {
@@ -138,7 +140,8 @@ static void nucleus(reader *r) {
     }
 }
 
-/* Reads up to '}', \right) or (if `until` is 0) the end. Does not consume that. */
+/* Reads up to `}`, `\right)` or `\end{aligned}`, or up to the end if `until` is 0. Does not read the closing part
+ * itself. */
 static void list(reader *r, char until) {
     const int from = r->width;
     int widest = 0;
@@ -146,7 +149,7 @@ static void list(reader *r, char until) {
     if (++r->depth > DEPTH_MAX) {
         fail(r, "nested too deep for TeX");
     }
-    bool bare = false; /* after a function whose argument has no parentheses */
+    bool bare = false; /* true after a function whose argument has no parentheses */
     bool opens = false;
     for (skip(r); r->problem == NULL; skip(r)) {
         const bool closes = strncmp(r->at, "\\right)", 7) == 0;
@@ -191,7 +194,7 @@ static void list(reader *r, char until) {
             r->at++;
             const int before = r->width;
             argument(r);
-            /* exponents and indices are set in cmmi7 */
+            /* exponents and indices are in the smaller font cmmi7 */
             r->width = before + (r->width - before) * 76 / 100;
         }
         opens = is_function && strncmp(r->at, "\\left(", 6) == 0;
@@ -219,7 +222,7 @@ char *latex_joined(const char *text) {
         const char *mark;
         const char *joined;
         int deeper;
-        bool inside; /* only in `aligned` */
+        bool inside; /* within an `aligned` environment */
     } marks[] = {{" \\\\\n    &\\quad \\times", " \\,", 0, true},
                  {" \\\\\n    &\\quad", "", 0, true},
                  {" \\\\\n    &= ", " &= ", 0, true},

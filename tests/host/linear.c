@@ -1,10 +1,10 @@
-/* linear.c: random linear mechanisms, and their steps by scaling and squaring in 113 bits. */
+/* linear.c: random linear mechanisms, and the matrices of their steps by scaling and squaring with 113 bits. */
 #include "linear.h"
 #include "derived.h"
 
 quad quad_size(quad x) { return x < 0 ? -x : x; }
 
-/* A multiple of 1/8 up to 8, times a factor of up to 2^more. */
+/* Draws a multiple of 1/8 up to 8, multiplied by a random power of two from 1 to 2^more. */
 static double eighths(uint64_t *seed, int more) {
     const double size = (double)(1 + random_bits(seed) % 64) / 8.0;
     return size * (double)(UINT64_C(1) << (random_bits(seed) % (uint64_t)(more + 1)));
@@ -14,12 +14,13 @@ typedef struct drawing {
     FILE *out;
     linear *made;
     quad mass[LINEAR_STATES][LINEAR_STATES];
-    quad force[LINEAR_STATES][LINEAR_COLUMNS]; /* on each coordinate */
-    /* weight per mass: the part of gravity that acts on the coordinate */
+    quad force[LINEAR_STATES][LINEAR_COLUMNS]; /* force on each coordinate */
+    /* the part of gravity, per mass, that acts on each coordinate */
     double weight[LINEAR_STATES];
 } drawing;
 
-/* Adds a spring, or a damper if `rates`, between coordinates i and j, or i and the ground (j < 0). */
+/* Adds a spring (or a damper if `rates`) with the constant k between coordinates i and j. If j < 0, the other end is
+ * fixed to the ground. */
 static void tie(drawing *d, int i, int j, double k, bool rates) {
     const int n = d->made->coordinates;
     const char *prime = rates ? "'" : "";
@@ -63,7 +64,8 @@ static void draw_ties(drawing *d, uint64_t *seed, int stiff, bool rates) {
             tie(d, i, (int)(random_bits(seed) % (uint64_t)(i + 1)) - 1, eighths(seed, stiff),
                 rates);
         }
-        if (!rates && random_bits(seed) % 4 == 0) { /* 9.75 N/kg is exact */
+        /* every digit of 9.75 N/kg is exact in binary */
+        if (!rates && random_bits(seed) % 4 == 0) {
             fprintf(d->out, " + %.17g [N]*q%d", 9.75 * d->weight[i], i);
             d->force[i][d->made->columns - 1] -= (quad)(9.75 * d->weight[i]);
         }
@@ -89,7 +91,7 @@ static void draw_inputs(drawing *d, uint64_t *seed) {
     }
 }
 
-/* force[] becomes M^-1 force. */
+/* Replaces force[] by M^-1 force. */
 static void solve(drawing *d) {
     const int n = d->made->coordinates;
     for (int p = 0; p < n; p++) {

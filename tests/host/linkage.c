@@ -1,14 +1,14 @@
 #include "linkage.h"
 #include "test.h"
 
-static uint64_t next(uint64_t *seed) { /* splitmix64 */
+static uint64_t next(uint64_t *seed) { /* the generator splitmix64 */
     uint64_t z = *seed += 0x9e3779b97f4a7c15U;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
     return z ^ (z >> 31);
 }
 
-/* A random multiple of 1/8, which a text gives exactly. */
+/* Draws a multiple of 1/8 between `least` and `most`. Decimal text gives such a number exactly. */
 static double eighths(uint64_t *seed, int least, int most) {
     return (least + (int)(next(seed) % (uint64_t)(most - least + 1))) / 8.0;
 }
@@ -17,7 +17,8 @@ static bool one_in(uint64_t *seed, unsigned n) { return next(seed) % n == 0; }
 
 static linkage_body body_draw(uint64_t *seed, int number) {
     linkage_body b = {.parent = number - 1};
-    if (one_in(seed, 4)) { /* not always a chain: the parent is any earlier body or the ground */
+    /* to have trees, not only chains: the parent is any earlier body, or the ground */
+    if (one_in(seed, 4)) {
         b.parent = (int)(next(seed) % (uint64_t)(number + 1)) - 1;
     }
     b.slides = one_in(seed, 4);
@@ -47,7 +48,7 @@ linkage linkage_draw(uint64_t *seed) {
     for (int k = 0; k < of.springs; k++) {
         of.spring[k] = (linkage_spring){.body = (int)(next(seed) % (uint64_t)of.bodies),
                                         .x_m = eighths(seed, -16, 16),
-                                        /* mostly too far away to be reached */
+                                        /* so far up that the body's end seldom reaches it */
                                         .y_m = eighths(seed, 17, 40),
                                         .stiffness_Npm = eighths(seed, 8, 80),
                                         .length_m = one_in(seed, 2) ? 0.0 : eighths(seed, 2, 8)};
@@ -66,10 +67,10 @@ typedef struct writer {
     linkage_writing how;
     char *text;
     int used;
-    char sum[SUMS][SUM_TEXT]; /* text of each sum since the last flush */
+    char sum[SUMS][SUM_TEXT]; /* each sum since the last flush(), as text */
 } writer;
 
-/* Fails if a buffer of this file is too small. */
+/* Ends the program if a buffer of this file is too small. */
 static void fits(bool holds) {
     if (!holds) {
         fputs("linkage.c: no room for the text\n", stderr);
@@ -85,7 +86,7 @@ __attribute__((format(printf, 2, 3))) static void say(writer *w, const char *for
     fits(w->used < LINKAGE_TEXT);
 }
 
-/* Appends a summand. */
+/* Appends a summand, and a "+" after it, to a sum. */
 __attribute__((format(printf, 3, 4))) static void add(writer *w, int sum, const char *format, ...) {
     const size_t used = strlen(w->sum[sum]);
     va_list arguments;
@@ -96,7 +97,7 @@ __attribute__((format(printf, 3, 4))) static void add(writer *w, int sum, const 
     strcat(w->sum[sum], "\n  + ");
 }
 
-/* Writes the sums as statements. Returns false if there were none. */
+/* Writes the collected sums as statements. Returns false if there were none. */
 static bool flush(writer *w, const char *assign) {
     static const char *const letter[] = {"T", "V", "F"};
     bool any = false;
@@ -105,7 +106,7 @@ static bool flush(writer *w, const char *assign) {
         if (used == 0) {
             continue;
         }
-        w->sum[i][used - 5] = '\0'; /* the last "+" */
+        w->sum[i][used - 5] = '\0'; /* removes the last "+" */
         if (i < FORCE) {
             say(w, "%s %s (%s)\n", letter[i], assign, w->sum[i]);
         } else {
@@ -117,12 +118,12 @@ static bool flush(writer *w, const char *assign) {
     return any;
 }
 
-/* Index of the k-th of `count` items, in the order that the writing asks for. */
+/* Number of the k-th item to be written, among `count` items: counted from the end if `backwards`. */
 static int turn_of(const writer *w, int k, int count) {
     return w->how.backwards ? count - 1 - k : k;
 }
 
-/* Position x, y and velocity u, v of body k's joint; its direction A and angular velocity W. */
+/* Writes position (x, y) and velocity (u, v) of body k's joint, and the body's direction A and angular velocity W. */
 static void say_joint(writer *w, int k) {
     const linkage_body *b = &w->of->body[k];
     const int p = b->parent;
@@ -146,7 +147,8 @@ static void say_joint(writer *w, int k) {
     }
 }
 
-/* Origin of the body, X and Y, with velocity U and V; on a rail, displaced along it. */
+/* Writes position (X, Y) and velocity (U, V) of body k's origin: the joint, displaced along the rail if there is a
+ * rail. */
 static void say_origin(writer *w, int k) {
     if (!w->of->body[k].slides) {
         say(w, "let X%d = x%d\nlet Y%d = y%d\nlet U%d = u%d\nlet V%d = v%d\n", k, k, k, k, k, k, k,
@@ -158,7 +160,7 @@ static void say_origin(writer *w, int k) {
     say(w, "let V%d = v%d + q%d'*sin(A%d) + q%d*W%d*cos(A%d)\n", k, k, k, k, k, k, k);
 }
 
-/* A point of body k at out_m along it: its centre or its end. */
+/* Writes position and velocity of a point of body k, out_m from the origin: the body's centre or its end. */
 static void say_point(writer *w, int k, const char *tag, double out_m) {
     say(w, "let %sx%d = X%d + %.17g [m]*cos(A%d)\nlet %sy%d = Y%d + %.17g [m]*sin(A%d)\n", tag, k,
         k, out_m, k, tag, k, k, out_m, k);
@@ -236,7 +238,7 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
     enum { PARTS = 3 };
     static void (*const add_part[PARTS])(writer *) = {add_springs, add_losses, add_drives};
     static const char *const names[PARTS] = {"springs", "losses", "drives"};
-    static writer w; /* large */
+    static writer w; /* too large for the stack */
     bool has[PARTS] = {false};
     w = (writer){.of = of, .how = how, .text = text};
     say(&w, "mechanism %s \"a planar linkage\"\n", name);
@@ -244,7 +246,8 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
         const int k = turn_of(&w, i, of->bodies);
         say(&w, "coordinate q%d [%s]\n", k, of->body[k].slides ? "m" : "rad");
     }
-    for (int k = 0; k < of->bodies; k++) { /* a name must be defined before its use */
+    /* not backwards: a name must be defined before its use */
+    for (int k = 0; k < of->bodies; k++) {
         say_joint(&w, k);
         say_origin(&w, k);
         say_point(&w, k, "c", of->body[k].centre_m);
@@ -263,7 +266,7 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
         has[part] = flush(&w, "+=");
         if (has[part]) {
             say(&w, "}\n");
-        } else { /* empty */
+        } else { /* an effect without statements is not written */
             w.used = before;
             text[before] = '\0';
         }

@@ -1,5 +1,5 @@
-/* linkage.h: random planar linkages: bodies on hinges and rails, with springs, dampers, drives and gravity. As text,
- * and with accelerations from the energies in numbers (linkage_lagrange.c). */
+/* linkage.h: random planar linkages: bodies on hinges and rails, with springs, dampers, drives and gravity. They are
+ * written as text. Their reference accelerations come from the energies in numbers (linkage_lagrange.c). */
 #ifndef TESTS_HOST_LINKAGE_H
 #define TESTS_HOST_LINKAGE_H
 
@@ -7,31 +7,34 @@
 
 enum { LINKAGE_BODIES = 4, LINKAGE_SPRINGS = 2, LINKAGE_TEXT = 16384 };
 
-/* A body's coordinate is that of its joint: the angle of a hinge or the displacement along a rail. */
+/* A body and its joint. The body's coordinate is the angle of its hinge or the displacement along its rail. */
 typedef struct linkage_body {
-    int parent;      /* an earlier body; -1: the ground */
-    bool slides;     /* on a rail of its parent, without rotation relative to it */
-    bool relative;   /* a hinge's angle counts from the parent's direction, not from the x axis */
-    double at_m;     /* position of the joint along its parent's direction */
-    double rail_rad; /* direction of the rail and the body relative to its parent */
-    double mass_kg;  /* the centre of mass is centre_m from the joint along the body's direction */
+    int parent; /* number of an earlier body; -1: the ground */
+    /* the joint is a rail fixed to the parent, on which the body does not rotate */
+    bool slides;
+    /* the hinge's angle counts from the parent's direction instead of the x axis */
+    bool relative;
+    double at_m;     /* position of the joint along the parent's direction */
+    double rail_rad; /* angle from the parent's direction to the rail and the body */
+    double mass_kg;  /* the centre of mass is centre_m from the joint, along the body */
     double centre_m;
-    double inertia_kgm2; /* about the centre */
-    double stiffness;    /* of a spring at the joint that is relaxed at zero, N m/rad or N/m */
+    double inertia_kgm2; /* moment of inertia about the centre of mass */
+    /* stiffness of a spring at the joint, relaxed at coordinate zero, N m/rad or N/m */
+    double stiffness;
     double rest;
-    double damping; /* of the joint, N m s/rad or N s/m */
-    double drive;   /* force or torque on the coordinate, drive cos(wave q), N m or N */
+    double damping; /* damping at the joint, N m s/rad or N s/m */
+    double drive;   /* amplitude of the force or torque drive cos(wave q), N m or N */
     double wave;    /* 1, 2, ...; per metre on a rail */
-    /* drag on the body's end, 2 centre_m from the joint; loss function drag/2 v^2 */
+    /* drag coefficient at the body's end, which is 2 centre_m from the joint; loss function drag/2 v^2 */
     double drag_Nspm;
 } linkage_body;
 
-/* A spring from a body's end, 2 centre_m from its joint, to a point of the ground. */
+/* A spring between a body's end, which is 2 centre_m from its joint, and the fixed point (x_m, y_m). */
 typedef struct linkage_spring {
     int body;
     double x_m, y_m;
     double stiffness_Npm;
-    double length_m; /* relaxed length; zero: the force is proportional to the distance */
+    double length_m; /* relaxed length; zero: the force is proportional to the spring's length */
 } linkage_spring;
 
 typedef struct linkage {
@@ -44,30 +47,30 @@ typedef struct linkage {
     double start_rate[LINKAGE_BODIES];
 } linkage;
 
-/* Every body has mass and inertia, so the mass matrix is positive definite. */
+/* Draws a linkage. Every body has mass and inertia, so the mass matrix is positive definite. */
 linkage linkage_draw(uint64_t *seed);
 
 typedef enum linkage_forces {
-    LINKAGE_BARE,   /* no drives, dampers and springs */
-    LINKAGE_INSIDE, /* they are statements of the mechanism */
-    /* each kind of force is an effect, and the scene switches all of them off */
+    LINKAGE_BARE,   /* there are no drives, dampers and springs */
+    LINKAGE_INSIDE, /* forces are statements of the mechanism */
+    /* each kind of force is an effect; the scene switches all effects off */
     LINKAGE_EFFECTS_OFF,
-    LINKAGE_EFFECTS_ON /* each kind is an effect, and the scene switches all of them on */
+    LINKAGE_EFFECTS_ON /* each kind of force is an effect; the scene switches all on */
 } linkage_forces;
 
 typedef struct linkage_writing {
     linkage_forces forces;
-    bool backwards;   /* coordinates and terms are written in reverse order */
-    double until_s;   /* end time of the scene, which takes 500 steps; 0: half a second */
-    const char *more; /* further statements; may use q0, q0', ... and ey0, an end's height */
+    bool backwards;   /* coordinates and terms are written in reverse */
+    double until_s;   /* end of the scene, which has 500 steps; 0: half a second */
+    const char *more; /* further statements, with q0, q0', ... and ey0, the height of an end */
 } linkage_writing;
 
-/* A mechanism `name` with a scene `name_moves`. Coordinates are q0, q1, ... */
+/* Writes a mechanism `name` with a scene `name_moves`. The coordinates are q0, q1, ... */
 void linkage_write(const linkage *of, const char *name, linkage_writing how,
                    char text[static LINKAGE_TEXT]);
 
-/* Numbers at a state, in long double: M q'' = force, from numeric derivatives of the energies. For the height y of each
- * body's end: y' = row . q' and y'' = row . q'' + bend. */
+/* The equations M q'' = force at one state, in long double, from numeric derivatives of the energies. The height y
+ * of each body's end has the derivatives y' = row . q' and y'' = row . q'' + bend. */
 typedef struct linkage_numbers {
     long double mass[LINKAGE_BODIES][LINKAGE_BODIES];
     long double force[LINKAGE_BODIES];
@@ -80,16 +83,16 @@ typedef struct linkage_numbers {
 void linkage_evaluate(const linkage *of, const long double *q, const long double *rate,
                       linkage_numbers *at);
 
-/* Solves M x = y. Returns the least part of a diagonal entry of M that remains after elimination. Each factor of 0.1
- * loses one digit of the solution. */
+/* Solves M x = y by elimination. Returns the smallest ratio of a pivot to the original diagonal entry. Each factor
+ * of 0.1 in this ratio costs one digit of the solution. */
 long double linkage_solve(const linkage *of, const linkage_numbers *at, const long double *y,
                           long double *x);
 
 typedef struct linkage_motion {
     long double state[2 * LINKAGE_BODIES];
-    long double least; /* the least result of linkage_solve() during the motion */
+    long double least; /* smallest result of linkage_solve() during the motion */
 } linkage_motion;
-/* The state after `steps` steps of Runge-Kutta 4 in long double. */
+/* Computes the state after `steps` steps of Runge-Kutta 4, in long double. */
 void linkage_integrate(const linkage *of, double step_s, int steps, linkage_motion *end);
 
 #endif

@@ -1,7 +1,7 @@
-/* linkage_lagrange.c: a linkage's accelerations from numeric derivatives of its energies, in long double, without
- * algebra. With the variables q0, q0', q1, q1', ... and their jets,
+/* linkage_lagrange.c: the accelerations of a linkage from numeric derivatives of its energies, in long double and
+ * without algebra. The variables are q0, q0', q1, q1', ...; the equations are
  *
- * sum_j L_q'i_q'j q''_j = Q_i - F_q'i + L_qi - sum_j L_q'i_qj q'_j. */
+ *   sum_j L_q'i_q'j q''_j = Q_i - F_q'i + L_qi - sum_j L_q'i_qj q'_j. */
 #include "linkage.h"
 
 #include "test.h"
@@ -9,23 +9,24 @@
 
 /* --- numbers with derivatives ------------------------------------------------------------------------*/
 
-/* Numbers with first and second derivatives by all variables, in long double. A Lagrangian's equations need no
- * algebra with them. */
+/* A jet is a number with its first and second derivatives by all variables. With jets, the derivatives of a
+ * Lagrangian are computed in numbers, without algebra. */
 
 enum { JET_VARIABLES = 8, JET_PAIRS = JET_VARIABLES * (JET_VARIABLES + 1) / 2 };
 
 typedef struct jet {
-    int variables; /* depends on the first `variables` only: derivatives by later ones are zero */
+    int variables; /* derivatives by variables with this number or a higher one are zero */
     long double value;
     long double slope[JET_VARIABLES];
-    long double curve[JET_PAIRS]; /* by two variables, the later first: 00, 10, 11, 20, ... */
+    /* second derivatives, by pairs of variables: 00, 10, 11, 20, ... */
+    long double curve[JET_PAIRS];
 } jet;
 
 static int most(int a, int b) { return a > b ? a : b; }
 
 static int pairs(int variables) { return variables * (variables + 1) / 2; }
 
-/* Second derivative by the i-th and j-th variable. */
+/* The second derivative by variables i and j. */
 static long double jet_curve(const jet *a, int i, int j) {
     return i >= j ? a->curve[i * (i + 1) / 2 + j] : a->curve[j * (j + 1) / 2 + i];
 }
@@ -54,7 +55,7 @@ static jet jet_sum(jet a, jet b) {
     return a;
 }
 
-/* f(a) by the chain rule, from f, f' and f'' at a's value. */
+/* Returns f(a) by the chain rule. `f`, `first` and `second` are the value and derivatives of f at a's value. */
 static jet chained(const jet *a, long double f, long double first, long double second) {
     jet made = {.variables = a->variables, .value = f};
     for (int i = 0, k = 0; i < a->variables; i++) {
@@ -88,7 +89,7 @@ static jet jet_sine(jet a) { return chained(&a, sinl(a.value), cosl(a.value), -s
 
 static jet jet_cosine(jet a) { return chained(&a, cosl(a.value), -sinl(a.value), -cosl(a.value)); }
 
-/* `a` is above zero. */
+/* The square root. The value of `a` must be positive. */
 static jet jet_root(jet a) {
     const long double root = sqrtl(a.value);
     return chained(&a, root, 0.5L / root, -0.25L / (root * a.value));
@@ -96,7 +97,7 @@ static jet jet_root(jet a) {
 
 _Static_assert(2 * LINKAGE_BODIES <= JET_VARIABLES, "a variable for each value and rate");
 
-/* Variables of a body. Its place depends only on bodies up to it. */
+/* The numbers of a body's variables. A body's place depends only on variables of this body and earlier ones. */
 static int value_of(int body) { return 2 * body; }
 static int rate_of(int body) { return 2 * body + 1; }
 
@@ -104,7 +105,8 @@ typedef struct moving {
     jet x, y, u, v;
 } moving;
 
-/* A body: its origin, direction, angular velocity, and the point one metre along it relative to the origin. */
+/* A body: its origin, direction and angular velocity. `metre` is the point one metre along the body, relative to the
+ * origin. */
 typedef struct placed {
     moving origin;
     jet direction;
@@ -122,7 +124,7 @@ static moving along(const placed *b, double out_m) {
     return end;
 }
 
-/* Moves a point by `q` along the direction, at speed `rate`. */
+/* Moves a point by the distance `q` along the direction `metre`, at the speed `rate`. */
 static void slide(moving *point, const moving *metre, jet q, jet rate) {
     point->x = jet_sum(point->x, jet_product(q, metre->x));
     point->y = jet_sum(point->y, jet_product(q, metre->y));
@@ -195,7 +197,7 @@ long double linkage_solve(const linkage *of, const linkage_numbers *at, const lo
         memcpy(a[i], at->mass[i], sizeof at->mass[i]);
         a[i][n] = y[i];
     }
-    for (int c = 0; c < n; c++) { /* positive definite: needs no pivoting */
+    for (int c = 0; c < n; c++) { /* a positive definite matrix needs no pivoting */
         least = fminl(least, a[c][c] / at->mass[c][c]);
         for (int i = 0; i < n; i++) {
             const long double share = i == c ? 0.0L : a[i][c] / a[c][c];

@@ -8,7 +8,7 @@
 #include "host/base/alloc.h"
 
 static char root[] = "build/tests/tree-XXXXXX";
-static char before[4096]; /* the working directory */
+static char before[4096]; /* the working directory before tree_enter() */
 static char *path_before;
 
 void tree_keep(const char *file, const char *text) {

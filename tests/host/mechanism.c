@@ -9,12 +9,12 @@ typedef struct writer {
     size_t at;
     int coordinates;
     bool is_angle[COORDINATES_MAX];
-    bool functions; /* all fourteen functions, not only those of the smallest board */
-    int shapes;     /* shapes w0, w1, ...: dimensionless functions of coordinates */
-    bool shaped;    /* shapes may be used now */
+    bool functions; /* use all fourteen functions, not only those of the smallest board */
+    int shapes;     /* number of shapes w0, w1, ...: dimensionless functions of coordinates */
+    bool shaped;    /* expressions may use the shapes now */
 } writer;
 
-static unsigned draw(writer *w, unsigned bound) { /* splitmix64 */
+static unsigned draw(writer *w, unsigned bound) { /* the generator splitmix64 */
     uint64_t x = w->seed += UINT64_C(0x9e3779b97f4a7c15);
     x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
@@ -34,7 +34,7 @@ static void put(writer *w, const char *format, ...) {
     }
 }
 
-/* Writes a number from 0.1 to about 10, with two to twenty digits. */
+/* Writes a number between 0.1 and about 10 with two to twenty digits. */
 static void number(writer *w) {
     const unsigned whole = draw(w, 10);
     const unsigned places = draw(w, 6);
@@ -81,7 +81,7 @@ static void call(writer *w, const char *before, int depth, const char *after) {
     put(w, "%s", after);
 }
 
-/* A function defined everywhere, with slopes that are (nearly) bounded. */
+/* Writes a function that is defined for all arguments and whose slope is bounded, or nearly so. */
 static void function(writer *w, int depth) {
     static const char *const exponents[] = {"2", "3", "4", "-1", "-2", "0.5", "1.5", "-0.5"};
     switch (draw(w, w->functions ? 21 : 8)) {
@@ -207,7 +207,7 @@ static void declare(writer *w) {
 
 /* --- energies ------------------------------------------------------------------------------------*/
 
-/* Positions x, y of the bodies, and their rates, as sums. Each body is attached to the previous one or to the
+/* Positions x and y of a body, and their rates, as sums. Each body is attached to the previous body or to the
  * ground. */
 typedef struct place {
     char x[PHRASES * PHRASE];
@@ -233,7 +233,7 @@ static void carry(writer *w, int i, place *p) {
         if (draw(w, 2) == 0) {
             join(p->x, " + q%d", i);
             join(p->x_rate, " + q%d'", i);
-        } else { /* on an incline */
+        } else { /* a body on an incline */
             const unsigned deg = 5 + 5 * draw(w, 14);
             join(p->x, " + q%d*cos(%u [deg])", i, deg);
             join(p->y, " + q%d*sin(%u [deg])", i, deg);

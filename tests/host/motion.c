@@ -1,4 +1,4 @@
-/* motion.c: a built-in scene, stepped inside the test. */
+/* motion.c: scenes that are stepped inside a test. */
 #include "motion.h"
 
 #include "host/derive/lagrange.h"
@@ -91,7 +91,7 @@ void motion_open_more(motion *m, const char *file, const char *more, stepping ho
     TEST_FAIL_MESSAGE(file);
 }
 
-/* A file's text with `more` appended; to be freed. */
+/* Returns the text of a file, followed by `more`. The caller frees the text. */
 static char *text_of_file(const char *path, const char *more) {
     FILE *in = fopen(path, "rb");
     TEST_ASSERT_NOT_NULL_MESSAGE(in, path);
@@ -168,8 +168,8 @@ double motion_value(const motion *m, const char *name) {
             return output[i];
         }
     }
-    /* A coordinate that is recovered from its momentum has two outputs, its value and its rate, after those of the
-     * mechanism. */
+    /* A coordinate that is recovered from its momentum is not in the state. Its value and rate are two further
+     * outputs after those of the mechanism. */
     for (int i = 0; i < p->recovered; i++) {
         const char *known = of->coordinates[p->from_momentum[i]]->name;
         if (primes < 2 && strlen(known) == length && strncmp(known, name, length) == 0) {

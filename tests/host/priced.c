@@ -16,7 +16,7 @@ static image *make(void *context, int point, const setting *s, const char *step,
     return p->scene[point]->source.make(p->scene[point], 0, s, step, until);
 }
 
-/* A single place has no varying values. */
+/* Names a place by its options. If there is only one place, its name is empty. */
 static const char *name(void *context, int point) {
     priced *p = context;
     p->place[0] = '\0';

@@ -1,4 +1,4 @@
-/* priced.h: scenes from texts, and the settings with which they have an image, for quick suites of `whirl price`
+/* priced.h: scenes from texts, and the settings for which they have an image, for quick suites of `whirl price`
  * (host/study). */
 #ifndef TESTS_HOST_PRICED_H
 #define TESTS_HOST_PRICED_H
@@ -14,31 +14,34 @@ typedef struct priced {
     overrides changes;
     grid grid;
     diags *errors;
-    /* Returns true if the setting has an image with this step (0: the scene's own). NULL: always true. */
+    /* Returns true if there is an image for the setting and this step (0: the scene's own step). If the pointer is
+     * NULL, there always is. */
     bool (*takes)(const setting *s, double step_s);
-    int asked; /* number of images made so far */
+    int asked; /* number of images requested so far */
     char place[32];
     trial_source source;
     trial_wish wish;
     trials trial;
 } priced;
 
-/* Texts of scenes: priced_ball bounces; priced_spring hardens. */
+/* Scenes as text: a bouncing ball, and a spring that hardens. */
 extern const char *const priced_ball[1];
 extern const char *const priced_spring[1];
-/* Texts with ranges for fixed point: of second order, with a turn angle and an input, and of first order. */
+/* Scenes as text, with ranges for fixed point. They are of second order, of second order with a turn angle and an
+ * input, and of first order. */
 enum { PRICED_SCENES = 3 };
 extern const char *const priced_scenes[PRICED_SCENES];
 
 void priced_open(priced *p, const char *const *texts, int points);
-/* Begins trials of these settings' scenes with their references. Returns the result of trial_begin(). */
+/* Begins trials of the scenes with `count` settings, and computes their references. Returns the result of
+ * trial_begin(). */
 bool priced_begin(priced *p, const char *board, whole_ratio spacing, int count, const char *of);
 void priced_close(priced *p);
-/* The image of a place; to be freed. */
+/* The image of the scene at a place. The caller frees the image. */
 image *priced_image(priced *p, int point, const setting *s, const char *step);
 
 setting priced_setting(wh_method method, const engine_kind *number);
-/* Settings by number: three methods in float, then in double. */
+/* Setting number i: three methods in float, then the same methods in double. */
 enum { PRICED_TRIED = 6 };
 setting priced_tried(int i);
 

@@ -6,12 +6,12 @@
 
 typedef void checker(const char *name, derived *d);
 
-/* Calls `check` for built-in mechanisms and those of tests/mechanisms. */
+/* Calls `check` for each built-in mechanism and each mechanism of tests/mechanisms. */
 void each_mechanism(checker *check);
 
 typedef enum language { TEXT, STEPS, LATEX, LATEX_STEPS, FOLDED, OCTAVE } language;
 
-/* The text of one writer; to be freed. */
+/* The derivation as one writer prints it. The caller frees the text. */
 char *printed(const derived *d, language as);
 
 #endif

@@ -2,7 +2,8 @@
 
 enum { TERMS = 16 };
 
-/* Series of the sine (`from` 1) or the cosine (`from` 0) of an angle below an eighth turn. */
+/* The series of the sine (`from` = 1: without the factor x) or the cosine (`from` = 0) of an angle below an eighth
+ * turn. */
 static quad series(quad x, int from) {
     quad sum = 1;
     for (int i = TERMS; i > 0; i--) {
@@ -28,7 +29,8 @@ static quad wave(quad rad, int quarters) {
 quad quad_sine(quad rad) { return wave(rad, 0); }
 quad quad_cosine(quad rad) { return wave(rad, 1); }
 
-/* Derivatives of a body's place by each coordinate, and its acceleration from the rates alone. */
+/* Derivatives of a body's position by each coordinate (x, y), and the part of its acceleration that comes from the
+ * rates alone. */
 typedef struct moving {
     quad x[QUAD_COORDINATES];
     quad y[QUAD_COORDINATES];
@@ -113,7 +115,8 @@ typedef struct following {
     int states;
 } following;
 
-/* Gragg's modified midpoint rule, whose error has only even powers of the substep. */
+/* Gragg's modified midpoint rule. Its error has only even powers of the substep, so extrapolation gains two orders
+ * at a time. */
 static void midpoint(const following *f, quad span_s, int substeps, const quad *from, quad *to) {
     const quad h = span_s / (quad)substeps;
     quad before[QUAD_STATES];
@@ -143,7 +146,8 @@ static void extrapolate(const following *f, quad span_s, quad *state) {
         COLUMNS_LEAST + (int)((double)span_s / SPAN_MOST_S * (COLUMNS - COLUMNS_LEAST) + 0.5);
     for (int k = 0; k < columns; k++) {
         midpoint(f, span_s, 2 * (k + 1), state, row[k]);
-        for (int j = k - 1; j >= 0; j--) { /* row[j] becomes column k - j of line k */
+        /* row[j] becomes the entry in column k - j of row k of the tableau */
+        for (int j = k - 1; j >= 0; j--) {
             const quad ratio = (quad)(k + 1) / (quad)(j + 1);
             for (int i = 0; i < f->states; i++) {
                 row[j][i] = row[j + 1][i] + (row[j + 1][i] - row[j][i]) / (ratio * ratio - 1);

@@ -3,13 +3,13 @@
 
 #include "host/number/functions.h"
 
-/* The reference's step, s: a 32nd of the run's, but at least 0.1 ms and at most a quarter of the run's. */
+/* The reference's step, s: 1/32 of the run's step, but not below 0.1 ms and not above 1/4 of the run's step. */
 static double finer_s(double step_s) {
     return number_least(step_s / 4.0, number_most(step_s / 32.0, 1e-4));
 }
 #define GRAVITY 9.81
 
-/* Draws a number with three decimals, the digits that the text of the scene shows. */
+/* Draws a number with three decimals, because the text of the scene shows only three. */
 static double of(dice *d, double low, double high) {
     return number_nearest(dice_between(d, low, high) * 1000.0) / 1000.0;
 }
@@ -34,7 +34,7 @@ static void draw_spring(dice *d, rated *r) {
              p[0], p[1], p[2], p[3], r->start[0]);
 }
 
-/* Two masses on strings of lengths l and k; angles from straight down. */
+/* A double pendulum: masses p and q on strings of lengths l and k. The angles count from straight down. */
 static void pendulum_slope(const double *n, const long double *x, long double *slope) {
     const long double p = (long double)n[0], q = (long double)n[1];
     const long double l = (long double)n[2], k = (long double)n[3];
@@ -99,7 +99,7 @@ static void draw_linear(dice *d, rated *r) {
     memcpy(r->start, r->linear.start, sizeof r->linear.start);
     char *step = strstr(r->text, "step ");
     TEST_ASSERT_NOT_NULL(step);
-    *step = '\0'; /* cut before the step, so that callers can append another */
+    *step = '\0'; /* the text ends before its step, so that callers can append another step */
 }
 
 void rated_draw(dice *d, rated *r) {
@@ -159,7 +159,8 @@ long double *rated_motion(const rated *r, double spacing_s, int records) {
     TEST_ASSERT_NOT_NULL(row);
     const int each = (int)number_ceiling(spacing_s / finer_s(r->step_s) - 1e-9);
     linear spaced = r->linear;
-    char text[40]; /* the step as the run reads it: the decimal itself, not its nearest double */
+    /* the step as the run reads it: the decimal number itself, not the nearest double */
+    char text[40];
     snprintf(text, sizeof text, "%.9g", spacing_s);
     spaced.h = (quad)strtold(text, NULL);
     const long double h = strtold(text, NULL) / each;

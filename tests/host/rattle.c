@@ -107,8 +107,9 @@ static double hold_m(const rattle *r, double t) {
     return (t - rest) / period * r->number[0] * period / 2.0 + r->number[1] * rest * rest / 2.0;
 }
 
-/* A body on a moving belt. It sticks until the spring pulls with the static friction, then oscillates about the point
- * of kinetic friction, and sticks again when its speed is the belt's. */
+/* Position of a body on a moving belt, relative to the belt. The body sticks until the spring pulls with the static
+ * friction. Then it oscillates about the point where the spring pulls with the kinetic friction. It sticks again
+ * when its speed is that of the belt. */
 static double belt_m(const rattle *r, double t) {
     const double *n = r->number;
     const double w = sqrt(n[0]);

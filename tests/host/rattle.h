@@ -1,5 +1,5 @@
-/* rattle.h: mechanisms that may have more events than a step can resolve, with closed forms: a ball between two stops,
- * a hold that ends its own condition, stick-slip. */
+/* rattle.h: mechanisms that may have more events than a step can resolve, and whose motions have closed forms: a
+ * ball between two stops, a hold that ends its own condition, a body with stick-slip. */
 #ifndef TESTS_HOST_RATTLE_H
 #define TESTS_HOST_RATTLE_H
 
@@ -10,7 +10,8 @@
 
 typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
 
-/* A mechanism whose motion has a closed form, continued from its present state. */
+/* A mechanism whose motion has a closed form. rattle_truth_m() continues the motion from the state that is stored
+ * here. */
 typedef struct rattle {
     rattle_kind kind;
     double number
@@ -25,11 +26,11 @@ typedef struct rattle {
 
 rattle rattle_drawn(dice *d, rattle_kind kind);
 void rattle_write(const rattle *r, char text[static LINKAGE_TEXT]);
-/* Writes the mechanism with another body, on a spring or slowed down by a damper, and with the energy balance. The step
- * may be too coarse for that body. */
+/* Writes the mechanism together with a second body, which is on a spring or is slowed down by a damper, and with the
+ * energy balance. The step may be too coarse for the second body. */
 void rattle_write_beside(const rattle *r, bool damped, double rate_radps, double size_m,
                          char text[static LINKAGE_TEXT]);
-/* Position at time t. Successive calls must have rising t. */
+/* The true position at time t. The times of successive calls must rise. */
 double rattle_truth_m(rattle *r, double t);
 
 #endif

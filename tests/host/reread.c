@@ -22,7 +22,7 @@ state random_values(uint64_t *seed) {
     return s;
 }
 
-/* A neighbouring state. The difference between the values at both states shows the conditioning of an expression. */
+/* A state near `from`. If an expression is ill-conditioned, its values at the two states differ much. */
 static state nudged(const state *from, uint64_t *seed) {
     state s = *from;
     for (int i = 0; i < REREAD_COORDINATES; i++) {
@@ -50,8 +50,8 @@ double value_here(void *context, const symbol *sym, int primes) {
     return (double)NAN;
 }
 
-/* The language gives q' the dimension of a rate, and printed formulas have numbers without units. So the test reads
- * formulas of plain numbers, with q' and q'' as the names q_rate and q_rate_rate. */
+/* Writes a formula with q_rate for q' and q_rate_rate for q''. Printed formulas have numbers without units, but the
+ * language gives q' the dimension of a rate. */
 static void plain_names(const char *from, size_t length, char *to) {
     for (size_t i = 0; i < length; i++) {
         if (from[i] == '\'') {
