@@ -5,9 +5,9 @@
 #include "contact_resolve.h"
 
 /* Finds the contacts that are active at the start of a run, before any impact or capture: stops that touch, within the
- * error of their gaps, and holds with a true condition. A hold whose condition is at its own limit belongs to them
- * unless its expression moves towards "false". *still gets the contacts at rest, *moving the others, both as bits. The
- * stops in `pushed` (bits) count as touching. work->law must have been evaluated at the state. */
+ * error of their gaps, and holds with a true condition. A condition at its own limit counts as true, unless the held
+ * expression moves towards "false". Bit sets: *still gets the contacts at rest, *moving the others; stops in `pushed`
+ * count as touching. work->law must have been evaluated at the state. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
                                           const wh_real *input, wh_contact_state *s,
@@ -37,8 +37,8 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
 
 /* Sets the modes at the start of a run and after a correction (wh_scene_set_real()). A body beyond a stop is put back
  * onto it. Contacts at rest stay at rest if the forces keep them there. Then closing stops are hit, and holds with a
- * true condition capture. *hit gets these contacts as bits, impulse[forced] their impulses. Every start counts as one
- * moment with events; returns the number of further moments. */
+ * true condition capture: *hit gets these contacts as bits, impulse[forced] their impulses. The start counts as one
+ * moment with events; the function returns the number of further moments. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *s, unsigned *hit,
                                         wh_real *impulse) {
@@ -78,11 +78,11 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
     m.events = still & wh_contact_which(of, w, WH_HOLD, false);
     wh_contact_set_modes(of, w, still & ~m.events, WH_ACTIVE);
     (void)wh_contact_resolve(of, w, &m, input, s, impulse);
-    for (unsigned k = 0; k < of->forced; k++) { /* a resting stop that its body has passed */
+    for (unsigned k = 0; k < of->forced; k++) { /* resting stops that their bodies have passed */
         below = below || (wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_ACTIVE &&
                           signal[2 * k] < WH_R(0.0));
     }
-    if (below) { /* work->law is still that of this state */
+    if (below) { /* work->law still belongs to this state */
         spot.but = wh_contact_stuck(of, w);
         (void)wh_contact_project_places(of, w, &spot, signal, input, s);
     }

@@ -1,14 +1,15 @@
-/* contact_crossing.h: crossings: their assignments, and their sides of zero afterwards.
- * A crossing's mode is its side of zero, +1 or -1. A crossing is located with an error, so after the event its value is
- * not exactly zero. If the value then turns back or stands still, it may pass zero again by that small error. That
- * counts as one crossing. */
+/* contact_crossing.h: crossings: their assignments, and the sides of zero on which their values are afterwards.
+ *
+ * A crossing's mode is the sign of its value, +1 or -1. The time of a crossing is located with an error, so after the
+ * event the value is not exactly zero. If the value then turns back or stands still, it may pass zero again because of
+ * this error. Both passages count as one crossing. */
 #ifndef WH_CONTACT_CROSSING_H
 #define WH_CONTACT_CROSSING_H
 
 #include "contact_impact.h"
 #include "contact_locate.h"
 
-/* Evaluates all assignments of a crossing, then makes them. */
+/* Evaluates all values that a crossing assigns, then assigns them. */
 static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_work *w, unsigned k,
                                      const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -62,10 +63,10 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->stands |= onto | (w->located || after[2 * k] == WH_R(0.0) ? 1U << k & ~sides : 0U);
 }
 
-/* Decides the sides of the crossings in work->stands. Their values are past zero by the error of their location. A
- * value that now moves back to its old side has turned back, and its return over zero is no second crossing. The
- * direction comes from the first derivative. If that is zero, the second derivative decides. If both are zero, the
- * crossing stands still and is on no side. */
+/* Decides the signs of the crossings in work->stands, whose values are past zero by the error of location. If the
+ * value's first derivative leads back, the crossing has turned back: its return over zero is no second crossing. If the
+ * first derivative is zero, the second one decides. If both are zero, the crossing stands still and its sign is
+ * undecided. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -88,7 +89,7 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                     w->mode[k] = (int8_t)-w->mode[k];
                     /* zero would mean: has not turned back */
                     w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30);
-                    /* an acceleration may end at once, as friction's does where it sticks */
+                    /* a second derivative may end at once, for example when friction starts to stick */
                     w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
             }
@@ -124,9 +125,10 @@ WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
     w->stands &= ~sides;
 }
 
-/* Without an event, sides change for crossings that went against their direction, and for those that left the value at
- * which they stood. A crossing that turned back is on no side until it has gone the distance work->due when a step ends.
- * A crossing that stands is on no side until it has moved by more than its distance from zero. */
+/* Without an event, the sign changes for crossings that went against their direction, and for crossings whose value
+ * left the point at which it stood. The sign of a crossing that turned back stays undecided until its value is
+ * work->due from zero at the end of a step. The sign of a crossing that stands stays undecided until its value has
+ * moved by more than its distance from zero. */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;
@@ -142,7 +144,7 @@ WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
     wh_contact_set_sides(of, w, passed, m->signal);
 }
 
-/* Saves the values of crossings that are on no side, at the begin of a trial step from `s`. */
+/* Saves the values of crossings with an undecided sign, at the begin of a trial step from `s`. */
 WH_INLINE void wh_contact_stand(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;

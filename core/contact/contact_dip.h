@@ -8,19 +8,19 @@
 typedef struct wh_contact_attempt {
     wh_contact_state now;
     wh_contact_state next;
-    wh_real span;       /* length of the trial step, s: set by wh_contact_attempt_dipped() */
+    wh_real span;       /* length of the trial step, s; wh_contact_attempt_dipped() sets it */
     wh_margins margins; /* at `next` */
-    /* bits: free stops whose gap grows at the end and is, at the end, smaller than this growth over the trial step */
+    /* Bits: free stops whose gap grows at the end, if it would have been zero within the trial step at this rate. */
     unsigned leaving;
-    unsigned dips; /* subset of `leaving`: open at both ends, perhaps closed in between */
-    int fault;     /* component that left its bounds, if !sound */
+    unsigned dips; /* subset of `leaving`, as bits: open at both ends, perhaps closed in between */
+    int fault;     /* if !sound: the component that left its bounds */
     bool made;     /* the trial step was computed */
     bool sound;    /* the trial step's end is within bounds */
 } wh_contact_attempt;
 
-/* The share of the trial step at which the tangents of the gap at both ends cross; *least gets the gap at that point.
- * If the gap's curve bends upwards, as for a body that passes a convex obstacle, the gap is nowhere smaller than
- * *least. gap[2] and rate[2] are the values at the ends, which are h seconds apart. */
+/* Returns the share of the trial step at which the tangents to the gap at both ends meet; *least gets their common
+ * value. If the gap's curve is convex, as for a body that passes a round obstacle, *least is a lower bound of the gap.
+ * gap[2] and rate[2] are the values at the ends, which are h seconds apart. */
 WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, wh_real h,
                                       wh_real *least) {
     const wh_real share = (gap[1] - gap[0] - rate[1] * h) / ((rate[0] - rate[1]) * h);
@@ -29,8 +29,8 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
 }
 
 /* Finds stops that were hit although they open again at the end of the trial step. A stop that is closed at the end was
- * hit if it was open or closing at the begin. The margin of such a stop is made negative. A gap that is positive at
- * both ends, and closes and then opens, may have been negative in between: a->dips. */
+ * hit if it was open or closing at the begin; its margin is made negative. A stop that is open at both ends, and closes
+ * and then opens, may have been hit in between: a->dips gets it. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -63,11 +63,12 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
     }
 }
 
-/* The share of the trial step at which the first of a->dips is found closed, or 1 if none is. Each probe is a point of
- * the cubic through two ends. The probe replaces the end whose rate has the same sign, until the tangents cross above
- * zero. Odd probes take the crossing of the tangents, which finds the lowest point of a gap shaped like a square root.
- * Even probes take the zero of a linear rate, which finds that of a parabola. After a probe inside the obstacle, the
- * next one is halfway back to the surface, because the gap of a round post may be undefined at its centre. */
+/* Returns the share of the trial step at which the first of a->dips is found closed, or 1 if all stay open. Each probe
+ * is a point of the cubic through two ends. The probe replaces the end whose rate has the same sign, until the tangents
+ * meet above zero. Odd probes are at the point where the tangents meet, which is the lowest point of a gap shaped like
+ * a square root. Even probes are at the zero of a linear rate, which is the lowest point of a parabola. After a probe
+ * inside the obstacle, the next one is halfway back to the surface, because the gap of a round post may be undefined at
+ * its centre. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;

@@ -4,10 +4,10 @@
 
 #include "contact_lcp.h"
 
-/* Shares the load with the redundant contacts `repeats` (bits of indices in member[]), which have no force so far. This
- * happens only if without them another contact is overloaded, or if they contradict the others. work->force gets the
- * shares. A contact that gives way gets its limit plus the excess. The accelerations change only after a contradiction;
- * otherwise their bits stay the same. */
+/* Gives a share of the load to the redundant contacts `repeats` (bits of indices in member[]), which have no force so
+ * far. This happens only if another contact would be overloaded, or if the redundant contacts contradict the others.
+ * work->force gets the shares. A contact that gives way gets its limit plus the excess. The accelerations change only
+ * after a contradiction; otherwise their bits stay the same. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -48,7 +48,7 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* The accelerations with the contacts' forces, which are stored in work->force. A wh_accel_fn. */
+/* Computes the accelerations with the contacts' forces, and stores the forces in work->force. A wh_accel_fn. */
 static inline void wh_contact_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                                     const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_contact_model *m = model;
@@ -86,7 +86,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     }
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
-        if (pin >= 0) { /* zero, or NaN if the force is NaN */
+        if (pin >= 0) { /* 0, or NaN if the force is NaN */
             accel[pin] = lambda[i] - lambda[i];
         }
     }
@@ -113,7 +113,7 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
 /* Solves for all impulses at once. Each contact in `set` (bits) gets the impulse that leaves J_k q' = target[k]; a stop
  * may end faster if others push it. Active contacts keep their rates. Resting stops, and the stops in `beside`, push
  * but do not pull. work->law must have been evaluated at this position. The impulses are added to impulse[forced].
- * Returns the stops that would have had to pull, as bits. */
+ * Returns, as bits, the stops that would have to pull. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {

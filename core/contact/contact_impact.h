@@ -4,10 +4,11 @@
 
 #include "contact_project.h"
 
-/* Round-off in an impact: a rate is zero if it is at most this share of the rate that the impact passes on. */
+/* After an impact a rate counts as zero if it is at most this share of the rate that the impact passes on: it is then
+ * round-off. */
 #define WH_CONTACT_STILL (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4))
 
-/* Two gaps close at the same moment if they differ by at most this share of the terms they consist of. */
+/* Two gaps close at the same moment if they differ by at most this share of the sum of their terms' magnitudes. */
 #define WH_CONTACT_TIE (WH_DOUBLE ? WH_R(0x1p-50) : WH_R(0x1p-21))
 
 typedef struct wh_contact_moment {
@@ -38,7 +39,7 @@ WH_INLINE void wh_contact_set_sides(const wh_contact_system *of, wh_contact_work
     }
 }
 
-/* The contacts of a kind that are active or stuck (holds true), or not, as bits. */
+/* Returns, as bits, the contacts of a kind for which wh_contact_constrains() equals `constrains`. */
 WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contact_work *w,
                                     wh_contact_kind kind, bool constrains) {
     unsigned bits = 0;
@@ -51,7 +52,7 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
 
 /* --- velocities ---------------------------------------------------------------------------------- */
 
-/* Sum of the magnitudes of J_k x's terms: the scale of its round-off. */
+/* Returns the sum of the magnitudes of the terms of J_k x, the scale of its round-off. */
 static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k, const wh_real *x) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -62,8 +63,8 @@ static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_con
     return size;
 }
 
-/* The pressing of stop k: the acceleration with which the forces would close its gap. Values within the round-off of
- * the other contacts' forces count as zero. work->law and accel[] must have been evaluated at the state. */
+/* Returns the acceleration with which the forces would close the gap of stop k. Values within the round-off of the
+ * other contacts' forces count as zero. work->law and accel[] must have been evaluated at the state. */
 static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned k, const wh_real *accel) {
     const wh_real bias = wh_contact_law(of, w, k)[WH_LAW_BIAS];
@@ -74,8 +75,8 @@ static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_
     return WH_ABS(pressing) <= none ? WH_R(0.0) : pressing;
 }
 
-/* Would the flight of stop k after a bounce with `speed` be too short (WH_REST_SHARE), given the acceleration that
- * presses the body onto the stop? */
+/* Returns true if the flight of stop k after a bounce with `speed` would be too short (WH_REST_SHARE), given the
+ * acceleration that presses the body onto the stop. */
 static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_contact_moment *m, wh_real speed,
                                     const wh_real *accel, const wh_real *rate) {
@@ -87,8 +88,9 @@ static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contac
     return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
 }
 
-/* Resting stops that merely touch: they have a restitution, and nothing presses them. An impulse through such a stop is
- * an impact of its own in the next round, as in Newton's cradle. work->force must be up to date. */
+/* Returns resting stops that merely touch, as bits: they have a restitution, and no force presses them. An impulse
+ * through such a stop is an impact of its own in the next round, as in Newton's cradle. work->force must be up to
+ * date. */
 static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned resting, const wh_real *accel) {
     unsigned bits = 0;
@@ -105,8 +107,8 @@ static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_co
     return bits;
 }
 
-/* Free stops that touch and close, within the error of their gaps and rates. All of them are hit at the same moment, so
- * the result does not depend on which was located first. */
+/* Returns, as bits, the free stops that touch and close, within the error of their gaps and rates. All of them are hit
+ * at the same moment, so the result does not depend on which one was located first. */
 static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_contact_work *w,
                                        wh_real h, const wh_real *signal, wh_contact_state *s) {
     const wh_real *rate = wh_contact_rates(of, s);
@@ -122,8 +124,8 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* The free stops outside `hits` that touch within the error of location and are closing because of an impulse. They are
- * hit in the next round. `before` and `after` are the signals before and after the impulse. */
+/* Finds the free stops outside `hits` that touch within the error of location and are closing because of an impulse.
+ * They are hit in the next round. `before` and `after` are the signals before and after the impulse. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -138,10 +140,10 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Finds the free stops without restitution that touch and are at rest, judged against the change of rates along `hits`.
- * No force presses on them, but they block the motion after the impact. They join the same impact: as separate plastic
- * impacts, two such stops could cause each other for ever. Impacts with restitution do end, so they are resolved one
- * after the other. */
+/* Returns, as bits, the free stops without restitution that touch and are at rest, compared with the change of rates
+ * along `hits`. They join the same impact although no force presses on them, because they block the motion after it. As
+ * separate plastic impacts, two such stops could cause each other's impact for ever. Impacts with restitution end, so
+ * they are resolved one after the other. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -179,10 +181,10 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 
-/* Stops are hit, all at once: each bounces, or rests if its next flight would be too short. A stop that comes to rest
- * gets a single impulse: a bounce followed by a second impulse back would release other stops that the single impulse
- * keeps. Stops released by the impact stay at rest if their own flight would be too short. Otherwise a body in a corner
- * would bounce for ever. */
+/* Resolves the impact of all stops that are hit: each bounces, or rests if its next flight would be too short. A stop
+ * that comes to rest gets one impulse: a bounce and a second impulse back would release stops that the single impulse
+ * keeps. Stops that the impact releases stay at rest if their own flight would be too short. Otherwise a body in a
+ * corner would bounce for ever. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -222,7 +224,8 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         wh_contact_look(of, w, s, input, accel, signal);
         wh_contact_passed_on(of, w, closing, m->h, before, signal);
         for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
-            if ((closing & ~released & 1U << k) == 0) { /* another impulse has changed its speed */
+            /* another impulse has changed the stop's speed */
+            if ((closing & ~released & 1U << k) == 0) {
                 speed[k] = wh_jacobian_times(of, w, k, rate);
             }
         }
@@ -251,7 +254,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* without an impulse their rates would open them */
+    if ((gone | leaving) != 0) { /* without an impulse the rates of these stops would open them */
         wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
@@ -261,8 +264,8 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
 }
 
 /* Moves bodies off the free stops that they have passed (by more than round-off if `coarse`). The move is the smallest
- * one, measured with the mass matrix. Stops push and do not pull, as in an impact. Returns the stops that were passed
- * and those that pushed, as bits. Afterwards signal[] and work->law are those of the new state. */
+ * one, measured with the mass matrix. Stops push and do not pull, as in an impact. Returns, as bits, the stops that
+ * were passed and those that pushed. Afterwards signal[] and work->law belong to the new state. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
@@ -299,7 +302,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
             break;
         }
         if (mover == WH_CONTACTS_MAX) {
-            /* move the bodies back until they touch: only here may a stop pull */
+            /* Move the bodies back until they touch. Only here may a stop pull. */
             unsigned kept = 0;
             for (unsigned i = 0; i < count; i++) {
                 const unsigned k = member[i];
@@ -319,7 +322,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
             *pushed |= pushes ? 1U << member[i] : 0U;
             wh_contact_apply(of, w, member[i], lambda[i], way);
         }
-        /* the equations are linearized, so an angle moves at most half a radian */
+        /* The equations are linearized, so each angle moves by at most half a radian. */
         wh_real part = WH_R(1.0);
         for (unsigned i = 0; coarse && i < of->angles; i++) {
             const wh_real turn = WH_ABS(way[i]);
@@ -334,7 +337,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
     return passed | *pushed;
 }
 
-/* Ends a step with too many events: bodies are moved off free stops that they passed, and these stops are hit without
+/* Ends a step with too many events: bodies that passed free stops are moved off them, and these stops are hit without
  * restitution. */
 static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_real *input, wh_contact_state *s) {
@@ -344,7 +347,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     unsigned pushed;
     const unsigned touched = wh_contact_push_out(of, w, false, input, s, signal, &pushed);
     if (touched != 0) {
-        unsigned open = 0; /* bits: stops without contact now: they do not rest and are not hit */
+        unsigned open = 0; /* bits: stops that do not touch now; they do not rest and are not hit */
         for (unsigned k = 0; k < of->forced; k++) {
             const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
             open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
@@ -359,12 +362,13 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 /* --- conditions that depend on the held expression --------------------------------------------------------------- */
 
 /* A hold whose condition depends on the held expression captures at the condition's limit. To find this dependence, the
- * expression is perturbed by this share of its terms. The condition's round-off is the same share of the resulting change. */
+ * expression is perturbed by this share of its terms. The condition's round-off is the same share of the resulting
+ * change. */
 #define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
-/* Change of the condition of hold k, now `now`, if the held expression and its rate are perturbed by WH_EDGE_PROBE of
- * their terms. work->law must have been evaluated at the state. */
+/* Returns the change of the condition of hold k from `now`, if the held expression and its rate are perturbed by
+ * WH_EDGE_PROBE of their terms. work->law must have been evaluated at the state. */
 WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 const wh_real *input, const wh_contact_state *s, wh_real now) {
     wh_contact_point at;
@@ -384,8 +388,8 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* The round-off of hold k's condition, `now`, if the condition is at its limit (zero within that round-off), else 0.
- * Negative if the condition falls when the expression rises. */
+/* Returns the round-off of hold k's condition `now` if the condition is at its limit (zero within that round-off), else
+ * 0. The result is negative if the condition falls when the expression rises. */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {
@@ -394,7 +398,7 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
 }
 
 /* Corrects holds (bits) that have captured slightly before their condition's limit, because of the error of location.
- * Their expressions are moved to the same distance beyond the limit. signal[] must have been evaluated at the state;
+ * Each held expression is moved to the same distance beyond the limit. signal[] must have been evaluated at the state;
  * rates[] are the signals before the capture. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
@@ -436,7 +440,7 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
     wh_books_moved(of, w, s, input, mover);
 }
 
-/* Holds capture, all at once. */
+/* Lets holds capture, all at once. */
 static inline void wh_contact_captures(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned holds, wh_real h, const wh_real *input,
                                        wh_contact_state *s, wh_real *impulse) {

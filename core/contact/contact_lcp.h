@@ -1,26 +1,27 @@
 /* contact_lcp.h: load sharing between contacts with limits, as a linear complementarity problem.
  *
- * A resting stop pushes and does not pull, and a sticking friction takes no more than its static limit. So the forces of
- * the active contacts solve, with the Delassus matrix J M^-1 J^T,
+ * A resting stop pushes and does not pull, and a sticking friction takes no more than its static limit. So the forces
+ * of the active contacts solve, with the Delassus matrix J M^-1 J^T,
  *
- * a = J M^-1 J^T lambda - wanted, low <= lambda <= high,
- * a_k = 0 between the limits, a_k >= 0 at the low limit, a_k <= 0 at the high limit (contact k gives way).
+ *      a = J M^-1 J^T lambda - wanted, low <= lambda <= high,
+ *      a_k = 0 between the limits, a_k >= 0 at the low limit, a_k <= 0 at the high limit (contact k gives way).
  *
- * Normal forces do not depend on lambda, so the problem is convex and its accelerations are unique. The forces are unique,
- * too, unless contacts are redundant. With impulses for forces and rates for accelerations it is the problem of an impact
- * (Moreau; Pfeiffer & Glocker, chapter 8).
+ * Normal forces do not depend on lambda, so the problem is convex and its accelerations are unique. The forces are
+ * unique, too, unless contacts are redundant. In an impact, impulses and rates take the place of forces and
+ * accelerations (Moreau; Pfeiffer & Glocker, chapter 8).
  *
  * The method is principal pivoting by least index (Murty, Linear Complementarity, Linear and Nonlinear Programming,
- * chapters 2 to 4; Judice & Pires 1994 for limits on both sides). It starts from the present modes: in the first round all
- * active contacts stay active. The method provably ends if the matrix is a P-matrix, as it is with independent rows. With
- * redundant rows the matrix is only semidefinite. Then each contact that would enter the basis a second time is tested for
- * a contradiction. The leaving contact is found by a ratio test along the null direction, as in the pivoting of Keller and
- * of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2).
+ * chapters 2 to 4; Judice & Pires 1994 for limits on both sides). It starts from the present modes: in the first round
+ * all active contacts stay active. The method provably ends if the rows are independent, because the matrix is then a
+ * P-matrix. With redundant rows the matrix is only semidefinite. Then each contact that would enter the basis a second
+ * time is tested for a contradiction. The leaving contact is found by a ratio test along the null direction, as in the
+ * pivoting of Keller and of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2).
  *
- * No proof is known for the combination of both. So the rounds are capped at 4 n + 1, and a step that meets the cap counts
- * as an overrun.
+ * The combination of both is not proved to end. So the number of rounds is limited to 4 n + 1, and a step that reaches
+ * this limit counts as an overrun.
  *
- * Checked by: tests/core/test_contact_pivot.c. Its random problems, with and without redundant rows, stay below the cap. */
+ * Checked by: tests/core/test_contact_pivot.c. Its random problems, with and without redundant rows, stay below the
+ * limit. */
 #ifndef WH_CONTACT_LCP_H
 #define WH_CONTACT_LCP_H
 
@@ -33,11 +34,11 @@
  * unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* A path counts as straight if its curvature term J' q' is below this share of the largest acceleration. A rate that
- * friction has just stopped has a small remainder, and its square appears in this term. */
+/* A path counts as straight if its curvature term J' q' is below this share of the largest acceleration. After friction
+ * has stopped a motion, a small rate remains, and this term contains its square. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* If a force is beyond its limit by less than its round-off, it is set beyond the limit by this share of the limit. */
+/* A force that exceeds its limit by less than round-off is set to exceed it by this share of the limit. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
 /* Round-off of a sum with terms of the sizes a, b and c. */
@@ -51,13 +52,13 @@ typedef struct wh_contact_set {
     const int8_t *at; /* [count] -1: low limit, 0: between, 1: high limit; NULL: all 0 */
 } wh_contact_set;
 
-/* Finds redundant contacts that contradict the others. At a dead centre two rows are parallel, but only one of the paths
- * bends, so one contact must give way. In an impact two stops on one path may bounce differently.
+/* Finds redundant contacts that contradict the others. Examples: at a dead centre two rows are parallel, but only one
+ * of the paths bends; in an impact two stops on one path have different restitutions.
  *
- * For each of `repeats` (bits of indices in member[]) push[] gets the sign of the push that is missing: 1, -1, or 0
- * without contradiction. way[] is the change of the accelerations by all forces; with impulse[] (not NULL) it is the
- * change of the rates by all impulses. The path's curvature J' q' is also tested by itself, because in a slow passage it
- * would drown in the round-off of the accelerations. */
+ * For each of `repeats` (bits of indices in member[]) push[] gets the sign of the missing push: 1, -1, or 0 without a
+ * contradiction. way[] is the change of the accelerations by all forces; if impulse[] is not NULL, the change of the
+ * rates by all impulses. The path's curvature J' q' is also tested by itself, because in a slow passage it would drown
+ * in the round-off of the accelerations. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -101,7 +102,7 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
     }
 }
 
-/* The high and the low limit of contact k's force. */
+/* Return the high and the low limit of contact k's force. */
 WH_INLINE wh_real wh_contact_high(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned k) {
     return wh_contact_is(of, k, WH_LIMITED) ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
@@ -117,7 +118,7 @@ WH_INLINE bool wh_contact_exceeds(const wh_contact_system *of, const wh_contact_
     return lambda < wh_contact_low(of, w, k) || lambda > wh_contact_high(of, w, k);
 }
 
-/* Stores in work->rough a bound for each member's acceleration: the sum of the magnitudes of its terms, including the
+/* Stores in work->rough, for each member, the sum of the magnitudes of its acceleration's terms, including the
  * round-off of the other forces. accel[] are the accelerations with all forces. */
 static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact_work *w,
                                          const uint8_t *member, unsigned count,
@@ -134,7 +135,8 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
             w->rough[member[i]] += WH_ABS(row[c]) * size;
         }
     }
-    /* round-off spreads from one contact to the next, through chains of bodies; no round amplifies it (Cauchy, Schwarz) */
+    /* Round-off spreads from one contact to the next, through chains of bodies. No round amplifies it (Cauchy-Schwarz
+     * inequality). */
     for (unsigned round = 0; round < count; round++) {
         for (unsigned i = 0; i < count; i++) {
             for (unsigned l = 0; l < count; l++) {
@@ -151,10 +153,10 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Finds the contact that gives way to member[i], which is redundant and must push in direction `push`. A friction at its
- * limit gives way itself, and so does a stop that would have to pull. For a hold, or a stop that must push more, the
- * contact that gives way is the first of the relieved ones to reach a limit. Returns its index in member[] and the
- * limit, or `count` if there is none. */
+/* Finds the contact that gives way to member[i], which is redundant and must push in direction `push`. If member[i] is
+ * a friction at its limit, or a stop that would have to pull, it gives way itself. Otherwise (a hold, or a stop that
+ * must push more) the relieved contact that first reaches a limit gives way. Returns the contact's index in member[]
+ * and its limit, or `count` if no contact gives way. */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -188,8 +190,8 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     return first;
 }
 
-/* One round of the pivoting. The contacts with at[] = 0 get the forces that give the accelerations `wanted`; the caller
- * checks their limits. The others get the force at their limit (-1: low, 1: high). `way` gets the change of the
+/* Does one round of the pivoting. Contacts with at[] = 0 get the forces that give the accelerations `wanted`; the
+ * caller checks their limits. The others get the force at their limit (-1: low, 1: high). `way` gets the change of the
  * accelerations by all forces. Returns the redundant contacts, as bits of indices. */
 static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
@@ -217,7 +219,7 @@ static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const w
     return repeats;
 }
 
-/* Round-off of the residual acceleration of contact k, which is at a limit. */
+/* Returns the round-off of the residual acceleration of contact k, which is at a limit. */
 WH_INLINE wh_real wh_contact_residual_rounding(const wh_contact_system *of,
                                                const wh_contact_work *w, unsigned k, bool forces,
                                                wh_real wanted, wh_real made, wh_real lambda) {
@@ -225,7 +227,7 @@ WH_INLINE wh_real wh_contact_residual_rounding(const wh_contact_system *of,
            (forces ? WH_CONTACT_QUIET * w->rough[k] : WH_R(0.0));
 }
 
-/* The problem of a single contact: its force is clamped to its limits. */
+/* Solves the problem of a single contact: its force is clamped to its limits. */
 WH_INLINE unsigned wh_contact_lcp_one(const wh_contact_system *of, const wh_contact_work *w,
                                       unsigned k, wh_real wanted, bool forces, wh_real *lambda,
                                       wh_real *left) {
@@ -255,8 +257,8 @@ typedef struct wh_contact_pivot {
     unsigned giving;
 } wh_contact_pivot;
 
-/* The contact at index i goes to its limit `to`; 0: it becomes free. A contact that becomes free is eliminated last: if
- * it is redundant, it is the one that is tested for a contradiction. */
+/* Moves the contact at index i to its limit `to` (-1: low, 1: high), or frees it (0). A contact that becomes free is
+ * eliminated last. So if it is redundant, it is the contact that is tested for a contradiction. */
 WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsigned i, int8_t to) {
     const uint8_t k = p->member[i];
     const wh_real wanted = p->wanted[i];
@@ -275,8 +277,8 @@ WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsign
     p->wanted[i] = wanted;
 }
 
-/* The index of the contact on the wrong side of its condition, and its new limit; `count` if none is wrong. If several
- * are wrong, the one with the least number. */
+/* Returns the index of the contact that violates its complementarity condition, and its new limit; `count` if there is
+ * none. If several contacts violate theirs, the one with the least number is returned. */
 static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const wh_contact_work *w,
                                               wh_contact_pivot *p, unsigned count, bool forces,
                                               const wh_real *way, int8_t *to) {

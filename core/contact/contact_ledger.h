@@ -6,14 +6,15 @@
 
 #if WH_LEDGER
 
-/* True if the scene keeps a ledger and this evaluation belongs to the run (it is not a probe). */
+/* True if the scene keeps a ledger and the ledger shall get this evaluation, because it belongs to the run and is no
+ * probe. */
 WH_INLINE bool wh_books_open(const wh_contact_system *of, const wh_contact_work *w) {
     return of->ledger != NULL && w->books != NULL;
 }
 
-/* Enters the work and the impulse of contact k. Its force `lambda` acted over the time `share` at the speed J_k q' =
- * `speed`; for an impulse, share is 1 and speed the mean speed. The work on an input with a rate is the input's entry:
- * the contact's entry has only the work on the coordinates. */
+/* Enters the work and the impulse of contact k, whose force `lambda` acted for the time `share` while J_k q' was
+ * `speed`. For an impulse, share is 1 and speed is the mean speed. The entry gets only the work on the coordinates: the
+ * work on an input with a rate belongs to the input's entry. */
 static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                   wh_real share, wh_real lambda, wh_real speed, const wh_real *rate,
                                   wh_real *entry) {
@@ -47,8 +48,8 @@ static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* Enters an impulse of contact k that changed its speed from `before` to `after`. The work is that at the mean speed
- * (Kelvin). */
+/* Enters an impulse of contact k that changed its speed from `before` to `after`. Its work is the impulse times the
+ * mean of both speeds (Kelvin). */
 WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 wh_real impulse, wh_real before, wh_real after,
                                 const wh_real *rate) {
@@ -58,8 +59,8 @@ WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* Called before and after a crossing's assignments, with sign -1 and 1: the difference of the accounts is the crossing's
- * entry. */
+/* Call this before a crossing's assignments with sign -1, and after them with sign 1. The difference of the accounts is
+ * the crossing's entry. */
 static inline void wh_books_levels(const wh_contact_system *of, const wh_contact_work *w,
                                    const wh_contact_state *s, const wh_real *input, unsigned k,
                                    wh_real sign) {
@@ -74,7 +75,7 @@ static inline void wh_books_levels(const wh_contact_system *of, const wh_contact
     }
 }
 
-/* wh_books_look() is called before the projection of a contact, and wh_books_moved() after it. The difference of the
+/* Call wh_books_look() before the projection of a contact, and wh_books_moved() after it. The difference of the
  * accounts is the contact's entry. A difference within the accounts' round-off is dropped: in float, the noise of many
  * steps would exceed the true entries. */
 static inline void wh_books_look(const wh_contact_system *of, wh_contact_work *w,

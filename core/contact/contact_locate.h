@@ -9,7 +9,7 @@ typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real accel[WH_COORDS]; /* only if an event depends on a force: wh_contact_watched() */
-    /* a sum that is finite only if the values of all contacts are finite */
+    /* The sum of all contacts' values: it is finite only if every value is. */
     wh_real all;
 } wh_margins;
 
@@ -17,7 +17,7 @@ typedef struct wh_margins {
  * Rates follow the cubic through both ends' rates and accelerations a0 and a1. (The slope of the first cubic would be
  * one order less accurate, and magnify the positions' round-off by 1/h.) */
 typedef struct wh_contact_path {
-    wh_real h;              /* its duration, s */
+    wh_real h;              /* duration, s */
     wh_contact_point begin; /* state at the path's begin */
     wh_real way[WH_COORDS]; /* displacement from begin to end, rad or m */
     wh_real end_rate[WH_COORDS];
@@ -26,7 +26,6 @@ typedef struct wh_contact_path {
     wh_real a1[WH_COORDS];
 } wh_contact_path;
 
-/* Fills in the path, except for a0 and a1. */
 static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_state *from,
                                       wh_contact_state *to, wh_real h, wh_contact_path *path) {
     const wh_real *v0 = wh_contact_rates(of, from);
@@ -50,7 +49,7 @@ static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_st
     }
 }
 
-/* The point of the path at the share `s` of its time. */
+/* Returns the point of the path at the share `s` of its duration. */
 WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_path *path,
                                   wh_real s, wh_contact_point *at) {
     const wh_real rest = WH_R(1.0) - s;
@@ -70,8 +69,8 @@ WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* The margin of contact k's force. A negative margin within the round-off of the other contacts' forces counts as zero.
- * (The round-off is computed only for negative margins.) */
+/* Returns the margin of contact k's force. A negative margin within the round-off of the other contacts' forces counts
+ * as zero. (The round-off is computed only for negative margins.) */
 static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, wh_real margin) {
     wh_real others = WH_R(0.0);
@@ -117,7 +116,7 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
         case WH_STOP:
             if (mode == WH_ACTIVE) {
                 margin = wh_contact_beyond(of, w, k, w->force[k]);
-            } else { /* a stop that was closed when the trial step began may be opening */
+            } else { /* a stop that was closed when the trial step began may now open */
                 const bool leaves = (w->inside >> k & 1U) != 0 && speed > WH_R(0.0);
                 margin = signal < WH_R(0.0) && leaves ? -signal : signal;
             }
@@ -150,8 +149,8 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
     m->all = all;
 }
 
-/* True if no event has happened and all values are finite. (A NaN is never below zero, so without this test its contact
- * would have no more events.) */
+/* True if no event has happened and all values are finite. (No NaN is below zero, so without the second test a contact
+ * with a NaN would never have an event again.) */
 WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m) {
     bool calm = wh_finite(m->all);
     WH_UNROLL
@@ -161,7 +160,7 @@ WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m)
     return calm;
 }
 
-/* After margins that are not calm: stores a contact whose signal or limit is not finite in work->undefined. */
+/* To be called if margins are not calm: stores a contact whose signal or limit is not finite in work->undefined. */
 WH_APART void wh_contact_find_undefined(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_margins *m) {
     for (unsigned k = 0; k < of->contacts; k++) {
@@ -176,7 +175,7 @@ WH_APART void wh_contact_find_undefined(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Contacts whose event has happened, as bits. */
+/* Returns the contacts whose event has happened, as bits. */
 WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_margins *m) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->contacts; k++) {
@@ -186,8 +185,8 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
 }
 
 /* A hold that began the trial step at the limit of its condition is released only if the condition falls below zero by
- * more than its slack. If the condition is still true at the end, the hold is not released in between either, because
- * the cubic is slightly inaccurate. `events` are the contacts with an event at the end. */
+ * more than its slack. If the condition is true at the end, the hold is not released in between either: a smaller value
+ * there would be an error of the cubic. `events` are the contacts with an event at the end. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -199,16 +198,16 @@ WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* The search is not inlined if a scene has several contacts. Load sharing makes the deepest calls; inlined, the
- * variables of the search would add to that stack depth. */
+/* In a scene with several contacts, the search is not inlined. Load sharing makes the deepest calls, and the variables
+ * of an inlined search would add to that stack depth. */
 #if WH_CONTACTS_MAX > 1
 #define WH_SEARCH WH_APART
 #else
 #define WH_SEARCH static inline
 #endif
 
-/* Locates the first event between `from` and `to`. Returns its time as a share of h, late by at most WH_BRACKET.
- * *events are the contacts that have an event there. at_end are the margins at `to`. */
+/* Locates the first event between `from` and `to`. Returns its time as a share of h; the result is late by at most
+ * WH_BRACKET. *events gets the contacts with an event at that time. at_end are the margins at `to`. */
 WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
                                     wh_contact_state *from, wh_contact_state *to, wh_real h,
                                     const wh_real *input, const wh_margins *at_end,
@@ -224,8 +223,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     const unsigned at_end_events = wh_contact_happened(of, at_end);
     *events = at_end_events;
 
-    /* A force that is already beyond its limit, or a gap that is already negative, has its event at once. This does not
-     * hold for sliding, which starts at rate zero. */
+    /* If a force is already beyond its limit, or a gap is already negative, the event happens at once. Sliding is
+     * different, because it starts at rate zero. */
     wh_contact_path_of(of, from, to, h, &path);
     wh_contact_margins(of, w, &path.begin, input, &probe);
     wh_contact_slacken(of, w, *events, &probe);
@@ -244,7 +243,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
             at_once |= 1U << k;
         }
-        /* a body beyond a stop that was open or closing has hit it, even if the stop is opening at the end */
+        /* If a stop was open or closing at the begin and its body is beyond it at the end, it was hit, even if it is
+         * opening at the end. */
         if (wh_contact_any_of(of, WH_STOP) &&
             (probe.signal[2 * k] > WH_R(0.0) || probe.signal[2 * k + 1] < WH_R(0.0))) {
             w->inside &= ~(1U << k);
@@ -273,8 +273,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         const wh_real width = high - low;
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            /* A margin that is already zero counts as the begin of an event. For a load at its limit this is true only
-             * at the begin of the search: later, other contacts may bear part of the load. */
+            /* A margin that is already zero is the begin of an event. For a force at its limit this is true only at the
+             * begin of the search: later, other contacts may bear part of the load. */
             const bool begins =
                 (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&
@@ -285,14 +285,13 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         }
         /* The guess is slightly past the root, towards the farther end, so that the interval closes from both sides.
          * After each failure the next guess is further past the root. If two probes did not halve the interval, the
-         * guess is its middle. */
+         * guess is the interval's middle. */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
         wh_real guess = low + WH_R(0.5) * width;
         wh_real if_found = reach;
         wh_real if_not = reach;
         if (width > WH_R(0.5) * earlier[0]) {
-            /* the guess is the middle */
         } else if (root - low > high - root) {
             guess = root - over;
             if_found = reach * WH_R(8.0);

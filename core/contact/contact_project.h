@@ -5,7 +5,6 @@
 
 #include "contact_forces.h"
 
-/* Move coordinate i by `by`, rad or m. */
 WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real by,
                                wh_contact_state *s) {
     if (i < of->angles) {
@@ -19,19 +18,20 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
     }
 }
 
-/* *sum + *rest += a b. *rest collects the round-off of the products, which would otherwise add up over the steps. */
+/* Adds a b to the sum of *sum and *rest. *rest collects the round-off of the products, which would otherwise add up
+ * over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
     *sum += a * b; /* exact if opposite rotations cancel */
 }
 
-/* Displacement of a straight hold k between two states: J_k, which is constant, times the change of the coordinates, rad
- * or m. */
+/* Returns the displacement of a straight hold k between two states, rad or m: the constant J_k times the change of the
+ * coordinates. */
 static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k, const wh_contact_state *from,
                                        const wh_contact_state *to) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
-    wh_real turns = WH_R(0.0); /* angles' part, phase units */
+    wh_real turns = WH_R(0.0); /* part of the angles, in phase units */
     wh_real ways = WH_R(0.0);
     wh_real rests[2] = {WH_R(0.0), WH_R(0.0)};
     for (unsigned i = 0; i < of->angles; i++) {
@@ -40,7 +40,8 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
 #else
         const uint64_t turned = (uint64_t)to->angle[i] - (uint64_t)from->angle[i];
         const int32_t way =
-            (int32_t)(uint32_t)turned; /* less than half a turn; split into two exact parts below */
+            /* less than half a turn; the next lines split it into two exact parts */
+            (int32_t)(uint32_t)turned;
         wh_contact_add_product(row[i], (wh_real)(way >> 8) * WH_R(256.0), &turns, &rests[0]);
         rests[0] += row[i] * (wh_real)(way & 255);
 #endif
@@ -58,8 +59,8 @@ WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_wo
            w->mode[k] == WH_ACTIVE;
 }
 
-/* The displacement of contact k from its constraint, at state `s`. `from` is the begin of the trial step to `s`, or
- * NULL. */
+/* Returns the displacement of contact k from its constraint, at state `s`. `from` is the begin of the trial step that
+ * ends at `s`, or NULL. */
 WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k, const wh_real *signal, const wh_contact_state *from,
                                    const wh_contact_state *s) {
@@ -76,7 +77,7 @@ WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact
     return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
 }
 
-/* Stores the value of a hold that has just captured or whose expression was set. work->law must have been evaluated at
+/* Stores the value of a hold that has just captured, or whose expression was set. work->law must have been evaluated at
  * this position. */
 WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *w, unsigned k) {
     if (wh_contact_slips(of, w, k)) {
@@ -85,8 +86,8 @@ WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *
     }
 }
 
-/* Stuck frictions beyond their limit, as bits: they are about to slide and constrain nothing.
- * work->force must be up to date. */
+/* Returns, as bits, stuck frictions beyond their limit: they are about to slide and constrain nothing. work->force must
+ * be up to date. */
 WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -96,7 +97,7 @@ WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Lists the contacts that keep J_k q' at zero in member[], without those in `but` (bits). Returns their number. */
+/* Lists in member[] the contacts that keep J_k q' at zero, except for those in `but` (bits). Returns their number. */
 WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_contact_work *w,
                                       unsigned but, uint8_t *member) {
     unsigned count = 0;
@@ -113,7 +114,7 @@ typedef struct wh_contact_place {
     const wh_contact_state *from; /* begin of the trial step, or NULL */
     wh_real h;                    /* length of the trial step, s */
     unsigned but;                 /* contacts that are left out, as bits */
-    /* crossing or contact whose ledger entry gets the energy; WH_CONTACTS_MAX: the first contact with an error */
+    /* The crossing or contact whose ledger entry gets the energy; WH_CONTACTS_MAX: the first contact with an error. */
     unsigned mover;
 } wh_contact_place;
 
@@ -146,7 +147,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
     if (mover == WH_CONTACTS_MAX) {
         return false;
     }
-    (void)input; /* only the ledger reads it */
+    (void)input; /* only the ledger reads `input` */
     wh_books_look(of, w, s, input);
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
@@ -159,7 +160,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
             }
         }
     }
-    /* the other coordinates move only if contacts tie them to the pinned one */
+    /* The other coordinates move only if contacts tie them to the pinned one. */
     for (unsigned i = 0; i < count; i++) {
         const bool pinned = wh_contact_pinned(of, member[i]);
         wanted[i] = pinned ? WH_R(0.0) : -(off[i] + wh_jacobian_times(of, w, member[i], moved));
@@ -192,7 +193,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
 }
 
 /* Projects the rates along all active contacts to zero together, except for the contacts in `but` (bits). If `booked`,
- * the ledger gets the change as the contacts' impulses. work->law must have been evaluated at this position. */
+ * the ledger gets the changes as impulses of the contacts. work->law must have been evaluated at this position. */
 static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
                                             unsigned but, bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -218,7 +219,7 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
     }
 }
 
-/* Frictions that stick, as bits. */
+/* Returns the frictions that stick, as bits. */
 WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -227,7 +228,7 @@ WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Sum of the magnitudes of the terms that make up a stop's gap. */
+/* Returns the sum of the magnitudes of the terms that make up a stop's gap. */
 static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, const wh_contact_state *s) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -238,8 +239,8 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* Has a body passed stop k, or left it, by more than round-off? Both are possible after a step with too many events.
- * Friction does not keep a body beyond a stop. */
+/* WH_CONTACT_FAR: a body has passed a stop, or left it, if the gap exceeds this share of the gap's terms. Both can
+ * happen in a step with too many events. Friction does not keep a body beyond a stop. */
 #define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {
@@ -284,7 +285,7 @@ WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work
     }
 }
 
-/* Accepts a trial step from `from` to `to`: the slip of straight holds is stored for a later projection. */
+/* Accepts a trial step from `from` to `to`: stores the slip of straight holds for a later projection. */
 WH_INLINE void wh_contact_keep(const wh_contact_system *of, wh_contact_work *w,
                                const wh_contact_state *from, const wh_contact_state *to) {
     if (of->held == 0) {

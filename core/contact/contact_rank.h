@@ -1,17 +1,18 @@
-/* contact_rank.h: loss of rank of the holds.
+/* contact_rank.h: detects holds that lose rank.
  *
- * Holds that close a linkage lose rank in its flat position. From there more than one motion satisfies them,
- * and an integrator picks one at random. So a step that reaches or passes such a place is refused.
+ * Holds that close a linkage lose rank in its flat position. From there more than one motion satisfies the holds, and
+ * an integrator would pick one at random. So a step that reaches or passes such a position is refused.
  *
- * Each row is made orthogonal to the earlier ones in the metric of M^-1 (Gram and Schmidt). The place is
- * reached if the remainder of a row vanishes, and was passed if the remainder has changed its direction.
+ * Each row is made orthogonal to the earlier ones in the metric of M^-1 (Gram and Schmidt). If the remainder of a row
+ * vanishes, the step has reached such a position; if the remainder has reversed its direction, the step has passed one.
  * Permanently redundant holds do not count: their remainder was zero before. */
 #ifndef WH_CONTACT_RANK_H
 #define WH_CONTACT_RANK_H
 
 #include "contact_project.h"
 
-/* For each active hold: the remainder of its row after the earlier rows (row), and M^-1 times that remainder (way). */
+/* For each active hold, `row` is the remainder of its row after the earlier rows, and `way` is M^-1 times that
+ * remainder. */
 typedef struct wh_contact_rows {
     wh_real row[WH_CONTACTS_MAX][WH_COORDS];
     wh_real way[WH_CONTACTS_MAX][WH_COORDS];
@@ -63,7 +64,7 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* The first hold whose remainder is nonzero in `before`, and vanishes or has reversed its direction in `after`;
+/* Returns the first hold whose remainder is nonzero in `before`, and vanishes or has reversed its direction in `after`;
  * of->contacts if there is none. */
 static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
@@ -71,8 +72,8 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
-        /* a single hold counts only if its row has turned by almost half a turn: a smaller rotation shows only that the
-         * step is coarse */
+        /* If there is only one hold, its row must have turned by almost half a turn: a smaller rotation shows only that
+         * the step is coarse. */
         const wh_real least = before->holds > 1 ? WH_R(0.0) : WH_R(0.9);
         const bool passed = against > least * before->size[k] * after->size[k];
         if (before->size[k] > WH_R(0.0) && (passed || !(after->size[k] > WH_R(0.0)))) {
@@ -82,9 +83,9 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
     return of->contacts;
 }
 
-/* The hold that lost rank in a step of length `span`, or of->contacts. `to` is the end of the step, or NULL if the step
- * failed. Near such a place the accelerations have no bound and may have moved `to` anywhere. So the state reached by
- * the rates alone is tested, too. */
+/* Returns the hold that lost rank in a step of length `span`, or of->contacts. `to` is the end of the step, or NULL if
+ * the step failed. Near a flat position the accelerations have no bound and may have moved `to` anywhere. So the
+ * function also tests the state that the rates alone would reach. */
 static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real span, wh_contact_state *from, wh_contact_state *to,
                                        const wh_real *input) {
@@ -104,7 +105,7 @@ static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_w
     return wh_contact_fallen(of, &before, &after);
 }
 
-/* The hold that lost rank in an accepted trial step, or of->contacts. */
+/* Returns the hold that lost rank in an accepted trial step, or of->contacts. */
 WH_INLINE unsigned wh_contact_flat(const wh_contact_system *of, wh_contact_work *w, wh_real span,
                                    wh_contact_state *from, wh_contact_state *to,
                                    const wh_real *input) {

@@ -1,26 +1,26 @@
-/* contact_resolve.h: the resolution of a moment, the one place that changes modes.
+/* contact_resolve.h: the resolution of a moment with events, the one place that changes modes.
  *
- * wh_contact_resolve() takes all contacts with an event at once, so the order in the file does not matter (except for
- * crossings, which are assignments):
+ * wh_contact_resolve() takes all contacts with an event at once, so the order in which contacts are declared does not
+ * matter, except for the assignments of crossings:
  *
- * 1. velocities: stops that are hit get their impulses, then holds that capture, each by one linear complementarity
- * problem with the active contacts. Friction's normal force is finite and gives no impulse.
+ * 1. Velocities: stops that are hit get their impulses, then holds that capture. Each of the two is one linear
+ * complementarity problem with the active contacts. Friction's normal force is finite and gives no impulse.
  *
- * 2. crossings assign, and disturbed contacts are revised.
+ * 2. Crossings assign, and contacts that this disturbs are revised.
  *
- * 3. accelerations: resting stops that would have to pull give way, and so do frictions beyond their limit, until all
- * are within limits.
+ * 3. Accelerations: resting stops that would have to pull give way, and so do frictions beyond their limit, until all
+ * forces are within their limits.
  *
- * 4. the rates along contacts that just came to stick, and along all active ones, are projected to zero.
+ * 4. The rates along contacts that just came to stick, and along all active ones, are projected to zero.
  *
- * The law of impacts is Newton's, for all stops that are hit together, with J v the rates of their gaps:
+ * The law of impacts is Newton's, for all stops that are hit together. J v are the rates of their gaps:
  *
- * v+ = v- + M^-1 J^T Lambda, 0 <= Lambda_k, J_k v+ >= -e_k J_k v-, one of both with equality.
+ *      v+ = v- + M^-1 J^T Lambda, 0 <= Lambda_k, J_k v+ >= -e_k J_k v-, with equality in one of both.
  *
  * Resting and held contacts take part with J_k v- = 0 and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy
  * changes by 1/2 sum Lambda_k (1 - e_k) J_k v-. That is never positive, because only closing stops take part, even with
- * different restitutions. A touching stop that an impact makes close is hit in the next round of the same moment. So an
- * impact runs through a row of balls. */
+ * different restitutions. A touching stop that closes because of an impact is hit in the next round of the same moment.
+ * So an impact runs through a row of balls. */
 #ifndef WH_CONTACT_RESOLVE_H
 #define WH_CONTACT_RESOLVE_H
 
@@ -79,10 +79,10 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
 
 /* --- accelerations ------------------------------------------------------------------------------- */
 
-/* The contacts of `giving` (bits) that give way first, as bits. If there are stops, they are all stops. Otherwise it is
+/* Returns, as bits, the contacts of `giving` (bits) that give way first: all stops, if there are any. Otherwise it is
  * the friction whose load exceeds its limit by the largest factor: it would be the first to reach its limit if the load
- * grew from zero. Sliding pushes less than sticking, so it may relieve the others. Frictions with equal factors slide
- * together. */
+ * grew from zero. Sliding friction takes less than sticking friction, so it may relieve the others. Frictions with
+ * equal factors slide together. */
 WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned giving) {
     const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);
@@ -102,11 +102,11 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Sets the direction of each sliding friction from the sign of its rate. If the location of an event left the rate on
- * its old side of zero, the old direction stays. Rates that have just come to zero get no direction here: the forces
- * decide later. They are the frictions in `zeros` (bits), unless an impact of the same moment changed their rate, and
- * rates within the round-off of other contacts. `h` is the length of the step; if it is not 0, work->law must have been
- * evaluated at this position. */
+/* Sets the direction of each sliding friction from the sign of its rate, with two exceptions. If the error of location
+ * left the rate on its old side of zero, the old direction stays. If the rate has just come to zero, the forces decide
+ * later. This is the case for the frictions in `zeros` (bits), unless an impact of the same moment changed their rate,
+ * and for rates within the round-off of other contacts. `h` is the length of the step; if it is not 0, work->law must
+ * have been evaluated at this position. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
     unsigned stick = 0;
@@ -136,8 +136,8 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
-/* Resting stops without load (within round-off) that push in the direction of a stop in `gone`, as bits. They are
- * released together with that stop. Redundant supports all lose their load at one moment: if some stayed, round-off
+/* Returns, as bits, resting stops without load (within round-off) that push in the direction of a stop in `gone`. They
+ * are released together with that stop. Redundant supports all lose their load at one moment: if some stayed, round-off
  * would hit and release the others again. */
 WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned gone) {
@@ -157,7 +157,7 @@ WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact
 
 /* Releases resting stops that would have to pull, and stuck coordinates beyond their limits. A released contact pushes
  * less, so others may follow: each round releases at least one. At least one of `must` (bits) is released, even if only
- * by round-off, because the search found its force beyond its limit. */
+ * round-off exceeds its limit, because the search found its force beyond the limit. */
 static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned must, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -199,9 +199,9 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* A rate that has just come to zero sticks if the forces keep it there: friction would remove a small remaining rate at
- * once. The rates are set to zero together with those of all active contacts, so that two frictions do not release each
- * other. Other rates slide in the direction of the push, even from the other side of zero. */
+/* Lets a rate that has just come to zero stick if the forces keep it there: friction would remove a small remaining
+ * rate at once. These rates are set to zero together with those of all active contacts, so that two frictions do not
+ * release each other. Other rates slide in the direction of the push, even if their sign is opposite. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -270,7 +270,7 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
         wh_contact_stick(of, w, rate);
     }
     for (unsigned k = 0; k < of->forced; k++) {
-        /* no event: the release of another contact has relieved this one */
+        /* no event, because the release of another contact has relieved this one */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
     return events;
@@ -301,7 +301,7 @@ static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_wo
     (void)wh_contact_resolve(of, w, &end, input, s, impulse);
 }
 
-/* Can an input have moved contact k since the last step? */
+/* True if an input may have moved contact k since the last step. */
 WH_INLINE bool wh_contact_may_move(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k) {
     const wh_contact *c = &of->contact[k];
@@ -319,9 +319,10 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Follows inputs with a rate, after that rate changed between two steps. A resting stop takes on the new rate if its
- * pressing force achieves that within the step. Otherwise it opens (returned as bits) or is hit (*hits, as bits).
- * Impulses correct the rates of the other active contacts. work->law must have been evaluated at this position. */
+/* Adapts contacts to inputs with a rate, after that rate changed between two steps. A resting stop takes on the new
+ * rate if its pressing force achieves that within the step. Otherwise it opens (returned as bits) or is hit (*hits,
+ * as bits). Impulses correct the rates of the other active contacts. work->law must have been evaluated at this
+ * position. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
                                                wh_real *rate) {
@@ -350,8 +351,9 @@ static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_c
     return but;
 }
 
-/* Follows a resting stop that an input has moved. The body is put back onto the stop, or it falls if the pressing force
- * cannot close the gap within the step. Holds are projected, too. The contact's entry in the ledger gets the energy. */
+/* Adapts contacts to an input that has moved a resting stop. The body is put back onto the stop, or it falls if the
+ * pressing force cannot close the gap within the step. Holds are projected, too. The contact's entry in the ledger gets
+ * the energy. */
 static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];

@@ -14,7 +14,7 @@ WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *sta
     }
 }
 
-/* The part of the working memory that every trial step needs. */
+/* Fills in the part of the working memory that every trial step needs. */
 WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state *state,
                                      wh_contact_work *w) {
     wh_contact_modes(of, state, w);
@@ -36,7 +36,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
 #endif
 }
 
-/* The part of the working memory that only events need. */
+/* Fills in the part of the working memory that only events need. */
 WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work *w) {
     if (wh_contact_any_of(of, WH_FRICTION)) {
         w->turned = 0;
@@ -53,7 +53,7 @@ WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work
     w->fault = -1;
 }
 
-/* The accelerations at the state, with the contacts' forces, for records. accel[coordinates]. */
+/* Computes the accelerations at the state, with the contacts' forces, for records: accel[coordinates]. */
 static inline void wh_contact_observe(const wh_contact_system *of, const wh_state *state,
                                       wh_real *accel) {
     wh_contact_work work;
@@ -90,8 +90,8 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Computes a trial step over the remaining time `left` to `next`, which is a copy of `now`. Only holds that can slip
- * need `now`. */
+/* Computes a trial step over the remaining time `left` to `next`. On entry `next` is a copy of `now`; only holds that
+ * can slip need `now`. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -116,8 +116,8 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Finds the closed holds whose conditions were at their limit (zero within round-off) when the trial step began, and
- * gives them slack. They stay closed while their conditions stay there. */
+/* Finds the closed holds whose conditions were zero within round-off when the trial step began, and gives them slack:
+ * they stay closed while their conditions stay that small. */
 WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -152,7 +152,7 @@ WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, 
     }
 }
 
-/* Refuses the step: a contact's expression is not finite, or component `fault` left its bounds. */
+/* Refuses the step, because a contact's expression is not finite or component `fault` left its bounds. */
 WH_INLINE wh_status wh_contact_refuse(const wh_contact_work *w, int fault, wh_state *state) {
     state->fault = w->undefined >= 0 ? w->undefined : fault;
     return w->undefined >= 0 ? WH_E_UNDEFINED : WH_E_DIVERGED;
@@ -163,7 +163,6 @@ typedef struct wh_contact_log {
     unsigned count;
 } wh_contact_log;
 
-/* Logs `events` (bits). */
 WH_INLINE void wh_contact_note(const wh_contact_system *of, const wh_contact_work *w,
                                unsigned events, wh_real at_s, const wh_real *impulse,
                                wh_contact_log *log) {
@@ -230,7 +229,7 @@ WH_INLINE void wh_contact_commit(const wh_contact_system *of, const wh_contact_w
     }
 }
 
-/* Copies the modes, from contact `first` on. */
+/* Copies the modes of the contacts from number `first` on. */
 WH_INLINE void wh_contact_commit_modes(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned first, wh_state *state) {
     WH_UNROLL
@@ -262,10 +261,10 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
  * The numbers are scalars, which compilers keep in registers. */
 typedef struct wh_contact_progress {
     wh_contact_attempt *attempt;
-    const wh_contact_state *end; /* end of the step, if done */
+    const wh_contact_state *end; /* the state at the step's end, once the step has reached it */
     wh_real *input;
     wh_contact_log *log;
-    wh_real h;       /* length of the step, s */
+    wh_real h;
     wh_real left;    /* remaining time from attempt->now on, s */
     wh_real reach;   /* length of the next trial step, s: shorter than `left` after a dip */
     unsigned round;  /* number of moments so far, at most WH_EVENTS_MAX */
@@ -277,7 +276,7 @@ typedef struct wh_contact_progress {
     bool done;
 } wh_contact_progress;
 
-/* Begins a step with events. If a first trial step was already made, the modes are known and no input moved the
+/* Begins a step with events. If a first trial step was already made, the modes are known, and no input has moved the
  * contacts. */
 static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_state *state, wh_contact_progress *p) {
@@ -308,8 +307,8 @@ static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_con
     }
 }
 
-/* Ends a step whose trial step of length `span` from `from` left its bounds. The reason may be a hold that loses rank;
- * wh_contact_lost() tests for that. */
+/* Ends a step in which the trial step of length `span` from `from` left its bounds. A hold that loses rank may be the
+ * reason; wh_contact_lost() tests for that. */
 static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_contact_work *w,
                                                 wh_real span, wh_contact_state *from,
                                                 wh_contact_progress *p) {
@@ -318,7 +317,7 @@ static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_
     p->done = true;
 }
 
-/* Accepts the trial step: it reached the step's end, or a point at which a dip was suspected and not found. */
+/* Accepts the trial step: it reached the step's end, or a point at which a dip was suspected but not found. */
 static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_contact_work *w,
                                             wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -339,13 +338,13 @@ static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_cont
     if (p->round == WH_EVENTS_MAX) {
         p->overran = p->overran || !p->calm;
         wh_contact_overrun(of, w, p->h, p->input, &a->next);
-        p->calm = false; /* the repair's values must be finite, too */
+        p->calm = false; /* the values after the repair must be finite, too */
     }
     p->end = &a->next;
     p->done = true;
 }
 
-/* Shortens the trial step to its first events: the step goes on from there. */
+/* Shortens the trial step to its first events. The step goes on from there. */
 static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_contact_work *w,
                                            wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -369,8 +368,8 @@ static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_conta
     p->reach = p->left;
 }
 
-/* Computes a trial step over the rest of the step. Accepts it, shortens it to its first events, or shortens the next
- * one to a dip. */
+/* Computes a trial step over the rest of the step. Then accepts it, or shortens it to its first events, or lets the
+ * next trial step end at a dip. */
 static inline void wh_contact_progress_try(const wh_contact_system *of, wh_contact_work *w,
                                            wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -389,7 +388,7 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     wh_contact_attempt_dipped(of, w, p->reach, p->input, a);
     if (a->dips != 0 && p->round + 2U < WH_EVENTS_MAX) {
         const wh_real share = wh_contact_dip(of, a, p->input);
-        if (share < WH_R(1.0)) { /* the next trial step ends there; the dip counts as a moment */
+        if (share < WH_R(1.0)) { /* the next trial step ends at the dip, which counts as a moment */
             p->reach *= share;
             p->round++;
             return;
@@ -406,8 +405,8 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     }
 }
 
-/* Resolves the events at attempt->now. A stop that comes to rest at the step's last moment might have bounced: that
- * counts as an overrun. */
+/* Resolves the events at attempt->now. If a stop comes to rest at the step's last moment, where it might have bounced,
+ * the step counts as an overrun. */
 static inline void wh_contact_progress_happen(const wh_contact_system *of, wh_contact_work *w,
                                               wh_contact_progress *p) {
     const bool last = ++p->round == WH_EVENTS_MAX;
@@ -438,7 +437,7 @@ static inline wh_status wh_contact_progress_end(const wh_contact_system *of, wh_
     return WH_OK;
 }
 
-/* A step with events. a->made: the first trial step was already made. Returns as wh_step_contact() does. */
+/* Does a step with events. If a->made, the first trial step was already made. Returns as wh_step_contact() does. */
 WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                        wh_contact_attempt *a, wh_state *state) {
     wh_contact_log log;
@@ -463,9 +462,9 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
     return wh_contact_progress_end(of, w, &p, state);
 }
 
-/* One step with its events. Returns as wh_step_second() does; or WH_E_UNDEFINED or WH_E_SINGULAR with the contact in
- * state->fault. Only values that the step uses must be finite: a trial step that is shortened to an event may have left
- * an expression's domain. */
+/* Does one step with its events. Returns as wh_step_second() does; or WH_E_UNDEFINED or WH_E_SINGULAR with the contact
+ * in state->fault. Only values that the step uses must be finite: a trial step that is shortened to an event may have
+ * left an expression's domain. */
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt a;

@@ -11,8 +11,8 @@
 #define WH_APART static inline
 #endif
 
-/* Numbers of a step's parts, for programs that count instructions between them (boards/programs/mark.h). WH_MARK() is
- * empty in all other programs. */
+/* Numbers of a step's parts. A program that counts instructions between these parts defines WH_MARK()
+ * (boards/programs/mark.h); it is empty in all other programs. */
 #define WH_MARK_ACCEL 1   /* the accelerations are evaluated next */
 #define WH_MARK_SIGNALS 2 /* the signals are evaluated next */
 #ifndef WH_MARK
@@ -23,34 +23,37 @@
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
     wh_real force[WH_CONTACTS_MAX]; /* lambda at the last evaluation of the accelerations */
-    /* J q'' + J' q' that the forces of the active contacts had to cancel */
+    /* J q'' + J' q', which the forces of the active contacts had to cancel. */
     wh_real wanted[WH_CONTACTS_MAX];
-    wh_real rough[WH_CONTACTS_MAX]; /* bound on the terms of `wanted`, if contacts are redundant */
+    wh_real rough[WH_CONTACTS_MAX]; /* if contacts are redundant: bound on the terms of `wanted` */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
-    /* bits: stops whose gap was closed when the trial step began; they may be opening */
+    /* Bits: stops whose gap was closed when the trial step began; they may now open. */
     unsigned inside;
-    unsigned hit_next; /* bits: touching stops that an impact of this moment makes close */
-    unsigned turned;   /* bits: frictions whose rate has just come to zero; sticking is undecided */
-    /* Sliding friction: the error of the located rate, rad/s or m/s. A crossing that turned back: the distance beyond
-     * zero that is no second crossing. A hold that began a trial step at the limit of its condition: the distance
-     * beyond the limit that still counts as true. Else 0. */
+    unsigned hit_next; /* bits: touching stops that close because of an impact of this moment */
+    /* bits: frictions whose rate has just come to zero; whether they stick is open */
+    unsigned turned;
+    /* Sliding friction: the error of the located rate, rad/s or m/s. Crossing that turned back: the distance beyond
+     * zero within which a passage is no second crossing. Hold that began a trial step at the limit of its condition:
+     * the distance beyond the limit at which the condition still counts as true. Otherwise 0. */
     wh_real slack[WH_CONTACTS_MAX];
-    wh_real due[WH_CONTACTS_MAX]; /* distance at which a turned-back crossing has a side again */
-    /* a crossing on no side: its value when the trial step began, or when it came to stand */
+    /* distance from zero at which a crossing that turned back has a sign again */
+    wh_real due[WH_CONTACTS_MAX];
+    /* Crossing whose sign is undecided: its value when the trial step began, or when it came to stand. */
     wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates at the begin of the present moment */
     wh_real held[WH_CONTACTS_MAX]; /* values of the holds, by wh_contact's first_set */
     unsigned moved; /* bits: contacts whose signals a crossing's assignments changed */
-    unsigned mover; /* the crossing that changed them */
+    unsigned mover; /* the crossing that made these assignments */
     /* bits: crossings of this moment whose values are zero or next to zero */
     unsigned stands;
-    /* time has passed since an assignment moved a value across zero: a value past zero is then an error of location */
+    /* True if time has passed since an assignment moved a value across zero: a value past zero is then an error of
+     * location. */
     bool located;
-    bool capped;   /* the pivoting met its cap */
-    int fault;     /* component with an assignment beyond its range, or -1 */
+    bool capped;   /* the pivoting reached its limit of rounds */
+    int fault;     /* component that was assigned a value beyond its range, or -1 */
     int undefined; /* contact with a non-finite expression, or -1 */
 #if WH_LEDGER
-    wh_ledger_work *books; /* or NULL */
+    wh_ledger_work *books; /* NULL: no ledger */
     wh_real level[WH_ACCOUNTS_MAX];
 #endif
 } wh_contact_work;
@@ -60,21 +63,22 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* WH_CONTACTS_HERE is the scene's contacts in a function that is not inlined. If code is compiled for size, possibly
- * with -fno-ipa-cp, the compiler passes no constants into functions, and gcc warns of loops without a bound. Code for
- * speed keeps the argument. */
+/* WH_CONTACTS_HERE is the scene's contacts in a function that is not inlined. In code for size, possibly with
+ * -fno-ipa-cp, the compiler passes no constants into functions, and gcc warns of loops without a bound. So such code
+ * refers to the constant itself. Code for speed keeps the argument. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
 #define WH_CONTACTS_HERE(of) (of)
 #endif
 
-/* The scene's contacts. A generated scene defines them, so that the compiler sees through the pointer. */
+/* The scene's contacts. A generated scene defines WH_CONTACTS_OF as its own constant, so that the compiler knows the
+ * members. */
 #ifndef WH_CONTACTS_OF
 #define WH_CONTACTS_OF(model) ((model)->of)
 #endif
 
-/* The state of a trial step, with its own storage. */
+/* The state of a trial step, with its own memory. */
 typedef struct wh_contact_state {
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
@@ -133,8 +137,8 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
     }
 }
 
-/* The state after moving for the time `span` along the rates of `s`, and along accel[coordinates] if accel is not NULL.
- * The rates stay those of `s`. */
+/* Computes the state after the time `span`: its positions move along the rates of `s`, and along accel[coordinates] if
+ * accel is not NULL. The rates stay those of `s`. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
                                           wh_real span, const wh_real *accel,
                                           wh_contact_point *at) {
@@ -150,25 +154,25 @@ static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contac
     }
 }
 
-/* Is there a contact with a force of this kind? */
+/* True if a contact with a force is of this kind. */
 WH_INLINE bool wh_contact_any_of(const wh_contact_system *of, wh_contact_kind kind) {
     return (of->kinds & WH_KIND_BIT(kind)) != 0;
 }
 
-/* Is contact k, which has a force, of this kind? A constant if all contacts are of one kind. */
+/* True if contact k, which has a force, is of this kind. A constant if all contacts are of one kind. */
 WH_INLINE bool wh_contact_of(const wh_contact_system *of, unsigned k, wh_contact_kind kind) {
     return wh_contact_any_of(of, kind) &&
            (of->kinds == WH_KIND_BIT(kind) || of->contact[k].kind == kind);
 }
 
-/* Does the kind of contact k, which has a force, have one of these traits? */
+/* True if the kind of contact k, which has a force, has one of the traits in `trait`. */
 WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
 #define WH_KIND_IS(name, is) || (((is)&trait) != 0 && wh_contact_of(of, k, name))
     return false WH_CONTACT_KINDS(WH_KIND_IS);
 #undef WH_KIND_IS
 }
 
-/* The coordinate that contact k, which has a force, is pinned to, or -1. */
+/* Returns the coordinate to which contact k, which has a force, is pinned, or -1. */
 WH_INLINE int wh_contact_pin(const wh_contact_system *of, unsigned k) {
     return of->pinned > 0 ? of->contact[k].pin : -1;
 }
@@ -182,7 +186,7 @@ WH_INLINE const wh_real *wh_contact_law(const wh_contact_system *of, const wh_co
     return w->law + k * (WH_LAW_ROWS + 2U * of->coordinates);
 }
 
-/* J_k x. */
+/* Returns J_k x. */
 WH_INLINE wh_real wh_jacobian_times(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_real *x) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -197,7 +201,7 @@ WH_INLINE wh_real wh_jacobian_times(const wh_contact_system *of, const wh_contac
     return sum;
 }
 
-/* x += M^-1 J_k^T lambda. */
+/* Does x += M^-1 J_k^T lambda. */
 WH_INLINE void wh_contact_apply(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 wh_real lambda, wh_real *x) {
     const wh_real *way = wh_contact_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
@@ -206,24 +210,27 @@ WH_INLINE void wh_contact_apply(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* J_k M^-1 J_l^T, an entry of the Delassus matrix: the acceleration along k by a unit force of contact l. */
+/* Returns J_k M^-1 J_l^T, an entry of the Delassus matrix: the acceleration along contact k that a unit force of
+ * contact l causes. */
 WH_INLINE wh_real wh_delassus(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               unsigned l) {
     return wh_jacobian_times(of, w, k, wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates);
 }
 
-/* Round-off of a sum, as a share of its terms. */
+/* Round-off of a sum, as a share of the sum of its terms' magnitudes. */
 #define WH_CONTACT_ROUNDING (WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5))
 
-/* A diagonal entry of the Delassus matrix: the acceleration along k by a unit force of contact k. */
+/* Returns a diagonal entry of the Delassus matrix: the acceleration along contact k that a unit force of contact k
+ * causes. */
 WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k) {
     return wh_delassus(of, w, k, k);
 }
 
-/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination without pivoting.
- * The matrix is positive definite, except for redundant contacts. These get zero (NaN if their wanted value is not a
- * number) and are returned, as bits of their indices in member[]. Contacts with at[] != 0 also get zero; `at` may be NULL. */
+/* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination without
+ * pivoting. The matrix is positive definite, except for redundant contacts. Redundant contacts get zero (NaN if their
+ * wanted value is not a number); the function returns them, as bits of their indices in member[]. Contacts with at[] !=
+ * 0 also get zero; `at` may be NULL. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,
                                              const int8_t *at, const wh_real *wanted,
@@ -261,7 +268,7 @@ static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const 
     return repeats;
 }
 
-/* As wh_delassus_eliminate(), with short cuts for no or one active contact, as in most steps of most scenes. */
+/* Does the same as wh_delassus_eliminate(), faster if no contact or one contact is active, as in most steps. */
 WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_contact_work *w,
                                      const uint8_t *member, unsigned count, const int8_t *at,
                                      const wh_real *wanted, wh_real *lambda) {
@@ -286,7 +293,7 @@ WH_INLINE void wh_contact_expect(wh_contact_work *w, unsigned k, wh_real value) 
     }
 }
 
-/* Does contact k keep J_k q' at zero? */
+/* True if contact k keeps J_k q' at zero. */
 WH_INLINE bool wh_contact_constrains(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k) {
     return w->mode[k] == (wh_contact_is(of, k, WH_LIMITED) ? WH_STUCK : WH_ACTIVE);

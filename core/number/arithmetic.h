@@ -1,8 +1,9 @@
 /* arithmetic.h: checks that the file that includes it computes as Whirl must, on the machine it runs on.
- * real.h refuses compiler flags that macros reveal. No macro reveals contraction that the pragmas do not reach, clang's
- * -fassociative-math and -freciprocal-math, a start-up file that flushes subnormals to zero, or another rounding mode.
- * These show in numbers that the compiler cannot evaluate. The file computes them here, with its own flags; scene.c
- * compares them with their references at every wh_scene_start(). C only. */
+ *
+ * real.h refuses compiler flags that macros reveal. Other faults have no macro: contraction that the pragmas do not
+ * reach, clang's -fassociative-math and -freciprocal-math, a start-up file that flushes subnormals to zero, another
+ * rounding mode. They show in numbers that the compiler cannot evaluate. The including file computes these numbers
+ * here, with its own flags; scene.c compares them with references at every wh_scene_start(). C only. */
 #ifndef WH_ARITHMETIC_H
 #define WH_ARITHMETIC_H
 
@@ -12,13 +13,13 @@
 
 #include "../real.h"
 
-/* The numbers, in flash (scene.c). */
+/* The arguments of the checks, in flash (scene.c). */
 typedef struct wh_probes {
     wh_real factor; /* 1 + r: rounding drops the last term of its square 1 + 2 r + r^2 */
     wh_real square; /* 1 + 2 r */
     wh_real one;
-    wh_real quarter_unit; /* a quarter of one's last place */
-    wh_real half_unit;    /* half of one's last place, plus the least possible */
+    wh_real quarter_unit; /* a quarter of a unit in the last place of 1 */
+    wh_real half_unit;    /* half of a unit in the last place of 1, plus the least possible */
     wh_real least;        /* the smallest normal number */
     wh_real half;
     wh_real two;
@@ -32,19 +33,20 @@ typedef struct wh_probes {
 #define wh_probe WH_NAME(wh_probe)
 extern const wh_probes wh_probe;
 
-/* Results computed from the probes. */
+/* Indices of the results. */
 typedef enum wh_probed {
-    WH_PROBED_PRODUCT,   /* not 0 if products are not rounded before a sum: contraction, x87 */
-    WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
-    WH_PROBED_ROUNDING,  /* differs from one's last place if a sum is rounded otherwise, or twice */
+    WH_PROBED_PRODUCT, /* not 0 if products are not rounded before a sum: contraction, x87 */
+    WH_PROBED_ORDER,   /* not 0 if a sum is reordered */
+    /* not a unit in the last place of 1 if sums are rounded otherwise, or twice */
+    WH_PROBED_ROUNDING,
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
     WH_PROBED_FIVE, /* 5/3, 7/3, 10/3: they differ if division is a product with a reciprocal */
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
-    WH_PROBED_THIRD, /* as WH_PROBED_FIVE, with a divisor known to the compiler */
-    WH_PROBED_ZERO, /* -0 + 0: +0, or -0 if the compiler ignores the sign of zeros and drops the sum */
+    WH_PROBED_THIRD,   /* the same check with a divisor that the compiler knows */
+    WH_PROBED_ZERO,    /* the sign of -0 + 0 is +, or - if the compiler drops the sum */
     WH_PROBED_NAN,     /* 0 if the compiler assumes that NaN never occurs */
-    WH_PROBED_LITERAL, /* seventy, unless a tenth used as divisor was cut to float */
+    WH_PROBED_LITERAL, /* 70, or another number if the compiler rounded the constant 0.1 to float */
     WH_PROBED_COUNT
 } wh_probed;
 
@@ -71,8 +73,8 @@ static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     result[WH_PROBED_LITERAL] = seven / WH_R(0.1);
 }
 
-/* The first result of compute() that differs from its reference, or WH_PROBED_COUNT. Called with wh_arithmetic, it
- * checks the file that calls it. */
+/* Returns the first result of compute() that differs from its reference, or WH_PROBED_COUNT. With wh_arithmetic as
+ * argument, it checks the file that calls it. */
 #define wh_arithmetic_wrong WH_NAME(wh_arithmetic_wrong)
 wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result));
 

@@ -1,16 +1,16 @@
 /* flash.h: constant tables that stay in flash.
  *
- * An AVR reads its flash with a special instruction; a plain `const` object is copied to its scarce memory. avr-gcc's
- * __flash avoids the copy, but exists neither in strict C11 nor in C++. So the attribute and the instruction are
- * written out here. Elsewhere constants are ordinary. (The smallest AVRs, __AVR_TINY__, have no such instruction; their
- * constants are ordinary, too.)
+ * An AVR reads its flash with a special instruction; a plain `const` object would be copied to its scarce RAM.
+ * avr-gcc's __flash avoids the copy, but exists neither in strict C11 nor in C++. So this file has the attribute and
+ * the instruction itself. On other processors constants are ordinary. (The smallest AVRs, __AVR_TINY__, have no such
+ * instruction; their constants are ordinary, too.)
  *
- *     const wh_real table[2] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
- *     wh_real half = wh_flash_real(&table[1]);
+ *      const wh_real table[2] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
+ *      wh_real half = wh_flash_real(&table[1]);
  *
- * Strings are pointers from the caller, which may or may not be constants. If WH_WORDS_FROM is defined (with a linker
- * script that supports it: boards/atmega), constant strings stay in flash, at addresses from there on, where no memory
- * is. Code that reads such a string uses wh_word_at(). */
+ * A string may be a constant or not. If WH_WORDS_FROM is defined (with a linker script that supports it:
+ * boards/atmega), constant strings stay in flash, at addresses from WH_WORDS_FROM on, which no RAM has. Code that reads
+ * such a string uses wh_word_at(). */
 #ifndef WH_FLASH_H
 #define WH_FLASH_H
 
@@ -48,7 +48,7 @@ WH_INLINE wh_real wh_flash_real(const wh_real *from) {
 
 #endif
 
-/* Copy the bytes of a WH_FLASH constant. */
+/* Copies `count` bytes of a WH_FLASH constant. */
 WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #if defined(__AVR_HAVE_LPMX__) && !WH_DOUBLE
     uint8_t *bytes = (uint8_t *)to;
@@ -61,7 +61,7 @@ WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #endif
 }
 
-/* Section that keeps a list of strings together with the other strings. */
+/* Section that keeps a list of strings together with the other constant strings. */
 #if defined(WH_WORDS_FROM)
 #define WH_WORD_LIST __attribute__((__section__(".rodata.str.lists")))
 #else

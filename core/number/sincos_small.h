@@ -9,13 +9,15 @@
 
 #include "sine.h"
 
-/* limit of a small rotation, rad */
+/* Largest angle of a small rotation, rad. */
 #define WH_SINCOS_SMALL WH_R(0.5)
 
-/* Most halvings of a rotation: enough for 2^15 rad. Larger rotations give infinity or NaN, and the step is refused. */
+/* Maximum number of halvings of a rotation: enough for 2^15 rad. Larger rotations give infinity or NaN, and the step is
+ * refused. */
 #define WH_SINCOS_HALVINGS 16U
 
-/* sin d and cos d - 1 for |d| <= 1/2 rad. Errors before rounding: 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19 in double. */
+/* Returns sin d and cos d - 1 for |d| <= 1/2 rad. Errors before rounding: 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19
+ * in double. */
 WH_INLINE_WITH_FPU wh_wave wh_sincos_small(wh_real d) {
     const wh_real z = d * d;
     wh_wave turn;
@@ -37,9 +39,9 @@ WH_INLINE_WITH_FPU wh_wave wh_sincos_small(wh_real d) {
     return turn;
 }
 
-/* wh_sincos_small() for any d: the rotation by d / 2^k, doubled k times. Each doubling doubles the error: within 7e-7
- * |d| in float, 1.3e-15 |d| in double. `surely`: the caller knows that d is not small. Rarely needed, but inline,
- * because a call would spill all registers of the step. */
+/* Does the same as wh_sincos_small() for any d: the rotation by d / 2^k, doubled k times. Each doubling doubles the
+ * error: it is within 7e-7 |d| in float, 1.3e-15 |d| in double. `surely` is true if the caller knows that d is not
+ * small. Rarely needed, but inline, because a call would spill all registers of the step. */
 WH_INLINE_WITH_FPU WH_COLD wh_wave wh_sincos_far(wh_real d, bool surely) {
     unsigned doublings = 0;
     if (surely || WH_ABS(d) > WH_SINCOS_SMALL) {
@@ -59,7 +61,7 @@ WH_INLINE_WITH_FPU WH_COLD wh_wave wh_sincos_far(wh_real d, bool surely) {
     return turn;
 }
 
-/* wh_sincos_far() as a function, in angle.c. */
+/* wh_sincos_far() as a function that is not inlined (angle.c). */
 #define wh_sincos_far_called WH_NAME(wh_sincos_far_called)
 wh_wave wh_sincos_far_called(wh_real d);
 

@@ -1,17 +1,17 @@
-/* sine.h: sine and cosine together, and the phase of radians. Part of angle.h.
+/* sine.h: sine and cosine together, and the phase of an angle in radians. Part of angle.h.
  *
- * The turn is cut into 128 sectors. s and c are the sine and cosine of the middle of the angle's sector, and r is the angle
- * from there, at most pi/128:
+ * The turn is divided into 128 sectors. s and c are the sine and cosine of the middle of the angle's sector, and r is
+ * the angle from this middle, at most pi/128:
  *
- *     sin = s + (s (cos r - 1) + c sin r)        cos = c + (c (cos r - 1) - s sin r)
+ *      sin = s + (s (cos r - 1) + c sin r)        cos = c + (c (cos r - 1) - s sin r)
  *
  * The bracket is below 1/40, so its round-off hardly matters. The error is that of the table and of the last sum, half
  * a unit in the last place each. There is no quadrant, swap, sign or branch. Quarter turns are exact, and no value is
  * beyond one.
  *
- * The usual alternative is a polynomial for an eighth of a turn. It was built and measured in both numbers: it saves
- * the table (640 bytes of flash in float) but is slower and less accurate. The sign and the swap cost instructions, and
- * the last steps of the polynomial round numbers near one. docs/dev/numerics.md has the figures. */
+ * The usual alternative is a polynomial for an eighth of a turn. It was built and measured in float and double: it
+ * saves the table (640 bytes of flash in float) but is slower and less accurate. The sign and the swap cost
+ * instructions, and the last steps of the polynomial round numbers near one. docs/dev/numerics.md has the figures. */
 #ifndef WH_SINE_H
 #define WH_SINE_H
 
@@ -22,13 +22,13 @@
 extern "C" {
 #endif
 
-/* Sine and cosine of a phase together; if the caller drops one, the compiler drops its cost. Both are at most 1 in size,
- * and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8 (`make sine-exhaustive` measures
- * it). Double: 1.4e-16 for |phase| <= 5e8 rad; for larger phases and NaN, both are NaN. docs/dev/numerics.md has the
- * method and its cost. */
+/* Sine and cosine of a phase together. If the caller uses only one of them, the compiler drops the computation of the
+ * other. Both are at most 1 in size, and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8
+ * (`make sine-exhaustive` measures it). Double: 1.4e-16 for |phase| <= 5e8 rad; for larger phases and NaN, both are
+ * NaN. docs/dev/numerics.md has the method and its cost. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
-/* Sine and cosine as sums of two parts each, so that a term can be added before the parts are summed: the sum is rounded
+/* Sine and cosine, each as a sum of two parts. If a third term is added before the parts are summed, the sum is rounded
  * only once. */
 typedef struct wh_sine_parts {
     wh_real sine;
@@ -38,29 +38,29 @@ typedef struct wh_sine_parts {
 } wh_sine_parts;
 WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts);
 
-/* Sine and cosine of one angle. */
 typedef struct wh_wave {
     wh_real sine;
     wh_real cosine;
 } wh_wave;
 
-/* Phase of an angle in radians, for arguments that are not turn angles. Float: within one phase unit (1.5e-9 rad) for
- * |rad| < 1e9; larger or NaN gives phase 0. Double: rad itself. */
+/* Converts radians to a phase, for arguments that are not turn angles. Float: within one phase unit (1.5e-9 rad) for
+ * |rad| < 1e9; a larger argument or NaN gives phase 0. Double: returns rad. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
 
-/* Set sine and cosine to NaN if rad is NaN or too large for a phase, so that the float build refuses the step as the
- * double build does. A float phase cannot represent NaN. */
+/* Sets sine and cosine to NaN if rad is NaN or too large for a phase. A float phase cannot represent NaN. With this
+ * call the float build refuses such a step, as the double build does. */
 WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 
-/* Sectors of a turn (as a power of two) and of a quarter turn. */
+/* Number of sectors in a turn (as a power of two) and in a quarter turn. */
 #define WH_SINE_BITS 7
 #define WH_SINE_QUARTER (1U << (WH_SINE_BITS - 2))
 
-/* Sine of the middle of each sector, for a turn and a quarter: the cosine is WH_SINE_QUARTER entries later. */
+/* Sines of the sectors' middles, for a turn and a quarter: the cosine is WH_SINE_QUARTER entries later. */
 #define wh_sine_table WH_NAME(wh_sine_table)
 extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
-/* The increments of sine and cosine from the middle of `sector` to the angle r beyond it, given sin r and cos r - 1. */
+/* Computes the increments of sine and cosine from the middle of `sector` to the angle r beyond it, from sin r and cos r
+ * - 1. */
 WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_less_1,
                                wh_sine_parts *parts) {
     const wh_real *middle = &wh_sine_table[sector];
@@ -116,7 +116,7 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     const uint32_t sector = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
 
     /* The angle from the sector's middle, times 2^7. Shifting the sector number out leaves the right sign and 25
-     * significant bits, which convert exactly. The constants include the scale, 2^39 per turn. */
+     * significant bits. The constants include the scale, 2^39 per turn. */
     const float y = (float)(int32_t)(phase << WH_SINE_BITS);
 
     /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. The numbers are 0x1.921fb6p-37, -0x1.4ab89ep-112 and
@@ -127,16 +127,16 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
-/* wh_angle_from_rad(). Inline, because a phase needs only the low half: the compiler drops the rest. A radian has
- * 2^32/(2 pi) phase units: 683565276 - 1819212470/2^32 for the whole radians, 1367130551/2^33 * 2^31 for the fraction.
- * Integers are exact; products would round. */
+/* The method of wh_angle_from_rad(), inline because a phase needs only the low half and the compiler drops the rest. A
+ * radian has 2^32/(2 pi) phase units: 683565276 - 1819212470/2^32 for the whole radians, 1367130551/2^33 * 2^31 for the
+ * fraction. The products are of integers, because float products would round. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */
     const int32_t whole = (int32_t)in_range;
     const int32_t fraction = (int32_t)((in_range - (float)whole) * 2147483648.0f);
     const int64_t small = whole * -INT64_C(1819212470) + fraction * INT64_C(1367130551);
-    /* gcc and clang define >> of a negative number: the sign stays */
+    /* gcc and clang define >> of a negative number: it keeps the sign */
     return whole * INT64_C(683565276) + ((small + (INT64_C(1) << 31)) >> 32);
 }
 

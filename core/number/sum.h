@@ -4,8 +4,8 @@
 
 #include "../real.h"
 
-/* value + increment. When compensated, *carry goes into the sum and is replaced by the sum's rounding
- * error (Kahan; Higham, Accuracy and Stability of Numerical Algorithms, section 4.3). */
+/* Returns value + increment. If compensated, *carry is added, too, and becomes the sum's rounding error (Kahan; Higham,
+ * Accuracy and Stability of Numerical Algorithms, section 4.3). */
 WH_INLINE wh_real wh_sum(wh_real value, wh_real increment, bool compensated, wh_real *carry) {
     if (!compensated) {
         return value + increment;

@@ -15,7 +15,7 @@ typedef double wh_phase;  /* radians */
 typedef double wh_factor; /* factor of wh_phase_times() */
 #define WH_PHASE_PER_RAD 1.0
 #define WH_PHASE_PER_RAD_REST 0.0
-/* Limit on the change of an angle in one step: beyond it the direction is ambiguous. */
+/* Limit on the change of an angle in one step: for larger changes the direction is ambiguous. */
 #define WH_PHASE_STEP_MAX 3.141592653589793
 
 WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return angle; }
@@ -23,26 +23,28 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return angle; }
 #else
 
 /* 2^32 per turn: whole turns in the high half, the phase in the low half. The count of turns wraps at 2^31 (after 50
- * days of half a turn per millisecond, or twelve years at 330 rpm). The phase stays right, and so do sine and cosine. */
+ * days of half a turn per millisecond, or twelve years at 330 rpm). After that the phase, its sine and its cosine are
+ * still right. */
 typedef int64_t wh_angle;
-typedef uint32_t wh_phase; /* 2^32 a turn */
-typedef struct wh_factor { /* whole + part/2^64, modulo 2^32 */
+typedef uint32_t wh_phase; /* 2^32 per turn */
+typedef struct wh_factor { /* the number whole + part/2^64, modulo 2^32 */
     uint64_t part;
     uint32_t whole;
 } wh_factor;
 #define WH_PHASE_PER_RAD 683565275.576431632f /* 2^32 / (2 pi) */
-#define WH_PHASE_PER_RAD_REST 27.576431632f   /* the error of WH_PHASE_PER_RAD as a float */
+#define WH_PHASE_PER_RAD_REST 27.576431632f   /* 2^32 / (2 pi) minus WH_PHASE_PER_RAD */
 #define WH_PHASE_STEP_MAX 2147483520.0f       /* largest float below half a turn */
 
 WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angle; }
 
 #endif
 
-/* For a processor with an instruction that rounds a float to the nearest int32_t, ties to even: `result` becomes the
- * rounded steps. The instructions of x86 and Arm's VFP use the rounding mode that arithmetic.h probes. */
+/* For a processor with an instruction that rounds a float to the nearest int32_t, ties to even: sets `result` to the
+ * rounded `steps`. The instructions of x86 and Arm's VFP use the rounding mode that arithmetic.h tests. */
 #if defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP) && (__ARM_FP & 4)
 #define WH_ROUND(result, steps) \
-    float whole; /* the integer's bits, because the result is in a float register */ \
+    float \
+        whole; /* holds the integer's bits, because the instruction's result is in a float register */ \
     __asm__("vcvtr.s32.f32 %0, %1" : "=t"(whole) : "t"(steps)); \
     __builtin_memcpy(&(result), &whole, sizeof(result))
 #elif defined(__GNUC__) && defined(__SSE2__)
@@ -53,7 +55,8 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #define WH_ROUND(result, steps) __asm__("fcvt.w.s %0, %1, rne" : "=r"(result) : "f"(steps))
 #endif
 
-/* A constant angle or phase for generated code: radians for the double build, `units` (2^32 a turn) for the float build. */
+/* A constant angle or phase for generated code: radians for the double build, `units` (2^32 per turn) for the float
+ * build. */
 #if WH_DOUBLE
 #define WH_TURN(rad, units) (rad)
 #else
@@ -72,8 +75,8 @@ WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
 #endif
 
 #if !WH_DOUBLE
-/* The whole number nearest to `steps`, |steps| < 2^31, ties to even. If steps often end in one half, rounding ties away
- * from zero would drift by a quarter of a unit per step. */
+/* Returns the whole number nearest to `steps`, |steps| < 2^31, ties to even. If steps often end in one half, rounding
+ * ties away from zero would make the angle drift by a quarter of a unit per step. */
 WH_INLINE int32_t wh_whole(float steps) {
 #ifdef WH_ROUND
     int32_t result;
@@ -95,16 +98,17 @@ WH_INLINE int32_t wh_whole(float steps) {
 #endif
 }
 
-/* The whole number nearest to steps/2, from the whole part of `steps`. Ties are rounded away from zero. */
+/* Returns the whole number nearest to steps/2, from the whole part of `steps`. Ties are rounded away from zero. */
 WH_INLINE int32_t wh_half_whole(float steps) {
     const int32_t whole = (int32_t)steps;
-    /* an arithmetic shift: gcc and clang keep the sign of a negative number */
+    /* gcc and clang define >> of a negative number: it keeps the sign */
     return (whole - (~whole >> 31)) >> 1;
 }
 #endif
 
-/* *moved = `phase` moved by `steps` phase units (radians * WH_PHASE_PER_RAD), in float rounded to the nearest unit.
- * Returns false, with *moved unchanged, for half a turn or more, or NaN: the step must be refused. */
+/* Sets *moved to `phase` moved by `steps` phase units (radians * WH_PHASE_PER_RAD), in float rounded to the nearest
+ * unit. If `steps` is half a turn or more, or NaN, returns false and leaves *moved unchanged: the step must be
+ * refused. */
 WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -117,7 +121,7 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     return true;
 }
 
-/* wh_phase_move() by half of `steps`: the middle of a step that moves by `steps`. */
+/* Does the same as wh_phase_move() by half of `steps`: the middle of a step that moves by `steps`. */
 WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -130,7 +134,7 @@ WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved
     return true;
 }
 
-/* The angle with this phase that is less than half a turn from `angle`, as at a stage of a step. */
+/* Returns the angle with this phase that is less than half a turn from `angle`, for example at a stage of a step. */
 WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
 #if WH_DOUBLE
     (void)angle;

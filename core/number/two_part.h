@@ -1,26 +1,27 @@
-/* two_part.h: constants as sums of two reals, which are more precise than one real. With compensated sums in float, a
- * step of a millisecond stored as one real would have a relative error of 4.7e-8, the same in every step. Part of
- * step.h. */
+/* two_part.h: constants as sums of two reals, which are more precise than one real. Part of step.h. In float, a step of
+ * a millisecond stored as one real would have a relative error of 4.7e-8, the same in every step; compensated sums
+ * would keep it. */
 #ifndef WH_TWO_PART_H
 #define WH_TWO_PART_H
 
 #include "turn.h"
 
-/* high + low, with low below half a unit in the last place of high: a length of time, or a constant derived from it. */
+/* The constant high + low: a length of time, or a number derived from it. low is below half a unit in the last place of
+ * high. */
 typedef struct wh_two_part {
     wh_real high;
     wh_real low;
 } wh_two_part;
 
-/* For generated code. Double needs no low part. */
+/* Writes a two-part constant in generated code. Double needs no low part. */
 #if WH_DOUBLE
 #define WH_TWO_PART(high, low) ((wh_two_part){high, 0.0})
 #else
 #define WH_TWO_PART(high, low) ((wh_two_part){WH_R(high), WH_R(low)})
 #endif
 
-/* The round-off of the product a b (Dekker's product, Veltkamp's split: Muller et al., Handbook of Floating-Point
- * Arithmetic, section 4.4). */
+/* Returns the round-off of the product a b (Dekker's product, Veltkamp's split: Muller et al., Handbook of
+ * Floating-Point Arithmetic, section 4.4). */
 WH_INLINE wh_real wh_product_rest(wh_real a, wh_real b) {
     const wh_real split = WH_DOUBLE ? WH_R(134217729.0) : WH_R(4097.0);
     const wh_real product = a * b;

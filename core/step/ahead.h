@@ -1,5 +1,5 @@
-/* ahead.h: many steps in one call, with the state in registers between them. Part of step.h. Compiled only if WH_AHEAD
- * is 1, because it is a second copy of the step. */
+/* ahead.h: many steps in one call, with the state in registers between the steps. Part of step.h. Compiled only if
+ * WH_AHEAD is 1, because it is a second copy of the step. */
 #ifndef WH_AHEAD_H
 #define WH_AHEAD_H
 
@@ -11,23 +11,24 @@
 #include "../scene.h"
 #include "unroll.h"
 
-/* ira-loop-pressure makes gcc load as many constants before the loop as fit into registers: it saves up to 5 % of a
- * small scene's instructions. The option gcse is off for small scenes only: there it needs more registers for constants
- * than it saves. */
+/* With ira-loop-pressure, gcc loads as many constants before the loop as fit into registers: up to 5 % fewer
+ * instructions in a small scene. gcse is off for small scenes only: there it needs more registers for constants than it
+ * saves. */
 #if defined(WH_AHEAD) && WH_AHEAD && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
-/* With one coordinate, tree-ter moves expressions to the operation that uses them, and that operation must then wait
- * for them: up to 4 % of the cycles of a Cortex-M4F. So this option is off. */
+/* tree-ter is off for one coordinate: it would move expressions next to the operation that uses them, which must then
+ * wait for their results. That costs up to 4 % of the cycles of a Cortex-M4F. */
 #if defined(WH_COORDS) && WH_COORDS <= 1
 #pragma GCC optimize("no-tree-ter")
 #endif
 #endif
 
-/* Does `steps` > 0 calls of scene->advance(), counted in state->steps. The variables are copied to local memory, which
- * no pointer of the caller refers to, so compilers keep them in registers. Returns as wh_scene_steps() does. */
+/* Does what `steps` > 0 calls of scene->advance() do, and counts the steps in state->steps. The variables are copied to
+ * local memory: no pointer of the caller refers to it, so compilers keep the variables in registers. Returns as
+ * wh_scene_steps() does. */
 WH_INLINE wh_status wh_steps_ahead(const wh_scene *of,
                                    wh_status (*one)(const wh_scene *of, wh_state *state),
                                    unsigned angles, unsigned reals, bool compensated,

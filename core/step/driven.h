@@ -1,6 +1,6 @@
-/* driven.h: inputs with a rate (`input L rate Lv`). Inside a step such an input moves as a coordinate without forces:
- * at its constant rate. Part of generated scenes that have such inputs. Between steps the caller sets value and rate,
- * or the rate alone. A step starts from both and updates both; a refused step leaves the state as it was. */
+/* driven.h: inputs with a rate (`input L rate Lv`). Part of generated scenes that have such inputs. Inside a step such
+ * an input moves like a coordinate without forces, at its constant rate. Between steps the caller sets the value and
+ * the rate, or the rate alone. A step starts from both and updates both; a refused step leaves the state as it was. */
 #ifndef WH_DRIVEN_H
 #define WH_DRIVEN_H
 
@@ -14,12 +14,13 @@
 #include "refuse.h"
 #include "unroll.h"
 
-/* Most accounts: the energy, and a momentum for each coordinate. A generated scene defines its own. */
+/* Maximum number of accounts: the energy, and a momentum for each coordinate. A generated scene defines its own
+ * value. */
 #ifndef WH_ACCOUNTS_MAX
 #define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
-/* The indices of an input and its rate, and the indices in state->real[] that they drive. */
+/* Indices of an input and of its rate among the inputs, and of the numbers in state->real[] that they set. */
 typedef struct wh_driven {
     uint8_t input;
     uint8_t rate;
@@ -27,15 +28,15 @@ typedef struct wh_driven {
     uint8_t rate_at;
 } wh_driven;
 
-/* The values that a refused step restores: the driven components, the ledger's levels at the start, and the corrections
- * stored after them. */
+/* The values that a refused step restores: the driven components, the ledger's levels at the start, and its
+ * corrections. */
 typedef struct wh_driven_kept {
     wh_real real[2 * WH_COORDS];
     wh_real books[2 * WH_ACCOUNTS_MAX];
     bool booked;
 } wh_driven_kept;
 
-/* Stores the change of the levels since `before` as a correction: the state was corrected, not moved. */
+/* Stores the change of the levels since `before` as a correction, because a caller has changed the state. */
 static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state *state,
                                      const wh_real *before) {
     wh_real *start = state->ledger + 2U * form->entries;
@@ -51,8 +52,8 @@ static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state 
     }
 }
 
-/* Before a step: copy the inputs to the components. With a ledger (`form` is not NULL), the change of the accounts
- * counts as a correction, as in wh_scene_set_real(). */
+/* Call this before a step. It copies the inputs to the components. If `form` is not NULL, the ledger counts the change
+ * of the accounts as a correction, as in wh_scene_set_real(). */
 WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_ledger_form *form,
                                wh_driven_kept *kept, wh_state *state) {
     wh_real before[WH_ACCOUNTS_MAX];
@@ -79,8 +80,8 @@ WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_
     }
 }
 
-/* After a completed step: copy the components to the inputs. After a refused step: restore components and ledger.
- * Returns the step's status. */
+/* Call this after a step. After a completed step, it copies the components to the inputs; after a refused step, it
+ * restores components and ledger. Returns the step's status. */
 WH_INLINE wh_status wh_driven_end(const wh_driven *drive, unsigned count,
                                   const wh_ledger_form *form, const wh_driven_kept *kept,
                                   wh_status status, wh_state *state) {

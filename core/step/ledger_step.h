@@ -1,4 +1,4 @@
-/* ledger_step.h: fills the ledger (ledger.h) while a scene steps. C only, as step.h is. */
+/* ledger_step.h: fills the ledger (ledger.h) while a scene steps. C only. */
 #ifndef WH_LEDGER_STEP_H
 #define WH_LEDGER_STEP_H
 
@@ -6,7 +6,7 @@
 #include "driven.h"
 #include "stabilize.h"
 
-/* Most entries. A generated scene defines its own. */
+/* Maximum number of entries. A generated scene defines its own value. */
 #ifndef WH_LEDGER_MAX
 #define WH_LEDGER_MAX 2048
 #endif
@@ -20,8 +20,8 @@ typedef struct wh_ledger_work {
     unsigned stage;
 } wh_ledger_work;
 
-/* Weight of stage `stage` in the method's quadrature. The stages are compared one by one, so that no table remains if
- * the stage is not constant. */
+/* Returns the weight of stage `stage` in the method's quadrature. The loop over all stages leaves no table in the code,
+ * even if `stage` is not constant. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];
@@ -45,14 +45,14 @@ WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle
     w->stage = 0;
 }
 
-/* Accept the trial step: add its entries to the step's. */
+/* Accept the trial step: add its entries to those of the whole step. */
 WH_INLINE void wh_ledger_accept(const wh_ledger_form *form, wh_ledger_work *w) {
     for (unsigned i = 0; i < form->entries; i++) {
         w->step[i] += w->attempt[i];
     }
 }
 
-/* Enter the smooth entries at one stage. Returns the stage's weight in time, s. */
+/* Enter one stage in the smooth entries. Returns the stage's weight times the length of the trial step, s. */
 WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
                                   const wh_phase *phase, const wh_real *linear, const wh_real *rate,
                                   const wh_real *input, wh_ledger_work *w) {
@@ -76,7 +76,8 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
     return share;
 }
 
-/* Before a step: enter the effects of the inputs that changed since the last step, one input after another. */
+/* Call this before a step. It enters the effects of the inputs that changed since the last step, one input after the
+ * other. */
 static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
                                   wh_ledger_work *w) {
     const wh_real *kept = wh_ledger_kept(form, state);
@@ -100,7 +101,7 @@ static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *st
     }
 }
 
-/* Before a step: in the first step, store the accounts' levels at the start of the run. */
+/* Call this before a step. Before the first step it stores the accounts' levels at the start of the run. */
 WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_ledger_work *w) {
     for (unsigned i = 0; i < form->entries; i++) {
         w->step[i] = WH_R(0.0);
@@ -113,7 +114,8 @@ WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_le
     }
 }
 
-/* After a step: add its entries to the totals. If the scene asks for stabilization, give back part of the energy drift. */
+/* Call this after a step. It adds the step's entries to the totals. If the scene asks for stabilization, it gives back
+ * part of the energy drift. */
 WH_INLINE void wh_ledger_commit(const wh_ledger_form *form, const wh_ledger_work *w,
                                 wh_state *state) {
     wh_real *total = state->ledger;
@@ -138,7 +140,7 @@ typedef struct wh_ledger_model {
     wh_ledger_work *work;
 } wh_ledger_model;
 
-/* The accelerations; also enters the stage in the ledger. A wh_accel_fn. */
+/* Computes the accelerations and enters the stage in the ledger. A wh_accel_fn. */
 WH_INLINE void wh_ledger_accel(const void *of, const wh_phase *phase, const wh_real *linear,
                                const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_ledger_model *m = of;

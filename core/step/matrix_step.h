@@ -1,8 +1,8 @@
 /* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g. The scene's operation
  * list computes the products. It omits entries of 0, and multiplies by no entry of 1. If a step hardly changes a
- * component, x+ = x + ((Phi - 1) x + Gamma u + g). The round-off of the entries of Phi - 1 is then a small part of the
- * change; that of Phi would be a small part of the whole state, which is much larger. Bounds, statuses and turn angles
- * are handled as in every step (step_end.h). */
+ * component, the list computes x+ = x + ((Phi - 1) x + Gamma u + g) instead. Round-off is then a small part of the
+ * change; with the entries of Phi it would be a small part of the whole state, which is much larger. Bounds, statuses
+ * and turn angles are handled as in every step (step_end.h). */
 #ifndef WH_MATRIX_STEP_H
 #define WH_MATRIX_STEP_H
 
@@ -15,11 +15,11 @@
 #include "ahead.h"
 #include "step_end.h"
 
-/* As wh_all_believable(). Without floating-point hardware it compares magnitudes by their bits: on an ATmega328P that
- * takes a tenth of the time of three sums and a comparison. */
+/* Returns what wh_all_believable() returns. Without floating-point hardware it compares magnitudes by their bits: on an
+ * ATmega328P that takes a tenth of the time of three sums and a comparison. */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
-    /* the upper byte of 2^39: smaller numbers cannot sum up to WH_ABSURD */
+    /* the upper byte of 2^39: the sum of smaller numbers is below WH_ABSURD */
     static const uint8_t large = 0x53;
     unsigned i = 0;
     for (; i < n; i++) {
@@ -38,8 +38,8 @@ WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
     return wh_all_believable(value, n);
 }
 
-/* Accept the results of the operation list, or refuse the step. For a scene without turn angles and without low
- * parts. */
+/* Accept the results of the operation list, or refuse the step. For a scene without turn angles and without
+ * compensation. */
 WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
     if (!wh_matrix_believable(given, reals)) {
         return wh_refuse_among(given, reals, 0, state);
@@ -51,9 +51,9 @@ WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_st
     return WH_OK;
 }
 
-/* Returns value + increment + *carry; *carry becomes the round-off of both sums. Most of *carry is whole units of the
- * increment's last place. The error of the rounded constants adds less than half a unit, which wh_sum() would lose in
- * every step: 2.5e-5 rad in 1e6 steps of an oscillator. The sum here loses 5e-8 rad. */
+/* Returns value + increment + *carry; *carry becomes the round-off of both sums. *carry is usually many units of the
+ * increment's last place. The error of the rounded constants is less than half such a unit, and wh_sum() would lose it
+ * in every step: 2.5e-5 rad in 1e6 steps of an oscillator. The sum here loses 5e-8 rad. */
 WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry) {
     const wh_real wanted = increment + *carry;
     const wh_real of_carry = wanted - increment;
@@ -63,12 +63,13 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
     return sum;
 }
 
-/* One step of h by the operation list `matrix`, which has the signature of an acceleration function; its phases are not
- * used. `rates_at` is the index of the first rate in the reals (second order; otherwise unused). The list gives
+/* Does one step of h by the operation list `matrix`, which has the signature of an acceleration function; the phases
+ * that it gets are not used. `rates_at` is the index of the first rate in the reals (second order; otherwise unused).
+ * The list gives
  *
- *     angles             the mean rate over the step
- *     reals              their values after it; compensated: their changes
- *     reals once more    compensated: the change's error from rounding the constants to float
+ *      angles             the mean rate of each angle over the step
+ *      reals              the value of each real after the step; if compensated, its change
+ *      reals once more    if compensated: the error of this change from rounding the constants to float
  *
  * angles <= WH_COORDS, reals <= 2 WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and the rest of the
  * state unchanged. */

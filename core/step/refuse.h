@@ -1,4 +1,4 @@
-/* refuse.h: bounds on a mechanism's numbers, and refusing a step that exceeds them. Part of step_end.h. */
+/* refuse.h: bounds on a mechanism's numbers; a step that exceeds them is refused. Part of step_end.h. */
 #ifndef WH_REFUSE_H
 #define WH_REFUSE_H
 
@@ -20,8 +20,8 @@ WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
     return WH_E_DIVERGED;
 }
 
-/* wh_refuse_first() of step_end.h as functions with the numbers in registers: four for n = 2 to 4, eight for n = 5 to 8.
- * The caller fills unused arguments with the last number. scene.c has their code once, so no step repeats it. */
+/* Does the same as wh_refuse_first() of step_end.h, with the numbers in registers: `four` for n = 2 to 4, `eight` for n
+ * = 5 to 8. The caller fills unused arguments with the last number. The code is in scene.c, once for all steps. */
 #define wh_refuse_four WH_NAME(wh_refuse_four)
 #define wh_refuse_eight WH_NAME(wh_refuse_eight)
 wh_status wh_refuse_four(wh_state *state, unsigned first, unsigned n, wh_real a, wh_real b,

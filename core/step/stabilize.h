@@ -1,18 +1,18 @@
-/* stabilize.h: energy stabilization by small corrections along the rates. Part of ledger_step.h. For runs so long that the
- * method's error, or round-off, would add up.
+/* stabilize.h: energy stabilization by small corrections along the rates. Part of ledger_step.h. For runs so long that
+ * the method's error, or round-off, would add up.
  *
  * The ledger gives the drift D: the part of the energy's change that no entry explains (ledger.h), without earlier
  * corrections. Scaling all rates by 1 + s changes the energy by s P, if the kinetic energy is a quadratic form of the
- * rates. P is sum q_i' p_i, with the momenta p_i. Directions of motion, zero rates and ratios of momenta do not change. So
- * each step sets
+ * rates. P is sum q_i' p_i, with the momenta p_i. Directions of motion, zero rates and ratios of momenta do not change.
+ * So each step sets
  *
- *     s = -D / (1024 max P),     at most 2^-20 in size,
+ *      s = -D / (1024 max P),     at most 2^-20 in size,
  *
  * which is x' = f(x) - g F(x) D(x) with F along the rates (Ascher, Chin & Reich, Stabilization of DAEs and invariant
  * manifolds, Numerische Mathematik 67, 1994). A step corrects only a thousandth of the drift, because in float D is
  * mostly round-off. A thousand steps average that noise, and compensated sums keep the small corrections. max P is the
- * largest P so far, so that s does not grow when a swing reverses. At that moment P is small, and the other, slow
- * motions would get the whole correction.
+ * largest P so far, so that s does not grow when an oscillation reverses: P is small at that moment, and slow motions
+ * of other coordinates would get the whole correction.
  *
  * D does not show where the energy was lost: a loss of the fast motion is returned to all motions. So the correction
  * has an entry in the ledger, whose size is the energy that was lost. The method is for motions without drive and
@@ -34,7 +34,7 @@
 #define WH_STABILIZE_SHARE WH_R(0.0009765625)
 #define WH_STABILIZE_MOST WH_R(9.5367431640625e-7)
 
-/* Called after a step whose entries are complete. `level` [form->accounts] is working space. */
+/* Call this after a step whose entries are complete. `level` [form->accounts] is working space. */
 WH_INLINE void wh_stabilize(const wh_ledger_form *form, wh_state *state, wh_real *level) {
     wh_real *most = wh_ledger_most(form, state);
     if (state->steps == 0) { /* the first step starts the ledger */

@@ -12,7 +12,8 @@
 #include "../method.h"
 #include "unroll.h"
 
-/* Most stages of a method. A generated scene defines its own number: more would spill more registers. */
+/* Maximum number of stages of a method. A generated scene defines its own number, because a larger one would spill more
+ * registers. */
 #ifndef WH_STAGES
 #define WH_STAGES WH_STAGES_MAX
 #define WH_HAS_LONG_ROWS 1
@@ -20,8 +21,8 @@
 #define WH_HAS_LONG_ROWS 1
 #endif
 
-/* Calls stage(s); for all stages except the first. If the compiler has no pragma for unrolling, the loop is unrolled by
- * hand. In a loop the program would read and multiply shares at run time. */
+/* Calls stage(s); for all stages except the first. If the compiler has no pragma for unrolling, this macro unrolls the
+ * loop: a loop would read shares, and multiply by them, at run time. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
@@ -64,7 +65,7 @@ typedef struct wh_given {
     wh_real (*next)[WH_COORDS];
 } wh_given;
 
-/* sum_j share[j] * (component i of stage j), stages in order. */
+/* Returns sum_j share[j] * (component i of stage j), summed in the order of the stages. */
 WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given given, unsigned i) {
     wh_real sum = WH_R(0.0);
     bool any = false;
@@ -79,19 +80,19 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
     return sum;
 }
 
-/* Does the method give the positions of its stages separately from the rates? */
+/* True if the method gives the positions of its stages separately from the rates. */
 WH_INLINE bool wh_stage_reaches(const wh_tableau *by) { return by->places != NULL; }
 
-/* Is the method's first stage away from the step's begin? */
+/* True if the method's first stage is not at the step's begin. */
 WH_INLINE bool wh_begins_away(const wh_tableau *by) {
     return by->places != NULL && by->places->node[0] != WH_R(0.0);
 }
 
-/* Are all stages of the method at the step's begin? */
+/* True if all stages of the method are at the step's begin. */
 WH_INLINE bool wh_all_begin(const wh_tableau *by) { return by->stages == 1 && !wh_begins_away(by); }
 
-/* Distance of component i from the step's begin at a stage that is away from it. `rate` is the component's rate at the
- * begin. */
+/* Returns the distance of component i from the step's begin at a stage that is not at the begin. `rate` is the
+ * component's rate at the begin. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
     const wh_shares *of = &by->places->reach[stage];
@@ -99,9 +100,9 @@ WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real r
            h * h / of->parts * wh_stage_sum(of->share, stage, accels, i);
 }
 
-/* Do a stage and the one before it have equal weights at the step's end? Such stages are added before the
- * multiplication: one product replaces two, and the sum may serve positions and rates. If has_positions is false, only
- * the weights of the rates are compared. */
+/* True if a stage and the stage before it have equal weights at the step's end. The results of such stages are added
+ * before the multiplication: one product replaces two, and the sum may serve positions and rates. If has_positions is
+ * false, only the weights of the rates are compared. */
 WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_positions) {
     return stage < WH_STAGES && stage < by->stages && by->rates[stage] == by->rates[stage - 1] &&
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
@@ -120,7 +121,7 @@ WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_pos
     }
 }
 
-/* *sum += share * more; the first call assigns instead. */
+/* Adds share * more to *sum. The first call, with *any false, assigns the product instead. */
 WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more) {
     if (share != WH_R(0.0)) {
         *sum = *any ? *sum + share * more : share * more;

@@ -3,26 +3,26 @@
  * A step looks up the sine and cosine of each angle of its list once, at its begin. With r the angle's rate at the
  * begin and r_j that of stage j, the angle at stage s is larger by
  *
- *     c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts.
+ *      c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts.
  *
- * The first part is a whole multiple of d = c_1 h r, the rotation of the method's first later stage. So one sine and one
+ * The first part is a whole multiple of d = c_1 h r, the rotation at the method's second stage. So one sine and one
  * cosine of a small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p'. Here p is a sine (or a
  * cosine), w the increment of the last rotation and b = 2 (cos d - 1).
  *
  * The second part, the shear angle e, is of order h^2, because r_j - r is of order h. The pair (s, c) is rotated by e
  * by three shears: half of e in c, all of e in s, and half of e in c again. The error of this rotation is e^3/6, of
- * order h^6. So the stages agree with looked-up ones to a higher order than any method here has. The classic method,
- * with d = h/2 v:
+ * order h^6. So the stages agree with looked-up ones to a higher order than any method here has. For the classic
+ * method, with d = h/2 v:
  *
- *     stage 2:  d     stage 3:  d, and the shear h^2 a1/4     stage 4:  2 d, and the shear h^2 a2/2
+ *      stage 2:  d     stage 3:  d, and the shear h^2 a1/4     stage 4:  2 d, and the shear h^2 a2/2
  *
  * The whole step moves the angle itself as usual (step.h), and the next step looks up its sine again, so no error
  * accumulates.
  *
- * The polynomials are valid up to half a radian, |d| summed over the angles whose sine the list takes; one check
- * decides. For larger d, the rotation is that of d / 2^k, doubled k times (sincos_small.h). The stages are then nearly
- * as accurate, and the step takes more instructions. No step is refused that would be accepted with a lookup at each
- * stage (step.h). */
+ * The polynomials are valid if the magnitudes of d, summed over the angles whose sine the list takes, are at most half
+ * a radian. For larger d, the rotation is that of d / 2^k, doubled k times (sincos_small.h). The stages are then nearly
+ * as accurate, and the step takes more instructions. If a step with a lookup at each stage (step.h) would be accepted,
+ * the step with rotations is accepted, too. */
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
 
@@ -34,19 +34,19 @@
 #include "../number/sincos_small.h"
 #include "../step.h"
 
-/* Without these options, gcc would compute the operands of some branches before the branch: 1 % more instructions on a
- * Cortex-M4F, and up to 3 % more cycles. In double, on a PC, it would save instructions. */
+/* These options are off: with them gcc computes the operands of some branches before the branch, which costs 1 % more
+ * instructions and up to 3 % more cycles on a Cortex-M4F. In double, on a PC, they save instructions. */
 #if defined(__GNUC__) && !defined(__clang__) && !WH_DOUBLE
 #pragma GCC optimize("no-tree-pre")
 #endif
 
-/* Most angles whose sine a list takes. A generated scene defines its own. */
+/* Maximum number of angles whose sine a list takes. A generated scene defines its own value. */
 #ifndef WH_WAVES
 #define WH_WAVES 256
 #endif
 
-/* On a PC, other register choices need fewer copies: 1 to 6 % fewer instructions. With one angle, loading constants at
- * their use frees registers: 1 % (2 % more if the list has no quotient). */
+/* On a PC, these choices of registers need fewer copies: 1 to 6 % fewer instructions. With one angle, loading constants
+ * where they are used frees registers: 1 % fewer instructions (2 % more if the list has no quotient). */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
 #pragma GCC optimize("rename-registers")
 #if WH_WAVES <= 1
@@ -54,12 +54,12 @@
 #endif
 #endif
 
-/* Where to test whether d is small. A test before the first accelerations leaves few registers to save over the call
- * that may follow. But then the rotation's variables must survive the accelerations, and the 16 registers of a PC are
- * too few for that: 3 % more instructions. */
+/* True if a step tests whether d is small before its first accelerations. Then the function call that may follow has
+ * few registers to save. But the rotation's variables must survive the accelerations. The 16 registers of a PC are too
+ * few for that: the early test would cost 3 % more instructions. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
-/* As wh_accel_fn and wh_slope_fn, with the sine-cosine pairs of the waves instead of the angles' phases. */
+/* Like wh_accel_fn and wh_slope_fn, but with the sine-cosine pairs of the waves instead of the angles' phases. */
 typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh_real *linear,
                                 const wh_real *rate, const wh_real *input, wh_real *accel);
 typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh_real *real,
@@ -69,15 +69,15 @@ typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh
  * angles. */
 typedef struct wh_waves {
     const void *model;
-    /* sine and cosine of the waves, parts[count], at these phases of the angles */
+    /* Computes parts[count], the sine and cosine of each wave at these phases of the angles. */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* the waves' rates times `scale`, result[count], from the angles' rates; or another quantity that is linear in the
-     * angles */
+    /* Computes result[count], the waves' rates times `scale`, from the angles' rates. It also serves for other
+     * quantities that are linear in the angles. */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
 
-/* Has the row of the method the multiples (.turns) for rotated stages? */
+/* True if the method's row has .turns, so that its stages can rotate sines. */
 WH_INLINE bool wh_method_turns(wh_method method) {
     const wh_tableau *by = wh_tableau_of(method);
     return !wh_begins_away(by) && (by->stages == 1 || by->turns[1] == 1);
@@ -85,7 +85,7 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 
 /* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    /* pairs at the begin; or increments, if they are summed precisely */
+    /* Pairs at the begin; if increments are summed precisely, the increments. */
     wh_sine_parts parts[WH_WAVES];
     wh_wave at[WH_WAVES];   /* pairs rotated by the rates at the begin alone */
     wh_wave way[WH_WAVES];  /* increment of the next rotation, or of the last one */
@@ -113,8 +113,8 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* The rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. It is a function
- * call: several rotations need a stack frame anyway, and at the begin a call spills few registers. */
+/* Computes the rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. Not inlined,
+ * because several rotations need a stack frame anyway, and at the begin of a step a call spills few registers. */
 WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -123,7 +123,7 @@ WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     }
 }
 
-/* The increments of the first rotation, turn[waves->count], for these rates of the angles. */
+/* Computes the increments of the first rotation, turn[waves->count], from the rates of the angles. */
 WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const wh_real *rate,
                              wh_real h, wh_wave *turn) {
     wh_real d[WH_WAVES];
@@ -148,7 +148,7 @@ WH_INLINE void wh_turning_by(const wh_tableau *by, const wh_waves *waves, const 
     }
 }
 
-/* Begin to rotate by turn[], from the pairs in turning->at. */
+/* Prepares rotations by turn[], beginning with the pairs in turning->at. */
 WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool precise,
                                 wh_turning *t) {
     WH_UNROLL
@@ -161,7 +161,7 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
     }
 }
 
-/* Rotate on until `turns` rotations are done. If `precise`, increments are summed separately, so that each pair is
+/* Rotates until `turns` rotations are done. If `precise`, increments are summed separately, so that each pair is
  * rounded only once. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
@@ -201,8 +201,8 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
     }
 }
 
-/* The shear angles at a stage, times parts / h. gained[j][angle] is the change of the angle's rate at stage j + 1 since
- * the begin. Returns false if they are zero at this stage. */
+/* Computes the shear angles at a stage, times parts / h. gained[j][angle] is the change of the angle's rate from the
+ * begin to stage j + 1. Returns false if the shear angles are zero at this stage. */
 WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
                                 unsigned angles, wh_real *lean) {
     bool leans = false;
@@ -221,7 +221,7 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
     return leans;
 }
 
-/* The pair `at`, rotated by a small angle `lean`: three shears. */
+/* Returns the pair `at`, rotated by the small angle `lean` by three shears. */
 WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_real half = WH_R(0.5) * lean;
     const wh_real cosine = at.cosine - half * at.sine;
@@ -236,7 +236,7 @@ WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean
     return leant;
 }
 
-/* The pair `at`, rotated by an angle `lean` of any size. */
+/* Returns the pair `at`, rotated by the angle `lean` of any size. */
 WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_wave turn =
         WH_ABS(lean) <= WH_SINCOS_SMALL ? wh_sincos_small(lean) : wh_sincos_far(lean, true);
@@ -253,7 +253,8 @@ WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, boo
     return leant;
 }
 
-/* The pairs at stage `stage`; gained[] as for wh_turning_leans(). `far`: the shear angles may be large. */
+/* Computes the pairs at stage `stage`. gained[] is that of wh_turning_leans(). If `far`, the shear angles may be
+ * large. */
 WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], bool far, wh_turning *t,
                                 wh_wave *pair) {
@@ -274,7 +275,7 @@ WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* wh_turning_stage() for a method that gives the positions of its stages. */
+/* Does the same as wh_turning_stage(), for a method that gives the positions of its stages. */
 WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_given accels, wh_turning *t, wh_wave *pair) {
     const wh_shares *of = &to->by->places->reach[stage];
@@ -293,7 +294,7 @@ WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* The phases of the angles at a stage, for the ledger: the same as from wh_stage_angle(). */
+/* Computes the phases of the angles at a stage, for the ledger. They equal those of wh_stage_angle(). */
 WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_real *rate,
                                wh_given rates, wh_given accels, wh_phase *told) {
     const wh_shares *of = &to->by->stage[stage];
@@ -309,7 +310,7 @@ WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_r
     }
 }
 
-/* Arguments and results of an operation list. They have their own struct, so that all other variables stay in registers
+/* Arguments and results of an operation list. The separate struct lets compilers keep all other variables in registers
  * if the list is called. */
 typedef struct wh_turned_list {
     wh_wave pair[WH_WAVES];
@@ -376,8 +377,8 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* A step of to->h = h.high. Before each call of accel(), told[to->angles] gets the phases of the angles, unless `told`
- * is NULL. */
+/* Does a step of to->h = h.high. Before each call of accel(), told[to->angles] gets the phases of the angles, unless
+ * `told` is NULL. */
 WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *accel,
                                         const wh_waves *waves, const wh_stepping *to, wh_two_part h,
                                         wh_phase *told, wh_state *state) {
@@ -409,7 +410,7 @@ WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *a
     return wh_second_end(by, k.a1, k.alike, true, compensated, angles, n, h, state);
 }
 
-/* As wh_step_second(), with rotated sines, for a method that has .turns. */
+/* Does what wh_step_second() does, with rotated sines, for a method that has .turns. */
 WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_method method, bool compensated,
                                    unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
@@ -450,7 +451,8 @@ WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
     }
 }
 
-/* As wh_step_first(), with rotated sines, for a method that has .turns. Returns as wh_turn_second() does. */
+/* Does what wh_step_first() does, with rotated sines, for a method that has .turns. Returns as wh_turn_second()
+ * does. */
 WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
                                   unsigned angles, unsigned reals, wh_two_part h, wh_state *state) {

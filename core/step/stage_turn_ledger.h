@@ -1,5 +1,4 @@
-/* stage_turn_ledger.h: fills the ledger (ledger.h) for stages with rotated sines (stage_turn.h). C only, as step.h
- * is. */
+/* stage_turn_ledger.h: fills the ledger (ledger.h) for stages with rotated sines (stage_turn.h). C only. */
 #ifndef WH_STAGE_TURN_LEDGER_H
 #define WH_STAGE_TURN_LEDGER_H
 
@@ -20,7 +19,7 @@ typedef struct wh_turn_ledger_model {
     const wh_phase *phase; /* phases of the angles [form->angles] at the present stage */
 } wh_turn_ledger_model;
 
-/* The accelerations; also enters the stage in the ledger, which looks up its own sines. A wh_turned_accel_fn. */
+/* Computes the accelerations and enters the stage in the ledger, which looks up its own sines. A wh_turned_accel_fn. */
 WH_INLINE void wh_turn_ledger_accel(const void *of, const wh_wave *pair, const wh_real *linear,
                                     const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_turn_ledger_model *m = of;

@@ -14,9 +14,9 @@
 #include "refuse.h"
 #include "stage_sums.h"
 
-/* Move *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size. The move is rounded to the nearest:
- * truncation would slow every angle down by half a unit per step. If compensated, *carry is added and becomes the
- * round-off. *carry is added separately, because it would be lost in the sum with a large move. */
+/* Moves *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size. The move is rounded to nearest: truncation
+ * would slow every angle down by half a unit per step. If compensated, *carry is added and becomes the round-off. It is
+ * added separately, because a sum with a large move would lose it. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -28,19 +28,19 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
         *carry = left - (float)more;
         whole += more; /* no overflow: if `steps` is large, it is whole and `more` is 0 */
     }
-    /* turns beyond 2^31 wrap as the phase does, without undefined behaviour */
+    /* A turn count beyond 2^31 wraps, without undefined behaviour. */
     *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
 #endif
 }
 
-/* This macro receives the round-off of turn angle i in a step of length h, in phase units. The interpreter defines it
- * (host/engine/loss.inc). Elsewhere it is empty. */
+/* WH_ANGLE_LOST receives the round-off of turn angle i in a step of length h, in phase units. The interpreter defines
+ * it (host/engine/loss.inc). Elsewhere it is empty. */
 #ifndef WH_ANGLE_LOST
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif
 
-/* Are all value[n] within WH_ABSURD? One check suffices: the sum of their magnitudes is at least as large as the
- * largest. */
+/* True if all value[n] are within WH_ABSURD. One comparison suffices: if the sum of all magnitudes is within the limit,
+ * each number is. */
 WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -50,8 +50,8 @@ WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     return n == 0 || all < WH_ABSURD;
 }
 
-/* Refuse the step because value[n], the components from `first` on, are not all believable. The fault is the first
- * component that exceeds the limit by itself, otherwise the last one. */
+/* Refuse the step because one of value[n], the components from number `first` on, is not believable. The fault is the
+ * first component that exceeds the limit by itself; if only the sum does, the last component. */
 WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     WH_UNROLL
@@ -63,7 +63,7 @@ WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned f
     return wh_refuse(state, first + n - 1);
 }
 
-/* wh_refuse_first() in the form that takes the least flash. */
+/* Does the same as wh_refuse_first(), in the form that takes the least flash. */
 WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     if (WH_REALS_IN_REGISTERS && n > 1 && n <= 4) {
@@ -77,7 +77,7 @@ WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned f
     return wh_refuse_first(value, n, first, state);
 }
 
-/* Refuse the step because angle `far` would move by half a turn or more. Does nothing if there is no such angle. */
+/* Refuse the step if there is an angle `far` that would move by half a turn or more. */
 #define WH_REFUSE_FAR(far) \
     do { \
         const unsigned far_angle = (far); \
@@ -86,7 +86,7 @@ WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned f
         } \
     } while (false)
 
-/* The results of a step, before they are known to be in bounds. */
+/* The results of a step, before their bounds are checked. */
 typedef struct wh_trial {
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
@@ -128,7 +128,7 @@ WH_INLINE wh_status wh_step_counted(wh_status status, wh_state *state) {
     return status;
 }
 
-/* trial->carry[count] at a step's begin: the carries of the last step, if sums are compensated. */
+/* Fills trial->carry[count] at a step's begin: with the carries of the last step if sums are compensated. */
 WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned count,
                               wh_trial *trial) {
     WH_UNROLL
@@ -138,8 +138,8 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
 }
 
 /* Computes trial->angle[] of a step of length h: the state's angles, each moved by move[] times rad_a_move. If
- * compensated, trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a
- * turn or more, or by NaN; or `angles`. Such moves are rare, so one check of the sum of all magnitudes comes first. */
+ * compensated, trial->carry[] is added and becomes the round-off. Returns the first angle that would move by NaN, or by
+ * half a turn or more; or `angles`. Such moves are rare, so one check of the sum of all magnitudes comes first. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -173,10 +173,10 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, w
     return angles;
 }
 
-/* Returns value + by * factor, as wh_sum() does. `product` is by.high * factor, `h` the step. The part by.low * factor
- * is less than half a unit in the product's last place, so adding it to the product would have no effect. So the
- * round-off is computed from the product alone, and by.low * factor is added to the carry, which is small. A step
- * without a low part (as in scenes with contacts) skips this: its carry must stay zero if nothing moves. */
+/* Returns value + by * factor, summed as by wh_sum(). `product` is by.high * factor. The part by.low * factor is less
+ * than half a unit in the product's last place, so adding it to the product would have no effect. It is added to the
+ * small carry instead, and the round-off is computed from the product alone. A step `h` without a low part, as in
+ * scenes with contacts, leaves the round-off to wh_sum(). */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, wh_real product,
                                  wh_two_part h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
@@ -192,21 +192,21 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* The error of h^2 divided by the row's parts, in s^2, because of two roundings and of the stages. The sum of
- * accelerations in the change of positions is multiplied by it. Stages use h.high, because h.low would be lost by
- * rounding. So the distance of a stage is too short by the share e. This changes the rates as if h/2 e times the change
- * of the forces were missing. In every step the energy then has an error of the same size and sign: 5e-13 of a
- * pendulum's energy in a step of a millisecond. If the positions also lack the share e of h^2/2 times the
- * accelerations, both errors together are the derivative of a small quantity. The energy then stays constant if the
- * mass matrix is constant, and otherwise most of the error vanishes (docs/dev/numerics.md). A method with one stage, at
- * the step's begin, has no such error. */
+/* Returns the error of h^2 divided by the row's parts, in s^2; the caller multiplies it by the sum of accelerations in
+ * the change of positions. Its causes are two roundings, and stages that use h.high because rounding would lose h.low.
+ * So the distance of a stage is too short by the share e. This changes the rates as if h/2 e times the change of the
+ * forces were missing. In every step the energy then has an error of the same size and sign: 5e-13 of a pendulum's
+ * energy in a step of a millisecond. If the positions also lack the share e of h^2/2 times the accelerations, both
+ * errors together are the derivative of a small quantity. The energy then stays constant if the mass matrix is
+ * constant, and otherwise most of the error vanishes (docs/dev/numerics.md). A method whose only stage is at the step's
+ * begin has no such error. */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
 }
 
-/* wh_square_short() for angles, in phase units times s^2. Stages that rotate sines (stage_turn.h) use h.high alone.
- * Others use the rounded product of h.high and WH_PHASE_PER_RAD, or multiply by both in turn. */
+/* Returns wh_square_short() for angles, in phase units times s^2. Stages that rotate sines (stage_turn.h) use h.high
+ * alone. Other stages multiply by the rounded product of h.high and WH_PHASE_PER_RAD, or by one after the other. */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
@@ -222,7 +222,7 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
     return phases.high * part.low + part.high * phases.low;
 }
 
-/* Add this step's error of the positions to their carries. pulled[] are the sums of accelerations that move the
+/* Adds this step's error of the positions to their carries. pulled[] are the sums of accelerations that move the
  * positions. A step without a low part skips this, as in wh_sum_product(), except for angles. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
                                   wh_two_part h, bool turned, unsigned angles, unsigned linears,
@@ -237,8 +237,9 @@ WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, w
     }
 }
 
-/* The end of a step of q'' = f: moves the state by a1 (the result of the first stage), the results of the later stages,
- * and the sums of stages with equal weights. `turned`: the stages rotated sines. Returns as wh_step_second() does. */
+/* Ends a step of q'' = f: moves the state by a1 (the result of the first stage), the results of the later stages, and
+ * the sums of stages with equal weights. `turned` is true if the stages rotated sines. Returns as wh_step_second()
+ * does. */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool turned, bool compensated,
                                   unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
@@ -293,7 +294,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     return wh_accept(&trial, angles, linears + n, compensated, state);
 }
 
-/* As wh_second_end(), for a step of x' = f. */
+/* Does the same as wh_second_end(), for a step of x' = f. */
 WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
                                  unsigned reals, wh_two_part h, wh_state *state) {

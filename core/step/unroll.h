@@ -1,4 +1,5 @@
-/* unroll.h: loops that generated code unrolls, and gcc optimizations that are switched off there. Part of step.h. */
+/* unroll.h: loops that generated code unrolls, and gcc optimizations that are switched off in generated code. Part of
+ * step.h. */
 #ifndef WH_UNROLL_H
 #define WH_UNROLL_H
 
@@ -7,17 +8,18 @@
     "core/step/unroll.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
 #endif
 
-/* Most coordinates (second order) or components (first order). A generated scene defines its own number and unrolls its
- * loops: compilers do not unroll them by themselves, and arrays indexed by a counter would stay in memory. */
+/* Maximum number of coordinates (second order) or components (first order). A generated scene defines its own number
+ * and unrolls its loops. Compilers do not unroll them by themselves, and arrays indexed by a counter would stay in
+ * memory. */
 #ifndef WH_COORDS
 #define WH_COORDS 64
 #define WH_UNROLL
 #endif
-#ifdef WH_UNROLL /* defined by the user */
+#ifdef WH_UNROLL
 #elif defined(__clang__)
 #define WH_UNROLL _Pragma("clang loop unroll(full)")
 #define WH_UNROLLS
-/* a loop without a constant bound is not unrolled, and clang shall not warn of it */
+/* clang shall not warn that a loop without a constant bound is not unrolled */
 #pragma clang diagnostic ignored "-Wpass-failed"
 #elif defined(__GNUC__) && __GNUC__ >= 8 /* older versions do not know the pragma */
 #define WH_UNROLL _Pragma("GCC unroll 64")
@@ -33,18 +35,18 @@
 #pragma GCC optimize("O3")
 #endif
 
-/* Without these, gcc would move a stage's computation below the checks of the next stage, where more values are live:
- * up to 8 % more instructions per step. It would also load, before each check, the index of the component that may
- * fail: up to 3 %. And it would call memcpy() for a loop over one or two values. */
+/* These optimizations are off. With them gcc moves a stage's computation below the checks of the next stage, where more
+ * values are live: up to 8 % more instructions per step. It also loads, before each check, the index of the component
+ * that may fail: up to 3 %. And it calls memcpy() for a loop over one or two values. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-sink", "no-if-conversion2", "no-tree-loop-distribute-patterns", \
                      "no-tree-slp-vectorize")
 #endif
 
-/* The operations of a long list are ordered so that few values are live. If the processor seems to have enough
- * registers, gcc reorders them for latency before it allocates registers. For a pendulum of ten links this costs 14 %
- * more instructions per step on a Cortex-M4F, and a third more code on an RV32IMAFC or an AArch64. (Short lists fit into
- * registers, and the reordering saves cycles.) */
+/* The operations of a long list are ordered so that few values are live at a time. If the processor seems to have
+ * enough registers, gcc reorders them for latency before it allocates registers; this option prevents that. For a
+ * pendulum of ten links the reordering costs 14 % more instructions per step on a Cortex-M4F, and a third more code on
+ * an RV32IMAFC or an AArch64. (Short lists fit into registers, and the reordering saves cycles.) */
 #if defined(WH_LONG_LIST) && defined(__GNUC__) && !defined(__clang__) && \
     (defined(__ARM_FP) || defined(__aarch64__) || defined(__riscv_flen))
 #pragma GCC optimize("no-schedule-insns", "no-tree-ter")
