@@ -1,4 +1,4 @@
-/* reread.h: formulas as `whirl derive` prints them, parsed by the language's own parser and compared with their
+/* reread.h: reads formulas that `whirl derive` prints with the language's own parser, and compares them with the
  * expressions at random states. */
 #ifndef TESTS_HOST_REREAD_H
 #define TESTS_HOST_REREAD_H
@@ -7,8 +7,8 @@
 
 enum { REREAD_COORDINATES = 4, REREAD_CONSTANTS = 6, REREAD_PARAMETERS = 3, REREAD_STATES = 4 };
 
-/* Names in these tests' mechanisms: coordinates or states, then parameters and inputs. Natural names, Greek letters,
- * indices and odd underscores. */
+/* The names in the mechanisms of these tests: coordinates or states, then parameters and inputs. They include
+ * natural names, Greek letters, indices and odd underscores. */
 extern const char *const reread_coordinates[REREAD_COORDINATES];
 extern const char *const reread_constants[REREAD_CONSTANTS];
 
@@ -18,21 +18,21 @@ typedef struct state {
 } state;
 
 state random_values(uint64_t *seed);
-/* Callback of poly_evaluate() with a state as context. */
+/* Callback for poly_evaluate(). `context` is a state. */
 double value_here(void *context, const symbol *sym, int primes);
 
 typedef struct read_back {
     diags *said;
     whirl_model *model;
-    instance *instance; /* NULL after a refusal, which has been printed */
+    instance *instance; /* NULL if the formulas were refused; the errors have been printed */
 } read_back;
 
-/* The formulas as outputs of a mechanism with all names as inputs. */
+/* Parses the formulas as outputs of a mechanism in which all names are inputs. */
 read_back parse_back(const char *const *formulas, int count);
 void drop_back(read_back *b);
 double back_value(const read_back *b, int which, const state *s);
 
-/* An expected formula: its value at a state, and the size of its terms. */
+/* The expected value of a formula at a state. *size: the size of its terms. */
 typedef struct quantity {
     double (*value)(const struct quantity *of, const state *at, double *size);
     algebra *algebra;
@@ -41,17 +41,18 @@ typedef struct quantity {
     int unknown;
 } quantity;
 
-/* Value of of->poly; NaN if cancellation leaves it no reliable digit. */
+/* The value of of->poly; NaN if a part of the expression is out of range. *size: the sum of the absolute terms. */
 double poly_here(const quantity *of, const state *at, double *size);
-/* Are all parts of the expression in range? 1/(1 + x) would hide an infinite x, and sin(x) that a large x has no digits. */
+/* Is the expression smaller than `most`, and all its arguments smaller than 1e5? 1/(1 + x) would hide an infinite x,
+ * and sin(x) of a large x has no digits. */
 bool is_in_range(const poly *p, double most, state *s);
 
-/* Compares the formula (minus formula `right`, if not -1) with the quantity at random states. Returns the number of
- * states with a value. `text` is for messages. */
+/* Compares formula `which` with the quantity at random states. If right >= 0, formula `right` is first subtracted.
+ * Returns the number of states with a value. `text` is used in messages only. */
 int compare(const quantity *q, const char *text, const read_back *b, int which, int right,
             uint64_t *seed);
 
-/* The formula must be valid LaTeX (latex.h). */
+/* Fails the test if the formula is not valid LaTeX (latex.h). */
 void expect_compiles(const char *latex);
 
 #endif

@@ -1,4 +1,4 @@
-/* rig_orbit.c: one turn of the eccentric-mass rig in fine steps, and synthetic measurements of it. */
+/* rig_orbit.c: one turn of the eccentric-mass rig in fine steps, and synthetic measurements of this turn. */
 #include "rig_orbit.h"
 
 #include <math.h>
@@ -12,7 +12,8 @@
 #define PI 3.14159265358979323846
 
 const rig_plant rig_plant_nominal = {
-    /* each of the two sets has an arm of 0.152 lb, 7.25 in long; discs 0.15 lb at 6.5 in; 5e-4 kg m^2 of motor and shafts */
+    /* two sets of: an arm of 0.152 lb, 7.25 in long, and a disc of 0.15 lb at 6.5 in; motor and shafts have 5e-4 kg
+     * m^2 */
     .unbalance_kgm = 2.0 * (0.152 * 3.625 + 0.15 * 6.5) * 0.45359237 * 0.0254,
     .inertia_kgm2 =
         2.0 * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) * 0.45359237 * 0.0254 * 0.0254 + 5e-4,
@@ -22,7 +23,7 @@ const rig_plant rig_plant_nominal = {
     .tare_N = (12.0 + 2.0 * (0.152 + 0.15)) * 0.45359237 * 9.80665,
 };
 
-/* --- the turn: speed over the angle, dw/dtheta = torque/(I w), dt/dtheta = 1/w ------------------ */
+/* --- one turn: dw/dtheta = torque/(I w), dt/dtheta = 1/w, with the angle theta and the speed w --- */
 
 static double acceleration(const rig_plant *p, double drive_Nm, double theta, double w) {
     const double given_Nm = fmax(0.0, drive_Nm + p->fed_Nm * sin(theta - p->fed_late_rad));
@@ -37,10 +38,11 @@ static double bend(const rig_plant *p, double drive_Nm, double theta, double w) 
 }
 
 #define STEPS 1024U
-static double speed_at[2U * STEPS + 1U]; /* at every half step of the angle */
+static double speed_at[2U * STEPS + 1U]; /* at each half step of the angle */
 static double time_at[STEPS + 1U];
 
-/* Returns the speed at the end of a turn that begins with speed w at angle `from`. Fills time_at and speed_at. */
+/* Integrates a turn that begins at angle `from` with the speed w. Returns the speed at its end. Fills time_at and
+ * speed_at. */
 static double turn(const rig_plant *p, double drive_Nm, double from, double w) {
     const double h = 2.0 * PI / STEPS;
     time_at[0] = 0.0;
@@ -52,7 +54,7 @@ static double turn(const rig_plant *p, double drive_Nm, double from, double w) {
         const double k3 = bend(p, drive_Nm, a + h / 2.0, w + h / 2.0 * k2);
         const double k4 = bend(p, drive_Nm, a + h, w + h * k3);
         const double next = w + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-        /* Hermite's cubic at the middle */
+        /* the middle of a cubic Hermite interpolation */
         const double middle = (w + next) / 2.0 + h / 8.0 * (k1 - bend(p, drive_Nm, a + h, next));
         time_at[i + 1U] = time_at[i] + h / 6.0 * (1.0 / w + 4.0 / middle + 1.0 / next);
         speed_at[2U * i + 1U] = middle;
@@ -62,7 +64,7 @@ static double turn(const rig_plant *p, double drive_Nm, double from, double w) {
     return w;
 }
 
-/* The periodic turn with this torque, by the secant method. */
+/* Finds the speed w with which a turn under this torque ends as fast as it began, by the secant method. */
 static double periodic(const rig_plant *p, double drive_Nm, double from) {
     double w = drive_Nm / (p->line_Nms + p->drag_Nms);
     for (unsigned round = 0; round < 60; round++) {
@@ -83,7 +85,7 @@ static double force(const rig_plant *p, double drive_Nm, double theta, double w)
            (w * w * cos(theta) + acceleration(p, drive_Nm, theta, w) * sin(theta));
 }
 
-/* The index of the step that contains the time `t` of the turn. */
+/* The number of the step that contains the time `t` of the turn. */
 static unsigned step_of(double t) {
     unsigned low = 0;
     unsigned high = STEPS;
@@ -122,7 +124,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
     double least = speed_at[0];
     double most = speed_at[0];
     for (unsigned i = 0; i < STEPS; i++) {
-        /* the integrand is smooth and periodic, so the sum is the integral */
+        /* this sum gives the integral exactly, because the integrand is smooth and periodic */
         const double theta = from + h * i;
         const double w = speed_at[2U * i];
         const double f = force(plant, drive_Nm, theta, w);
@@ -138,7 +140,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
     for (unsigned k = 0; k <= ORBIT_NODES; k++) {
         const double t = fmin(k * orbit->node_s, time_at[STEPS]);
         const unsigned i = step_of(t);
-        /* angle within the step, from the speeds at both ends and the middle */
+        /* the angle within the step follows from the speeds at both ends */
         double part = (t - time_at[i]) / (time_at[i + 1U] - time_at[i]);
         const double w0 = speed_at[2U * i];
         const double w1 = speed_at[2U * i + 2U];
@@ -150,7 +152,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
 
 static double uniform(void) { return ((double)(scattered() >> 11) + 0.5) * 0x1p-53; }
 
-/* A normal variate (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */
+/* A normal random number (Box and Muller, Annals of Mathematical Statistics 29 (1958) 610). */
 static double normal(void) { return sqrt(-2.0 * log(uniform())) * cos(2.0 * PI * uniform()); }
 
 void rig_measure_config(wh_result_config *result, wh_rotor_config *rotor, wh_cell_config *cell) {
@@ -172,7 +174,8 @@ static double force_at(const rig_orbit *orbit, double t_s) {
     return orbit->force_N[k] + (at - whole) * (orbit->force_N[k + 1U] - orbit->force_N[k]);
 }
 
-/* The force that is shown by a cell with a limit, a curved characteristic or hysteresis. */
+/* The force that a cell with clipping, a curved characteristic, hysteresis or a gain error shows. *follows_N is the
+ * state of the hysteresis. */
 static double shown_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
                        double *follows_N) {
     double least_N = 0.0;
@@ -193,7 +196,7 @@ static double shown_at(const rig_orbit *orbit, const rig_noise *noise, double t_
     return (1.0 + noise->gain_off) * *follows_N;
 }
 
-/* Mean of the coarse converter's readings within 1 ms of t_s, in the unit of the cell's counts. */
+/* Mean of the coarse converter's readings within 1 ms of t_s, in counts of the load cell. */
 static int32_t mean_at(const rig_orbit *orbit, const rig_noise *noise, double t_s,
                        double on_top_N) {
     double sum = 0.0;
@@ -224,7 +227,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     wh_lockin_compensate(&lockin, orbit->fed, WH_R(0.0625));
     lockin.angle.drive_V = (wh_real)(orbit->drive_Nm / 0.0625);
     wh_merge merge = {0};
-    const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps during the measurement */
+    const uint32_t begin = UINT32_MAX - 1500000U; /* makes the timer wrap during the measurement */
     const double first_mark_s = uniform() * period_s + 0.001;
     unsigned marks = 0;
     double due_s = first_mark_s + noise->jitter_s * normal();
@@ -234,7 +237,8 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     int32_t mean[3] = {0};
     for (uint32_t i = 1; merge.turns + merge.left_out < turns && done < before + turns; i++) {
         const double now_s = i * period_s;
-        while (due_s <= now_s) { /* the timer drops fractions of a tick */
+        /* the conversion to uint32_t drops fractions of a tick, as a timer does */
+        while (due_s <= now_s) {
             wh_lockin_pulse(&lockin, marks % 2U, begin + (uint32_t)(due_s * 1e6),
                             marks / 2U * 4U + marks % 2U);
             marks++;

@@ -6,7 +6,7 @@
 #include "host/engine/engine.h"
 
 #define RAD_PER_PHASE (6.283185307179586477 / 4294967296.0)
-#define ROUNDS 0x1p-24 /* largest relative error of rounding to float */
+#define ROUNDS 0x1p-24 /* relative error of one rounding to float */
 
 static uint32_t scatter(uint32_t x) {
     x = (x ^ (x >> 16)) * UINT32_C(0x7feb352d);
@@ -14,7 +14,7 @@ static uint32_t scatter(uint32_t x) {
     return x ^ (x >> 16);
 }
 
-/* The cells as in generated code: in float. */
+/* The cells in float, scaled in the same way as in generated code. */
 static float *cells_of(const op_list_tables *t) {
     const int numbers = t->count * t->terms << t->bits;
     float *cells = alloc(numbers, sizeof *cells);
@@ -26,7 +26,7 @@ static float *cells_of(const op_list_tables *t) {
     return cells;
 }
 
-/* Bound on the error of function k: the table's own error, and round-off of value, addend and sum. */
+/* Bound on the error of function k: the table's own error, and the round-off of value, addend and sum. */
 static double bound_of(const op_list_tables *t, int k) {
     double away = 0.0;
     for (int i = 0; i < 1 << t->bits; i++) {
@@ -37,7 +37,7 @@ static double bound_of(const op_list_tables *t, int k) {
         }
         away = fmax(away, most);
     }
-    /* the largest error may be between the phases that the image sampled */
+    /* 2 % more: the largest error may lie between the phases that the image sampled */
     return 1.02 * t->off[k] + ROUNDS * (2.0 * t->size[k] + 6.0 * away) + 1e-14 * t->size[k];
 }
 
@@ -71,7 +71,7 @@ uint64_t table_check(const image *const *im, int images, uint64_t stride,
     }
     for (uint64_t at = 0; at < UINT64_C(1) << 32; at += stride, phases++) {
         const uint32_t phase = (uint32_t)(at + scatter((uint32_t)at) % stride);
-        /* half a turn to each side, where it is most accurate */
+        /* from -half a turn to half a turn: there the double is most accurate */
         angle_rad[angle] = (int32_t)phase * RAD_PER_PHASE / turns[angle];
         evaluator_run(ev, 0.0, angle_rad, NULL, NULL, NULL, exact);
         for (int m = 0; m < images; m++) {
@@ -85,7 +85,7 @@ uint64_t table_check(const image *const *im, int images, uint64_t stride,
                     t->terms == WH_TABLE_LINEAR ? wh_table_linear(of, y) : wh_table_cubic(of, y);
                 const double off = fabs((double)value - exact[k]);
                 error[m][k].square += off * off;
-                if (!(off <= error[m][k].worst)) { /* NaN counts as the worst */
+                if (!(off <= error[m][k].worst)) { /* a NaN counts as the worst */
                     error[m][k].worst = off;
                     error[m][k].worst_at = phase;
                 }

@@ -25,7 +25,6 @@ int tangled_bodies(uint64_t seed) {
     return 2 + (int)(random_bits(&s) % (BODIES - 1));
 }
 
-/* Shuffles the statements (Fisher and Yates). */
 static void shuffle(statements *s, uint64_t order) {
     uint64_t seed = order * 0xd1342543de82ef95U + 3U;
     for (int i = s->count - 1; i > 0 && order != 0; i--) {
@@ -37,7 +36,7 @@ static void shuffle(statements *s, uint64_t order) {
     }
 }
 
-/* Stops between neighbours, often touching, and walls at the ends. */
+/* Adds stops between neighbours, which often touch, and walls at the ends. */
 static void add_stops(statements *s, uint64_t *seed, int n, const double *x) {
     static const double restitutions[] = {0.0, 0.5, 1.0};
     for (int i = 0; i <= n; i++) {
@@ -59,7 +58,7 @@ double tangled_text(const tangle *of, char *text, size_t size) {
     static const double speeds[] = {-1.0, 0.0, 1.0};
     uint64_t seed = seed_of(of->seed);
     const int n = 2 + (int)(random_bits(&seed) % (BODIES - 1));
-    const bool equal = chance(&seed, 2); /* masses and speeds that make simultaneous events */
+    const bool equal = chance(&seed, 2); /* equal masses and speeds make events at the same time */
     double m[BODIES];
     double x[BODIES];
     double v[BODIES];

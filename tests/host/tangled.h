@@ -1,22 +1,22 @@
-/* tangled.h: random mechanisms with several simultaneous contacts: bodies in a row between walls. They touch from the
- * start, rub, and are coupled and released. */
+/* tangled.h: random mechanisms with several contacts that act at the same time: bodies in a row between walls, which
+ * may touch from the start, rub, and be coupled and released. */
 #ifndef TESTS_TANGLED_H
 #define TESTS_TANGLED_H
 
 #include "test.h"
 
 typedef struct tangle {
-    uint64_t seed;  /* same seed, same mechanism */
-    uint64_t order; /* order of its statements: 0: as generated, else a seed of a permutation */
-    int plain;      /* only impacts: stops without springs and loads */
+    uint64_t seed;  /* the same seed gives the same mechanism */
+    uint64_t order; /* 0: the statements are not shuffled; else the seed of the permutation */
+    int plain;      /* impacts only: stops without springs and loads */
     double step_s;
     double until_s;
 } tangle;
 
-/* Writes a mechanism and its scene with energy balance to text[size]. Returns its energy scale, J. */
+/* Writes a mechanism and its scene, with energy balance, to text[size]. Returns the scale of its energy in J. */
 double tangled_text(const tangle *of, char *text, size_t size);
 
-/* Number of bodies, with coordinates x1, x2 ... */
+/* Number of bodies. Their coordinates are x1, x2, ... */
 int tangled_bodies(uint64_t seed);
 
 #endif

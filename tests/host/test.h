@@ -1,4 +1,4 @@
-/* test.h: what suites of the host have in common: the C library with POSIX, Unity, and TEST(). It comes first. */
+/* test.h: the C library with POSIX, Unity, and TEST(). Every suite of the host includes this file first. */
 #ifndef TESTS_HOST_TEST_H
 #define TESTS_HOST_TEST_H
 

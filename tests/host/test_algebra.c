@@ -1,16 +1,14 @@
-/* test_algebra.c: the normal form of expressions. Equal expressions become one object and different ones do not.
- * Values, derivatives and substitutions of random expressions are compared with libm and with difference quotients. */
+/* test_algebra.c: the normal form of expressions. Equal expressions become one object, different ones do not.
+ * Values, derivatives and substitutions of random expressions are compared with libm and difference quotients. */
 #include "host/algebra/algebra.h"
 
 #include "derived.h"
 
-/* --- symbols and drawn expressions -------------------------------------------------------------------*/
-
-/* Symbols of every kind and random expressions in normal form. */
+/* Symbols of every kind, and random expressions in normal form. */
 
 enum { FORM_SYMBOLS = 7, FORM_PRIMES = 3 };
 
-/* Two symbols have the same kind and number but belong to different mechanisms. */
+/* These two symbols have the same kind and number, but belong to different mechanisms. */
 static const symbol form_symbols[FORM_SYMBOLS] = {
     {.kind = SYM_COORDINATE, .name = "q", .text = "", .unit = "", .index = 0},
     {.kind = SYM_COORDINATE, .name = "r", .text = "", .unit = "", .index = 1},
@@ -23,7 +21,7 @@ static const symbol form_symbols[FORM_SYMBOLS] = {
 
 static int form_place(const symbol *sym) { return (int)(sym - form_symbols); }
 
-/* Order of numbers: -1, 0 or 1. */
+/* Returns -1, 0 or 1 for x < y, x = y or x > y. */
 static int form_order(double x, double y) { return x < y ? -1 : x > y ? 1 : 0; }
 
 static bool is_tame(const poly *p) {
@@ -38,7 +36,7 @@ static const poly *random_leaf(algebra *a, uint64_t *seed) {
                        (int)(random_bits(seed) % FORM_PRIMES));
 }
 
-/* A random expression of finite numbers and at most 12 terms. */
+/* A random expression with finite numbers and up to 12 terms. */
 static const poly *form_random(algebra *a, uint64_t *seed, int depth) {
     static const double exponents[] = {-3.0, -2.0, -1.0, -0.5, 0.5, 1.5, 2.0, 3.0, 3.0, 4.0, 17.0};
     static const function_id functions[] = {FN_TAN,  FN_ATAN, FN_EXP, FN_ABS,
@@ -69,14 +67,14 @@ static const poly *form_random(algebra *a, uint64_t *seed, int depth) {
 
 /* === algebra ================================================================================== */
 
-/* --- identities, as text -------------------------------------------------------------------------*/
+/* --- identities of expressions that are given as text --- */
 
 typedef struct sides {
-    bool same;     /* one object */
-    bool expanded; /* their difference is zero after kept powers are expanded */
+    bool same;     /* both sides are one object */
+    bool expanded; /* the difference is zero after all powers have been expanded */
 } sides;
 
-/* Parses both sides as `let`s and compares their normal forms. */
+/* Parses both sides as `let` statements and compares their normal forms. */
 static sides compare(const char *left, const char *right) {
     char text[1024];
     snprintf(text, sizeof text,
@@ -180,7 +178,8 @@ TEST(algebra, what_differs_somewhere_stays_apart) {
     }
 }
 
-/* A cube of a sum is not expanded. poly_expanded() finds equality that needs expansion. */
+/* The cube of a sum is not expanded. So equal expressions can have two forms, which poly_expanded() shows to be
+ * equal. */
 TEST(algebra, kept_powers_are_equal_when_expanded) {
     static const pair equal[] = {
         {"(x - y)^3", "x^3 - 3*x^2*y + 3*x*y^2 - y^3"},
@@ -202,16 +201,14 @@ TEST(algebra, kept_powers_are_equal_when_expanded) {
     }
 }
 
-/* --- random expressions --------------------------------------------------------------------------*/
-
 enum { VARIABLES = 3, NODES = 64 };
 
-/* A tree evaluated with libm, independently of the algebra. */
+/* An expression as a tree, which the test evaluates with libm and without the algebra. */
 typedef struct node {
     expr_op op;
     function_id function;
     int variable;
-    double number; /* also the exponent of EXPR_POW */
+    double number; /* value of EXPR_NUMBER, exponent of EXPR_POW */
     int left;
     int right;
 } node;
@@ -252,7 +249,7 @@ static int grow(tree *t, uint64_t *seed, int depth) {
     return t->count++;
 }
 
-/* The result of one operation; NaN also for infinite derivatives and on the branch cut of atan2. */
+/* The result of one operation. NaN if a derivative is infinite, and on the branch cut of atan2. */
 static double applied(const node *n, double a, double b, const double x[VARIABLES]) {
     const double none = (double)NAN;
     switch (n->op) {
@@ -288,7 +285,7 @@ static double applied(const node *n, double a, double b, const double x[VARIABLE
     return none;
 }
 
-/* The value of a tree; NaN if any part is not finite: 1/0 may have either sign in the normal form. */
+/* The value of a tree. NaN if any part is not finite, because 1/0 may have either sign in the normal form. */
 static double value_of(const tree *t, int i, const double x[VARIABLES]) {
     const node *n = &t->nodes[i];
     const double a = n->left < 0 ? 0.0 : value_of(t, n->left, x);
@@ -320,8 +317,8 @@ static double variable_value(void *context, const symbol *sym, int primes) {
     return ((const double *)context)[sym->index];
 }
 
-/* *scale is the size for comparisons: differences between neighbouring points show the loss by cancellation. Returns
- * false if the value is not finite and smooth around the point. */
+/* Returns false if the value is not finite or not smooth around the point. *scale: the size by which errors are
+ * judged; differences between neighbouring points show the loss by cancellation. */
 static bool smooth_value(const tree *t, int top, const double at[VARIABLES], double *value,
                          double *scale) {
     *value = value_of(t, top, at);
@@ -338,7 +335,8 @@ static bool smooth_value(const tree *t, int top, const double at[VARIABLES], dou
     return isfinite(*value) && *scale < 1e6;
 }
 
-/* Five-point central difference; false if two spacings disagree (a kink or a pole near by). */
+/* The derivative by a five-point central difference. Returns false if two spacings disagree, as they do near a kink
+ * or a pole. */
 static bool difference(const tree *t, int top, const double at[VARIABLES], int by, double *slope) {
     double estimate[2];
     for (int k = 0; k < 2; k++) {
@@ -396,7 +394,7 @@ static void check_random(uint64_t *seed, int depth, tally *score) {
                 score->slopes++;
             }
         }
-        /* v := w^2 - u/2, then the value with v equal to that */
+        /* substitutes w^2 - u/2 for v; the expected value is computed with v equal to that */
         const poly *u = poly_symbol(a, &variables[0], 0);
         const poly *w = poly_symbol(a, &variables[2], 0);
         const poly *in = poly_sub(a, poly_mul(a, w, w), poly_scale(a, u, 0.5));
@@ -429,10 +427,8 @@ TEST(algebra, random_expressions_their_derivatives_and_substitutions) {
 }
 
 /* === algebra limits =========================================================================== */
-/* Limits of host/algebra: sizes up to which powers and products are expanded, cancellation, non-numbers, magnitudes,
- * powers of expressions and determinants. */
-
-/* --- values -------------------------------------------------------------------------------------------- */
+/* The limits of host/algebra: the sizes up to which powers and products are expanded, cancellation, values that are
+ * not numbers, magnitudes, powers of expressions, and determinants. */
 
 static double value_of_symbol(void *context, const symbol *sym, int primes) {
     return ((const double *)context)[form_place(sym) * FORM_PRIMES + primes];
@@ -444,8 +440,8 @@ static void random_values(double at[FORM_SYMBOLS * FORM_PRIMES], uint64_t *seed)
     }
 }
 
-/* The definition in poly.h, written independently: the size of each term without its sine or cosine. A power of a sum
- * counts the larger of the sum and its parts. */
+/* The magnitude that poly.h defines, computed independently: the size of each term without its sine or cosine. A
+ * power of a sum counts the larger of the sum and its parts. */
 static double expected_magnitude(const poly *p, double *at) {
     double sum = 0.0;
     for (int i = 0; i < p->count; i++) {
@@ -487,7 +483,7 @@ TEST(algebra_limits, magnitudes_are_sums_of_sizes) {
     TEST_ASSERT_GREATER_THAN_INT(200, differing);
 }
 
-/* Powers with an expression as exponent, such as x^y. Other random expressions have only numbers as exponents. */
+/* The exponent may be an expression, as in x^y. The other random expressions have only numbers as exponents. */
 TEST(algebra_limits, powers_of_expressions_and_their_slopes) {
     uint64_t seed = 5;
     int slopes = 0;
@@ -576,9 +572,7 @@ TEST(algebra_limits, each_number_is_changed_and_those_that_vanish_go) {
     }
 }
 
-/* --- limits -------------------------------------------------------------------------------------------- */
-
-/* A sum of rates, whose powers are expanded. */
+/* A sum of rates. Powers of such a sum are expanded. */
 static const poly *sum_of_rates(algebra *a, symbol *rates, int count) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < count; i++) {
@@ -590,7 +584,8 @@ static const poly *sum_of_rates(algebra *a, symbol *rates, int count) {
     return sum;
 }
 
-/* Powers of a sum are expanded up to 64 products; for positions, only squares. */
+/* A power of a sum of rates is expanded if the result has up to 64 products; of a sum of coordinates, only the
+ * square. */
 TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
     symbol rates[12];
     for (int count = 2; count <= 12; count++) {
@@ -598,7 +593,8 @@ TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
             algebra *a = algebra_new();
             const poly *sum = sum_of_rates(a, rates, count);
             const poly *p = poly_pow(a, sum, exponent);
-            double products = 1.0; /* C(count + exponent - 1, exponent): equal products merge */
+            /* C(count + exponent - 1, exponent), because equal products merge */
+            double products = 1.0;
             double left = 1.0;
             for (int i = 0; i < exponent; i++) {
                 products *= count;
@@ -617,7 +613,7 @@ TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
     TEST_ASSERT_TRUE(poly_pow(a, sum_of_places, 3.0)->keeps_powers);
     TEST_ASSERT_EQUAL_INT(4, poly_expanded(a, poly_pow(a, sum_of_places, 3.0))->count);
     TEST_ASSERT_TRUE(poly_is_place(sum_of_places));
-    /* a single symbol is no sum */
+    /* a single symbol is not a sum */
     TEST_ASSERT_FALSE(poly_is_place(poly_symbol(a, &form_symbols[0], 0)));
     TEST_ASSERT_FALSE(
         poly_is_place(poly_add(a, sum_of_places, poly_symbol(a, &form_symbols[0], 1))));
@@ -627,7 +623,7 @@ TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
     algebra_free(a);
 }
 
-/* A product of sums that would have more than 400000 terms is not expanded, and has the same value. */
+/* A product of sums that would have more than 400000 terms is not expanded. */
 TEST(algebra_limits, large_products_stay_products) {
     enum { MOST = 633 };
     static symbol rates[MOST];
@@ -637,18 +633,19 @@ TEST(algebra_limits, large_products_stay_products) {
         const poly *right = poly_sub(a, left, poly_scale(a, poly_symbol(a, &rates[0], 1), 2.0));
         const poly *p = poly_mul(a, left, right);
         TEST_ASSERT_FALSE(algebra_overflow(a));
-        /* 632 * 632 = 399424; 633 * 633 = 400689 */
+        /* 632 * 632 = 399424 terms are allowed, 633 * 633 = 400689 are not */
         TEST_ASSERT_TRUE(count < MOST ? p->count > count : p->count == count);
         algebra_free(a);
     }
 }
 
-/* An expression beyond 10^6 leaves reports overflow. */
+/* An expression with more than 10^6 leaves is reported as an overflow. */
 TEST(algebra_limits, what_grows_without_end_overflows) {
     algebra *a = algebra_new();
     const poly *p = poly_symbol(a, &form_symbols[0], 0);
     double last = 0.0;
-    for (int i = 0; i < 40 && !algebra_overflow(a); i++) { /* twice the leaves in each round */
+    /* each round doubles the number of leaves */
+    for (int i = 0; i < 40 && !algebra_overflow(a); i++) {
         last = p->size;
         p = poly_call(a, FN_ATAN2, p, poly_add(a, p, a->one));
     }
@@ -659,7 +656,8 @@ TEST(algebra_limits, what_grows_without_end_overflows) {
     algebra_free(a);
 }
 
-/* The limit of work must not depend on the host: objects count with fixed sizes, 48 bytes per table entry. */
+/* The limit of work must not depend on the host. So each object counts with a fixed size, and each table entry with
+ * 48 bytes. */
 TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     algebra *a = algebra_new();
     enum { ATOM = 72 + 48, MONO = 48 + 48, POLY = 32 + 48, PART = 16, PAIR = 24 + 48, TERM = 2 };
@@ -668,23 +666,24 @@ TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     TEST_ASSERT_EQUAL_UINT64(ATOM + MONO + PART + POLY + PART, a->work - before);
     const poly *r = poly_symbol(a, &form_symbols[1], 0);
     before = a->work;
-    poly_symbol(a, &form_symbols[1], 0); /* exists already: no work */
+    poly_symbol(a, &form_symbols[1], 0); /* this symbol exists already: no work */
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
-    const poly *sum = poly_add(a, q, r); /* two terms, and a new sum of two */
+    const poly *sum = poly_add(a, q, r); /* two terms, and a new sum of two terms */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM + POLY + 2 * PART, a->work - before);
     before = a->work;
-    const poly *product = poly_mul(a, q, r); /* a new product; it is remembered, as a list of one */
+    /* a new product, which is remembered as a list of one term */
+    const poly *product = poly_mul(a, q, r);
     TEST_ASSERT_EQUAL_UINT64(MONO + 2 * PART + POLY + PART + 2 * TERM + PAIR, a->work - before);
     before = a->work;
     TEST_ASSERT_TRUE(poly_mul(a, r, q) == product);
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
-    poly_each_number(a, sum, grown, 0.0); /* two terms, no new object */
+    poly_each_number(a, sum, grown, 0.0); /* two terms and no new object */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM, a->work - before);
     algebra_free(a);
 }
 
-/* A chain of lets, each using the previous one twice, is evaluated once per let. Otherwise 2^60 evaluations would never
- * end. */
+/* Each `let` of a chain uses the previous one twice and is evaluated once. Otherwise the 2^60 evaluations would
+ * never end. */
 TEST(algebra_limits, lets_are_worked_out_once) {
     enum { LETS = 60 };
     char text[8192];
@@ -707,7 +706,7 @@ TEST(algebra_limits, lets_are_worked_out_once) {
     diags_free(all);
 }
 
-/* 0.1 + 0.2 - 0.3 is zero; a ten times larger difference is not. */
+/* 0.1 + 0.2 - 0.3 counts as zero; a difference that is ten times larger does not. */
 TEST(algebra_limits, what_cancels_to_a_rounding_error_is_zero) {
     algebra *a = algebra_new();
     const poly *q = poly_symbol(a, &form_symbols[0], 0);
@@ -724,14 +723,15 @@ TEST(algebra_limits, what_cancels_to_a_rounding_error_is_zero) {
     algebra_free(a);
 }
 
-/* The product of a lower triangle, with ones on its diagonal, and an upper one, whose diagonal gives the determinant. */
+/* Multiplies a lower triangular matrix with ones on its diagonal by an upper one. The determinant is the product of
+ * the upper diagonal. */
 TEST(algebra_limits, determinants_of_products) {
     uint64_t seed = 3;
     for (int round = 0; round < 60; round++) {
         const int n = 1 + round % 5;
         const unsigned all = (1U << n) - 1;
         algebra *a = algebra_new();
-        double part[25]; /* both triangles */
+        double part[25]; /* both triangular matrices in one array */
         const poly *m[25];
         double wanted = 1.0;
         double value = 1e300;
@@ -753,10 +753,11 @@ TEST(algebra_limits, determinants_of_products) {
 }
 
 /* === normal form ============================================================================== */
-/* The promises of poly.h, checked independently on random expressions: order of terms and factors, sizes, one object
- * for equal expressions, and the same form whatever was computed before. WH_FORMS=N sets the number of expressions. */
+/* The promises of poly.h, checked independently on random expressions: the sequence of terms and factors, the sizes,
+ * one object for equal expressions, and a form that does not depend on earlier computations. WH_FORMS=N sets the
+ * number of expressions. */
 
-/* --- the order, as algebra.h describes it ---------------------------------------------------- */
+/* --- the sequence of terms and factors, as algebra.h describes it --- */
 
 static int expected_poly_order(const poly *x, const poly *y);
 
@@ -794,8 +795,6 @@ static int expected_poly_order(const poly *x, const poly *y) {
     }
     return order != 0 ? order : form_order(x->count, y->count);
 }
-
-/* --- properties of an expression, by traversal -------------------------------------------------------- */
 
 typedef struct known {
     uint64_t symbols;
@@ -855,8 +854,6 @@ static void check_knowledge(const poly *p) {
     }
 }
 
-/* --- form -------------------------------------------------------------------------------------------- */
-
 static void check_form(const poly *p);
 
 static void check_factor(const mono_factor *f) {
@@ -874,7 +871,7 @@ static void check_factor(const mono_factor *f) {
         TEST_ASSERT_TRUE(f->exponent != 1.0);
         TEST_ASSERT_FALSE(poly_is_number(x->argument[0], &value));
     } else if (x->function == FN_ABS) {
-        TEST_ASSERT_TRUE(f->exponent < 2.0); /* |p|^2 = p^2 */
+        TEST_ASSERT_TRUE(f->exponent < 2.0); /* |p|^2 must have become p^2 */
     }
 }
 
@@ -884,7 +881,7 @@ static void check_form(const poly *p) {
         TEST_ASSERT_TRUE(p->terms[i].coefficient != 0.0);
         TEST_ASSERT_TRUE(i == 0 || expected_mono_order(p->terms[i - 1].mono, m) < 0);
         TEST_ASSERT_TRUE((m->trig == TRIG_NONE) == (m->angle == NULL));
-        if (m->angle != NULL) { /* sin(-x) is -sin(x) */
+        if (m->angle != NULL) { /* sin(-x) must have become -sin(x) */
             double value;
             TEST_ASSERT_FALSE(poly_is_number(m->angle, &value));
             TEST_ASSERT_TRUE(m->angle->terms[0].coefficient > 0.0);
@@ -898,7 +895,7 @@ static void check_form(const poly *p) {
     }
 }
 
-/* Equal expressions are one object: a copy is found again. */
+/* A copy of an expression must be the same object as the expression. */
 static void check_interned(algebra *a, const poly *p) {
     poly *copy = poly_scratch(p->count);
     copy->count = p->count;
@@ -908,7 +905,7 @@ static void check_interned(algebra *a, const poly *p) {
         const mono *m = p->terms[i].mono;
         TEST_ASSERT_TRUE(mono_make(a, m->factors, m->count, m->trig, m->angle) == m);
     }
-    if (p->count > 0) { /* a different expression is another object */
+    if (p->count > 0) { /* a different expression must be another object */
         copy->terms[p->count - 1].coefficient *= 2.0;
         TEST_ASSERT_TRUE(poly_intern(a, copy) != p);
         copy->terms[p->count - 1] = p->terms[p->count - 1];
@@ -917,8 +914,6 @@ static void check_interned(algebra *a, const poly *p) {
     }
     free(copy);
 }
-
-/* --- random expressions ------------------------------------------------------------------------------- */
 
 static int forms(void) {
     const char *wanted = getenv("WH_FORMS");
@@ -981,8 +976,6 @@ TEST(normal_form, the_order_of_arguments_does_not_matter) {
         algebra_free(a);
     }
 }
-
-/* --- one form, regardless of history ------------------------------------------------------------------- */
 
 static void write_poly(FILE *out, const poly *p) {
     for (int i = 0; i < p->count; i++) {

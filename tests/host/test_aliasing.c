@@ -1,7 +1,8 @@
-/* test_aliasing.c: forces faster than a step. Frequencies and steps are round numbers, so that many steps are whole
- * periods and every stage sees the same force. Masses on springs, free masses and low passes have closed forms. Ripples
- * on a slow force add up to a drift; frictions have rippling normal forces. Wrong runs must have a warning and must not
- * be trusted to the end. Right runs must have no warning. The named remedy must work. */
+/* test_aliasing.c: forces that are faster than a step. Frequencies and steps are round numbers, so a step is often a
+ * whole number of periods and every stage sees the same force. Masses on springs, free masses and low passes have
+ * closed forms. A ripple on a slow force adds up to a drift, and so does a ripple in the normal force of a friction.
+ * Wrong runs must have a warning and must not be trusted to the end; right runs must have no warning; the remedy
+ * that a warning names must work. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -10,7 +11,7 @@
 /* === aliasing ================================================================================= */
 
 #define TURN 6.283185307179586
-/* A larger error, as a part of the true or the computed motion, makes a run wrong. */
+/* A run is wrong if its error is larger than this part of the true or the computed motion. */
 #define WRONG 0.05
 #define RIGHT 1e-3
 
@@ -21,7 +22,7 @@ typedef struct driven {
     double frequency_Hz;
     double step_s;
     double phase;
-    double rate; /* rate of the spring, rad/s, or of the low pass, 1/s */
+    double rate; /* natural frequency of the spring, rad/s, or rate of the low pass, 1/s */
     double until_s;
     char text[700];
 } driven;
@@ -31,7 +32,7 @@ static double round_of(dice *d, double low, double high) {
     return digits[dice_one_of(d, 5)] * pow(10.0, floor(dice_between(d, low, high)));
 }
 
-/* With `whole`, half a step also lasts a whole number of periods, so the half-step run makes the same error. */
+/* If `whole`, half a step is a whole number of periods too, so the half-step run makes the same error. */
 static driven drawn(dice *d, driven_kind kind, bool whole) {
     driven m = {.kind = kind,
                 .frequency_Hz = round_of(d, 1.0, 4.0),
@@ -139,7 +140,7 @@ TEST(aliasing, what_is_wrong_is_told) {
                 const double left_m = fabs(x_of(&then) - truth(&m, m.until_s));
                 const bool all = trusted(&then);
                 TEST_ASSERT_TRUE_MESSAGE(!told(&then), about);
-                /* error at most: a part of the first result plus the true range; if trusted, a part of the range */
+                /* the error is below 5 % of the first result plus the true range; if trusted, below 5 % of the range */
                 TEST_ASSERT_TRUE_MESSAGE(left_m < WRONG * fabs(is) + range_of(&m), about);
                 TEST_ASSERT_TRUE_MESSAGE(!all || left_m < WRONG * range_of(&m), about);
                 cured++;
@@ -177,8 +178,8 @@ TEST(aliasing, sweeps_count_it) {
     TEST_ASSERT_EQUAL_UINT(3, counted);
 }
 
-/* A slow force with a ripple. A step lasts whole periods of the ripple, so the samples of the ripple add up to a growing
- * error. */
+/* A small fast ripple on a slow force. A step is a whole number of ripple periods, so the steps see a constant force
+ * instead of the ripple, and the error grows. */
 TEST(aliasing, small_ripples) {
     static const named_cure none;
     dice d = dice_of("aliasing, ripples", 20261129);
@@ -218,14 +219,15 @@ TEST(aliasing, small_ripples) {
     TEST_ASSERT_TRUE(4 * wrong > cases && 8 * right > cases);
 }
 
-/* Blocks pulled below the mean friction limit, or sliding to rest. The normal force ripples in whole periods a step. */
+/* Blocks that are pulled below the mean friction limit or slide to rest. Except for resolved ripples, a step is a
+ * whole number of periods of the normal force. */
 TEST(aliasing, rippling_normals) {
     static const named_cure none;
     dice d = dice_of("aliasing, normals", 20261130);
     const unsigned cases = dice_cases(usual_or(12, 4));
     for (unsigned i = 0; i < cases; i++) {
         const bool slides = i % 2 == 0;
-        const bool still = i % 3 == 2; /* a step that resolves the ripple */
+        const bool still = i % 3 == 2; /* the step resolves the ripple */
         const double step_s = round_of(&d, -4.0, -3.0);
         const double ripple = dice_between(&d, 2.0, 6.0);
         const double fast = TURN * (still ? 0.02 : (double)(1U + dice_one_of(&d, 8))) / step_s;
@@ -244,7 +246,8 @@ TEST(aliasing, rippling_normals) {
         if (slides && 2000.0 * step_s > 1.0) {
             TEST_ASSERT_TRUE_MESSAGE(off < 0.02 || (what.err[0] != '\0' && !trusted(&what)), text);
             TEST_ASSERT_TRUE_MESSAGE(off > RIGHT || !told(&what), text);
-        } else if (!still && ripple > 4.0) { /* the least limit is below the pull of 3 N */
+            /* the lowest friction limit is below the pull of 3 N, so the block moves */
+        } else if (!still && ripple > 4.0) {
             TEST_ASSERT_FALSE_MESSAGE(trusted(&what), text);
         }
         TEST_ASSERT_FALSE_MESSAGE(still && told(&what), text);
@@ -252,21 +255,21 @@ TEST(aliasing, rippling_normals) {
 }
 
 /* === pulse trains ============================================================================= */
-/* Forces that act for a small part of their period, in a simple ratio to the step: the force is zero at every stage and
- * nothing moves. The references are closed forms. Wrong runs must have a warning or not be trusted; pulses that the
- * steps resolve cause no warning. */
+/* Forces that act for a small part of their period. The period is in a simple ratio to the step, so the force is
+ * zero at every stage and nothing moves. The references are closed forms. A wrong run must have a warning or not be
+ * trusted. Pulses that the steps resolve must cause no warning. */
 
 static const char *const methods[] = {"rk4", "rk4", "rk38", "nystroem5", "heun"};
 enum { METHODS = sizeof methods / sizeof methods[0] };
 
 typedef struct verdict_of {
-    double value; /* of the requested state */
+    double value; /* final value of the state `name` */
     bool warned;
-    bool too_fast; /* the stages miss part of the force */
-    bool trusted;  /* trusted to the end */
+    bool too_fast; /* a warning says that the run aliases a fast force */
+    bool trusted;  /* the run is trusted to its end */
 } verdict_of;
 
-/* Runs it and reads `name` from the final state. */
+/* Runs `whirl run` on the text and reads its warnings and the final value of the state `name`. */
 static verdict_of ask(const char *text, const char *name, const char *method, const char *number) {
     static said what;
     const char *words[] = {model_keep(text), "--method", method, "--number", number, NULL};
@@ -281,7 +284,7 @@ static verdict_of ask(const char *text, const char *name, const char *method, co
     return v;
 }
 
-/* A mass with drag, initially at rest, which is pushed during the part `duty` of each period. */
+/* A mass with drag, at rest at the start. A force of 1 N acts during the part `duty` of each period. */
 static void write_train(char *text, size_t size, double pulses_hz, double duty, double phase,
                         double end_s) {
     snprintf(text, size,
@@ -321,7 +324,7 @@ TEST(pulse_trains, pulses_between_stages) {
     TEST_ASSERT_TRUE(wrong > cases / 3);
 }
 
-/* Final speed of the mass: the sum of the decayed contributions of all pulses. */
+/* The true final speed: the sum of what remains of the effect of each pulse. */
 static double driven_mps(double pulses_hz, double duty, double phase, double end_s) {
     double sum = 0.0;
     for (int k = 0; (k - 0.5 * duty - phase) / pulses_hz < end_s; k++) {
@@ -332,7 +335,7 @@ static double driven_mps(double pulses_hz, double duty, double phase, double end
     return sum;
 }
 
-/* 12 to 3,000 steps per period. */
+/* With 12 to 3,000 steps per period, the runs must be right and cause no warning. */
 TEST(pulse_trains, pulses_that_steps_resolve) {
     dice d = dice_of("slow pulses", 6303);
     const unsigned cases = dice_cases(few_or_all(usual_or(10, 4), 400));

@@ -1,6 +1,6 @@
-/* test_angle_places.c: fractions of an angle in every place where the language accepts an angle. A fraction in the
- * equations of motion, a contact or an event makes the coordinate a real. A fraction elsewhere, such as in an output,
- * changes neither the run nor the other outputs. */
+/* test_angle_places.c: fractions of an angle wherever the language accepts an angle. If a fraction of a coordinate
+ * is in the equations of motion, a contact or an event, the coordinate is stored as a real. A fraction elsewhere,
+ * such as in an output, changes neither the run nor the other outputs. */
 #include "derived.h"
 #include "host/engine/engine.h"
 #include "motion.h"
@@ -17,12 +17,13 @@ enum { MULTIPLES = sizeof multiples / sizeof multiples[0] };
 
 enum { NOWHERE, IN_STEP, IN_SIGNALS };
 
-/* @ stands for a row of `multiples`. Result 0 of the list is then scale * function(multiple) + offset. */
+/* @ stands for a multiple of th. Then result 0 of the list is scale * function(multiple) + offset. */
 static const struct {
     const char *text;
     int list;
     bool sine;
-    bool scaled; /* a slope, with the multiple's number as a factor */
+    /* true if the result is a derivative, which has the number of the multiple as a factor */
+    bool scaled;
     double offset;
 } places[] = {
     {"V = 1 [J]*cos(@)\n", IN_STEP, true, true, 0},
@@ -50,7 +51,7 @@ static void check_place(const derived *d, size_t which, double times, const char
         s.value[0][0] = th;
         derived_run(in_step ? d->image->list[IMAGE_STEP] : d->image->list[IMAGE_SIGNALS], d, &s,
                     result);
-        /* if th is an angle, it is the only one and its acceleration comes first */
+        /* if th is an angle, it is the only one, and its acceleration is found through `place` */
         const double got = result[in_step ? d->image->place[0] : 0];
         const double trig_value = places[which].sine ? sin(times * th) : cos(times * th);
         const double wanted =
@@ -61,7 +62,7 @@ static void check_place(const derived *d, size_t which, double times, const char
     }
 }
 
-/* A coordinate is kept as a turn angle only if all places that act on the motion use integer multiples. */
+/* A coordinate is stored as a turn angle only if everything that acts on the motion uses integer multiples of it. */
 TEST(angle_places, all_that_acts_takes_part) {
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         for (int i = 0; i < MULTIPLES; i++) {
@@ -116,12 +117,10 @@ static uint64_t run_to(const char *more, const engine_kind *kind, double *output
 TEST(angle_places, outputs_leave_all_else_alone) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     static const char *const outputs[] = {
-        "output h = cos(th/2)\n",
-        "output h = sin(1.5*th)\n",
-        "output h = sin(1.5*th)\noutput g = cos(th/2)\n", /* 3/2 th + 1/2 th is 2 th */
-        "output h = tan(th/2) + tan(ph/3)\n",
-        "output h = sin(th/3 + 2*ph)*exp(1)\n",
-        "output h = cos(sqrt(2)*(th + ph))^2\n",
+        "output h = cos(th/2)\n", "output h = sin(1.5*th)\n",
+        /* sin(3/2 th + 1/2 th) contains only 2 th */
+        "output h = sin(1.5*th)\noutput g = cos(th/2)\n", "output h = tan(th/2) + tan(ph/3)\n",
+        "output h = sin(th/3 + 2*ph)*exp(1)\n", "output h = cos(sqrt(2)*(th + ph))^2\n",
         "output h = th/2*sin(th/4 + 0.1*cos(0.37*ph))/(2 + cos(ph/7))\n",
         "output h = sin(th/2)\noutput g = h*th\noutput k = cos(2.5*ph - th/2)\n"};
     for (int k = 0; k < 2; k++) {
@@ -136,7 +135,7 @@ TEST(angle_places, outputs_leave_all_else_alone) {
     }
 }
 
-/* An angle from its momentum: ph = ph0 + p t - 0.37 (th - th0), whatever the outputs are. */
+/* An angle that is recovered from its momentum: ph = ph0 + p t - 0.37 (th - th0), whatever the outputs are. */
 TEST(angle_places, recovered_angle) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     derived d = derived_scene(
@@ -159,7 +158,8 @@ TEST(angle_places, recovered_angle) {
         kinds[k]->state(run, &th, real);
         kinds[k]->outputs(run, output);
         const double ph = 0.5 + (-2.0 + 0.37 * 3.0) * 0.05 - 0.37 * (th - 6283.0);
-        const double bound = k == 0 ? 4e-12 : 3e-7; /* round-off of 6283 * 0.37; t and sines */
+        /* round-off of 6283 * 0.37, of the time and of the sines */
+        const double bound = k == 0 ? 4e-12 : 3e-7;
         TEST_ASSERT_TRUE(fabs(output[0] - sin(ph)) <= bound);
         TEST_ASSERT_TRUE(fabs(output[1] - cos(ph / 2.0)) <= bound);
         TEST_ASSERT_TRUE(fabs(output[2] - sin(th / 2.0 + ph)) <= bound);
@@ -168,8 +168,8 @@ TEST(angle_places, recovered_angle) {
     derived_free(&d);
 }
 
-/* A system's state is stored as a turn angle, too. If a multiple is too large for a phase factor, it is stored as a
- * real. */
+/* A state of a system is stored as a turn angle, too. If a multiple is too large for a phase factor, the state is
+ * stored as a real. */
 TEST(angle_places, systems_and_large_multiples) {
     derived d = derived_scene(
         "mechanism m\nstate th [rad]\nstate q\nparameter w = 3 [1/s]\n"
@@ -195,7 +195,7 @@ TEST(angle_places, systems_and_large_multiples) {
         const int64_t units = (int64_t)rint(th * (4294967296.0 / two_pi));
         const uint32_t phase = (uint32_t)((uint64_t)units * UINT64_C(3000000000));
         TEST_ASSERT_TRUE(fabs(output[2] - sin((double)phase / 4294967296.0 * two_pi)) < 7e-8);
-        /* 2^32 + 3 + 1/4 times the angle */
+        /* 2^32 + 3 + 1/4 times the angle, in quarters of a unit */
         const uint64_t quarters = (uint64_t)units * (4 * UINT64_C(4294967299) + 1);
         const double turns = (double)(quarters & UINT64_C(0x3ffffffff)) / 17179869184.0;
         TEST_ASSERT_TRUE(fabs(output[3] - cos(turns * two_pi)) < 7e-8);
@@ -205,7 +205,7 @@ TEST(angle_places, systems_and_large_multiples) {
     derived_free(&d);
 }
 
-/* Half of the angle appears in T: th' cos(th/2) is the rate of 2 sin(th/2). A total derivative moves nothing, so no
+/* T contains th' cos(th/2), which is the rate of 2 sin(th/2). A total derivative has no effect on the motion, so no
  * equation contains half of th. */
 static const char gauge[] =
     "mechanism m\ncoordinate th [rad]\n"
@@ -226,7 +226,8 @@ TEST(angle_places, books_of_a_part) {
     derived_free(&d);
 }
 
-/* No equation contains the fraction, but the momentum changes with it: the ledger's powers use the whole angle. */
+/* The equations do not contain the fraction, but the momentum changes with it. So the powers of the energy balance
+ * need the angle with its turns. */
 TEST(angle_places, ledger_takes_a_part) {
     char text[1024];
     snprintf(text, sizeof text, "%sscene s { start th = 1000, th' = 3 [rad/s]; until 5 [s] }\n",
@@ -248,16 +249,16 @@ TEST(angle_places, ledger_takes_a_part) {
 }
 
 /* === angle parts =============================================================================== */
-/* Outputs with fractions and multiples of turn angles against libm, thousands of turns
- * from zero: cos(th/2), sin(1.5*th), tan(th/3 - 0.37*ph).
+/* Outputs with fractions and multiples of turn angles, such as cos(th/2), sin(1.5*th) or tan(th/3 - 0.37*ph), thousands
+ * of turns from zero, compared with libm.
  *
- * WHIRL_RANDOM_OUTPUTS=N takes N random outputs instead of 2000. WHIRL_OUTPUTS_TO=FOLDER keeps the mechanisms, for
- * tests/cli/angle_parts.sh to compile. */
+ * WHIRL_RANDOM_OUTPUTS=N sets the number of random outputs instead of 2000. WHIRL_OUTPUTS_TO=FOLDER writes the
+ * mechanisms to a folder, for tests/cli/angle_parts.sh to compile. */
 
 enum { OUTPUTS = 25, STEPS = 40, TEXT_ROOM = 64 + OUTPUTS * (WAVE_TEXT + 32) };
 static const uint64_t first_seed = UINT64_C(20261121);
 
-/* X has the constant momentum 3 X' + a' cos(a)/2, from which X is recovered. */
+/* X is recovered from its momentum 3 X' + a' cos(a)/2, which is constant. */
 static const char front[] =
     "mechanism parts\n"
     "coordinate a [rad]\ncoordinate b [rad]\ncoordinate c [rad]\n"
@@ -275,7 +276,7 @@ typedef struct sample {
     derived of;
 } sample;
 
-/* Opens `outputs` random expressions; if `plain`, simple ones. */
+/* Opens a scene with random expressions as outputs; if `plain`, with simple ones. */
 static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
     char *at = s->text;
     at += sprintf(at, "%s", front);
@@ -287,7 +288,7 @@ static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
     for (int i = 0; i < 5; i++) {
         static const char *const symbols[] = {"a", "b", "c", "x", "X"};
         const bool turns = i < WAVE_ANGLES;
-        /* some near zero, some ten thousand turns away */
+        /* some angles are near zero, others ten thousand turns away */
         const double most = turns ? pow(10.0, random_between(seed, 0.0, 4.8)) : 0.9;
         s->start[i] = random_between(seed, -most, most);
         at += sprintf(at, "  start %s = %.17g [%s], %s' = %.9g [%s/s]\n", symbols[i], s->start[i],
@@ -300,7 +301,7 @@ static void open_sample(sample *s, uint64_t *seed, bool plain, int outputs) {
     TEST_ASSERT_EQUAL_INT(WAVE_ANGLES, s->of.image->angles);
 }
 
-/* The exact state of the run: float angles are integers, 2^32 per turn. */
+/* The exact state of the run. In float, angles are integers with 2^32 units per turn. */
 static void exact_state(const sample *s, const engine_kind *kind, void *run, long double *state) {
     static const long double two_pi = 6.28318530717958647692528676655900577L;
     const image *p = s->of.image;
@@ -321,8 +322,8 @@ static void exact_state(const sample *s, const engine_kind *kind, void *run, lon
 typedef struct tally {
     int compared;
     int skipped;          /* number of tangents so near their pole that round-off dominates */
-    long double ratio;    /* worst difference over its round-off bound */
-    long double relative; /* worst difference over the sum of the terms */
+    long double ratio;    /* worst difference, divided by the bound on its round-off */
+    long double relative; /* worst difference, divided by the sum of the absolute terms */
 } tally;
 
 static void compare(const sample *s, const engine_kind *kind, void *run, int count, tally *t) {
@@ -353,7 +354,7 @@ static void compare(const sample *s, const engine_kind *kind, void *run, int cou
     if (!s->conserves) {
         return;
     }
-    /* X follows from its momentum; an output with a fraction of an angle must not disturb it */
+    /* an output with a fraction of an angle must not change X, which follows from its momentum */
     double angle_rad[WAVE_ANGLES];
     double real[16];
     kind->state(run, angle_rad, real);
@@ -415,8 +416,8 @@ TEST(angle_parts, made_up_outputs) {
     }
 }
 
-/* The sine or cosine of a multiple of an angle, up to ten thousand turns from zero. In float its error is that of any sine
- * (6.3e-8; docs/dev/numerics.md) plus one phase unit (1.5e-9 rad) for the multiple. */
+/* Sines and cosines of fractions of an angle, up to ten thousand turns from zero. In float, the error is that of any
+ * sine (6.3e-8; docs/dev/numerics.md) plus one phase unit (1.5e-9 rad) for the multiplication. */
 TEST(angle_parts, float_sines_of_parts) {
     uint64_t seed = first_seed;
     double worst = 0.0;
@@ -431,7 +432,8 @@ TEST(angle_parts, float_sines_of_parts) {
         engine_float.outputs(run, output);
         for (int i = 0; i < OUTPUTS; i++) {
             const wave_piece *p = &drawn.expr[i].term[0].factor[0].argument.piece[0];
-            if (p->number != rintl(p->number)) { /* the others may be computed from each other */
+            /* sines of whole multiples may be computed from each other */
+            if (p->number != rintl(p->number)) {
                 const long double value = wave_expr_value(&drawn.expr[i], state, true).value;
                 worst = fmax(worst, fabs((double)((long double)output[i] - value)));
                 parts++;

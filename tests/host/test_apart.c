@@ -1,6 +1,6 @@
-/* test_apart.c: holds that close a linkage and are not satisfied at the start (host/check/apart.h). For random four-bar
- * linkages, a wrong length and a wrong angle are both reported with the energy that is lost. The start values that
- * Whirl proposes must satisfy the holds. */
+/* test_apart.c: holds that close a linkage and are not satisfied at the start (host/check/apart.h). For random
+ * four-bar linkages, a wrong length and a wrong angle must both be reported with the energy that is lost. The start
+ * values that Whirl proposes must satisfy the holds. */
 #include "command.h"
 #include "host/check/apart.h"
 #include "motion.h"
@@ -13,7 +13,7 @@ typedef struct bars {
     double angle_rad[3];
     double rate[3];
     double at_m[2];    /* position of the last joint */
-    double turned_rad; /* error of b */
+    double turned_rad; /* error of angle b at the start */
 } bars;
 
 static bars bars_draw(dice *d, bool off) {
@@ -34,7 +34,7 @@ static bars bars_draw(dice *d, bool off) {
             b.at_m[k] += (i < 2 ? 1.0 : -1.0) * b.length_m[i] * part;
         }
     }
-    b.turned_rad = off ? 0.005 * exp(dice_between(d, 0.0, 4.4)) : 0.0; /* up to 0.4 rad */
+    b.turned_rad = off ? 0.005 * exp(dice_between(d, 0.0, 4.4)) : 0.0; /* from 0.005 to 0.4 rad */
     return b;
 }
 
@@ -99,7 +99,7 @@ TEST(apart, four_bars) {
         const double told_J = strtod(takes + strlen("and takes "), NULL);
         TEST_ASSERT_TRUE_MESSAGE(fabs(told_J - lost_J) <= 1e-4 * from_J, text);
         motion_close(&m);
-        /* the proposed values, pasted in place of the scene's own */
+        /* runs again with the proposed values in place of the scene's own */
         char *values = strstr(told, "write: start ");
         TEST_ASSERT_TRUE_MESSAGE(values != NULL || b.turned_rad > 0.05, text);
         if (values == NULL) {
@@ -128,8 +128,8 @@ TEST(apart, four_bars) {
     }
 }
 
-/* A rod between two balls keeps the length that it has at the start, so any start is possible. If the file gives the
- * rod's length, a start with another length is reported. */
+/* A rod whose length the file does not give has the length that it has at the start, so any start is possible. If
+ * the file gives the length, a start with another length is reported. */
 TEST(apart, rods) {
     dice d = dice_of("apart", 2);
     const unsigned cases = dice_cases(60);

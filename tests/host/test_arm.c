@@ -1,5 +1,5 @@
-/* test_arm.c: arms of six joints: the derived equations against the recursion of Newton and Euler (Luh, Walker and Paul
- * 1980) in world coordinates, which uses no energies. */
+/* test_arm.c: arms with six joints. The derived equations are compared with the recursion of Newton and Euler (Luh,
+ * Walker and Paul 1980) in world coordinates, which uses no energies. */
 #include "test.h"
 
 #include "host/base/alloc.h"
@@ -16,11 +16,12 @@ enum { JOINTS = 6 };
 #define G 9.81
 
 typedef struct arm_arm {
-    int axis[JOINTS];          /* axis of its joint, in its own frame */
-    double offset[JOINTS];     /* position of its joint along the z axis of the previous frame, m */
-    double centre[JOINTS];     /* position of the centre of mass along z, m */
+    int axis[JOINTS]; /* axis of the joint, in its own frame: 0, 1 or 2 */
+    /* distance from the previous joint along the z axis of the previous frame, m */
+    double offset[JOINTS];
+    double centre[JOINTS];     /* distance of the centre of mass along z, m */
     double mass[JOINTS];       /* kg */
-    double inertia[JOINTS][3]; /* about the centre, kg m^2 */
+    double inertia[JOINTS][3]; /* about the axes through the centre of mass, kg m^2 */
 } arm_arm;
 
 static arm_arm draw_arm(dice *d) {
@@ -39,7 +40,7 @@ static arm_arm draw_arm(dice *d) {
     return a;
 }
 
-/* An entry of the matrix from frame i to the previous one: "cos(q1)", "-sin(q1)", "1" or "0". */
+/* Entry of the rotation matrix from frame i to the previous frame: "cos(q1)", "-sin(q1)", "1" or "0". */
 static const char *entry(const arm_arm *a, int i, int row, int column, char text[20]) {
     const int k = a->axis[i];
     if (row == k || column == k) {
@@ -50,8 +51,8 @@ static const char *entry(const arm_arm *a, int i, int row, int column, char text
     return text;
 }
 
-/* Writes the arm as users of SymPy would: rotated frames, positions of the centres in the world, and their
- * derivatives. */
+/* Writes the arm as users of SymPy would: rotated frames, positions of the centres in the world, and derivatives of
+ * these. */
 static char *text_of(const arm_arm *a) {
     char *text;
     size_t length;
@@ -63,7 +64,7 @@ static char *text_of(const arm_arm *a) {
     }
     for (int i = 0; i < JOINTS; i++) {
         for (int row = 0; row < 3;
-             row++) { /* R: the axes of link i in the world; p: its joint; c: its centre */
+             row++) { /* R: the axes of link i in the world; p: its joint; c: its centre of mass */
             for (int k = 0; k < 3; k++) {
                 fprintf(out, "let R%d_%d%d = 0", i, row, k);
                 for (int j = 0; j < 3 && i > 0; j++) {
@@ -101,8 +102,6 @@ static char *text_of(const arm_arm *a) {
     return text;
 }
 
-/* --- Newton and Euler ------------------------------------------------------------------------------------------- */
-
 typedef struct vector {
     double x[3];
 } vector;
@@ -120,18 +119,19 @@ static double dot(vector a, vector b) {
     return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2];
 }
 
-/* Torque of each joint, N m; *size is the sum of the absolute terms. */
+/* The torque of each joint, N m. *size: the sum of the absolute terms. */
 static void torques(const arm_arm *a, const state_values *s, double *torque, double *size) {
     vector frame[JOINTS][3]; /* axes of each link, in the world */
     vector joint[JOINTS];
-    vector force[JOINTS]; /* the force that moves link i, and the moment about its centre */
+    /* the force that accelerates link i, and the moment about its centre of mass */
+    vector force[JOINTS];
     vector moment[JOINTS];
-    vector at[JOINTS]; /* the centre */
+    vector at[JOINTS]; /* position of the centre of mass */
     vector axes[3] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
     vector w = {{0}};
     vector turn = {{0}}; /* angular acceleration */
     vector p = {{0}};
-    vector lift = {{0, 0, G}}; /* acceleration of the joint, including gravity */
+    vector lift = {{0, 0, G}}; /* acceleration of the joint, plus that of gravity */
     for (int i = 0; i < JOINTS; i++) {
         const int k = a->axis[i];
         const double q = s->value[i][0];
@@ -211,23 +211,24 @@ TEST(arm, arms_of_six_joints_move_as_newton_and_euler_say) {
 }
 
 /* === leans ==================================================================================== */
-/* The energy residual (host/check/energy_residual.h) must not depend on choices without effect on the motion. These are
- * the origin and the vector potential of a magnetic field, which adds kinetic terms linear in the rates. */
+/* The energy residual (host/check/energy_residual.h) must not depend on choices that have no effect on the motion:
+ * the origin, and the vector potential of a magnetic field, which adds terms linear in the rates to T. */
 
 typedef struct charge {
     double mass_kg;
     double field_kgps;
     double speed_mps;
-    double spring_Npm; /* rate of a spring to the start */
+    double spring_Npm; /* stiffness of a spring to the starting point */
     const char *method;
     double step_s;
 } charge;
 
-/* Equivalent forms of the kinetic term of a magnetic field: B (x y' - y x')/2, B x y' or -B y x'. */
+/* Three forms of the kinetic term of a magnetic field that give the same motion. */
 static const char *const potentials[] = {"B*(x*y' - y*x')/2", "B*x*y'", "-B*y*x'"};
 enum { POTENTIALS = sizeof potentials / sizeof potentials[0] };
 
-/* The reported energy residual, relative to the largest entry; 1 if the run diverges. *warned: Whirl warned of it. */
+/* The energy residual that Whirl reports, relative to the largest entry; 1 if the run diverges. *warned: did Whirl
+ * warn of the residual or the divergence? */
 static double left_over_leans(const charge *c, const char *potential, double x0, bool *warned) {
     char text[700];
     said what;
@@ -280,16 +281,15 @@ TEST(leans, origins_and_potentials) {
 }
 
 /* === linkages ================================================================================= */
-/* Random planar linkages. The accelerations and motions derived from their text are compared with numeric derivatives
- * of the same energies (linkage.h). Forces in effects instead of the mechanism must not change the
- * motion. The residual of the energy balance must be small. WHIRL_CASES=10000
- * WHIRL_SEED=... chooses other cases. */
+/* Random planar linkages. Accelerations and motions derived from their text are compared with numeric derivatives of
+ * the same energies (linkage.h). Forces written in effects must give the same motion as forces in the mechanism. The
+ * residual of the energy balance must be small. WHIRL_CASES=N and WHIRL_SEED=N choose other cases. */
 
 enum { LINKAGES_STATES = 10, STEPS = 100 };
 
 static unsigned cases(void) { return dice_cases(few_or_all(usual_or(6, 3), 200)); }
 
-/* One case in this number has the invariance tests. */
+/* One linkage in three has the test of effects. */
 enum { ONE_IN = 3 };
 
 static linkage drawn_linkage(dice *d, unsigned k) {
@@ -315,8 +315,6 @@ static void expect(bool holds, const char *what, double figure, const char *text
     }
 }
 
-/* --- accelerations ------------------------------------------------------------------------------------------- */
-
 static int unknown_of(const derived *d, int k) {
     char name[8];
     snprintf(name, sizeof name, "q%d", k);
@@ -329,7 +327,7 @@ static int unknown_of(const derived *d, int k) {
     return 0;
 }
 
-/* Relative error of the list's accelerations at random states. */
+/* Worst error of the accelerations of the operation list at random states, relative to the largest acceleration. */
 static double worst_acceleration(const linkage *of, linkage_writing how, uint64_t *seed) {
     derived d = derived_text(text_of_linkages(of, how));
     double worst = 0.0;
@@ -377,10 +375,8 @@ TEST(linkages, accelerations_are_those_of_the_energies) {
     TEST_ASSERT_TRUE(worst > 0.0);
 }
 
-/* --- motions ------------------------------------------------------------------------------------------------- */
-
 typedef struct moved {
-    double value[2 * LINKAGE_BODIES]; /* values, then rates */
+    double value[2 * LINKAGE_BODIES]; /* coordinates, then rates */
 } moved;
 
 static double apart(const linkage *of, const moved *a, const moved *b) {
@@ -422,8 +418,8 @@ static moved integrated(const linkage *of, double step_s, int steps) {
     return end;
 }
 
-/* With sines evaluated at each stage, the error is round-off. With rotated sines it is below a hundredth of the
- * method's own error (docs/dev/numerics.md). */
+/* If sines are evaluated at each stage, the error is round-off. If they are rotated from stage to stage, the error
+ * is below a hundredth of the method's own error (docs/dev/numerics.md). */
 TEST(linkages, motions_are_those_of_the_energies) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
@@ -450,10 +446,8 @@ TEST(linkages, motions_are_those_of_the_energies) {
     TEST_ASSERT_TRUE(worst > 0.0);
 }
 
-/* --- invariances --------------------------------------------------------------------------------------------- */
-
-/* A disabled effect leaves every bit unchanged. An enabled effect changes the order of a sum, and so the last bits of the
- * coefficients. */
+/* An effect that is off changes no bit. An effect that is on changes the sequence of a sum, and so the last bits of
+ * the coefficients. */
 TEST(linkages, forces_may_stand_in_effects) {
     dice d = dice_of("linkages", 14);
     double worst = 0.0;
@@ -475,9 +469,7 @@ TEST(linkages, forces_may_stand_in_effects) {
     printf("  with its forces in effects it is off by at most %.1e\n", worst);
 }
 
-/* --- energy balance ------------------------------------------------------------------------------------------ */
-
-/* The energy residual after 100 ms; *turnover gets the sum of all energy entered in the ledger. */
+/* The energy residual after 100 ms. *turnover: the largest entry of the energy balance, at least 1 J. */
 static double left_over_linkages(const linkage *of, double step_s, double *turnover) {
     enum { ENTRIES_MAX = 200, ACCOUNTS_MAX = 1 + LINKAGE_BODIES };
     double total[ENTRIES_MAX] = {0};
@@ -490,7 +482,7 @@ static double left_over_linkages(const linkage *of, double step_s, double *turno
     TEST_ASSERT_TRUE(m.image->ledger.accounts <= ACCOUNTS_MAX);
     motion_to(&m, 0.1);
     m.kind->ledger(m.run, total, left);
-    *turnover = 1.0; /* J */
+    *turnover = 1.0;
     for (int i = 0; i < m.image->ledger.entries; i++) {
         *turnover = fmax(*turnover, fabs(total[i]));
     }
@@ -512,7 +504,7 @@ TEST(linkages, the_energy_is_accounted_for) {
         double least = fine;
         double step_s = 5e-4;
         while (!(least < 1e-7 * turnover)) {
-            /* the motion is too fast for the step: the method's own error dominates */
+            /* a motion too fast for the step has an error of the method, which falls with the step */
             const double coarser = least;
             step_s /= 4.0;
             fast += coarser == fine ? 1U : 0U;
@@ -521,7 +513,7 @@ TEST(linkages, the_energy_is_accounted_for) {
                    text_of_linkages(&of, as_usual));
         }
         worst = fmax(worst, fine / turnover);
-        if (coarse > 1e-9 * turnover) { /* above round-off: it falls with the step */
+        if (coarse > 1e-9 * turnover) { /* above round-off, the residual must fall with the step */
             known++;
             fell += fine < coarse / 64.0 ? 1U : 0U;
         }

@@ -1,6 +1,7 @@
-/* test_asked_first.c: the result of a derivation does not depend on what was computed before: other expressions in the
- * same algebra, earlier output, or other mechanisms. Tests every built-in scene and generated mechanisms (WHIRL_CASES).
- * The generated C, or the Octave form where the core lacks a function, must be byte-identical. */
+/* test_asked_first.c: the result of a derivation must not depend on earlier computations: other expressions in the
+ * same algebra, earlier output, or other mechanisms. Tests every built-in scene and generated mechanisms
+ * (WHIRL_CASES). The C code must be identical to the byte; if the core lacks a function, the Octave form is compared
+ * instead. */
 #include "command.h"
 #include "derived.h"
 #include "host/emit/emit.h"
@@ -46,7 +47,7 @@ static const poly *any_result(algebra *a, const poly *x, const poly *y, const me
     }
 }
 
-/* Uses symbols, outputs and energies for the first time in random order, and makes expressions of them. */
+/* Uses symbols, outputs and energies for the first time, in a random sequence, and combines them to expressions. */
 static void ask(void *context, algebra *a, const instance *inst) {
     uint64_t *from = context;
     const mechanism *m = inst->mechanism;
@@ -84,7 +85,7 @@ static void print_forms(const equations *e, uint64_t *from) {
     fclose(out);
     free(text);
     const int i = (int)draw(from, (unsigned)e->count);
-    if (e->kinetic != NULL) { /* takes a derivative and discards it */
+    if (e->kinetic != NULL) { /* computes a derivative and discards it */
         poly_derivative(e->algebra,
                         poly_derivative(e->algebra, e->kinetic, e->unknowns[i].symbol, 1),
                         e->unknowns[i].symbol, 0);
@@ -92,7 +93,7 @@ static void print_forms(const equations *e, uint64_t *from) {
     poly_derivative(e->algebra, equations_force(e, i), e->unknowns[i].symbol, 0);
 }
 
-/* The scene as C code, to be freed; NULL if it cannot be derived. */
+/* The scene as C code; NULL if the scene cannot be derived. The caller frees the text. */
 static char *written(const scene *in, before way, uint64_t from) {
     diags *errors = diags_new();
     instance *inst = instance_make(in->mechanism, in, NULL, errors);

@@ -1,7 +1,7 @@
-/* test_bad_input.c: broken texts are refused with all their errors, each at its place.
+/* test_bad_input.c: texts with errors are refused with all their errors, each at its place.
  *
- * Lines `# expect: LINE:COLUMN: TEXT` at the top of every text in tests/bad list all its errors in order. Run from the
- * root of the project. */
+ * Every text in tests/bad begins with lines `# expect: LINE:COLUMN: TEXT`, one for each error, in sequence. Run from
+ * the root of the project. */
 #include "test.h"
 
 #include <dirent.h>
@@ -14,8 +14,8 @@
 #define FOLDER "tests/bad"
 enum { TEXTS_MIN = 141, LINE_SIZE = 512 };
 
-/* Instantiates a mechanism and, if `derive`, derives its equations and operation lists. Does nothing after an earlier
- * error. */
+/* Instantiates a mechanism and, if `derive`, derives its equations and operation lists. Does nothing if `all` has
+ * errors already. */
 static void try_instance(const mechanism *of, const scene *in, bool derive, diags *all) {
     instance *made = instance_make(of, in, NULL, all);
     if (derive && made != NULL && diags_count(all) == 0) {
@@ -29,7 +29,7 @@ static void try_instance(const mechanism *of, const scene *in, bool derive, diag
     instance_free(made);
 }
 
-/* All messages on a text, to be freed; *errors is their number. */
+/* All messages about a text. *errors: the number of errors. The caller frees the result. */
 static char *full_report_on(const char *file, const char *text, size_t length, bool derive,
                             int *errors) {
     diags *all = diags_new();
@@ -86,7 +86,7 @@ static char *read_whole(const char *path, size_t *length) {
     return text;
 }
 
-/* Returns false and prints the reason if the errors of one text differ from the expected ones. */
+/* Returns false and prints the reason if the errors of a text differ from the expected ones. */
 static bool text_fails_as_announced(const char *path, const char *text, size_t length) {
     static const char mark[] = "# expect: ";
     int errors = 0;
@@ -134,7 +134,8 @@ static bool text_fails_as_announced(const char *path, const char *text, size_t l
     return good;
 }
 
-/* Tries the texts of an archive, each below its line "=== NAME". Returns their number and counts failures. */
+/* Tries the texts of an archive, each of which follows a line "=== NAME". Returns the number of texts and adds the
+ * failures to *failed. */
 static int try_archive(const char *path, int *failed) {
     size_t length = 0;
     char *all = read_whole(path, &length);
@@ -196,8 +197,8 @@ TEST(bad_input, columns_count_characters) {
     expect_text("mechanism m\r\ncoordinate X [m]\r\nT = Y\r\n", "x.whirl:3:5: error: unknown name");
 }
 
-/* A carriage return before a line feed or at the end of the file is part of the line's end. Anywhere else it is an
- * error at its place. */
+/* A carriage return before a line feed or at the end of the file belongs to the end of the line. Anywhere else it is
+ * an error, reported at its place. */
 TEST(bad_input, lines_end_in_one_way) {
     static const char text[] = "mechanism m \"a \xce\xb1 title\" # a remark \"\xce\xb1\"\n"
                                "coordinate X [m/s*s] \"where\"\n"
@@ -217,7 +218,7 @@ TEST(bad_input, lines_end_in_one_way) {
         with[i] = '\r';
         memcpy(with + i + 1, text + i, sizeof text - i);
         if (i > 0 && ((unsigned char)text[i] & 0xc0) == 0x80) {
-            continue; /* in the middle of a character */
+            continue; /* not in the middle of a character */
         }
         if (text[i] == '\n' || text[i] == '\0') {
             free(full_report_on("x.whirl", with, sizeof with - 1, false, &errors));
@@ -265,7 +266,7 @@ TEST(bad_input, values_that_are_no_numbers) {
     }
 }
 
-/* `head`, then `piece` repeated, then `tail`; to be freed. */
+/* Returns `head`, then `piece` `times` times, then `tail`. The caller frees the result. */
 static char *repeat(const char *head, const char *piece, size_t times, const char *tail,
                     size_t *length) {
     *length = strlen(head) + strlen(piece) * times + strlen(tail);
@@ -348,7 +349,7 @@ TEST(bad_input, a_thousand_errors_are_told_as_twenty) {
     free(text);
 }
 
-/* A hundred thousand names must not take quadratic time. */
+/* The time for a hundred thousand names must not grow with the square of their number. */
 TEST(bad_input, many_names_are_quick) {
     const int count = 100000;
     char *text = malloc((size_t)count * 40);
@@ -364,7 +365,7 @@ TEST(bad_input, many_names_are_quick) {
     TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 2.0);
 }
 
-/* No prefix of a good file, and no good file with one byte changed, crashes Whirl. */
+/* Whirl must not crash on any prefix of a good file, nor on a good file with one byte changed. */
 TEST(bad_input, every_beginning_and_every_changed_byte) {
     size_t length = 0;
     char *text = read_whole("core/models/epicyclic.whirl", &length);

@@ -1,11 +1,11 @@
-/* test_blame_lists.c: expressions that a run checks when a value is not a number. They are all expressions that the
- * motion depends on. If the equations contain derivatives of an expression, its slopes are listed, too, unless they
- * always exist, as for sums, products, integer powers and waves. An expression has one slope for each coordinate that
- * it depends on; energies and losses also have one for each rate. */
+/* test_blame_lists.c: the expressions that Whirl checks if a value of a run is not a number. These are all
+ * expressions on which the motion depends. If the equations contain derivatives of an expression, the derivatives
+ * are listed, too, unless they always exist, as for sums, products, integer powers and waves. An expression has one
+ * derivative for each coordinate in it; losses have one for each rate instead. */
 #include "derived.h"
 
-/* An expression of a (a length over one metre), b (an angle) and their rates v and w. `places` counts those of a and b
- * that it depends on, `rates` those of v and w. Both are 0 if its slopes always exist. */
+/* An expression of a (a length divided by 1 m), b (an angle) and their rates v and w. `places`: how many of a and b
+ * the expression contains; `rates`: how many of v and w. Both are 0 if the derivatives always exist. */
 typedef struct sample {
     const char *text;
     int places;
@@ -49,10 +49,10 @@ static derived with_statement(const char *statement) {
     return d;
 }
 
-/* T is listed itself, and its slopes always exist. */
+/* T is listed itself, without derivatives, because these always exist. */
 enum { OF_T = 1 };
 
-/* Losses act only through their slopes by the rates. */
+/* Losses have derivatives by the rates only. */
 TEST(blame_lists, slopes_of_energies_and_losses) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         const sample *s = &samples[i];
@@ -71,7 +71,7 @@ TEST(blame_lists, slopes_of_energies_and_losses) {
     }
 }
 
-/* Forces act directly, without slopes. */
+/* Forces act directly, so their derivatives are not listed. */
 TEST(blame_lists, forces_have_no_slopes) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         char text[200];
@@ -84,14 +84,14 @@ TEST(blame_lists, forces_have_no_slopes) {
     }
 }
 
-/* Gaps and held expressions have slopes by the coordinates. A crossing's value, a hold's condition and friction's
- * expressions have no slopes. Contacts follow the terms; a stop's restitution comes last. */
+/* Gaps and held expressions have derivatives by the coordinates. A crossing's value, a hold's condition and the
+ * expressions of a friction have none. Contacts come after the terms; a stop's restitution comes last. */
 TEST(blame_lists, slopes_of_contacts) {
     for (size_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
         const sample *s = &samples[i];
         const struct {
             const char *form;
-            int values; /* number of values that are listed as written */
+            int values; /* number of values that are listed without derivatives */
             int late;
             bool slopes;
             bool takes_rates;
