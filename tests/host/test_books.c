@@ -1,4 +1,4 @@
-/* test_books.c: the energy account in the summary of a run, compared with closed forms, with impacts. */
+/* test_books.c: the energy balance that the summary of a run prints, compared with closed forms, across impacts. */
 #include "host/cli/commands.h"
 #include "host/derive/program.h"
 
@@ -8,17 +8,16 @@
 
 /* === account ================================================================================== */
 
-/* The number after `words` in the summary. */
+/* The number that follows `words` in the summary. */
 static double told(const char *summary, const char *words) {
     const char *at = strstr(summary, words);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, words);
     return strtod(at + strlen(words), NULL);
 }
 
-/* Impacts of other coordinates, or in the middle of a step, leave two entries unchanged: the energy from a constant
- * force, P (z - h), and the loss of an evenly damped slide. Each printed entry has a closed form; with the contacts'
- * part, the entries sum to the change. A ledger that integrated only between the ends of steps would miss a part of the
- * step with the impact. */
+/* A ball with a constant force P bounces in the middle of steps; beside it a body slides with damping. The work
+ * P (z - h) and the loss of the slide have closed forms. With the stop's entry they sum to the change of energy. A
+ * ledger that integrated only from one step's end to the next would miss a part of the step with the impact. */
 TEST(account, entries_across_impacts_are_closed_forms) {
     dice d = dice_of("pushed bounces", 4005);
     for (unsigned i = 0; i < dice_cases(10); i++) {
@@ -49,9 +48,9 @@ TEST(account, entries_across_impacts_are_closed_forms) {
 }
 
 /* === ledger turns ============================================================================= */
-/* Energy balances of energies linear in rates. Adding a total derivative dG/dt of a function of the coordinates to L
- * does not change the motion. But it changes the momenta by dG/dq, and every dL/dq. The ledger then needs the angles,
- * while the equations need only their sines. Closed forms and random mechanisms. */
+/* Adding the total derivative dG/dt of a function of the coordinates to L does not change the motion, but it changes
+ * the momenta by dG/dq, and each dL/dq. Then the energy balance needs the angles themselves, while the equations
+ * need only their sines. Checked by closed forms and by random mechanisms. */
 
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 static const stepping booked_float = {.kind = &engine_float, .method = WH_RK4, .ledger = true};
@@ -71,7 +70,7 @@ static account_book read_book(const motion *m) {
     return book;
 }
 
-/* The total of the entry for dL/dq of coordinate `name`. */
+/* The total of the entry for dL/dq, with q the coordinate `name`. */
 static double of_energies(const motion *m, const account_book *book, const char *name) {
     const image_ledger *l = &m->image->ledger;
     for (int i = 0; i < l->smooth; i++) {
@@ -85,7 +84,7 @@ static double of_energies(const motion *m, const account_book *book, const char 
     return 0.0;
 }
 
-/* A function G of the angles a and b, and its rate derived by hand. */
+/* A random function G of the angles a and b. `rate` is its rate, derived by hand. */
 typedef struct gauge {
     char rate[400];
     double factor[3];
@@ -118,7 +117,7 @@ static void slopes(const gauge *g, double a, double b, double slope[2]) {
     }
 }
 
-/* Opens a double pendulum with drag, a motor and a stop. `rate` is added to L. */
+/* Opens a double pendulum with drag, a motor and a stop. The text `rate` is added to L. */
 static void open_pendulum(motion *m, const char *rate, stepping how) {
     char text[1500];
     snprintf(text, sizeof text,
@@ -147,7 +146,7 @@ static void compare(const gauge *g, stepping how, double tolerance) {
     const account_book book = read_book(&with);
     slopes(g, 0.3, -0.4, before);
     slopes(g, motion_value(&with, "a"), motion_value(&with, "b"), after);
-    /* the rate of G adds dG/dq to the momentum, and the same to the entries */
+    /* dG/dt in L adds dG/dq to each momentum, and the same amount to the entry for dL/dq */
     const char *const names[] = {"a", "b"};
     for (int i = 0; i < 2; i++) {
         const double size = 1.0 + fabs(after[i]) + fabs(before[i]);

@@ -1,6 +1,6 @@
-/* test_books_told.c: the report of `whirl run` on energy and momenta at the end, for random mechanisms with uncoupled
- * coordinates: free, pushed, sprung or damped. The conserved momenta, their values, and with the ledger the cause of
- * each change, are compared with closed forms. */
+/* test_books_told.c: what `whirl run` reports at the end on energy and momenta. Random mechanisms have uncoupled
+ * coordinates: free, pushed, sprung or damped. Closed forms give the conserved momenta, their values and, with the
+ * ledger, the cause of each change. */
 #include "test.h"
 
 #include "host/base/alloc.h"
@@ -22,7 +22,7 @@ typedef enum held_by { FREE, PUSHED, SPRUNG, DAMPED, KINDS } held_by;
 typedef struct own_body {
     held_by by;
     double mass_kg;
-    double law; /* force, stiffness or damping: N, N/m or N s/m */
+    double law; /* force, N, or stiffness, N/m, or damping, N s/m */
     double x_m;
     double speed_mps;
 } own_body;
@@ -46,10 +46,11 @@ static own_bodies drawn(dice *d) {
     return m;
 }
 
-/* The names are in reverse alphabetical order. */
+/* The names are in reverse alphabetical order: z, y, x, ... */
 static char name_of(unsigned i) { return (char)('z' - (int)i); }
 
-/* "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2": the sum over all bodies of this kind, preceded by `begins`; empty if there are none. */
+/* Writes the sum over all bodies of one kind after the words `begins`, such as "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2".
+ * The text is empty if there are no such bodies. */
 static void sum_of(const own_bodies *m, held_by by, const char *begins, const char *unit,
                    const char *square, char text[400]) {
     int at = 0;
@@ -89,7 +90,7 @@ static void mechanism_text(const own_bodies *m, char text[2500]) {
     (void)snprintf(text + at, (size_t)(2500 - at), "; step 1 [ms]; until %.3f [s] }\n", m->until_s);
 }
 
-/* The change of m x' over the run. */
+/* The change of the momentum m x' over the run. */
 static double change_Ns(const own_body *b, double time_s) {
     const double w = sqrt(b->law / b->mass_kg);
     double end_mps = b->speed_mps;
@@ -116,7 +117,7 @@ static void expect_number(const char *text, double wanted, const char *at) {
     TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 1e-8 * (1.0 + fabs(wanted)), at);
 }
 
-/* Checks the levels of both accounts at the end, and the work and losses, to which springs do not contribute. */
+/* Checks the balance's energies at the end, its work and its losses. Springs do no work here: their energy is in V. */
 static void expect_balance(const own_bodies *m, const char *text) {
     double kinetic_J = 0.0;
     double stored_J = 0.0;
@@ -180,7 +181,7 @@ TEST(books_told, conserved_momenta) {
     TEST_ASSERT_TRUE(none > 3U);
 }
 
-/* Checks, for each coordinate, the causes, the change of the momentum, and the mean over time. */
+/* Checks for each coordinate the causes and the change of its momentum, and the mean over time. */
 TEST(books_told, ledgers) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",
@@ -219,8 +220,7 @@ TEST(books_told, ledgers) {
     model_drop();
 }
 
-/* Random stops, some of which the ball never reaches. A stop that was never reached must have no line in any
- * account. */
+/* The ball never reaches some of the random stops. Such a stop must have no line in any account. */
 TEST(books_told, contacts_that_gave_nothing) {
     dice die = dice_of("books_told", 93);
     enum { STOPS = 4 };
@@ -233,7 +233,7 @@ TEST(books_told, contacts_that_gave_nothing) {
                               "mechanism ball \"a ball\"\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                               "V = 9.81 [N]*x\n");
         for (int i = 0; i < STOPS; i++) {
-            /* the ball falls from 1 m and hits only the highest stop */
+            /* the ball falls from 1 m and hits only one stop, the highest */
             reached[i] = i == (int)(c % STOPS);
             const double below =
                 reached[i] ? dice_between(&die, 0.0, 0.5) : dice_between(&die, 2.0, 9.0);
@@ -254,17 +254,17 @@ TEST(books_told, contacts_that_gave_nothing) {
 }
 
 /* === energy integral ========================================================================== */
-/* The energy account of motions in which T + V is not conserved, because T is not quadratic in the rates, V contains
- * rates, or an energy contains a changing input. The energy integral of each is derived by hand (Goldstein, Classical
+/* The energy balance of motions in which T + V is not conserved, because T is not quadratic in the rates, V contains
+ * rates, or an energy contains a changing input. Each energy integral is derived by hand (Goldstein, Classical
  * Mechanics, section 2.7). */
 
-/* A bead on a hoop that turns at the rate w about its upright diameter. */
+/* A bead on a hoop that turns at the rate w about its vertical diameter. */
 #define HOOP(rate) \
     "mechanism hoop\ncoordinate th [rad]\nparameter m = 0.1 [kg]\n" \
     "parameter R = 0.2 [m]\nparameter g = 9.81 [m/s^2]\n" rate \
     "\nT = m*R^2*(th'^2 + w^2*sin(th)^2)/2\nV = -m*g*R*cos(th)\n"
 #define HOOP_AT_10 HOOP("parameter w = 10 [rad/s]")
-/* A charge in a homogeneous magnetic field: a potential with rates. */
+/* A charge in a homogeneous magnetic field: V contains rates. */
 #define FIELD \
     "mechanism field\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 1 [kg]\n" \
     "parameter B = 1 [kg/s]\nT = m*(x'^2+y'^2)/2\nV = -B*(x*y'-y*x')/2\n"
@@ -273,12 +273,12 @@ TEST(books_told, contacts_that_gave_nothing) {
     "mechanism slot\ncoordinate x [m]\nparameter m = 1 [kg]\n" \
     "parameter w = 2 [rad/s]\nparameter k = 9 [N/m]\n" \
     "T = m*(x'^2 + w^2*x^2)/2\nV = k*x^2/2\n"
-/* A body near the speed of light, here 2 m/s, on a spring. */
+/* A body on a spring, near the speed of light, which is 2 m/s here. */
 #define FAST \
     "mechanism fast\ncoordinate x [m]\nparameter m = 1 [kg]\n" \
     "parameter c = 2 [m/s]\nparameter k = 1 [N/m]\n" \
     "T = -m*c^2*sqrt(1 - x'^2/c^2)\nV = k*x^2/2\n"
-/* A puck on a turning table, in the table's frame: terms linear in the rates, and a wall. */
+/* A puck and a wall on a turning table, in the table's frame. T has terms that are linear in the rates. */
 #define TABLE \
     "mechanism table\ncoordinate x [m]\ncoordinate y [m]\nparameter m = 2 [kg]\n" \
     "parameter w = 1.5 [rad/s]\nT = m*((x' - w*y)^2 + (y' + w*x)^2)/2\n" \
@@ -320,12 +320,12 @@ typedef double by_hand(const motion *m);
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 
 typedef struct remainders {
-    double summary_J; /* energy residual from the summary of the run */
+    double summary_J; /* energy residual that the summary of the run prints */
     double ledger_J;  /* energy residual of the run's own ledger */
-    double change_J;  /* change of the integral derived by hand */
+    double change_J;  /* change of the energy integral that was derived by hand */
 } remainders;
 
-/* Residual of the ledger's energy account, J. */
+/* The residual of the ledger's energy balance, J. */
 static double ledger_left_J(const motion *m) {
     const image_ledger *l = &m->image->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
@@ -361,7 +361,7 @@ static remainders book(const char *text, by_hand *energy_J, double step_s) {
     return r;
 }
 
-/* At the scene's own step the residual is the method's error: below 1e-9 J, with energies of about 1 J. */
+/* With the scene's own step, the residual is the method's error: below 1e-9 J for energies of about 1 J. */
 static void expect_closed(const char *text, by_hand *energy_J) {
     const remainders r = book(text, energy_J, 0.0);
     printf("  left over %.1e J in the summary's books, %.1e J in the ledger\n", r.summary_J,
@@ -369,7 +369,7 @@ static void expect_closed(const char *text, by_hand *energy_J) {
     TEST_ASSERT_TRUE(r.summary_J < 1e-9 && r.ledger_J < 1e-9);
 }
 
-/* The residual falls with the step like the method's error: with at least the fourth power. */
+/* The residual must fall like the method's error: with the fourth power of the step or a higher one. */
 static void expect_order(const char *text, by_hand *energy_J, double step_s) {
     remainders r[3];
     for (int k = 0; k < 3; k++) {
@@ -392,7 +392,7 @@ TEST(energy_integral, smooth_motions) {
         by_hand *energy_J;
         double step_s; /* a coarse step, to measure the order */
     } rows[] = {{HOOP_AT_10 "scene s { start th = 0.1\nuntil 2 [s] }\n", hoop_at_10, 4e-3},
-                /* the torque's work and the damper's loss are entries of some 1e-2 J */
+                /* the work of the torque and the loss of the damper are entries of about 1e-2 J */
                 {HOOP_AT_10 "input M = 0.06 [N*m]\nQ(th) = M\n"
                             "F = 1e-3 [N*m*s]*th'^2/2\nscene s { start th = 0.1\nuntil 2 [s] }\n",
                  hoop_at_10, 2e-3},
@@ -406,9 +406,7 @@ TEST(energy_integral, smooth_motions) {
     TEST_ASSERT_TRUE(fabs(book(rows[1].text, hoop_at_10, 0.0).change_J) > 1e-2);
 }
 
-/* --- contacts ------------------------------------------------------------------------------------ */
-
-/* Total of a contact in an account. Account 0 is the energy, 1 + i the momentum of coordinate i. *left_over gets the
+/* The total of a contact in account 0 (the energy) or 1 + i (the momentum of coordinate i). *left_over: the
  * account's residual. */
 static double of_contact(const motion *m, int account, double *left_over) {
     const image_ledger *l = &m->image->ledger;
@@ -421,8 +419,8 @@ static double of_contact(const motion *m, int account, double *left_over) {
     return entry;
 }
 
-/* A stop on the turning table changes the energy integral by half the mass times the difference of the squared speeds. Terms
- * linear in the rates have no effect on that. */
+/* A stop on the turning table changes the energy integral by half the mass times the change of the squared speed.
+ * The terms that are linear in the rates have no part in the change. */
 TEST(energy_integral, a_wall_on_the_turning_table) {
     static const char text[] =
         TABLE "scene s { start x = 0.1 [m], x' = 1 [m/s], y' = 0.4 [m/s]\nuntil 0.5 [s] }\n";
@@ -441,7 +439,8 @@ TEST(energy_integral, a_wall_on_the_turning_table) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, left_over);
     TEST_ASSERT_TRUE(of_contact(&m, 1, &left_over) < -1.0);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, left_over);
-    TEST_ASSERT_TRUE(of_contact(&m, 2, &left_over) == 0.0); /* the wall is smooth */
+    /* without friction, the wall does not change the momentum along it */
+    TEST_ASSERT_TRUE(of_contact(&m, 2, &left_over) == 0.0);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, left_over);
     motion_to(&m, 0.5);
     of_contact(&m, 0, &left_over);
@@ -460,8 +459,8 @@ static image *image_of(const char *text, derived *d) {
     return p;
 }
 
-/* If the mass depends on the rates, an impulse is not mass times the change of rates. Stops of such bodies are refused,
- * other stops are not. */
+/* If T is not quadratic in a body's rates, an impulse is not mass times change of speed. Stops of such bodies are
+ * refused; other stops are not. */
 TEST(energy_integral, impacts_of_fast_bodies_are_refused) {
     static const struct {
         const char *text;
@@ -480,10 +479,8 @@ TEST(energy_integral, impacts_of_fast_bodies_are_refused) {
     }
 }
 
-/* --- inputs in the energies ------------------------------------------------------------------------ */
-
-/* The hoop's rate is an input, changed after every step as by a joystick. Its only entry is the energy of these changes,
- * -dL/dt: -m R^2 sin^2 (w2^2 - w1^2)/2 each. */
+/* The hoop's rate w is an input, which is changed after every step, as a joystick would. The energy balance has only
+ * the entry of these changes: each gives -m R^2 sin^2(th) (w2^2 - w1^2)/2. */
 static void change_the_hoop(const char *text, bool stops) {
     motion m;
     double w = 10.0;
@@ -498,10 +495,10 @@ static void change_the_hoop(const char *text, bool stops) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
         const double next = 10.0 + 3.0 * sin(0.02 * step);
         gave_J -= 0.002 * square(sin(motion_value(&m, "th"))) * (next * next - w * w);
-        m.kind->set_input(m.run, 0, next); /* input 1 is that of a motor, which is at standstill */
+        m.kind->set_input(m.run, 0, next); /* input 1 belongs to a motor that stands still */
         w = next;
     }
-    /* the effect of the last change is entered in the next step */
+    /* the next step enters the effect of the last change */
     m.kind->ledger(m.run, total, total + l->entries);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, total[l->entries]);
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
@@ -527,8 +524,8 @@ TEST(energy_integral, a_hoop_whose_rate_is_changed) {
     }
 }
 
-/* Two springs whose rates are inputs, in one T + V. Each spring has an entry, (k2 - k1) x^2/2. A refused step does not lose
- * it. */
+/* The stiffness of two springs is an input each. Each spring has an entry of (k2 - k1) x^2/2. A change before a
+ * refused step must not be lost. */
 TEST(energy_integral, springs_whose_rates_are_changed) {
     static const char text[] =
         "mechanism springs\ncoordinate x [m]\ncoordinate y [m]\ninput a = 9 [N/m]\n"
@@ -595,8 +592,6 @@ TEST(energy_integral, both_energies_at_both_ends) {
     }
 }
 
-/* --- choice of the account ------------------------------------------------------------------------- */
-
 static int check_plain(const scene *s) {
     derived d = derived_builtin(s->name);
     derived_expect(&d, s->name);
@@ -605,7 +600,7 @@ static int check_plain(const scene *s) {
     return 1;
 }
 
-/* The summary names the energy integral of the balance beside T and V only if the integral differs from T + V. */
+/* The summary must name the energy integral beside T and V only if it differs from T + V. */
 static void expect_told(const image *im) {
     char *text;
     size_t length;
@@ -627,7 +622,7 @@ static void expect_told(const image *im) {
     engine_double.stop(run);
 }
 
-/* In every built-in scene with T + V as its energy integral, the balance is that of T + V. */
+/* If T + V of a built-in scene is its energy integral, the balance must be that of T + V. */
 TEST(energy_integral, where_the_integral_is_the_energy) {
     static const struct {
         const char *text;

@@ -1,24 +1,26 @@
-/* test_busy.c: contacts with more events than a step takes, or with changes at the pace of the steps. `whirl run` must
- * warn exactly if the run is wrong for that reason. The proposed remedy is applied: the warning and the error must
- * vanish. If no step helps, the scene is changed as proposed. Random balls between two stops, holds that end their own
- * condition and stick-slip have closed forms; random hybrids in coarse steps have another program as reference. */
+/* test_busy.c: contacts with more events than a step can take, or with changes in each step. `whirl run` must warn
+ * if a run is wrong for this reason, and must not warn if the run is right. With the proposed remedy, the warning
+ * and the error must vanish. If no step helps, the scene is changed as proposed. Balls between two stops, holds that
+ * end their own condition and stick-slip have closed forms. Random hybrids in coarse steps have hybrid.h as their
+ * reference. */
 #include "command.h"
 #include "host/cli/commands.h"
 #include "hybrid.h"
 #include "motion.h"
 #include "rattle.h"
 
-/* A run with busy contacts must be reported if its error exceeds this part of its range, and only then. */
+/* A run is wrong if its error exceeds OFF, right if its error is below RIGHT; with the remedy, the error must be
+ * below CURED. Errors are relative to the range of the motion. */
 #define OFF 0.02
 #define RIGHT 3e-3
 #define CURED 5e-3
-/* Round-off of the time of a bounce in float, relative to the gap: some units in the last place. */
+/* Round-off of the time of one bounce in float, relative to the gap: a few units in the last place. */
 #define ROUNDED 1e-6
 
 typedef struct measured {
     bool busy;
     double off;       /* largest error at any step, relative to the range */
-    double looked_at; /* largest error at some thirty of the steps, relative to the range */
+    double looked_at; /* largest error at about thirty of the steps, relative to the range */
 } measured;
 
 static measured run_beside(const rattle *of, const char *text, double step_s, bool is_float) {
@@ -64,7 +66,8 @@ static void say(const char *text, const char *step, bool is_float, said *what) {
 
 static bool is_told(const said *what) { return strstr(what->err, "warning: ") != NULL; }
 
-/* The proposed step and the number format named with it; false without a proposal. */
+/* Reads the proposed step. *is_float becomes false if the hint also names double. Returns false if no step is
+ * proposed. */
 static bool step_said(const said *what, char word[40], bool *is_float) {
     const char *hint = strstr(what->err, "\nhint: --step ");
     *is_float = *is_float && (hint == NULL || strstr(hint, "--number double") == NULL);
@@ -126,7 +129,7 @@ TEST(busy, busy_contacts_are_told_and_cured) {
     TEST_ASSERT_TRUE(without <= off / 10);
 }
 
-/* The ball would need a million events per step and more. The scene is changed as the hint proposes. */
+/* The ball would need a million events per step, or more. The scene is changed as the hint proposes. */
 TEST(busy, where_no_step_helps_the_scene_is_changed) {
     dice d = dice_of("busy_scenes", 15002);
     const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));
@@ -161,7 +164,8 @@ TEST(busy, where_no_step_helps_the_scene_is_changed) {
     model_drop();
 }
 
-/* Largest error of the coordinates at the end, relative to the largest range. *busy_one: the run had busy contacts. */
+/* Largest error of the coordinates at the end, relative to the largest range of all bodies. *busy_one: did a step
+ * have too many events? */
 static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double step_s,
                          const char *text, bool *busy_one) {
     motion m;
@@ -182,7 +186,6 @@ static double hybrid_off(const hybrid *h, const hybrid_motion *wanted, double st
     }
     double range = 1e-300;
     for (int i = 0; i < h->of.bodies; i++) {
-        /* the largest range of all bodies, because a small range is no scale */
         range = fmax(range, high[i] - low[i]);
     }
     for (int k = 0; k < h->of.bodies; k++) {

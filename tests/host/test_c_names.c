@@ -1,5 +1,5 @@
-/* test_c_names.c: names that generated code may give to a scene: no name known to C or C++ compilers and no word of
- * Octave. The compilers themselves judge (tests/embed/known_names.sh). */
+/* test_c_names.c: the names that generated code may give to a scene: no name known to a C or C++ compiler and no
+ * word of Octave. Compilers decide which names they know (tests/embed/known_names.sh). */
 #include <unistd.h>
 
 #include "host/emit/emit.h"
@@ -17,7 +17,7 @@ static FILE *opened(const char *name, const char *how) {
     return file;
 }
 
-/* Passes each line of a command's output to `take`; returns their number. */
+/* Passes each line of a command's output to `take`. Returns the number of lines. */
 static int each_line(const char *command, void (*take)(const char *line)) {
     char line[LINE];
     int count = 0;
@@ -70,7 +70,7 @@ TEST(c_names, compilers_have_nothing_to_say_of_what_is_free) {
     TEST_ASSERT_EQUAL_INT(0, complaints);
 }
 
-/* Natural names in mechanisms that are close to names of the C library. */
+/* Names that mechanisms are likely to have, and that are close to names of the C library, are free. */
 TEST(c_names, ordinary_names_are_free) {
     char names[] =
         "spring strut string_pendulum memory_wheel isolator tower torsion top sling logger "
@@ -87,7 +87,7 @@ TEST(c_names, ordinary_names_are_free) {
     }
 }
 
-/* Names of C23, of later compilers and of other targets. */
+/* Names of C23, of newer compilers and of other processors. */
 TEST(c_names, names_to_come_are_refused) {
     static const char *const names[] = {
         "sinpi",     "acospif",         "fmaximum_numf64x", "exp10m1l",
@@ -100,7 +100,7 @@ TEST(c_names, names_to_come_are_refused) {
     }
 }
 
-/* A function's name with the suffix of a type, alone or followed by _r, is refused. */
+/* The name of a function with the suffix of a number type, with or without _r after it, is refused. */
 TEST(c_names, variants_of_functions_are_refused) {
     static const char *const of[] = {"sin", "lgamma", "exp10", "nextafter", "fmaximum_mag_num"};
     static const char *const types[] = {"",     "f",    "l",     "f16",  "f32", "f64", "f128",

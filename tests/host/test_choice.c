@@ -1,5 +1,5 @@
-/* test_choice.c: both answers of `whirl choose` (host/study/choice.h) for random requests, compared with exhaustive
- * search; and the table of their rows (price_table.h). */
+/* test_choice.c: the two answers of `whirl choose` (host/study/choice.h) to random requests, compared with an
+ * exhaustive search; and the table of rows from which it chooses (price_table.h). */
 #include "derived.h"
 
 #include "command.h"
@@ -59,8 +59,8 @@ static void close_request(request *q) {
     derived_free(&q->d);
 }
 
-/* Does this setting meet all limits with this number of steps per period? *worst: cycles per second of the longest
- * steps, the largest promised value. Independent of host/study/choice.c. */
+/* Does this setting, with this number of steps per period, meet all limits? *worst: cycles per second if every step
+ * were the longest, from the largest stated figure. Computed independently of host/study/choice.c. */
 static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst) {
     bool own;
     const deviation_pace pace = {substeps, 1};
@@ -90,8 +90,8 @@ static const table_row *row_of(const request *q, const choice_row *r) {
 
 enum { SUBSTEPS_MOST = 40 };
 
-/* Exhaustive search over settings (a sample, unless WHIRL_FULL) and substeps for the least cycles and flash that meet all
- * limits. */
+/* Exhaustive search: the least cycles and flash of all settings and numbers of substeps that meet all limits.
+ * Without WHIRL_FULL, only each fifth setting is tried. */
 static void try_all(request *q, double *cycles, double *flash) {
     *cycles = *flash = (double)INFINITY;
     for (int i = 0; i < setting_count(); i += (int)few_or_all(5, 1)) {
@@ -154,7 +154,8 @@ TEST(choice, drawn_requests) {
         close_request(&q);
     }
     printf("  %u requests, %d with an answer\n", cases, found);
-    TEST_ASSERT_TRUE(found > 0 && found < (int)cases); /* some cases are found, and some are not */
+
+    TEST_ASSERT_TRUE(found > 0 && found < (int)cases);
 }
 
 static bool is_same(const table_row *a, const table_row *b) {
@@ -163,8 +164,8 @@ static bool is_same(const table_row *a, const table_row *b) {
            a->result.error == b->result.error && a->price.value == b->price.value;
 }
 
-/* With the same effort the rows are the same on any number of processors. With less effort there are fewer rows, and the
- * output says so. */
+/* With the same effort, the rows do not depend on the number of processors. With less effort there are fewer rows,
+ * and the output says so. */
 TEST(choice, rows_depend_on_the_effort_alone) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
@@ -195,8 +196,8 @@ TEST(choice, rows_depend_on_the_effort_alone) {
     }
 }
 
-/* If no setting meets the limits, the answer names a faster clock and a larger error limit. With either a setting is
- * found; with 2 % less, none. */
+/* If no setting meets the limits, the answer names a faster clock and a larger error limit. With either of the two,
+ * a setting must be found; with 2 % less than that, none must be found. */
 TEST(choice, what_would_fit_does) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);
@@ -219,7 +220,8 @@ TEST(choice, what_would_fit_does) {
     close_request(&q);
 }
 
-/* The code of this setting and scene, to be freed; NULL if the scene does not take the setting. */
+/* The C code of the scene with this setting; NULL if the setting is not possible for the scene. The caller frees the
+ * text. */
 static char *code_of(const request *q, const setting *s, bool *own) {
     char *text;
     size_t length;
@@ -235,7 +237,7 @@ static char *code_of(const request *q, const setting *s, bool *own) {
     return text;
 }
 
-/* Of all settings that generate the same code, a scene has exactly one. */
+/* If several settings generate the same code, exactly one of them counts as a setting of the scene. */
 TEST(choice, settings_of_a_scene_are_those_that_differ) {
     for (int n = 0; n < TEXTS; n++) {
         request q;

@@ -1,5 +1,5 @@
-/* test_cli.c: the number and times of a run's steps in integer arithmetic: steps from nanoseconds to hours, runs from
- * one step to 50 years. WH_COUNTS=N sets the number of random pairs. */
+/* test_cli.c: the number and the times of a run's steps, in integer arithmetic, for steps from nanoseconds to hours
+ * and runs from one step to 50 years. WH_COUNTS=N sets the number of random pairs of step and end time. */
 #include "core/frame.h"
 #include "core/version.h"
 #include "host/cli/commands.h"
@@ -15,23 +15,21 @@ __extension__ typedef unsigned __int128 wide;
 
 static uint64_t seed_now;
 
-static uint64_t random_below(uint64_t most) { /* xorshift64 (Marsaglia, 2003) */
+static uint64_t random_below(uint64_t most) { /* the generator xorshift64 (Marsaglia, 2003) */
     seed_now ^= seed_now << 13;
     seed_now ^= seed_now >> 7;
     seed_now ^= seed_now << 17;
     return seed_now % most;
 }
 
-/* --- pairs of step and until ------------------------------------------------------------------------- */
-
-/* A duration of digits / in seconds, and its text. */
+/* A duration of digits/in seconds, and its text. */
 typedef struct duration {
     uint64_t digits;
-    uint64_t in; /* a power of ten */
+    uint64_t in; /* a power of ten times the units per second */
     char text[64];
 } duration;
 
-/* `digits` with `decimals` decimals, in a unit of 1/per s. */
+/* The number `digits` with `places` decimals, in a unit `of` that is 1/per seconds long. */
 static duration duration_of(uint64_t digits, int places, const char *of, uint64_t per) {
     duration d = {digits, per, ""};
     char number[32];
@@ -50,8 +48,8 @@ static uint64_t number_behind(const char *in, const char *what) {
     return strtoull(at + strlen(what), NULL, 10);
 }
 
-/* The generated code has the number of steps that follows from the decimals: until / step, ties rounded down, with the
- * decimal step. */
+/* The number of steps in generated code must be until/step, computed from the decimal numbers in the text, with ties
+ * rounded down. */
 static void expect_count(const duration *step, const duration *until) {
     char text[320];
     char message[160];
@@ -63,7 +61,7 @@ static void expect_count(const duration *step, const duration *until) {
     const wide under = (wide)step->digits * until->in;
     const wide wanted = (2 * over + under - 1) / (2 * under);
     if (wanted == 0 || wanted >> 63 != 0) {
-        return; /* refused: not tested here */
+        return; /* a refused pair is not tested here */
     }
     derived d = derived_scene(text, "s");
     derived_expect(&d, message);
@@ -87,7 +85,7 @@ TEST(counts, counts_are_exact) {
     const uint64_t seed = UINT64_C(0x5eed0010);
     seed_now = seed;
     printf("  %d pairs, seed %" PRIx64 "\n", pairs, seed);
-    /* a year, 50 years, and a time of just above 2^32 ms */
+    /* one year, 50 years, and just above 2^32 ms */
     static const uint64_t long_s[] = {31536000, 1577880000, 4294968};
     for (unsigned i = 0; i < 3; i++) {
         const duration until = duration_of(long_s[i], 0, "s", 1);
@@ -104,14 +102,14 @@ TEST(counts, counts_are_exact) {
         }
         const duration step =
             duration_of(1 + random_below(most), (int)random_below(4), units[k].name, units[k].per);
-        /* any number of steps, up to 50 years, plus or minus up to half a step */
+        /* an end after any number of steps, within 50 years */
         const double span_s = (double)step.digits / (double)step.in;
         const double count = exp(log(1.6e9 / span_s) * (double)random_below(1000) / 1000.0);
         const double end_s = floor(count + 1.0) * span_s;
         if (end_s > 1.6e9 && count > 2.0) {
             continue;
         }
-        int places = 0; /* at most 14 digits, which a double can represent */
+        int places = 0; /* up to 13 digits, which a double can represent */
         double digits = end_s;
         while (places < 12 && digits < 1e12) {
             digits *= 10.0;
@@ -119,7 +117,7 @@ TEST(counts, counts_are_exact) {
         }
         const duration until = duration_of((uint64_t)digits, places, "s", 1);
         expect_count(&step, &until);
-        if (step.digits < 1000 && count < 1e9) { /* exactly this number of steps */
+        if (step.digits < 1000 && count < 1e9) { /* a span of exactly this number of steps */
             const duration whole =
                 duration_of((uint64_t)floor(count + 1.0) * step.digits, 0, "s", step.in);
             int behind = 0;
@@ -131,8 +129,6 @@ TEST(counts, counts_are_exact) {
         }
     }
 }
-
-/* --- times ------------------------------------------------------------------------------------------- */
 
 TEST(counts, times_are_rounded_once) {
     seed_now = UINT64_C(0x5eed0012);
@@ -158,7 +154,8 @@ TEST(counts, times_are_rounded_once) {
     }
 }
 
-/* A --every or --from that was computed in double, and thus differs from a step's end by round-off, means that end. */
+/* A --every or --from that was computed in double differs from the end of a step by round-off. Whirl must take it
+ * for the end of that step. */
 TEST(counts, spacings_and_begins_are_counted_in_steps) {
     for (int i = 0; i < 20000; i++) {
         const whole_ratio step =
@@ -186,8 +183,8 @@ TEST(counts, spacings_and_begins_are_counted_in_steps) {
 }
 
 /* === firstlight =============================================================================== */
-/* Random records of a board's first light (host/monitor/light.h): each is read as sent, with noise before it and a
- * terminal's carriage returns. A truncated record or a changed byte is refused.
+/* Random records of a board's first light (host/monitor/light.h). A record must be read as it was sent, even after
+ * noise and with a terminal's carriage returns. A record that is cut short or has a changed byte must be refused.
  * `whirl firstlight` must name the field in which a record differs, and append a row to its page. */
 
 enum { ROOM = 16384 };
@@ -237,7 +234,7 @@ TEST(firstlight, whole_records) {
     for (unsigned i = 0; i < dice_cases(100); i++) {
         const size_t length = draw(record);
         taken(record, length);
-        size_t count = 0; /* noise that contains no begin */
+        size_t count = 0; /* noise without the words that begin a record */
         for (unsigned k = dice_one_of(&drawn, 300); k > 0; k--) {
             other[count++] = (char)dice_one_of(&drawn, 256);
         }
@@ -260,7 +257,8 @@ TEST(firstlight, broken_records) {
             refused(record, k, "a record cut at byte", k);
             refused(record + k + 1, length - k - 1, "a record from byte", k + 1);
             memcpy(other, record, length);
-            for (unsigned n = 0; n < 12; n++) { /* each bit, then any byte, then line ends */
+            /* each bit of the byte, then a random byte, then line ends */
+            for (unsigned n = 0; n < 12; n++) {
                 other[k] = n < 8     ? (char)(record[k] ^ 1 << n)
                            : n == 8  ? (char)dice_one_of(&drawn, 256)
                            : n == 9  ? '\n'
@@ -279,7 +277,7 @@ TEST(firstlight, broken_records) {
     }
 }
 
-/* Writes the offsets of the lines and of the text's end to from[]. Returns the number of lines. */
+/* Writes the offset of each line and of the text's end to from[]. Returns the number of lines. */
 static size_t lines_of(const char *text, size_t *from) {
     size_t lines = 0;
     for (const char *at = text; *at != '\0'; at = strchr(at, '\n') + 1) {
@@ -289,7 +287,8 @@ static size_t lines_of(const char *text, size_t *from) {
     return lines;
 }
 
-/* A valid CRC does not make a valid record. The test seals other lines, control bytes and a text that is too long. */
+/* A valid CRC does not make a valid record. The test seals changed lines, control bytes and too long a text with a
+ * CRC. */
 TEST(firstlight, sealed_nonsense) {
     static char before[ROOM];
     size_t from[LIGHT_FIELDS + 3];
@@ -317,13 +316,11 @@ TEST(firstlight, sealed_nonsense) {
         }
         record[length] = '\0';
         const size_t whole = sealed(record);
-        if (strcmp(record, before) != 0) { /* unless a line end replaced a line end */
+        if (strcmp(record, before) != 0) { /* equal only if a line end replaced a line end */
             refused(record, whole, "nonsense", i);
         }
     }
 }
-
-/* --- the command ---------------------------------------------------------------------------------------------------- */
 
 static char files[2][64];
 static void put(const char *name, const char *text) {
@@ -341,7 +338,8 @@ static const char *got(const char *name) {
     return text;
 }
 
-/* The value that a correct board sends for this field. `hashes`: an answer of the command, with the expected hashes. */
+/* The value that a correct board sends for a field. `hashes` is a printed answer of the command, which contains the
+ * expected hashes. */
 static const char *right_value(const char *name, const said *hashes) {
     static const struct {
         const char *name;
@@ -401,7 +399,8 @@ TEST(firstlight, command) {
     snprintf(files[0], sizeof files[0], "%s", model_keep(""));
     snprintf(files[1], sizeof files[1], "%s.md", files[0]);
     put(files[1], page_head);
-    write_record(NULL, NULL, NULL); /* a record of zeros: the command prints the expected values */
+    /* for a record of zeros, the command prints the expected values */
+    write_record(NULL, NULL, NULL);
     ask(&hashes);
     TEST_ASSERT_EQUAL(1, hashes.status);
     TEST_ASSERT_NOT_NULL(strstr(hashes.out, "hashes: 0 of 5 equal\n"));
@@ -423,7 +422,7 @@ TEST(firstlight, command) {
     TEST_ASSERT_EQUAL(0, what.status);
     TEST_ASSERT_NOT_NULL(strstr(what.out, "has this record already"));
 
-    /* a field that differs or is missing is named, also in the row */
+    /* the output and the row must name a field that differs or is missing */
     for (int i = 0; i < LIGHT_FIELDS; i++) {
         const char *name = light_names[i];
         const bool judged = strncmp(name, "model.", 6) == 0 || strncmp(name, "hash.", 5) == 0 ||

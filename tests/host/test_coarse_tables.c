@@ -1,5 +1,5 @@
-/* test_coarse_tables.c: random slider-cranks whose coarse tables lose energy. The warning names the tables; more cells
- * cure it and no step does. */
+/* test_coarse_tables.c: random slider-cranks whose coarse tables make them lose energy. The warning must name the
+ * tables. More cells must remove the loss, and a smaller step must not. */
 #include "command.h"
 #include "host/cli/commands.h"
 #include "host/image/image.h"
@@ -37,7 +37,7 @@ TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
         const bool is_fine = what.err[0] == '\0';
         run(text, form, cells, "1ms", &what);
         if (!is_fine || what.err[0] == '\0') {
-            continue; /* skipped: the step alone is too coarse, or the tables lose no energy */
+            continue; /* skipped: the step alone is too coarse, or no energy is lost */
         }
         told++;
         char twice[60];
@@ -46,7 +46,7 @@ TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
         run(text, form, cells, "0.1ms", &what);
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, twice) != NULL, text);
         run(text, form, IMAGE_CELLS_MOST, "30ms",
-            &what); /* the step is too coarse: more cells do not help */
+            &what); /* the step is too coarse, too, so more cells cannot help */
         TEST_ASSERT_TRUE_MESSAGE(strstr(what.err, "hint: try no --tables:") != NULL, what.err);
         run(text, form, cells * 128, "1ms", &what);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);

@@ -1,4 +1,5 @@
-/* test_command_changes.c: changed values in commands. A repeated name is refused; a measure that overflows fails. */
+/* test_command_changes.c: values that commands change. A name that is given twice is refused; a measure that
+ * overflows fails. */
 #include "command.h"
 
 #include "host/cli/commands.h"
@@ -9,7 +10,7 @@ static const char model[] =
     "V = 5 [N*m]*th^2/2 + 700 [N/m]*x^2/2\nQ(th) = M\n"
     "scene s { start th = 0.1 [rad]\nuntil 50 [ms] }\n";
 
-/* How a command takes a change: by --set and --start or, for "accel", by bare words. */
+/* How a command takes a change: as the value of --set or --start or, for `accel`, as a bare word. */
 typedef struct way {
     const char *name;
     int (*command)(int count, char **words);
@@ -50,14 +51,14 @@ TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
             const char *changes[NAMES + 1];
             char wanted[80];
             said what;
-            for (int k = 0; k < NAMES; k++) { /* all names, once each: accepted */
+            for (int k = 0; k < NAMES; k++) { /* all names once: accepted */
                 snprintf(text[k], sizeof text[k], "%s=%.3f %s", names[k],
                          dice_between(&d, 0.1, 1.0), units[k]);
                 changes[k] = text[k];
             }
             tell(&ways[w], changes, NAMES, &what);
             TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
-            /* the second time with the same value, or another */
+            /* gives one name a second time, with the same value or another */
             const bool same = dice_one_of(&d, 2) == 0;
             snprintf(text[NAMES], sizeof text[NAMES], "%s = %s%s", names[i],
                      same ? strchr(text[i], '=') + 1 : "7 ", same ? "" : units[i]);
@@ -73,12 +74,12 @@ TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
     model_drop();
 }
 
-/* A measure of finite samples overflows; the same samples, made small enough, give a number. */
+/* A measure of finite samples can overflow. If the same samples are made small enough, the measure is a number. */
 TEST(command_changes, measures_that_overflow_fail_their_points) {
     static const struct {
-        const char *measure; /* a measure of x, which oscillates between -1 and 1 */
+        const char *measure; /* a measure of x, which swings between -1 and 1 */
         double most;         /* largest factor of x, in 1e308, for which the measure is finite */
-        double least;        /* least factor for which it is infinite */
+        double least;        /* least factor, in 1e308, for which the measure is infinite */
     } cases[] = {{"mean", 1e-8, 0.1}, {"amplitude", 0.8, 1.5}, {"period", 1e-8, 1.5}};
     dice d = dice_of("overflows", 4302);
     for (unsigned i = 0; i < 30; i++) {
@@ -88,7 +89,7 @@ TEST(command_changes, measures_that_overflow_fail_their_points) {
                                     : dice_between(&d, 0.0, cases[which].most);
         char measure[80];
         said what;
-        /* a swing takes 4.1 ms. The mean of the square is not zero, so the sum of its samples grows */
+        /* a swing takes 4.1 ms; the square of x has a mean above zero, so the sum of its samples grows */
         snprintf(measure, sizeof measure, "%s(%.9e*%s)", cases[which].measure, 1e308 * factor,
                  which == 0 ? "(x/1 [m])^2" : "x/1 [m]");
         const char *words[] = {model_keep(model),

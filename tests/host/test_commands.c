@@ -1,6 +1,6 @@
-/* test_commands.c: parts of the command line without a process: lists of effects, built-in names, and file identity on
- * file systems without inodes. */
-#define _XOPEN_SOURCE 700 /* symlink(), mkdtemp() */
+/* test_commands.c: parts of the command line, without a process: lists of effects, built-in names, and whether two
+ * names are one file on file systems without inodes. */
+#define _XOPEN_SOURCE 700 /* for symlink() and mkdtemp() */
 #include "derived.h"
 
 #include <unistd.h>
@@ -36,7 +36,7 @@ static const char *blanks_of(uint64_t *seed) {
     return some[random_bits(seed) % (sizeof some / sizeof some[0])];
 }
 
-/* Takes `text` as the value of --with (or --without), and writes its names to *o. */
+/* Takes `text` as the value of --with (or --without) and stores its names in *o. */
 static bool take(common_options *o, bool with, const char *text, bool joined) {
     char option[20];
     char whole[400];
@@ -65,7 +65,8 @@ TEST(commands, lists_of_effects) {
     for (int i = 0; i < 400; i++) {
         static const char *const names[] = {"a", "c", "rail_drag", "ledger", "b2"};
         const int count = 1 + (int)(random_bits(&seed) % 5);
-        const int mistake = (int)(random_bits(&seed) % 3); /* 1: a name is missing, 2: one twice */
+        /* 1: an empty name in the list; 2: a name twice */
+        const int mistake = (int)(random_bits(&seed) % 3);
         const int which = (int)(random_bits(&seed) % (unsigned)count);
         const bool with = random_bits(&seed) % 2 == 0;
         char text[300] = "";
@@ -132,8 +133,8 @@ static const struct builtin_model made_up[] = {
 TEST(commands, built_in_names) {
     static const struct {
         const char *target;
-        const char *file; /* NULL: refused */
-        const char *name; /* a name, or the message */
+        const char *file; /* NULL: the name must be refused */
+        const char *name; /* name of the scene, or the message */
     } all[] = {{"spun", "one.whirl", "spun"},
                {"gear:spun", "one.whirl", "spun"},
                {"gear:slow", "three.whirl", "slow"},
@@ -191,19 +192,20 @@ static void write_file(const char *path, const char *text) {
     fclose(out);
 }
 
-/* With and without inodes, for every pair of names. Network file systems and WASI have no inodes. */
+/* Finds for every pair of names whether they are one file. Network file systems and WASI have no inodes; the test
+ * leaves them out of one or both. */
 TEST(commands, one_file_or_two) {
     char folder[] = "/tmp/whirl_files_XXXXXX";
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     enum { NAMES = 6 };
     static const char *const names[NAMES] = {"a", "./a", "soft", "hard", "twin", "b"};
-    static const int file[NAMES] = {0, 0, 0, 0, 1, 2}; /* the file of each name */
+    static const int file[NAMES] = {0, 0, 0, 0, 1, 2}; /* the number of the file behind each name */
     char path[NAMES][100];
     for (int i = 0; i < NAMES; i++) {
         snprintf(path[i], sizeof path[i], "%s/%s", folder, names[i]);
     }
     write_file(path[0], "model");
-    write_file(path[4], "model"); /* the same size and probably the same time */
+    write_file(path[4], "model"); /* a different file of the same size and probably the same time */
     write_file(path[5], "another");
     TEST_ASSERT_EQUAL_INT(0, symlink("a", path[2]));
     TEST_ASSERT_EQUAL_INT(0, link(path[0], path[3]));
@@ -216,14 +218,15 @@ TEST(commands, one_file_or_two) {
             const bool same = file[i] == file[k];
             TEST_ASSERT_TRUE(files_are_one(&one, path[i], &other, path[k]) == same);
             TEST_ASSERT_TRUE(files_same(path[i], path[k]) == same);
-            for (int without = 1; without < 4; without++) { /* either or both without inode */
+            /* without the inode of one file, of the other, or of both */
+            for (int without = 1; without < 4; without++) {
                 struct stat left = one;
                 struct stat right = other;
                 left.st_ino = (without & 1) != 0 ? 0 : left.st_ino;
                 right.st_ino = (without & 2) != 0 ? 0 : right.st_ino;
                 TEST_ASSERT_TRUE_MESSAGE(files_are_one(&left, path[i], &right, path[k]) == same,
                                          path[k]);
-                /* standard input has no name: the file itself must be found */
+                /* the file behind standard input has no name, so it must be compared itself */
                 if (same || one.st_size != other.st_size) {
                     TEST_ASSERT_TRUE(files_are_one(&left, NULL, &right, path[k]) == same);
                 }
@@ -238,7 +241,8 @@ TEST(commands, one_file_or_two) {
     TEST_ASSERT_EQUAL_INT(0, rmdir(folder));
 }
 
-/* Files of random sizes beside the sizes of read_all()'s buffer are read to their last byte, or refused with their limit. */
+/* Files whose random sizes are close to that of the buffer in read_all() are read to their last byte, or refused
+ * with a message that names the limit. */
 TEST(commands, files_are_read_whole_or_refused) {
     char path[] = "/tmp/whirl-XXXXXX";
     const int file = mkstemp(path);

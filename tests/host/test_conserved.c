@@ -1,7 +1,8 @@
-/* test_conserved.c: a coordinate recovered from its momentum, against the function that its momentum was made from.
+/* test_conserved.c: a coordinate that is recovered from its momentum, compared with the function from which the
+ * momentum was made.
  *
- * T = M x'^2/2 + x' dG/dt + terms of the others, with a random G(q, r). So p = M x' + dG/dt is constant, and x = (p t +
- * G(start) - G)/M. G has powers, waves and their products, some of which conserve.c can integrate. */
+ * T = M x'^2/2 + x' dG/dt + terms of the others, with a random G(q, r). So p = M x' + dG/dt is constant, and x = (p
+ * t + G(start) - G)/M. G has powers, waves and their products; conserve.c can integrate some of them. */
 #include "derived.h"
 #include "host/derive/conserve.h"
 
@@ -11,11 +12,11 @@ typedef struct wave_term {
     double size;
     int q_power;
     int r_power;
-    bool turns; /* times sin(k q + l r + c) */
+    bool turns; /* has the factor sin(k q + l r + c) */
     int k;
     int l;
     double c;
-    bool grows; /* times exp(r) */
+    bool grows; /* has the factor exp(r) */
 } wave_term;
 
 static double term_value(const wave_term *t, double q, double r) {
@@ -31,7 +32,7 @@ static double g_value(const wave_term *terms, double q, double r) {
     return sum;
 }
 
-/* dG/dq (which = 0) or dG/dr, as text. */
+/* Writes dG/dq (which = 0) or dG/dr (which = 1) as text. */
 static void write_slope(char *text, size_t size, const wave_term *terms, int which) {
     size_t at = (size_t)snprintf(text, size, "(0");
     for (int i = 0; i < TERMS; i++) {
@@ -62,8 +63,8 @@ static void write_slope(char *text, size_t size, const wave_term *terms, int whi
     snprintf(text + at, size - at, ")");
 }
 
-/* Powers of q and r, a wave of both, or a wave of one times powers of the other. A third has a factor exp(r) if it has
- * no power of r. */
+/* Powers of q and r, a wave of both, or a wave of one angle times powers of the other. Of terms without powers of r,
+ * a third has the factor exp(r). */
 static wave_term random_term(uint64_t *seed) {
     wave_term t = {.size = random_between(seed, -2.0, 2.0)};
     const unsigned kind = (unsigned)(random_bits(seed) % 4);
@@ -78,7 +79,7 @@ static wave_term random_term(uint64_t *seed) {
 }
 
 typedef struct moment {
-    double q[3][2]; /* x, q, r; value and rate */
+    double q[3][2]; /* value and rate of x, q and r */
     double time;
 } moment;
 
@@ -130,7 +131,7 @@ TEST(conserved, a_coordinate_follows_from_its_momentum) {
         for (int i = 0; i < TERMS; i++) {
             terms[i] = random_term(&seed);
         }
-        if (round % 5 == 0) { /* exp(r) alone fits neither a power nor a wave */
+        if (round % 5 == 0) { /* exp(r) alone is neither a power nor a wave */
             terms[0].grows = true;
         }
         const double mass = random_between(&seed, 1.0, 3.0);
@@ -164,7 +165,8 @@ TEST(conserved, a_coordinate_follows_from_its_momentum) {
         TEST_ASSERT_TRUE(c->unknown[0] == 0 && c->number[0] == 0 && c->number[1] == -1);
         const bool whole =
             !terms[0].grows || terms[0].q_power > 0 || (terms[0].turns && terms[0].k != 0);
-        TEST_ASSERT_TRUE_MESSAGE(c->closed == whole, text); /* exp(r) with q is integrated by q */
+        /* exp(r) together with q is integrated by q */
+        TEST_ASSERT_TRUE_MESSAGE(c->closed == whole, text);
         check_law(c, terms, &start, mass, &seed);
         closed += c->closed;
         open += !c->closed;

@@ -1,5 +1,5 @@
-/* test_contact.c: contacts with more events than a step can resolve, while the step is also too coarse for a spring or
- * a damper. The remedy in a warning must remove all reported problems. */
+/* test_contact.c: contacts. Many events in a step beside a spring or a damper for which the step is too coarse,
+ * curved contacts, the contact laws, friction, stops, and redundant supports. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -8,10 +8,8 @@
 #include "drawn.h"
 #include "rattle.h"
 
-/* --- drawn curved contacts ---------------------------------------------------------------------------*/
-
-/* Random mechanisms with curved stops and holds and dry friction, as text: cams, cranks and beads with
- * coupled inertia. Their friction passes dead centres. */
+/* Random mechanisms as text, with curved stops, curved holds and dry friction: cams, cranks and beads with coupled
+ * inertia. The coordinates with friction pass dead centres. */
 
 typedef struct writing {
     char *text;
@@ -30,8 +28,8 @@ __attribute__((format(printf, 2, 3))) static void put(writing *w, const char *fo
     }
 }
 
-/* A function of a, b and c, zero on a surface: `f(a) - other coordinate`, a circle or a square. With its value at the
- * start. */
+/* A function of a, b and c that is zero on a surface, and its value at the start: `f(a) - other coordinate`, a
+ * circle or a square. */
 typedef struct surface {
     char text[160];
     double value;
@@ -55,12 +53,12 @@ static surface random_surface(uint64_t *seed, int coordinates, const double q[3]
         snprintf(s.text, sizeof s.text, "b + %.17g [m]*sin(%d*a)", e, k);
         s.value = q[1] + e * sin(k * q[0]);
         break;
-    case 3: /* connecting rod of length 1 m */
+    case 3: /* a connecting rod, 1 m long */
         snprintf(s.text, sizeof s.text,
                  "b - %.17g [m]*cos(a) - sqrt(1 [m^2] - %.17g [m^2]*sin(a)^2)", e, e * e);
         s.value = q[1] - e * cos(q[0]) - sqrt(1.0 - e * e * sin(q[0]) * sin(q[0]));
         break;
-    case 4: /* bead over a round hill */
+    case 4: /* a bead on a round hill */
         snprintf(s.text, sizeof s.text, "sqrt(b^2 + (c - 2 [m])^2)");
         s.value = hypot(q[1], q[2] - 2.0);
         break;
@@ -72,8 +70,8 @@ static surface random_surface(uint64_t *seed, int coordinates, const double q[3]
     return s;
 }
 
-/* Writes a mechanism to `text`; the same seed gives the same text. Returns the scale of its energy balance: the energy
- * at the start without gravity and springs at rest, J. `step_s` and `until_s` go into its scene. */
+/* Writes a mechanism that depends on the seed `of` only, with a scene of this step and end time. Returns the scale
+ * of its energy balance in J: the energy at the start, without gravity and with springs at rest. */
 static double curved_text(uint64_t of, double step_s, double until_s, char *text, size_t size) {
     uint64_t seed = of * 0x9e3779b97f4a7c15U + 1U;
     writing w = {text, size, 0};
@@ -84,7 +82,7 @@ static double curved_text(uint64_t of, double step_s, double until_s, char *text
     const double kb = random_between(&seed, 20.0, 200.0);
     const double kc = random_between(&seed, 20.0, 200.0);
     const double couple = random_between(&seed, -0.6, 0.6);
-    const bool turning = random_bits(&seed) % 2U != 0; /* inertia that depends on the angle */
+    const bool turning = random_bits(&seed) % 2U != 0; /* does the inertia depend on the angle? */
     double q[3] = {random_between(&seed, -3.0, 3.0), random_between(&seed, -0.3, 0.3),
                    random_between(&seed, -0.3, 0.3)};
     const double v[3] = {random_between(&seed, -20.0, 20.0), random_between(&seed, -2.0, 2.0),
@@ -163,7 +161,8 @@ TEST(busy_beside, a_cure_is_one_of_all) {
     unsigned both = 0;
     unsigned cured = 0;
     for (unsigned i = 0; i < cases; i++) {
-        const bool damped = i % 2 == 1; /* runs that agree may still miss most of the loss */
+        /* runs with damping may agree and still miss most of the loss */
+        const bool damped = i % 2 == 1;
         const rattle r = rattle_drawn(&d, damped ? HOLD : (rattle_kind)(i / 2 % KINDS));
         const double rate_radps =
             pow(10.0, damped ? dice_between(&d, -0.1, 0.4) : dice_between(&d, -0.8, 0.1)) /
@@ -198,8 +197,8 @@ TEST(busy_beside, a_cure_is_one_of_all) {
     TEST_ASSERT_TRUE(energies > cases / 4 && cured > cases / 4 && (both > 0 || cases < 30));
 }
 
-/* A heavy round body hits another one head-on, and no force presses them together. The restitution named in the hint ends the
- * events. */
+/* A heavy round body hits a light one head-on, and no force presses them together. The restitution that the hint
+ * names must end the warning. */
 TEST(busy_beside, head_on) {
     dice d = dice_of("head on", 15006);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 300));
@@ -230,7 +229,8 @@ TEST(busy_beside, head_on) {
     TEST_ASSERT_TRUE(told * 10 > cases);
 }
 
-/* A body with far less inertia than the others, used as a clock, hits a stop. Its run ends, and the hint names the stop. */
+/* A body with far less inertia than the others serves as a clock and hits a stop. If this ends the run, the hint
+ * must ask for more inertia. */
 TEST(busy_beside, light_clocks) {
     dice d = dice_of("light clocks", 15007);
     const unsigned cases = dice_cases(usual_or(20, 8));
@@ -256,10 +256,9 @@ TEST(busy_beside, light_clocks) {
 }
 
 /* === contact curved =========================================================================== */
-/* Random curved contacts: the energy balance closes, also at dead centres. */
 
 typedef struct outcome {
-    double share; /* residual of the energy balance relative to the energy at the start */
+    double share; /* residual of the energy balance, divided by the energy at the start */
     uint64_t overruns;
     bool refused;
 } outcome;
@@ -279,8 +278,8 @@ static outcome run(uint64_t seed, double step_s, const engine_kind *kind) {
     return o;
 }
 
-/* If the inertia along the curve changes within a few steps, RK4 itself has a larger residual. It falls with the fourth
- * power of the step and is not the subject. */
+/* If the inertia along a curve changes within a few steps, RK4 itself has a larger residual. Its residual falls with
+ * the fourth power of the step; the contacts' residual is tested here. */
 static bool is_the_methods(uint64_t seed, double share) {
     const outcome fine = run(seed, 0.25e-3, &engine_double);
     printf("  seed %llu leaves %.1e, with a quarter of the step %.1e\n", (unsigned long long)seed,
@@ -288,7 +287,8 @@ static bool is_the_methods(uint64_t seed, double share) {
     return fine.overruns == 0 && fine.share < share / 60.0;
 }
 
-/* In float a motion with contacts may differ from that in double, but it must not lose energy. */
+/* A residual above `most` is allowed only if the step is too coarse for the method, in up to `coarse_share` of the
+ * runs. In float, the run in double decides: the two motions may differ, but float must not lose energy. */
 static void check_energy(const engine_kind *kind, double most, double coarse_share) {
     const long runs = (long)dice_cases(few_or_all(100, 300));
     double worst = 0.0;
@@ -325,20 +325,21 @@ TEST(contact_curved, energy_is_accounted_for) { check_energy(&engine_double, 1e-
 TEST(contact_curved, energy_is_accounted_for_in_float) { check_energy(&engine_float, 1e-3, 1.0); }
 
 /* === contact law ============================================================================== */
-/* Random mechanisms with a constant mass matrix, whose contacts all act at one moment. The laws of
- * core/contact/contact_lcp.h and core/contact/contact_resolve.h are solved independently by trying every case (active
- * contacts, those at a limit). Compares rates, places, and each contact's part of the energy and of each momentum. */
+/* Random mechanisms with a constant mass matrix, whose contacts all act at the same moment. The laws of
+ * core/contact/contact_lcp.h and core/contact/contact_resolve.h are solved independently by trying every combination
+ * of active contacts and contacts at a limit. Compared are rates, positions, and each contact's part of the energy
+ * and of each momentum. */
 
-/* --- impacts --------------------------------------------------------------------------------------------------- */
-
-/* Stops all reached at one moment, resting stops, a hold, and friction with zero normal force. */
+/* Draws a body that reaches several stops at the same moment. It also has resting stops, a hold, and friction
+ * without normal force. */
 static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     static const double restitutions[] = {0.0, 0.25, 0.5, 1.0};
     *b = drawn_body(seed);
     for (int i = 0; i < b->n; i++) {
         b->rate[i] = drawn_whole(seed, -3, 3);
     }
-    b->rate[0] = random_bits(seed) % 2U != 0 ? 0.0 : b->rate[0]; /* zero: friction may stick */
+    /* zero, so that friction may stick */
+    b->rate[0] = random_bits(seed) % 2U != 0 ? 0.0 : b->rate[0];
     const int hits = 1 + (int)(random_bits(seed) % 3U);
     for (int k = 0; k < hits; k++) {
         drawn_contact *of = drawn_add(b, 's');
@@ -357,7 +358,8 @@ static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     if (random_bits(seed) % 2U != 0) {
         drawn_row_at_rest(b, seed, drawn_add(b, 's')->row);
     }
-    if (random_bits(seed) % 2U != 0) { /* every third in the opposite direction of a resting stop */
+    /* one hold in three has the opposite row of a resting stop */
+    if (random_bits(seed) % 2U != 0) {
         drawn_contact *of = drawn_add(b, 'h');
         const bool repeats = of[-1].offset == 0.0 && random_bits(seed) % 3U == 0;
         drawn_row_at_rest(b, seed, of->row);
@@ -371,7 +373,8 @@ static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     return true;
 }
 
-/* Draws a hold that captures at the time of the impact, next to resting stops that may be released. */
+/* Draws a body with a hold that begins to act at the time of the impact, and with resting stops that may be
+ * released. */
 static bool draw_capture(uint64_t *seed, double impact_s, drawn *b) {
     *b = drawn_body(seed);
     for (int i = 0; i < b->n; i++) {
@@ -394,7 +397,7 @@ static bool draw_capture(uint64_t *seed, double impact_s, drawn *b) {
 
 static double apart(double got, double wanted) { return fabs(got - wanted) / (1.0 + fabs(wanted)); }
 
-/* Error in the account of contact k: first the energy, then each momentum. */
+/* Largest error of contact k's entries: its energy and its part of each momentum. */
 static double books_apart(const motion *m, const drawn *b, int k, double energy, double impulse) {
     double total[64] = {0.0};
     double left[DRAWN_MOST + 1] = {0.0};
@@ -475,9 +478,7 @@ TEST(contact_law, holds_capture_by_their_law) {
     check_impacts(draw_capture, &engine_double, 1e-11);
 }
 
-/* --- forces ---------------------------------------------------------------------------------------------------- */
-
-/* Draws a body at rest on its stops, with active holds and sticking friction; then the loads act. */
+/* Draws a body at rest on its stops, with active holds and sticking friction. Then the loads act. */
 static void draw_rest(uint64_t *seed, drawn *b) {
     *b = drawn_body(seed);
     for (int i = 0; i < b->n; i++) {
@@ -499,7 +500,7 @@ static void draw_rest(uint64_t *seed, drawn *b) {
     }
 }
 
-/* Constant loads give constant accelerations: rates a h, places a h^2/2, impulses lambda h. */
+/* Constant loads give constant accelerations. After the time h: rates a h, positions a h^2/2, impulses lambda h. */
 static void check_forces(const engine_kind *kind, double bound) {
     const long runs = (long)dice_cases(few_or_all(12, 40));
     uint64_t seed = 72;
@@ -555,7 +556,7 @@ TEST(contact_law, forces_share_a_load_by_their_law_in_float) { check_forces(&eng
 
 #define G 9.81
 
-/* A block that sticks does not move, to the bit. */
+/* A block that sticks must not move by a single bit. */
 static void check_sticks(const char *name, stepping how) {
     motion m;
     motion_open(&m, name, how);
@@ -567,7 +568,7 @@ static void check_sticks(const char *name, stepping how) {
     motion_close(&m);
 }
 
-/* The incline's scene lasts ten minutes. */
+/* The block on the incline must stick for ten minutes. */
 TEST(contact_friction, blocks_stick) {
     static const char *const scenes[] = {"incline_sticks", "table_sticks"};
     for (int i = 0; i < 2; i++) {
@@ -577,7 +578,8 @@ TEST(contact_friction, blocks_stick) {
     }
 }
 
-/* The friction coefficient is 1e-9 above tan 10 degrees, where the block sticks, or below. */
+/* A block on a slope of 10 degrees sticks if the friction coefficient is 1e-9 above tan 10 degrees. It slides if the
+ * coefficient is 1e-9 below. */
 TEST(contact_friction, block_sticks_up_to_the_slope) {
     for (int side = -1; side <= 1; side += 2) {
         motion m;
@@ -590,7 +592,8 @@ TEST(contact_friction, block_sticks_up_to_the_slope) {
         if (side > 0) {
             TEST_ASSERT_TRUE(motion_value(&m, "s") == 0.0);
         } else {
-            /* closed form: g sin 10 deg 1e-9 t^2/2, of a difference of two numbers rounded to 2e-16 */
+            /* closed form: g sin(10 deg) 1e-9 t^2/2; this is the difference of two numbers with round-off of 2e-16,
+             * so 1e-6 is allowed */
             const double slides = G * sin(acos(-1.0) / 18.0) * 1e-9 * 50.0;
             expect_between("slides by, just below, over the closed form", 1.0 - 1e-6, 1.0 + 1e-6,
                            motion_value(&m, "s") / slides);
@@ -599,7 +602,7 @@ TEST(contact_friction, block_sticks_up_to_the_slope) {
     }
 }
 
-/* mu_s g/w^2 is the largest amplitude without slip. */
+/* The largest amplitude without slip is mu_s g/w^2. */
 TEST(contact_friction, block_slips_from_the_closed_forms_amplitude_on) {
     const double w = 4.0 * acos(-1.0);
     for (int side = -1; side <= 1; side += 2) {
@@ -617,9 +620,9 @@ TEST(contact_friction, block_slips_from_the_closed_forms_amplitude_on) {
 }
 
 /* === contact stops ============================================================================ */
-/* Balls on stops (core/models/contacts.whirl), with closed forms. */
+/* Balls on stops (core/models/contacts.whirl), compared with closed forms. */
 
-/* Finds the first moment of rest, then checks a minute of rest. */
+/* Finds the moment at which the ball comes to rest, and checks that it stays at rest until the end, for a minute. */
 static void check_rest(stepping how, double height_most) {
     motion m;
     double rest_s = 0.0;
@@ -639,7 +642,7 @@ static void check_rest(stepping how, double height_most) {
         }
         TEST_ASSERT_TRUE_MESSAGE(rests || rest_s <= 0.0, "left the stop again");
         if (contacts_events(&m) != events && !rests) {
-            /* energy gives the height of this bounce; closed form: e^2 of the previous height */
+            /* the energy gives the height of this bounce; closed form: e^2 times the previous height */
             TEST_ASSERT_EQUAL_UINT64_MESSAGE(1, contacts_events(&m) - events, "two bounces a step");
             bounced *= 0.25;
             bounces++;
@@ -650,7 +653,7 @@ static void check_rest(stepping how, double height_most) {
     TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
     motion_close(&m);
     printf("  %s\n", how.kind->name);
-    /* closed form: the bounces' times are a geometric series, sqrt(2 h/g) (1 + e)/(1 - e) */
+    /* closed form: the times of the bounces are a geometric series with the sum sqrt(2 h/g) (1 + e)/(1 - e) */
     const double closed = 3.0 * sqrt(2.0 / G);
     expect_between("  at rest after, s", closed - 1e-3, closed + 1e-3, rest_s);
     expect_between("  bounces whose height was looked at", 8.0, 14.0, bounces);
@@ -659,7 +662,8 @@ static void check_rest(stepping how, double height_most) {
 
 TEST(contact_stops, ball_comes_to_rest_and_stays_for_a_minute) {
     check_rest(IN_DOUBLE, 1e-6); /* the project's bound */
-    /* 450 sums in the first fall, each rounded by 2^-24 of 4.4 m/s: 1.2e-4 m/s in v, and v/g times that in height */
+    /* 450 sums in the first fall, each rounded by 2^-24 of 4.4 m/s, give 1.2e-4 m/s in v, and v/g times as much in
+     * height */
     check_rest(IN_FLOAT, 5.3e-5);
 }
 
@@ -675,17 +679,18 @@ TEST(contact_stops, too_many_bounces_are_told_and_end) {
     }
     TEST_ASSERT_TRUE(contacts_overruns(&m) >= 1);
     motion_close(&m);
-    /* a step short enough for its bounces handles all of them: 25 m/s over 1 mm are 25000 per second */
+    /* with a shorter step all bounces are handled: 25 m/s over 1 mm are 25000 bounces per second */
     motion_open(&m, "ball_between", IN_DOUBLE_STEP(2e-5));
     motion_to(&m, 0.1);
     TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
-    /* closed form: 2500, exact to a bounce, because v changes by only 4e-4 m/s over 1 mm of height */
+    /* closed form: 2500 bounces, because v changes by only 4e-4 m/s over 1 mm of height */
     expect_between("bounces in 0.1 s", 2498.0, 2502.0, (double)contacts_events(&m));
     expect_between("energy kept", 1.0 - 1e-9, 1.0 + 1e-9, motion_value(&m, "energy") / start);
     motion_close(&m);
 }
 
-/* The restitution of the balls depends on the impact speed. A warning must appear where it is outside 0 to 1, and only there. */
+/* The restitution of these balls depends on the impact speed. If it is outside 0 to 1, a warning must appear, else
+ * not. */
 TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
     dice d = dice_of("contact_stops", 5);
     const unsigned cases = dice_cases(24);
@@ -695,7 +700,7 @@ TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
         const double height = dice_between(&d, 0.1, 2.0);
         const double speed = sqrt(2.0 * G * height);
         const double e = dice_between(&d, -0.6, 1.6);
-        /* the body starts at the speed e - slope speed */
+        /* the body starts with the speed that a restitution of e at this impact gives */
         const double slope = dice_between(&d, -0.2, 0.2);
         const double begin = e - slope * speed;
         snprintf(text, sizeof text,
@@ -723,18 +728,18 @@ TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
 }
 
 /* === contact redundant ======================================================================== */
-/* A plate on two to five supports in a line, more than needed: the forces are not unique, but
- * the motion is. The plate rests, or leaves all supports at once when they accelerate downwards faster than gravity, or
- * tips over the outermost one under a torque. Compared with closed forms. */
+/* A plate on two to five supports in a line. The support forces are not unique, but the motion is. The plate rests,
+ * or leaves all supports when they accelerate downwards faster than gravity, or a torque tips it over the outermost
+ * support. Compared with closed forms. */
 
 enum { PLATE_TEXT = 2000 };
 
 typedef struct plate {
     int supports;
-    double place_m[5]; /* from left to right */
+    double place_m[5]; /* position of each support, from left to right */
     double mass_kg;
     double inertia_kgm2;
-    double rate;   /* of the clock, rad/s */
+    double rate;   /* rate of the clock c, rad/s */
     double height; /* amplitude of the supports' swing, m, or of the torque, N m */
 } plate;
 
@@ -751,8 +756,8 @@ static plate plate_drawn(dice *d) {
     return p;
 }
 
-/* With `falls` the supports move as height sin(c), and y is the plate's height above them. Otherwise a torque tips the plate
- * to the right. */
+/* If `falls`, the supports move by height sin(c), and y is the plate's height above the supports. Else a torque tips
+ * the plate to the right. */
 static void plate_write(const plate *p, bool falls, char text[PLATE_TEXT]) {
     int at = snprintf(text, PLATE_TEXT,
                       "mechanism plate\ncoordinate y [m]\ncoordinate a [rad]\ncoordinate c [rad]\n"
@@ -771,7 +776,7 @@ static void plate_write(const plate *p, bool falls, char text[PLATE_TEXT]) {
              "scene s { start c' = %.17g [rad/s]\nstep 1 [ms]\nuntil 1 [s] }\n", p->rate);
 }
 
-/* Largest errors of place and angle at the steps until `until_s`. */
+/* Largest error of position and angle at any step until until_s. */
 static double plate_run(const plate *p, bool falls, const engine_kind *kind, double until_s) {
     char text[PLATE_TEXT];
     motion m;
@@ -814,7 +819,7 @@ static void check_plates(bool falls, const char *words) {
         plate p = plate_drawn(&d);
         double until_s = 0.0;
         if (falls) {
-            /* the plate flies from sin c0 = share until shortly after the top of the supports' swing */
+            /* the plate leaves the supports at sin c = share and flies until shortly after the top of their swing */
             const double share = dice_between(&d, 0.3, 0.9);
             p.height = G / (share * p.rate * p.rate);
             until_s = 1.7 / p.rate;

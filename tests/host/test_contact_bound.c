@@ -1,7 +1,7 @@
-/* test_contact_bound.c: random states of every built-in scene with contacts. No step hangs or evaluates the
- * accelerations more often than declared, and no stop, friction or hold adds energy.
+/* test_contact_bound.c: random states of every built-in scene with contacts. No step may hang or evaluate the
+ * accelerations more often than declared, and no stop, friction or hold may add energy.
  *
- * RANDOM_STEPS steps per scene; WHIRL_RANDOM_STEPS asks for more. */
+ * RANDOM_STEPS steps per scene; WHIRL_RANDOM_STEPS=N asks for N. */
 #include "command.h"
 #include "derived.h"
 #include "host/derive/program.h"
@@ -19,9 +19,9 @@ static long random_steps(void) {
 /* States at equal times of the scene's own run. */
 typedef struct samples {
     int count;
-    double value[SAMPLES][IMAGE_COMPONENTS_MAX]; /* by unknown */
+    double value[SAMPLES][IMAGE_COMPONENTS_MAX]; /* [sample][unknown] */
     double rate[SAMPLES][IMAGE_COMPONENTS_MAX];
-    double rate_scale[IMAGE_COMPONENTS_MAX]; /* largest values */
+    double rate_scale[IMAGE_COMPONENTS_MAX]; /* largest absolute rate in the run */
 } samples;
 
 static void take_sample(const image *p, const engine_kind *kind, const void *run, samples *s) {
@@ -55,8 +55,8 @@ static void take_samples(const derived *d, const engine_kind *kind, samples *s) 
     kind->stop(run);
 }
 
-/* Perturbs the start: a state of the run, its rates times a random factor plus an offset, its linear positions moved by
- * a few steps' motion, any angles. */
+/* Sets a random start: a state of the run with changed rates (a random factor and an offset), positions moved by a
+ * few steps' motion, and any angles. */
 static void throw_start(const instance *inst, const samples *s, uint64_t *seed) {
     const mechanism *m = inst->mechanism;
     const int from = (int)(random_bits(seed) % SAMPLES);
@@ -76,11 +76,12 @@ typedef struct worst {
     uint64_t declared;
     uint64_t events;
     uint64_t overruns;
-    /* largest energy that one contact gave in a run, beyond the run's numerical drift */
+    /* largest energy that a contact added in a run, beyond the energy residual */
     double gained_J;
 } worst;
 
-/* Apart from the run's numerical drift, every contact only takes energy; the assignments of crossings are exempt. */
+/* Records the largest energy that a stop, a friction or a hold has added, beyond the energy residual. The `set` of a
+ * crossing may add energy and is left out. */
 static void watch_books(const image *p, const engine_kind *kind, const void *run, worst *w) {
     const image_ledger *l = &p->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
@@ -100,7 +101,8 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
     take_samples(d, kind, &around);
     for (long done = 0; done < steps; done += RUN) {
         throw_start(d->instance, &around, &seed);
-        diags *beyond = diags_new(); /* a state beyond a stop is put back, which takes energy */
+        /* a state inside a stop is put back, which changes the energy */
+        diags *beyond = diags_new();
         image *thrown = image_again(d->image, d->instance, beyond);
         const bool apart = start_is_possible(thrown, kind, beyond);
         diags_free(beyond);
@@ -109,7 +111,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
         uint64_t overruns;
         wh_status status = WH_OK;
         for (int i = 0; i < RUN && status == WH_OK; i++) {
-            /* the step is refused if the random state is too far outside the possible ones */
+            /* a step is refused if the random state is too far from the possible states */
             status = kind->step(run);
             const uint64_t now = kind->evaluations(run, &w.declared);
             w.evaluations = now - before > w.evaluations ? now - before : w.evaluations;
@@ -126,7 +128,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
     return w;
 }
 
-/* One scene with the energy balance, as it is or with all effects, in one arithmetic. */
+/* Checks a scene with the energy balance, as it is or with all effects, with one number type. */
 static void check_scene(const scene *of, bool all, const engine_kind *kind) {
     diags *errors = diags_new();
     const char *with[EFFECTS_MAX];

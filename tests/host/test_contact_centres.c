@@ -1,10 +1,10 @@
-/* test_contact_centres.c: machines with dry friction on a coordinate with a dead centre: cam, Scotch yoke,
- * slider-crank, bead over a hill. Each has one degree of freedom a, with b = f(a). The reference is one equation,
- * integrated here in long double from dead centre to dead centre:
+/* test_contact_centres.c: dry friction on a coordinate b = f(a) that has a dead centre: cam, Scotch yoke, slider-crank,
+ * bead on a hill. Each machine has one degree of freedom, a. The reference is one equation, integrated in long double
+ * from dead centre to dead centre:
  *
- * (J + m f'^2) a'' = torque - m f' f'' a'^2 - f' (m g + k (f + 2 e) + F sign(f' a'))
+ *   (J + m f'^2) a'' = torque - m f' f'' a'^2 - f' (m g + k (f + 2 e) + F sign(f' a'))
  *
- * and for the linkage, whose rod turns by p with sin p = sin(a)/4, its inertia beside m f'^2. */
+ * The slider-crank has the inertia of its rod beside m f'^2; the rod turns by p with sin p = sin(a)/4. */
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
@@ -16,7 +16,7 @@ static const char *const NAMES[MACHINES] = {"cam", "yoke", "slider", "linkage", 
 typedef struct machine {
     machine_kind kind;
     double J, m, e, k, friction_N, torque_Nm;
-    double J_rod;   /* of the linkage, else 0 */
+    double J_rod;   /* inertia of the slider-crank's rod; else 0 */
     double a, rate; /* at the start */
 } machine;
 
@@ -24,7 +24,7 @@ typedef struct machine {
 
 static long double wide(double x) { return (long double)x; }
 
-/* f, f', f''. The hill of height e is a bell over a, 1 rad wide; the rod is 4 e long. */
+/* f, f' and f''. The hill is a bell over a, of height e and 1 rad wide. The slider-crank's rod is 4 e long. */
 static void law(const machine *c, long double a, long double f[3]) {
     const long double e = wide(c->e);
     if (c->kind == HILL) {
@@ -73,7 +73,7 @@ static void rk4(const machine *c, long double h, long double way, long double s[
     s[1] += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
 }
 
-/* Sign of b'. At a dead centre, where b' is zero, its sign just afterwards. */
+/* The sign of b'. At a dead centre, b' is zero, and the sign just afterwards counts. */
 static long double way_of(const machine *c, const long double s[2]) {
     long double f[3];
     law(c, s[0], f);
@@ -83,7 +83,7 @@ static long double way_of(const machine *c, const long double s[2]) {
     return next > 0.0L ? 1.0L : next < 0.0L ? -1.0L : f[2] > 0.0L ? 1.0L : -1.0L;
 }
 
-/* Integrates to `until_s`. Returns false if the machine comes to rest or its stop would have to pull. */
+/* Integrates until until_s. Returns false if the machine comes to rest, or if its stop would have to pull. */
 static bool reference(const machine *c, long double until_s, long double s[2]) {
     const long double h = 5e-5L;
     long double t = 0.0L;
@@ -96,7 +96,7 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
         long double span = fminl(h, until_s - t);
         rk4(c, span, way, next);
         law(c, next[0], f);
-        if (f[1] * next[1] * way < 0.0L) { /* b' has changed its sign: locate that */
+        if (f[1] * next[1] * way < 0.0L) { /* b' has changed its sign: locates that moment */
             long double low = 0.0L;
             for (int i = 0; i < 70; i++) {
                 const long double middle = (low + span) / 2;
@@ -109,7 +109,8 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
             rk4(c, span, way, next);
             way = -way;
             law(c, next[0], f);
-            if (fabsl(f[1]) > 1e-9L * wide(c->e)) { /* a' changes sign: sticking is not tested */
+            /* a' changes its sign: sticking is not tested */
+            if (fabsl(f[1]) > 1e-9L * wide(c->e)) {
                 return false;
             }
         }
@@ -181,7 +182,7 @@ static outcome run(const machine *c, const engine_kind *kind, double h, double u
     return o;
 }
 
-/* Draws a machine. Some start at rest exactly at a dead centre and are driven; others pass it slowly or fast. */
+/* Draws a machine. Some start at rest at a dead centre and are driven; others pass the dead centre slowly or fast. */
 static machine random_machine(uint64_t *seed, machine_kind kind, int how) {
     machine c = {.kind = kind};
     c.J = random_between(seed, 0.05, 0.4);
@@ -193,13 +194,13 @@ static machine random_machine(uint64_t *seed, machine_kind kind, int how) {
     c.a = random_between(seed, -3.0, 3.0);
     c.rate = random_between(seed, 3.0, 15.0) * (random_bits(seed) % 2U != 0 ? 1.0 : -1.0);
     c.torque_Nm = 0.0;
-    if (how == 1) { /* at the dead centre at rest, and driven */
+    if (how == 1) { /* at rest at the dead centre, and driven */
         c.a = 0.0;
         c.rate = 0.0;
         c.torque_Nm = random_between(seed, 5.0, 12.0);
-    } else if (how == 2) { /* at the dead centre, in motion */
+    } else if (how == 2) { /* in motion at the dead centre */
         c.a = 0.0;
-    } else if (how == 3) { /* a heavy wheel creeps over it */
+    } else if (how == 3) { /* a heavy wheel creeps over the dead centre */
         c.J = random_between(seed, 1e3, 1e5);
         c.rate = exp(random_between(seed, log(1e-3), log(0.3)));
         c.a = -random_between(seed, 0.2, 1.5) * c.rate;
@@ -216,7 +217,7 @@ static void check_machines(int how, const char *words, double until_s, unsigned 
             const machine c = random_machine(&seed, (machine_kind)kind, how);
             long double s[2];
             if (!reference(&c, wide(until_s), s)) {
-                /* the machine comes to rest or leaves its stop, which other tests cover */
+                /* skips machines that come to rest or leave their stop: other tests cover these */
                 continue;
             }
             done++;
@@ -256,7 +257,7 @@ TEST(contact_centres, centres_crept_over) {
     check_machines(3, "creeping over the centre", 2.0, few_or_all(3, 6));
 }
 
-/* The scenes of docs/hard/dead_centre.whirl: the linkage with the numbers of that file. */
+/* Checks a scene of docs/hard/dead_centre.whirl against the slider-crank with that file's numbers. */
 static void check_scene(const char *name, const machine *c, double until_s) {
     long double s[2];
     TEST_ASSERT_TRUE(reference(c, wide(until_s), s));
