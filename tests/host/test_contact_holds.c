@@ -1,5 +1,5 @@
-/* test_contact_holds.c: holds keep their value for 1e5 steps and more: rods, linkages, gears. The value that a hold
- * keeps is part of the state, and an assignment changes it. Linkages in their flat position are refused. */
+/* test_contact_holds.c: holds keep their value for 1e5 steps and more, in rods, linkages and gears. The value that a
+ * hold keeps is part of the state, and a `set` can change it. Linkages in their flat position are refused. */
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
@@ -8,7 +8,7 @@
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
-/* Largest |output `off`| of the text's scene over `steps` steps, sampled; relative to `scale`. */
+/* Largest absolute value of the output `off` over `steps` steps, from samples, divided by `scale`. */
 static double worst_off(const char *text, const engine_kind *kind, long steps, double scale) {
     motion m;
     double worst = 0.0;
@@ -36,15 +36,13 @@ static void expect_kept(const char *what, const char *text, long steps, double s
     TEST_ASSERT_TRUE(worst[0] <= 1e-12 && worst[1] <= 1e-6);
 }
 
-/* --- rods ------------------------------------------------------------------------------------------------------- */
-
 TEST(contact_holds, rods_keep_their_length) {
     uint64_t seed = 11;
     for (int i = 0; i < 6; i++) {
         char text[700];
         const double length = exp(random_between(&seed, -3.0, 3.0));
         const double angle = random_between(&seed, -3.0, 3.0);
-        const double rate = random_between(&seed, 5.0, 20.0); /* with 10 ms: h omega up to 0.2 */
+        const double rate = random_between(&seed, 5.0, 20.0); /* step times rate is 0.2 or less */
         const bool square = i % 2 != 0;
         snprintf(
             text, sizeof text,
@@ -60,15 +58,13 @@ TEST(contact_holds, rods_keep_their_length) {
     }
 }
 
-/* --- linkages --------------------------------------------------------------------------------------------------- */
-
 typedef struct linkage {
-    double side[4];  /* crank, coupler, rocker, ground */
-    double angle[3]; /* of the first three */
+    double side[4];  /* lengths of crank, coupler, rocker and ground */
+    double angle[3]; /* of crank, coupler and rocker */
     double rate[3];
 } linkage;
 
-/* Places coupler and rocker at a crank angle; false if they cannot close. */
+/* Finds the angles of coupler and rocker for a crank angle. Returns false if the linkage cannot close. */
 static bool close_linkage(linkage *l) {
     const double x = l->side[3] - l->side[0] * cos(l->angle[0]);
     const double y = -l->side[0] * sin(l->angle[0]);
@@ -109,7 +105,8 @@ static void write_linkage(const linkage *l, const double inertia[3], double step
              step_s);
 }
 
-/* A crank that can turn fully: the shortest side, with shortest + longest < sum of the others. */
+/* Draws a linkage whose crank can turn fully: the crank is the shortest side, and shortest + longest < sum of the
+ * others. */
 static bool random_linkage(uint64_t *seed, linkage *l) {
     *l = (linkage){.side = {random_between(seed, 0.03, 0.1), random_between(seed, 0.2, 0.5),
                             random_between(seed, 0.2, 0.5), random_between(seed, 0.2, 0.5)},
@@ -137,11 +134,11 @@ TEST(contact_holds, linkages_stay_closed) {
     }
 }
 
-/* If shortest + longest equals the sum of the others, the linkage lies flat once per turn. From that position two
- * motions are possible. */
+/* If shortest + longest equals the sum of the others, the linkage lies flat once per turn. Two motions are possible
+ * from there. */
 TEST(contact_holds, a_flat_linkage_is_refused) {
     const int runs = (int)dice_cases(few_or_all(usual_or(4, 2), 12));
-    int missed[2] = {0, 0}; /* runs without the refusal, in double and in float */
+    int missed[2] = {0, 0}; /* runs that were not refused, in double and in float */
     uint64_t seed = 13;
     for (int i = 0; i < runs; i++) {
         const double crank = random_between(&seed, 0.05, 0.15);
@@ -149,7 +146,7 @@ TEST(contact_holds, a_flat_linkage_is_refused) {
         linkage l = {.side = {crank, coupler, crank, coupler},
                      .angle = {random_between(&seed, 0.4, 2.7)},
                      .rate = {random_between(&seed, 1.0, 10.0)}};
-        if (i % 3 == 0) { /* no parallelogram, but also flat */
+        if (i % 3 == 0) { /* flat, but not a parallelogram */
             const double more = random_between(&seed, 0.01, 0.04);
             l.side[1] += more;
             l.side[2] += 0.05;
@@ -174,21 +171,19 @@ TEST(contact_holds, a_flat_linkage_is_refused) {
                 printf("%sstatus %d, a = %g, %s\n", text, (int)status, motion_value(&m, "a"),
                        KINDS[n]->name);
             }
-            /* the run must end as singular, and near the flat position */
+            /* the run must end as singular, near the flat position */
             missed[n] += status != WH_E_SINGULAR || flat > 0.1;
             motion_close(&m);
         }
     }
     printf("  %d flat linkages: %d missed in double, %d in float\n", runs, missed[0], missed[1]);
     TEST_ASSERT_EQUAL_INT(0, missed[0]);
-    /* float closure corresponds to a gap of 1e-8 of the sides: some runs pass that point and turn back */
+    /* the round-off of float moves the gap by 1e-8 of the sides, so some runs pass the flat position and turn back */
     TEST_ASSERT_LESS_OR_EQUAL_INT(runs / 100, missed[1]);
 }
 
-/* --- gears ------------------------------------------------------------------------------------------------------ */
-
-/* The gears are turned by 20000 rad, where a double resolves 4e-12. In float, angles are integers: the mesh is exact for a
- * gear ratio that float represents. For another ratio the mesh is as accurate as the rounded ratio. */
+/* The gears turn by 20000 rad, where a double resolves 4e-12 rad. In float, angles are integers, so the mesh is
+ * exact if float represents the gear ratio. Else the mesh is as accurate as the rounded ratio. */
 TEST(contact_holds, gears_keep_their_mesh) {
     uint64_t seed = 14;
     static const double ratios[] = {1.0, 2.0, -3.0, 1.5, 0.0};
@@ -216,10 +211,7 @@ TEST(contact_holds, gears_keep_their_mesh) {
     }
 }
 
-/* --- held values are state -------------------------------------------------------------------------------------- */
-
-/* An assignment that moves a held body is not undone: the hold keeps the new value, and the energy balance has no
- * residual. */
+/* A `set` moves a held body. The hold keeps the new value, and the energy balance has no residual. */
 TEST(contact_holds, an_assignment_gives_it_anew) {
     uint64_t seed = 15;
     for (int i = 0; i < 10; i++) {
@@ -251,8 +243,8 @@ TEST(contact_holds, an_assignment_gives_it_anew) {
     }
 }
 
-/* An input raises a stop. Bodies held to the body on it, directly or along a chain, with a coupled or uncoupled mass
- * matrix, move by the distance that satisfies the holds. */
+/* An input raises a stop. Bodies that are held to the body on this stop, directly or in a chain, must move by the
+ * distance that satisfies the holds, with or without coupling in the mass matrix. */
 TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
     uint64_t seed = 17;
     double worst[2] = {0.0, 0.0};
@@ -277,7 +269,7 @@ TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 5));
         const double kept[2] = {motion_value(&m, "off_y"), motion_value(&m, "off_z")};
         for (int step = 0; step < 20; step++) {
-            const double u = 0.01 * (step % 7); /* raised at once or in steps, and lowered again */
+            const double u = 0.01 * (step % 7); /* raises in steps, then lowers again */
             m.kind->set_input(m.run, 0, u);
             TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
             worst[number] = fmax(worst[number], fabs(motion_value(&m, "off_y") - kept[0]));
@@ -290,17 +282,15 @@ TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
     TEST_ASSERT_TRUE(worst[0] <= 1e-15 && worst[1] <= 1e-6);
 }
 
-/* --- a hold freezes its own condition ----------------------------------------------------------------------------- */
-
-/* An expression to be held, and its bodies of 1 kg or 1 kg*m^2. A force pushes along the expression. */
+/* An expression to be held; its bodies have 1 kg or 1 kg m^2. A force pushes along the expression. */
 typedef struct held {
     const char *expression;
     const char *unit; /* unit of the expression */
     const char *push; /* unit of the force */
     const char *coordinates;
     const char *kinetic;
-    double yields; /* its acceleration by a force of 1; 0: not constant */
-    /* $v: the expression's value; $r: its rate; $c and $w: a place and a rate that do not change them */
+    double yields; /* acceleration of the expression by a force of 1; 0: not constant */
+    /* $v: value of the expression; $r: its rate; $c, $w: a position and a rate that change neither */
     const char *start;
 } held;
 
@@ -317,8 +307,8 @@ static const held helds[] = {
      "y' = $r [m/s]*sin($c) + $w [m/s]*cos($c)"},
 };
 
-/* Conditions of the hold. $e is the expression, $l and the input L are its limit. p rests at 0, d falls by 1 m/s. The
- * conditions from LET_GO on release the hold when d reaches zero. */
+/* Conditions of the hold. $e is the expression; $l and the input L are its limit; p rests at 0; d falls at 1 m/s.
+ * The conditions from number LET_GO on release the hold when d reaches zero. */
 static const char *const edges[] = {
     "$e < $l",
     "$l - $e > 0",
@@ -338,7 +328,7 @@ enum {
     LET_GO = EDGES - 2
 };
 
-/* `from` with each $ and its letter replaced. */
+/* Copies `from`; replaces each $ and the letter after it by the expression or a number. */
 static const char *fill(const char *from, const held *of, const double number[static 6],
                         char to[static 600]) {
     static const char letters[] = "vrcwlf";
@@ -358,9 +348,9 @@ static const char *fill(const char *from, const held *of, const double number[st
     return to;
 }
 
-/* A hold that closes because its expression reaches the limit of its own condition. The hold stays closed in both
- * number formats, with any load and through other events in the same steps, until another condition releases it. A hold
- * that starts at its limit stays closed, unless its body moves out of the condition. */
+/* A hold begins to act when its expression reaches the limit of its own condition. The hold must act on, with any
+ * load and through other events in the same step, until another condition releases the hold. A hold that starts at
+ * its limit must act, too, unless its body moves out of the condition. */
 TEST(contact_holds, a_hold_stays_at_its_own_limit) {
     dice d = dice_of("contact_holds", 1);
     int failures = 0;
@@ -370,16 +360,17 @@ TEST(contact_holds, a_hold_stays_at_its_own_limit) {
         char filled[2][600];
         const held *of = &helds[i % HELDS];
         const unsigned form = dice_one_of(&d, of->yields > 0.0 ? EDGES : LET_GO);
-        /* in float a small square is lost in its expansion */
+        /* in float, the expansion loses the square of a small limit */
         const double least = strchr(edges[form], '^') != NULL ? 0.5 : 0.02;
         const double limit = exp(dice_between(&d, log(least), log(2.0)));
-        const unsigned begins = dice_one_of(&d, 6); /* at the limit: 0 out, 1 resting, 2 in */
+        /* start at the limit: 0: moves out; 1: rests; 2: moves in */
+        const unsigned begins = dice_one_of(&d, 6);
         const double gap = begins < 3 ? 0.0 : exp(dice_between(&d, log(0.01), log(0.5)));
         const double force = dice_between(&d, 0.1, 5.0);
         const double across = dice_between(&d, -2.0, 2.0) * limit / (limit + gap);
         const double turns =
             of->yields > 0.0 ? 0.0 : across * across * (pow(1.0 + gap / limit, 2.0) - 1.0);
-        /* the potential bends the motion within a step: the location ends before the limit, or beyond */
+        /* a potential curves the motion within a step, so that the located event is before or beyond the limit */
         const double bends = gap > 0.0 && form < LET_GO ? dice_between(&d, 0.0, 2.0) : 0.0;
         const double work = force * gap + bends * gap / (limit + gap);
         const double speed =
@@ -418,8 +409,8 @@ TEST(contact_holds, a_hold_stays_at_its_own_limit) {
 }
 
 /* === contact load ============================================================================= */
-/* Contacts that share one load (core/models/contacts_together.whirl), and resting contacts disturbed by an assignment
- * or an input. */
+/* Contacts that share one load (core/models/contacts_together.whirl), and resting contacts that a `set` or an input
+ * disturbs. */
 
 #define G 9.81
 
@@ -430,10 +421,8 @@ static const stepping *each_number(int i) {
     return i < 3 ? &ways[i] : NULL;
 }
 
-/* --- the weaker contact -------------------------------------------------------------------------------- */
-
-/* Three contacts on two coordinates: the forces are not unique. However the load is shared, bodies that the contacts
- * can hold must not move. */
+/* Three contacts act on two coordinates, so the forces are not unique. If some forces can hold the bodies, the
+ * bodies must not move. */
 TEST(contact_load, leaning_blocks_rest_exactly) {
     for (int i = 0; each_number(i) != NULL; i++) {
         motion m;
@@ -447,13 +436,11 @@ TEST(contact_load, leaning_blocks_rest_exactly) {
         TEST_ASSERT_TRUE(motion_value(&m, "x") == x && motion_value(&m, "y") == y);
         TEST_ASSERT_EQUAL_UINT64(events, contacts_events(&m));
         TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
-        /* the distance is the width of the blocks, apart from round-off */
+        /* the blocks touch, apart from round-off */
         expect_between("y - x - w", -1e-7, 1e-7, y - x - 0.1);
         motion_close(&m);
     }
 }
-
-/* --- corners --------------------------------------------------------------------------------------------- */
 
 static const char *const GROOVES[][2] = {
     {"a=30 [deg]", "b=30 [deg]"}, {"a=45 [deg]", "b=45 [deg]"}, {"a=44 [deg]", "b=45 [deg]"},
@@ -473,7 +460,7 @@ static void run_groove(const char *const slopes[2], const char *restitution,
     const uint64_t events = contacts_events(&m);
     printf("  %s, %s, %s, %s: %llu events, %llu overruns\n", slopes[0], slopes[1], restitution,
            kind->name, (unsigned long long)events, (unsigned long long)contacts_overruns(&m));
-    /* at rest in the corner: only the round-off of a product remains */
+    /* at rest in the corner, apart from the round-off of one product */
     const double speed = hypot(motion_value(&m, "x'"), motion_value(&m, "y'"));
     TEST_ASSERT_TRUE(speed < 1e-15);
     TEST_ASSERT_TRUE(hypot(motion_value(&m, "x"), motion_value(&m, "y")) < 1e-15);
@@ -491,8 +478,6 @@ TEST(contact_load, a_ball_comes_to_rest_in_a_groove) {
     }
 }
 
-/* --- disturbances of resting contacts --------------------------------------------------------------------- */
-
 #define FLOOR \
     "mechanism kicked\ncoordinate y [m]\ncoordinate c [rad]\nparameter m = 1 [kg]\n" \
     "parameter J = 1 [kg*m^2]\nparameter g = 9.81 [m/s^2]\ninput floor = 0 [m]\n" \
@@ -500,7 +485,7 @@ TEST(contact_load, a_ball_comes_to_rest_in_a_groove) {
     "T = m*y'^2/2 + J*c'^2/2\nV = m*g*y\nstop y >= floor restitution e\n" \
     "scene s {\n  start y = 0, c' = 1 [rad/s]\n  with ledger\n  step 1 [ms]\n  until 4 [s]\n"
 
-/* A ball at rest; `set` acts when the clock c passes 0.5 s. Returns its height at `at_s`. */
+/* The height at time at_s of a ball that rests until `set` acts on it, when the clock c passes 0.5 s. */
 static double height_after(const char *set, double at_s, const engine_kind *kind) {
     char text[600];
     motion m;
@@ -521,18 +506,18 @@ TEST(contact_load, an_assignment_lifts_or_throws_what_rests) {
         const double bound = kind == &engine_float ? 1e-5 : 1e-9;
         expect_between("thrown up with 2 m/s, after 0.2 s", -bound, bound,
                        height_after("y' = 2 [m/s]", 0.7, kind) - (0.4 - 0.5 * G * 0.04));
-        /* thrown down: returns with half of it */
+        /* thrown down: the ball returns with half of the speed */
         expect_between("thrown down with 4 m/s, after 0.2 s", -bound, bound,
                        height_after("y' = -4 [m/s]", 0.7, kind) - (0.4 - 0.5 * G * 0.04));
         expect_between("lifted by 1 m, after 0.2 s", -bound, bound,
                        height_after("y = 1 [m]", 0.7, kind) - (1.0 - 0.5 * G * 0.04));
-        /* beyond the stop: put back at once */
+        /* set into the floor: the ball is put back at once */
         expect_between("pushed through, after 0.2 s", 0.0, 0.0,
                        height_after("y = -1 [m]", 0.7, kind));
     }
 }
 
-/* If an input makes the restitution less than 0 or more than 1, the nearer end counts, so that no energy appears. */
+/* An input sets the restitution below 0 or above 1. Whirl must use 0 or 1 instead, so that no energy appears. */
 TEST(contact_load, restitution_has_its_range_while_running) {
     motion m;
     stepping how = IN_DOUBLE;
@@ -549,8 +534,8 @@ TEST(contact_load, restitution_has_its_range_while_running) {
     motion_close(&m);
 }
 
-/* An assignment sets the rate of a held expression. The hold captures again, and its ledger entries are the momentum m
- * (2 - 0) and the energy m 2^2/2. */
+/* A `set` gives a held expression a rate of 2 m/s. The hold captures again; its entries are the momentum m (2 - 0)
+ * and the energy m 2^2/2. */
 TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     static const char text[] =
         "mechanism held\ncoordinate x [m]\ncoordinate z [m]\ncoordinate c [rad]\n"
@@ -567,7 +552,7 @@ TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     expect_between("z'", 1.0 - 1e-15, 1.0 + 1e-15, motion_value(&m, "z'"));
     m.kind->ledger(m.run, total, left);
     expect_between("energy residual", -1e-14, 1e-14, left[0]);
-    bool booked = false; /* the capture took half of the assignment's energy */
+    bool booked = false; /* has the capture taken half of the energy? */
     for (int i = 0; i < 64; i++) {
         booked = booked || fabs(total[i] + 1.0) < 1e-14;
     }
@@ -576,11 +561,11 @@ TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
 }
 
 /* === contact rest ============================================================================= */
-/* Bodies that come to rest together and are pressed together only because they brake: static friction keeps them at
- * rest in spite of round-off in forces and rates. */
+/* Bodies that come to rest together, pressed together only by their braking. Static friction must keep them at rest
+ * in spite of round-off in forces and rates. */
 
-/* x brakes, and y pushes x through a straight or curved buffer. The push on one of them is below its static friction.
- * If `both`, y has friction, too. */
+/* Wagon x brakes, and wagon y pushes x through a straight or curved buffer, with less than the static friction. If
+ * `both`, y has friction, too. */
 static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, size_t size) {
     const double mass[2] = {exp(random_between(seed, -1.0, 1.0)),
                             exp(random_between(seed, -1.0, 1.0))};
@@ -592,7 +577,7 @@ static void write_wagons(uint64_t *seed, bool curved, bool both, char *text, siz
     const double ratio = random_bits(seed) % 3U != 0 ? random_between(seed, 0.5, 1.0) : 1.0;
     const double push = random_between(seed, -0.5, 0.5) * mu * ratio * normal;
     char second[160] = "";
-    if (both) { /* a weak load: y keeps pushing */
+    if (both) { /* the friction of y is weak, so that y keeps pushing */
         const double own = 0.05 * normal * slope * mass[1] / mass[0];
         snprintf(second, sizeof second, "friction y static %.17g kinetic %.17g normal %.17g [N]\n",
                  mu, mu * ratio, own);
@@ -643,10 +628,9 @@ TEST(contact_rest, wagons_with_a_straight_buffer) { check_wagons(false, false, "
 TEST(contact_rest, wagons_with_a_curved_buffer) { check_wagons(true, false, "curved"); }
 TEST(contact_rest, wagons_that_both_brake) { check_wagons(true, true, "curved, both brake"); }
 
-/* --- rows of wagons ---------------------------------------------------------------------------------------- */
-
-/* A row of wagons with brakes and plastic buffers, with or without a wall, pushed below static friction. They come to
- * rest with few events, at the same position for every step, without overlap. */
+/* A row of wagons with brakes and plastic buffers, with or without a wall, pushed with less than the static
+ * friction. The wagons must come to rest after few events, at a position that does not depend on the step, without
+ * overlap. */
 static void write_row(uint64_t *seed, int wagons, bool wall, char *text, size_t size) {
     int at = snprintf(text, size, "mechanism row\n");
     char T[400] = "0";
@@ -741,10 +725,8 @@ TEST(contact_rest, rows_of_wagons) {
     TEST_ASSERT_TRUE(overran <= runs / 20);
 }
 
-/* --- a force elsewhere ------------------------------------------------------------------------------------------ */
-
-/* A growing force pulls or moves a light body, while a large, unrelated force acts on another body. The round-off of
- * the large force must not decide about the light body. */
+/* A growing force pulls a light body, while a large force acts on another body. The round-off of the large force
+ * must not affect the light body. */
 TEST(contact_rest, a_force_elsewhere_holds_nothing) {
     for (int i = 0; i < 8; i++) {
         char text[700];
@@ -762,7 +744,7 @@ TEST(contact_rest, a_force_elsewhere_holds_nothing) {
             motion m;
             motion_open_text(&m, text, (stepping){.kind = KINDS[n], .method = WH_RK4});
             motion_to(&m, 6.0);
-            /* from sin(0.1 t0) = 1/4: m y'' = 2 (sin(0.1 t) - 1/4) */
+            /* the motion begins at t0 with sin(0.1 t0) = 1/4: m y'' = 2 (sin(0.1 t) - 1/4) */
             const double c0 = asin(0.25);
             const double c1 = 0.6;
             const double y =

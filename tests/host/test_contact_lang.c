@@ -1,5 +1,5 @@
-/* test_contact_lang.c: meaning of stop, friction, hold, when and noise in the parsed structs. Expressions are evaluated
- * at chosen states and compared with the same formula in C. */
+/* test_contact_lang.c: parsed stop, friction, hold, when and noise statements. Their expressions are evaluated at
+ * given states and compared with the same formula in C. */
 #include "test.h"
 
 #include <time.h>
@@ -12,7 +12,7 @@
     "let gap = x - y\nlet vx = x' - y'\n" \
     "T = m*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\noutput x_mm [mm] = x\noutput angle = phi\n"
 
-/* [coordinate][primes] */
+/* [coordinate][number of time derivatives] */
 static double state[3][2];
 
 static double call(const expr *e, double a, double b) {
@@ -90,7 +90,7 @@ static bool four(double x, double y, double phi, double vx) {
     return (x > 0.5 || y > 0.25 || vx > 0.0) && phi > 0.0 && x - y < 0.7;
 }
 
-/* The condition equals the formula on a grid without ties. */
+/* Compares the condition with the formula on a grid of states, at which no two sides are equal. */
 static void check_condition(const char *text, truth *wanted) {
     char all[900];
     snprintf(all, sizeof all, "%shold x while %s\n", BASE, text);
@@ -184,7 +184,8 @@ SUITE(contact_lang) {
 }
 
 /* === contact run ============================================================================== */
-/* Selection of stops, frictions, holds, whens and noises for one run, ranges of their numbers, and the ledger. */
+/* Which stops, frictions, holds, whens and noises take part in a run, the allowed ranges of their numbers, and the
+ * ledger. */
 
 static instance *instance_of(int scene_number, const overrides *changes) {
     instance_free(made);
@@ -193,7 +194,7 @@ static instance *instance_of(int scene_number, const overrides *changes) {
     return made;
 }
 
-/* The instance must be refused with this message. */
+/* Fails the test if the instance is not refused with the message `wanted`. */
 static void refuse(int scene_number, const overrides *changes, const char *wanted) {
     TEST_ASSERT_NULL(instance_of(scene_number, changes));
     expect_said(wanted);
@@ -246,7 +247,7 @@ static void test_effects_bring_their_events(void) {
     TEST_ASSERT_TRUE(instance_has(made, m->contacts[2].effect));
 }
 
-/* Inputs count with their initial value: declared, the scene's, or the command line's. */
+/* The start values of inputs count, wherever they come from: the declaration, the scene or the command line. */
 static void test_inputs_must_be_in_range_at_the_start(void) {
     const char *good[] = {"e_in=1"};
     const char *bouncy[] = {"e_in=1.01"};
@@ -274,12 +275,13 @@ static void test_inputs_must_be_in_range_at_the_start(void) {
     refuse(3, &(overrides){.sets = infinite, .set_count = 1},
            "error: the restitution is not a finite number (infinity)");
     TEST_ASSERT_NOT_NULL(instance_of(2, &(overrides){.sets = bouncy, .set_count = 1}));
-    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* depends on the motion: known at impact */
+    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* known only at the impact, so accepted */
 }
 
 static void test_how_many_values_one_run_sets(void) {
     char text[12000] = BASE;
-    for (int i = 0; i < 42; i++) { /* with x, y and phi: 45 coordinates, 90 values each time */
+    /* 42 further coordinates beside x, y and phi, so 90 values each time */
+    for (int i = 0; i < 42; i++) {
         char line[80];
         snprintf(line, sizeof line, "coordinate z%d [m]\n", i);
         strcat(text, line);

@@ -1,5 +1,5 @@
-/* test_contact_moments.c: dense events: flights shorter than a step, and impacts that cause impacts at the same
- * moment. */
+/* test_contact_moments.c: many events in a short time: flights shorter than a step, and impacts that cause impacts
+ * at the same moment. */
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
@@ -9,10 +9,8 @@
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
-/* --- flights shorter than a step --------------------------------------------------------------------------- */
-
-/* A ball, perhaps on a spring, that bounces for ever with flights of `share` of a step: every bounce is counted and its
- * energy kept. The floor is at 0: in float, a higher one leaves no digits for flights of 1e-7 m. */
+/* A ball that bounces for ever, with flights of `share` of a step. Every bounce must be counted and keep the energy.
+ * The floor is at 0, because at another height float has no digits for flights of 1e-7 m. */
 static void hop(double share, double mass, double gravity, const engine_kind *kind) {
     char text[600];
     motion m;
@@ -51,8 +49,8 @@ TEST(contact_moments, hops_shorter_than_a_step) {
     }
 }
 
-/* The gap after the last flight is closed, and the ledger has the energy: the balance from a bounce with restitution to
- * rest has no residual, apart from the remaining energy. */
+/* A ball bounces until it rests. Its last gap must be closed and its last energy entered, so that the balance has no
+ * residual beyond this energy. */
 TEST(contact_moments, the_last_gap_is_booked) {
     uint64_t seed = 6;
     for (int i = 0; i < 20; i++) {
@@ -76,16 +74,15 @@ TEST(contact_moments, the_last_gap_is_booked) {
     }
 }
 
-/* --- impacts that cause impacts ------------------------------------------------------------------------------- */
-
 enum { BODIES = 4 };
 
 typedef struct chain {
     double mass[BODIES], speed[BODIES], restitution;
-    int order[BODIES - 1]; /* order of declaration of its stops */
+    int order[BODIES - 1]; /* the sequence in which its stops are declared */
 } chain;
 
-/* Lets touching pairs collide until no pair closes. Returns the number of impacts; *first_Ns is the first body's impulse. */
+/* Applies impacts between neighbours until no pair closes. Returns the number of impacts. *first_Ns: the sum of the
+ * impulses on body 0. */
 static int collide(chain *c, double *first_Ns) {
     int count = 0;
     bool again = true;
@@ -108,23 +105,23 @@ static int collide(chain *c, double *first_Ns) {
     return count;
 }
 
-/* The lower body stands on the floor. After a hit by the upper one, a strong force pulls it up again before the step
- * ends. The impact on the floor must still be found. */
+/* The lower body stands on the floor, and the upper one hits it. Then a strong force pulls the lower body up before
+ * the step ends. The impact on the floor must still be found. */
 TEST(contact_moments, an_impact_that_is_over_within_the_step) {
     uint64_t seed = 8;
     for (int i = 0; i < 40; i++) {
         const double u = random_between(&seed, 0.2, 1.0);
         const double e = random_between(&seed, 0.2, 0.9);
         double mass[2] = {exp(random_between(&seed, -1.0, 1.0)), 0.0};
-        /* so light that the upper body does not come back */
+        /* light enough that the upper body does not hit again */
         mass[1] = random_between(&seed, 0.05, 0.3) * e * mass[0];
         chain c = {{1e300, mass[0], mass[1], 1.0}, {0.0, 0.0, -u, 1e300}, e, {0}};
         double floor_Ns;
         if (collide(&c, &floor_Ns) > 6) {
             continue;
         }
-        /* the pull lifts the body within the step, but so weakly that the two stay apart for longer than a flight that counts
-         * as rest */
+        /* the pull lifts the body within the step, but so slowly that its flight is longer than one that counts as
+         * rest */
         const double down = (1.0 + e) * u * mass[1] / (mass[0] + mass[1]);
         const double pull = random_between(&seed, 4.0, 10.0) * mass[0] * down / 1e-3;
         const char *const stops[] = {"stop low >= 0 restitution %.17g\n",
@@ -160,23 +157,22 @@ TEST(contact_moments, an_impact_that_is_over_within_the_step) {
 }
 
 /* === contact scenes =========================================================================== */
-/* Every scene with contacts, some with several on one mechanism, against references located event by event by another
- * program (tests/reference/contacts.txt), and the order of the error.
+/* Every scene with contacts, some with several on one mechanism. References come from another program, which locates
+ * event by event (tests/reference/contacts.txt).
  *
- * The location uses a cubic and the method has order 4, so errors fall with h^4. The test asks for order 3 over a
- * quartered step, since at one step the errors of many events may cancel. */
+ * The location uses a cubic and the method has order 4, so errors fall with h^4. The test asks for order 3, because
+ * the errors of many events may cancel at one step. */
 
-/* Accuracy of the references: two of their runs differ by at most 5e-10 (contacts.py prints it). */
+/* Error of the references: two of their runs differ by up to 5e-10, which contacts.py prints. */
 #define REFERENCE_ERROR 1e-9
 
 typedef struct reference_case {
     const char *name;
     const char *time;
     double time_s;
-    double step_s;     /* coarse; fine is a quarter */
-    double error_most; /* at the fine step, in double */
-    /* at the scene's own step in float: the round-off of a state of this size after all steps, amplified by its
-     * events */
+    double step_s;     /* the coarse step; the fine step is a quarter */
+    double error_most; /* bound on the error with the fine step, in double */
+    /* bound with the scene's own step in float: round-off of all steps, amplified by the events */
     double error_float;
 } reference_case;
 
@@ -221,7 +217,7 @@ TEST(contact_scenes, every_scene_meets_its_reference) {
         printf("  %-22s error %.2e at %g ms, %.2e at %g ms: order %.2f\n", c->name, coarse,
                1e3 * c->step_s, fine, 250.0 * c->step_s, order);
         TEST_ASSERT_TRUE_MESSAGE(fine <= c->error_most, c->name);
-        TEST_ASSERT_TRUE_MESSAGE(coarse > 1e-14, c->name); /* an error must be visible */
+        TEST_ASSERT_TRUE_MESSAGE(coarse > 1e-14, c->name); /* else the order cannot be seen */
         TEST_ASSERT_TRUE_MESSAGE(order >= 3.0 || fine <= REFERENCE_ERROR, c->name);
         const double in_float = error_of(c, IN_FLOAT);
         TEST_ASSERT_TRUE_MESSAGE(in_float <= c->error_float && in_float > 1e-9, c->name);
@@ -229,26 +225,26 @@ TEST(contact_scenes, every_scene_meets_its_reference) {
 }
 
 /* === contact squeezed ========================================================================= */
-/* More impacts than a step allows: a light body between heavier ones and walls is hit ever faster, or one between
- * slanting walls. Bodies pass through nothing and gain no energy. With friction everywhere, all moving bodies lose
- * some. */
+/* More impacts than a step allows: a light body is hit ever faster between heavier bodies and walls, or between
+ * slanting walls. Bodies must pass through nothing and gain no energy. With friction, all moving bodies must lose
+ * energy. */
 
 enum { CONTACT_SQUEEZED_BODIES = 4, STEPS = 300, TEXT = 4000 };
 
-/* Observed quantities: the least gap of the stops, m, and the energy, all kinetic, J. */
+/* A quantity of the present state: the smallest gap of the stops, m, or the energy (all kinetic), J. */
 typedef double look(const void *of, const motion *m);
 
 typedef struct watched {
     const void *of;
     look *least_gap;
     look *energy;
-    bool rubs; /* friction on every coordinate: moving bodies lose energy */
+    bool rubs; /* friction acts on every coordinate, so that moving bodies lose energy */
     int steps;
-    double bound_m[2];  /* largest penetration in double, in float */
-    double rounding[2]; /* largest rise of the energy relative to the start */
+    double bound_m[2];  /* allowed penetration, in double and in float */
+    double rounding[2]; /* allowed rise of the energy, relative to the start */
 } watched;
 
-/* Runs one in double or float; returns its overruns. */
+/* Runs a scene in double or float and checks gaps and energy. Returns the number of overruns. */
 static uint64_t watch(const watched *w, const char *text, bool in_float, double *deepest_m) {
     motion m;
     motion_open_text(&m, text, in_float ? IN_FLOAT : IN_DOUBLE);
@@ -282,18 +278,16 @@ static void watch_many(uint64_t run(uint64_t seed, double *deepest_m)) {
     }
     printf("seeds 1 to %ld: beyond a stop by at most %.1e m, in float %.1e m; %llu overruns\n",
            runs, -deepest_m[0], -deepest_m[1], (unsigned long long)overruns);
-    TEST_ASSERT_TRUE(overruns > 0); /* otherwise the test would be empty */
+    TEST_ASSERT_TRUE(overruns > 0); /* without overruns the test would be empty */
 }
 
-/* --- in a row --------------------------------------------------------------------------------------------------- */
-
-/* A row of bodies between two walls, with no forces except friction. */
+/* A row of bodies between two walls. The only force is friction. */
 typedef struct row {
     int n;
     double mass_kg[CONTACT_SQUEEZED_BODIES];
     double place_m[CONTACT_SQUEEZED_BODIES];
     double speed_mps[CONTACT_SQUEEZED_BODIES];
-    double end_m; /* position of the other wall; the first is at 0 */
+    double end_m; /* position of the second wall; the first is at 0 */
     double restitution[CONTACT_SQUEEZED_BODIES + 1];
     double normal_N; /* 0: no friction */
 } row;
@@ -382,14 +376,12 @@ static uint64_t run_row(uint64_t seed, double *deepest_m) {
 
 TEST(contact_squeezed, nothing_is_squeezed_through) { watch_many(run_row); }
 
-/* --- between slanting walls, and with friction ------------------------------------------------------------------ */
-
 enum { WALLS_MOST = 5, CAGE_STEPS = 60 };
 
-/* A body with two coordinates and any inertia between walls around the origin, some with friction in both
+/* A body with two coordinates and any mass matrix, between walls around the origin. Some have friction in both
  * directions. */
 typedef struct cage {
-    double mass_kg[3]; /* xx, xy, yy */
+    double mass_kg[3]; /* entries xx, xy and yy of the mass matrix */
     int walls;
     double row[WALLS_MOST][2];
     double off_m[WALLS_MOST];
@@ -468,10 +460,10 @@ static uint64_t run_cage(uint64_t seed, double *deepest_m) {
 TEST(contact_squeezed, nothing_leaves_a_cage) { watch_many(run_cage); }
 
 /* === crossings ================================================================================ */
-/* Several crossings have assignments. Each makes its own assignment, at its own time. */
+/* Several crossings with a `set`. Each must do its own `set`, at its own time. */
 
-/* x moves on at 1 m/s and crosses a level every second, within a step or exactly at its end (32/64 s); each crossing sets
- * rates of some of y, z, u. */
+/* x moves at 1 m/s and crosses a level every second, within a step or exactly at its end (steps of 32/64 s). Each
+ * crossing sets the rates of some of y, z and u. */
 TEST(crossings, each_crossing_sets_its_own) {
     static const char *const others[] = {"y", "z", "u"};
     uint64_t seed = 47;
@@ -487,7 +479,7 @@ TEST(crossings, each_crossing_sets_its_own) {
             "scene s {\nstep %g [ms]\nuntil 10 [s]\nstart x' = 1 [m/s]\n",
             at_end ? 15.625 : 10.0);
         double rate[3] = {0.0};
-        double rates[6][3]; /* rates after each level of rounds */
+        double rates[6][3]; /* rates after each crossing */
         memcpy(rates[0], rate, sizeof rate);
         for (int level = 0; level < levels; level++) {
             length += (size_t)snprintf(text + length, sizeof text - length,
@@ -525,23 +517,21 @@ TEST(crossings, each_crossing_sets_its_own) {
     }
 }
 
-/* --- crossings that reverse the motion -------------------------------------------------------------------------- */
-
-/* A body falls to or past a level under a pull of either sign, and a crossing sets its rate to k x' + c: mostly in the
- * opposite direction. Each reversal is one crossing; a return over the error of location is not another. Between
- * crossings the motion is a parabola with known crossing times. */
+/* A body falls to or past a level under a pull of either sign. A crossing sets its rate to k x' + c, mostly in the
+ * opposite direction. Each reversal must count as one crossing; the error of location must not cause another.
+ * Between crossings the motion is a parabola, whose crossing times are known. */
 typedef struct bounce {
-    int direction; /* of the crossing: +1 rising, -1 falling, 0 both */
-    double pull;   /* m/s^2, downwards */
+    int direction; /* direction of the crossing: +1 rising, -1 falling, 0 both */
+    double pull;   /* downwards, m/s^2 */
     double k;
     double c_mps;
-    double x_m; /* distance above the level */
+    double x_m; /* height above the level */
     double v_mps;
 } bounce;
 
 enum { HITS_MOST = 12, HITS_IN_STEP = 5 };
 
-/* Time of the next crossing; infinity: there is none. A body at the level leaves the level first. */
+/* Time until the next crossing; infinity if there is none. A body at the level first leaves the level. */
 static double next_hit_s(const bounce *b) {
     if (b->x_m == 0.0) {
         const double back_s = b->pull == 0.0 ? -1.0 : 2.0 * b->v_mps / b->pull;
@@ -561,8 +551,8 @@ static double next_hit_s(const bounce *b) {
     return low > 0.0 ? low : high > 0.0 ? high : (double)INFINITY;
 }
 
-/* Moves the body to `end_s`, with the crossing times in at[]. Returns their number. Returns -1 if there are too many,
- * or if the body has not clearly left the level at the end of a step with a crossing. */
+/* Moves the body until end_s and writes the crossing times to at[]. Returns their number; -1 if there are too many,
+ * or if the body is still near the level at the end of a step with a crossing. */
 static int go(bounce *b, double end_s, double step_s, double *at) {
     double time_s = 0.0;
     int hits = 0;
@@ -648,8 +638,8 @@ TEST(crossings, what_turns_back_crosses_once) {
     TEST_ASSERT_TRUE(taken > 10 && crowded > 1);
 }
 
-/* A body comes to rest at the level of its crossing, with friction or without, until another crossing moves it on or
- * back. That is one crossing. Then it crosses a second level, half a metre further, which counts, too. */
+/* A body comes to rest at a crossing's level, with or without friction, until another crossing moves it on or back.
+ * This must count as one crossing. Half a metre further the body crosses a second level, which counts, too. */
 TEST(crossings, what_stands_at_its_crossing) {
     dice d = dice_of("what stands", 5521);
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
@@ -690,8 +680,9 @@ TEST(crossings, what_stands_at_its_crossing) {
     }
 }
 
-/* One crossing sets a body exactly onto the level of another crossing, and the body moves on or back. Only levels
- * passed by motion are crossed: not the level onto which the body was set, neither then nor when it leaves. */
+/* A crossing sets a body exactly onto the level of another crossing, and the body moves on or back. Only a level
+ * that the motion passes is crossed. So the second level counts neither when the body is set onto it nor when the
+ * body leaves. */
 TEST(crossings, what_is_set_onto_another) {
     dice d = dice_of("set onto", 5522);
     unsigned passed = 0;
@@ -705,9 +696,9 @@ TEST(crossings, what_is_set_onto_another) {
         const double onto = level + (dice_one_of(&d, 2) == 0 ? far : -far);
         const double speed = side * dice_between(&d, 1.0, 3.0);
         const double then = dice_one_of(&d, 2) == 0 ? speed : -0.7 * speed;
-        const unsigned way = (unsigned)dice_one_of(&d, 3); /* 0 either, 1 rising, 2 falling */
+        const unsigned way = (unsigned)dice_one_of(&d, 3); /* 0 both, 1 rising, 2 falling */
         const int steps = 10 + (int)dice_one_of(&d, 200);
-        const double end_s = 0.3 / fabs(speed) + 0.5 * far / fabs(then); /* half of the way back */
+        const double end_s = 0.3 / fabs(speed) + 0.5 * far / fabs(then);
         const double step_s = end_s / steps;
         const char *unit = turns ? "rad" : "m";
         snprintf(text, sizeof text,
@@ -734,8 +725,8 @@ TEST(crossings, what_is_set_onto_another) {
     TEST_ASSERT_TRUE(passed > 5);
 }
 
-/* Each lossless bounce throws a rate across the level of a crossing, and between bounces the rate falls back through it: two
- * crossings per bounce. */
+/* Each bounce without loss reverses the rate across a crossing's level, and then the rate falls back through the
+ * level: two crossings per bounce. */
 TEST(crossings, what_impacts_throw_across) {
     dice d = dice_of("thrown across", 5523);
     unsigned bounced = 0;
@@ -754,14 +745,14 @@ TEST(crossings, what_impacts_throw_across) {
                  "stop x >= 0 [m] restitution 1\nwhen x' crosses %.17g [m/s] { set x' = x' }\n"
                  "scene s {\nstep %.17g [s]\nuntil %.17g [s]\nstart x = %.17g [m]\n}\n",
                  -g_mps2, level_mps, step_s, step_s * steps, height_m);
-        /* falls for fall_s, then up and down repeatedly */
+        /* falls for fall_s; then each bounce takes 2 fall_s */
         const double end_s = step_s * steps;
         const int hits = end_s < fall_s ? 0 : 1 + (int)((end_s - fall_s) / (2.0 * fall_s));
         const double since_s = end_s - (hits == 0 ? 0.0 : fall_s + 2.0 * fall_s * (hits - 1));
         const double due_s = hits == 0 ? passes_s : fall_s + passes_s;
         const double next_s = hits == 0 ? fall_s : 2.0 * fall_s;
         if (fabs(since_s - due_s) < 1e-2 || since_s < 1e-2 || next_s - since_s < 1e-2) {
-            continue; /* too near the level to decide in float */
+            continue; /* too near an event to decide in float */
         }
         motion m;
         motion_open_text(&m, text, i % 2 == 0 ? IN_DOUBLE : IN_FLOAT);

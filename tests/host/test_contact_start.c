@@ -1,5 +1,5 @@
-/* test_contact_start.c: impacts at t = 0 are counted like later ones; contacts at one moment in any order; random
- * linkages with contacts against an independent program. */
+/* test_contact_start.c: impacts at t = 0, contacts at the same moment in any sequence, and random linkages with
+ * contacts compared with an independent program. */
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"
@@ -10,10 +10,10 @@
 
 /* === contact start ============================================================================ */
 
-/* x hits y, which is pressed onto a floor: y does not move, also if its place has round-off. */
+/* Body x hits body y, which is pressed onto a floor. y must not move, even if its position has round-off. */
 #define ROW "stop y >= 0.3 [m] restitution 0.5\nstop x - y >= 0 [m] restitution 0.5"
 
-/* An impact at t = 0 counts as it would later, in either number format. Resting or held contacts do not count. */
+/* An impact at t = 0 counts like a later one, in float and double. Contacts at rest do not count. */
 TEST(contact_start, what_happens_at_the_start_is_counted) {
     static const struct {
         const char *statement;
@@ -55,12 +55,13 @@ TEST(contact_start, what_happens_at_the_start_is_counted) {
 }
 
 /* === contact together ========================================================================= */
-/* Several contacts at one moment: the result does not depend on the order of the file, an impact never adds energy, and
- * symmetric cases stay symmetric. */
+/* Several contacts at one moment. The result must not depend on the sequence in the file, an impact must not add
+ * energy, and symmetric cases must stay symmetric. */
 
 enum { STATES = 16, BALLS = 5 };
 
-/* The state at the end, and the number of steps with too many events. */
+/* Runs a tangle. state[]: the positions, then the rates at the end. *overruns: number of steps with too many events.
+ * Returns the number of states. */
 static int run(const tangle *of, double *state, uint64_t *overruns) {
     char text[4000];
     motion m;
@@ -80,8 +81,8 @@ static int run(const tangle *of, double *state, uint64_t *overruns) {
     return 2 * n;
 }
 
-/* Touching bodies thrown at each other, alone and with friction, loads, holds and a crossing: any order of the
- * statements gives the same motion within round-off. Steps with too many events are excepted. */
+/* Touching bodies are thrown at each other, some with friction, loads, holds and a crossing. Every sequence of the
+ * statements must give the same motion within round-off. Steps with too many events are excepted. */
 TEST(contact_together, the_order_of_the_file_does_not_matter) {
     const long runs = (long)dice_cases(130);
     int over = 0;
@@ -113,7 +114,7 @@ TEST(contact_together, the_order_of_the_file_does_not_matter) {
     TEST_ASSERT_TRUE(over <= runs / 5);
 }
 
-/* Equal balls in a row, 10 cm each, touching within round-off of their places; `speed` of each, m/s. */
+/* Opens a row of equal balls, 10 cm each, which touch within round-off; speed[] in m/s. */
 static void open_cradle(motion *m, double restitution, const double *speed, stepping how) {
     char text[2000];
     size_t at = 0;
@@ -146,9 +147,9 @@ static void expect_speeds(const motion *m, const double *speed, double bound) {
     printf("\n");
 }
 
-/* Newton's cradle: as many balls leave as arrive; a touched stop is hit in the next round of the moment. If impacts of
- * 2 and 1 m/s meet in the middle ball, both stops are hit at once: -4/3, 2/3 and 5/3 m/s. Without restitution all
- * touching balls move on together. */
+/* Newton's cradle: as many balls leave as arrive, because each touched stop is hit in the next round of the same
+ * moment. If impacts at 2 and 1 m/s meet in the middle ball, both of its stops are hit at once, which gives -4/3,
+ * 2/3 and 5/3 m/s. Without restitution, all touching balls move on together. */
 TEST(contact_together, newtons_cradle) {
     static const struct {
         double restitution;
@@ -174,16 +175,16 @@ TEST(contact_together, newtons_cradle) {
 }
 
 /* === hybrids ================================================================================== */
-/* Random planar linkages with up to three stops and dry frictions, against an independent program (hybrid.h).
- * WHIRL_CASES=10000 WHIRL_SEED=... chooses other cases. */
+/* Random planar linkages with up to three stops and dry frictions, compared with an independent program (hybrid.h).
+ * WHIRL_CASES=N and WHIRL_SEED=N choose other cases. */
 
 #define STEP_S 0.25e-3
 #define UNTIL_S 0.5
 
-/* Limit for the error of each motion. */
+/* Bound on the error of each motion. */
 #define OFF_MOST 1e-6
 
-/* Error of the program's motion at `until_s`. */
+/* Error of the program's motion at until_s. */
 static double off_at(double until_s, const hybrid *h, const hybrid_motion *wanted, double step_s,
                      const char *text) {
     motion m;
@@ -207,9 +208,9 @@ static double off_at_end(const hybrid *h, const hybrid_motion *wanted, double st
     return off_at(UNTIL_S, h, wanted, step_s, text);
 }
 
-/* If a motion is too fast for the step, Whirl and the reference both have errors; with an eighth of the step these are
- * 4096 times smaller. The comparison is repeated slightly later, because an impact exactly at the end may have happened
- * in only one of them. */
+/* If a motion is too fast for the step, both programs have errors, which are 4096 times smaller with an eighth of
+ * the step. This comparison is slightly later, because an impact exactly at the end may have happened in one program
+ * only. */
 static double off_in_finer(const hybrid *h, const char *text) {
     const double later_s = UNTIL_S + 8.0 * STEP_S;
     const hybrid_motion wanted = hybrid_move(h, HYBRID_STEP_S / 8.0, later_s, STEP_S);
@@ -259,12 +260,12 @@ TEST(hybrids, random_hybrids) {
         "%.0e; %u too fast for the step, or with an impact at the end, and right in an eighth of it; %u aside\n",
         cases, eventful, impacts, rests, worst, beyond, OFF_MOST, fast - beyond, aside);
     TEST_ASSERT_EQUAL_UINT(0, beyond);
-    TEST_ASSERT_TRUE(fast * 300 <= cases); /* no refusal in 300 */
+    TEST_ASSERT_TRUE(fast * 300 <= cases); /* fewer than 1 case in 300 */
     TEST_ASSERT_TRUE(cases < 8 || (eventful * 3 >= cases && aside <= cases));
 }
 
-/* Blocks on springs whose friction varies with the load of a swinging mass. The moments of zero load are kinks of the
- * force and are located, so the error falls with the fourth power of the step. */
+/* Blocks on springs. Their friction depends on the load of a swinging mass. When the load becomes zero, the force
+ * has a kink, which is located. So the error must fall with the fourth power of the step. */
 TEST(hybrids, normal_forces_that_vanish) {
     dice d = dice_of("hybrids", 17);
     double least = 1e9;

@@ -1,5 +1,5 @@
-/* test_cost.c: predicted prices (host/study/cost.h): figures are within their bounds, larger for more work, and agree
- * with the counted steps of docs/figures/price.csv. */
+/* test_cost.c: predicted prices (host/study/cost.h). Figures must lie within their bounds, be larger for more work,
+ * and agree with the counted steps of docs/figures/price.csv. */
 #include "command.h"
 #include "derived.h"
 #include "host/cli/load.h"
@@ -10,7 +10,8 @@
 
 static const cost_number numbers[] = {COST_FLOAT, COST_DOUBLE};
 
-/* A figure must be consistent: an unknown quantity has no number, and the best estimate lies within its bounds. */
+/* Fails the test if a figure contradicts itself: an unknown figure has no number, and the best estimate lies within
+ * its bounds. */
 static void expect_whole(const cost_figure *f, const char *what) {
     switch (f->basis) {
     case COST_NOT_KNOWN:
@@ -61,7 +62,7 @@ static int check_whole(const scene *s) {
 }
 
 TEST(cost, prices_are_whole) {
-    /* every board in float at least */
+    /* at least one figure for each board, in float */
     TEST_ASSERT_GREATER_THAN_INT(30 * cost_board_count, each_builtin_scene(check_whole));
 }
 
@@ -98,7 +99,7 @@ TEST(cost, more_stages_and_compensated_sums_are_never_cheaper) {
     TEST_ASSERT_GREATER_THAN_INT(50, each_builtin_scene(check_monotonic));
 }
 
-/* A row of masses with one more mass and spring has more of everything. */
+/* One more mass and spring in a row must raise every figure. */
 TEST(cost, a_longer_row_costs_more) {
     for (int b = 0; b < cost_board_count; b++) {
         cost before = {0};
@@ -130,7 +131,7 @@ TEST(cost, a_longer_row_costs_more) {
     }
 }
 
-/* The number of bytes is that of `whirl describe` and of the generated headers (WH_MEMORY_BYTES). */
+/* The state's bytes must be those of `whirl describe` and of the generated header (WH_MEMORY_BYTES). */
 TEST(cost, state_bytes_are_those_of_the_header) {
     static const struct {
         const char *name;
@@ -147,7 +148,8 @@ TEST(cost, state_bytes_are_those_of_the_header) {
     }
 }
 
-/* The table has exactly the existing boards; an STM32F405 is priced as its processor, mps2-an386. */
+/* The table must have exactly the existing boards. An STM32F405 has the price of its processor, which is that of
+ * mps2-an386. */
 TEST(cost, every_board_has_a_row) {
     char path[128];
     char line[64];
@@ -160,7 +162,7 @@ TEST(cost, every_board_has_a_row) {
         count++;
     }
     pclose(boards);
-    TEST_ASSERT_EQUAL_INT(cost_board_count, count + 1); /* the host is a row, too */
+    TEST_ASSERT_EQUAL_INT(cost_board_count, count + 1); /* the host has a row, too */
     TEST_ASSERT_NOT_NULL(cost_board_named("host"));
     TEST_ASSERT_NULL(cost_board_named("mps2"));
 }
@@ -178,12 +180,12 @@ TEST(cost, measured_rows_are_read) {
     TEST_ASSERT_TRUE(c.cycles.value == 708.5 && c.cycles.basis == COST_ESTIMATED);
     TEST_ASSERT_TRUE(c.flash_bytes.value == 7120.0 && c.ram_bytes.value == 124.0 &&
                      c.stack_bytes.value == 268.0);
-    /* a Cortex-M7's cycles are not counted: a range, and no number */
+    /* the cycles of a Cortex-M7 are not counted: they have a range instead of a number */
     TEST_ASSERT_TRUE(
         cost_measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m7, &c));
     TEST_ASSERT_TRUE(c.cycles.basis == COST_RANGE && c.cycles.value == 0.0 &&
                      c.cycles.least < c.cycles.most);
-    /* refused lines: another board's row, one column less or more, the header, an empty line */
+    /* refused: the row of another board, a column too few or too many, the header, an empty line */
     TEST_ASSERT_FALSE(
         cost_measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m4, &c));
     TEST_ASSERT_FALSE(
@@ -194,7 +196,7 @@ TEST(cost, measured_rows_are_read) {
     TEST_ASSERT_FALSE(cost_measured("", m4, &c));
 }
 
-/* The text of a column of docs/figures/price.csv, which has no quotes. */
+/* The text of a column in a row of docs/figures/price.csv. The file has no quotes. */
 static const char *column_of(char *const *column, char *const *heads, int count, const char *name) {
     for (int i = 0; i < count; i++) {
         if (strcmp(heads[i], name) == 0) {
@@ -216,7 +218,7 @@ static int cut_at(char *line, const char *separator, char **piece, int most) {
     return count;
 }
 
-/* The predicted price of a `whirl run` command line. */
+/* The predicted price of the scene and settings on a `whirl run` command line. */
 static cost priced_line(char *line, const cost_board *board, const char *number) {
     char *words[WORDS];
     common_options options = options_defaults();
@@ -259,7 +261,7 @@ static int by_size(const void *one, const void *other) {
     return (a > b) - (a < b);
 }
 
-/* The counted rows of docs/figures/price.csv, which were not used for the table of figures. */
+/* Compares with the counted rows of docs/figures/price.csv. The table of figures was made without these rows. */
 TEST(cost, counted_steps_are_predicted) {
     static char head[2000];
     static char line[2000];

@@ -1,8 +1,7 @@
-/* test_cures.c: every remedy in a warning works. Nonlinear motions run with much too coarse steps by all methods: a
- * charge near another, a chemical bond, hardening springs, a double pendulum, and a spring driven by a heavy clock.
- * Linear theory does not describe these motions. Each remedy in a warning or failure is applied: then no warning
- * remains, and the energy agrees with this file's formulas. A remedy that Whirl has not tried must be marked as
- * such. */
+/* test_cures.c: every remedy in a warning must work. Nonlinear motions run with much too coarse steps by all
+ * methods: a charge near another, a chemical bond, hardening springs, a double pendulum, and a spring that a heavy
+ * clock drives. Each remedy is applied. Then no warning may remain, and the energy must agree with the formulas
+ * below. A remedy that Whirl has not tried must be marked so. */
 #include "command.h"
 
 #include "host/cli/commands.h"
@@ -11,14 +10,14 @@
 
 enum { TEXT = 900 };
 
-/* Largest relative energy error of a cured run. */
+/* Bound on the energy error with a remedy, relative to the exchanged energy. */
 #define CURED 5e-3
 
 typedef enum ruined_kind { ORBIT, BOND, HARDENING, DOUBLE_PENDULUM, CLOCKED, KINDS } ruined_kind;
 
 typedef struct ruined {
     ruined_kind kind;
-    double a, b; /* parameters of the kind of motion */
+    double a, b; /* parameters of the motion */
     double step_s;
     unsigned steps;
     wh_method method;
@@ -56,7 +55,7 @@ static double energy_J(const ruined *r, double x, double y, double vx, double vy
     return 0.0;
 }
 
-/* Scale of the exchanged energy: the stored energy at the start, measured from its minimum. */
+/* Size of the energy that is exchanged: the stored energy at the start, above its minimum. */
 static double moved_J(const ruined *r) {
     switch (r->kind) {
     case ORBIT: return 0.5;
@@ -97,7 +96,7 @@ static void run(const ruined *r, const named_cure *with, said *what) {
     command_say(command_run, words, what);
 }
 
-/* Missing energy at the end, relative to the exchanged energy. */
+/* Energy error at the end, relative to the exchanged energy. */
 static double missing(const ruined *r, const named_cure *with) {
     wh_method method = r->method;
     for (int m = 0; m < WH_METHODS; m++) {
@@ -155,7 +154,8 @@ TEST(cures, cures_were_tried) {
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", again.err, about);
             done++;
             if (r.kind == CLOCKED && r.number[0] == 'f' && !list[k].in_double) {
-                continue; /* in float, the rounded rate of a clock loses a part of that energy */
+                /* in float, rounding the clock's rate changes the large energy of the clock */
+                continue;
             }
             TEST_ASSERT_TRUE_MESSAGE(left < CURED, about);
             worst = fmax(worst, left);
@@ -168,9 +168,9 @@ TEST(cures, cures_were_tried) {
     TEST_ASSERT_TRUE(told > cases / 3 && done > told / 2 && untried <= told / 5);
 }
 
-/* A body rolls up to the top of a hill, where its errors grow as exp(t), beside a spring that needs a shorter step. In
- * float, round-off decides on which side it rolls down; that is chaos, and Whirl reports no finding. A remedy in float
- * must still give a right result to the end. */
+/* A body rolls up to the top of a hill, where errors grow as exp(t), beside a spring that needs a shorter step. In
+ * float, round-off decides to which side the body rolls down: that is chaos, which is no finding. A remedy in float
+ * must still give a right result until the end. */
 TEST(cures, cures_in_float_are_right_to_the_end) {
     dice d = dice_of("cures_float", 29112026);
     const unsigned cases = dice_cases(few_or_all(12, 60));

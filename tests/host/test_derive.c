@@ -1,5 +1,5 @@
-/* test_derive.c: operation lists of every mechanism against the energy balance; large expressions, powers and exponents.
- * test_octave.c has the lists against their equations. */
+/* test_derive.c: the operation list of every mechanism, compared with the energy balance; also large expressions,
+ * powers and exponents. test_octave.c compares the lists with their equations. */
 #include <time.h>
 
 #include "derived.h"
@@ -15,8 +15,8 @@ static derived mechanism_file(const char *name) {
     return d;
 }
 
-/* h = sum q' dL/dq' - L changes by the power of the inputs minus the losses. dh/dt uses the accelerations of the
- * operation list, by central difference along the motion. */
+/* The energy integral h = sum q' dL/dq' - L must change by the power of the inputs minus the losses. dh/dt is a
+ * central difference along the motion, with the accelerations of the operation list. */
 static void check_balance(const derived *d, const char *name) {
     const equations *e = d->equations;
     uint64_t seed = 17;
@@ -27,8 +27,7 @@ static void check_balance(const derived *d, const char *name) {
         derived_run(d->image->list[IMAGE_BOOKS], d, &s, books);
         double size = 1e-3;
         double rate = 0.0;
-        for (int side = -1; side <= 1;
-             side += 2) { /* state advanced along the motion by a small time */
+        for (int side = -1; side <= 1; side += 2) { /* the state a small time before and after */
             const double dt = 1e-5 * side;
             state_values near = s;
             for (int i = 0; i < e->count; i++) {
@@ -100,7 +99,7 @@ TEST(derive, large_but_tame_expressions_are_derived) {
     derived_expect(&d, "64 masses");
     TEST_ASSERT_TRUE((double)(clock() - began) / CLOCKS_PER_SEC < 20.0);
     TEST_ASSERT_EQUAL_INT(64, d.image->coordinates);
-    /* 3 (x_{i+1} - 2 x_i + x_{i-1}) needs some four operations a mass */
+    /* 3 (x_{i+1} - 2 x_i + x_{i-1}) needs about four operations for each mass */
     TEST_ASSERT_TRUE(op_list_operations(d.image->list[IMAGE_STEP]) <= 64 * 5);
     derived_free(&d);
     free(front);
@@ -108,7 +107,8 @@ TEST(derive, large_but_tame_expressions_are_derived) {
     free(whole);
 }
 
-/* Kept powers of sums hide neither a cyclic coordinate nor the function whose rate is its momentum. */
+/* A power of a sum that is not expanded must hide neither a cyclic coordinate nor the function whose rate is its
+ * momentum. */
 TEST(derive, kept_powers_do_not_hide_conservation) {
     derived d = derived_text("mechanism m\ncoordinate X\ncoordinate x\n"
                              "T = 1 [kg*m^2]*((X' + 4*(x - 2)^3*x')^2 + x'^2)/2\n"
@@ -126,7 +126,8 @@ TEST(derive, kept_powers_do_not_hide_conservation) {
     derived_free(&d);
 }
 
-/* x^e and x^e (1 + x), for integer and half exponents of every size, with x so near 1 that they stay small. */
+/* x^e and x^e (1 + x), with integer and half-integer exponents up to 1e14. x is so near 1 that the values stay
+ * small. */
 TEST(derive, large_exponents_are_not_cut) {
     uint64_t seed = 20;
     for (int i = 0; i < 200; i++) {

@@ -1,5 +1,5 @@
-/* test_describe.c: `whirl describe --json`: docs/describe.md has each field.
- * test_image.c checks every field on random scenes. Also the rows of images. */
+/* test_describe.c: `whirl describe --json`, whose fields docs/describe.md lists, and the rows of images.
+ * test_image.c checks every field on random scenes. */
 #include "test.h"
 
 #include "host/emit/description.h"
@@ -21,8 +21,6 @@ static void expect_valid(const char *text, const char *what) {
     TEST_ASSERT_TRUE_MESSAGE(valid, what);
 }
 
-/* --- the page ------------------------------------------------------------------------------------------*/
-
 static char *page_text(void) {
     FILE *in = fopen("docs/describe.md", "rb");
     TEST_ASSERT_NOT_NULL(in);
@@ -33,7 +31,7 @@ static char *page_text(void) {
     return text;
 }
 
-/* Each written key is in docs/describe.md; json.h writes one per line. */
+/* docs/describe.md must contain each key of the JSON text, which has one key per line. */
 static void check_keys(const char *json, const char *page) {
     for (const char *line = json; line != NULL; line = strchr(line, '\n')) {
         line += strspn(line, "\n ");
@@ -69,24 +67,23 @@ TEST(describe, every_field_is_documented) {
 }
 
 /* === image rows =============================================================================== */
-/* The tables of an image, row by row. Each component, account and input has exactly one row, in the core's order
- * (core/scene.h, core/ledger.h), with the meaning that the file gives. A missing or shifted row would not change the
- * motion of scenes that do not use it. */
+/* The tables of an image, row by row. Each component, account and input must have exactly one row, in the core's
+ * sequence (core/scene.h, core/ledger.h), with the meaning that the file gives. A scene that does not use a wrong
+ * row would move correctly. */
 
-/* --- momenta ------------------------------------------------------------------------------------------*/
-
-/* Dimension of a unit's text. Its exponents count twelfths. */
+/* Dimension of a unit's text. Exponents are in twelfths. */
 static dimension dimension_of(const char *unit) {
     unit_scale read = {1.0, 1.0, dim_none(), enclosure_of(1.0)};
     unit_error error = {.offset = 0};
     if (strcmp(unit, "1") != 0) {
         TEST_ASSERT_TRUE_MESSAGE(unit_parse(unit, strlen(unit), &read, &error), unit);
     }
-    TEST_ASSERT_TRUE_MESSAGE(read.scale == read.divisor, unit); /* SI */
+    TEST_ASSERT_TRUE_MESSAGE(read.scale == read.divisor, unit); /* an SI unit */
     return read.dim;
 }
 
-/* A momentum is energy times time over its coordinate's unit: metres, angles, charges, square roots of masses. */
+/* A momentum is energy times time, divided by its coordinate's unit. Coordinates are lengths, angles, charges, and
+ * square roots of masses. */
 TEST(image_rows, momenta_are_energy_by_time_over_their_coordinate) {
     static const char *const bases[DIM_BASES][5] = {{"", "*m", "/m", "*m^2", "*m^(1/2)"},
                                                     {"", "*kg", "/kg", "*kg^2", "*kg^(1/2)"},
@@ -121,10 +118,8 @@ TEST(image_rows, momenta_are_energy_by_time_over_their_coordinate) {
     }
 }
 
-/* --- components ---------------------------------------------------------------------------------------*/
-
-/* angle[] and real[]. Of second order: the angles, the other positions, all rates. Of first order: all states. Each
- * integrated unknown has one row; those recovered from momenta have none. */
+/* Checks angle[] and real[]. Second order: angles, other positions, then all rates. First order: all states. Each
+ * integrated unknown must have one row, an unknown that is recovered from its momentum none. */
 static void check_components(const image *im, const char *name) {
     int seen[IMAGE_COMPONENTS_MAX][ORDERS_MAX] = {{0}};
     for (int i = 0; i < im->angles + im->reals; i++) {
@@ -172,8 +167,6 @@ static void check_starts(const derived *d, const char *name) {
     }
 }
 
-/* --- ledger, crossings, ranges --------------------------------------------------------------------------*/
-
 static void check_ledger(const image *im, const char *name) {
     const image_ledger *l = &im->ledger;
     unsigned accounts = 0;
@@ -183,7 +176,7 @@ static void check_ledger(const image *im, const char *name) {
     }
     TEST_ASSERT_EQUAL_INT_MESSAGE(1 + im->coordinates, l->accounts, name);
     TEST_ASSERT_EQUAL_INT_MESSAGE(-1, l->unknown[0], name);
-    for (int i = 1; i < l->accounts; i++) { /* the coordinates, in the scene's order */
+    for (int i = 1; i < l->accounts; i++) { /* the coordinates, in the scene's sequence */
         TEST_ASSERT_TRUE_MESSAGE(l->unknown[i] >= 0 && l->unknown[i] < im->count, name);
         TEST_ASSERT_EQUAL_INT_MESSAGE(i - 1, im->place[l->unknown[i]], name);
         accounts++;
@@ -218,7 +211,7 @@ static int check_targets(const derived *d, const char *name) {
     return at;
 }
 
-/* Each declared range belongs to one row with its bounds; other rows have no range. */
+/* Each declared range must belong to one row and have its bounds. Other rows must have no range. */
 static int check_ranges(const derived *d, const char *name) {
     const image *im = d->image;
     const instance *inst = d->instance;
@@ -269,8 +262,8 @@ TEST(image_rows, rows_of_built_in_scenes) {
     TEST_ASSERT_TRUE(targets > 0);
 }
 
-/* Angles among lengths, an omitted effect's input, crossings with several assignments, ranges of each kind,
- * accounts. */
+/* Has angles among lengths, the input of an omitted effect, crossings with several assignments, ranges of each kind,
+ * and accounts. */
 static const char of_every_kind[] =
     "mechanism m\ncoordinate x [m]\ncoordinate th [rad]\ncoordinate y [m]\n"
     "coordinate ph [rad]\ninput A = 1 [N]\ninput B = 2 [N/m]\n"
@@ -293,7 +286,7 @@ TEST(image_rows, rows_of_every_kind) {
     check_starts(&d, "s");
     check_ledger(d.image, "s");
     TEST_ASSERT_TRUE(d.image->ledger.kept);
-    TEST_ASSERT_EQUAL_INT(2, d.image->ledger.inputs); /* B and D: those in the energies */
+    TEST_ASSERT_EQUAL_INT(2, d.image->ledger.inputs); /* B and D, which are in the energies */
     TEST_ASSERT_EQUAL_STRING("B", d.image->input[d.image->ledger.input[0]].name);
     TEST_ASSERT_EQUAL_STRING("D", d.image->input[d.image->ledger.input[1]].name);
     TEST_ASSERT_EQUAL_INT(5, check_targets(&d, "s"));

@@ -1,5 +1,6 @@
-/* test_diag.c: random errors in random places of several files, in their printed order: by file in order of first
- * report, then by place. Repeats are printed once, and at most DIAG_MAX errors. Quotes of lines and statements. */
+/* test_diag.c: random errors in several files, and the sequence in which they are printed: files in the sequence of
+ * their first error, and within a file by place. Repeated errors are printed once, and no more than DIAG_MAX errors.
+ * Also quotes of lines and statements. */
 #include "host/base/diag.h"
 
 #include "command.h"
@@ -13,7 +14,7 @@ typedef struct told {
     unsigned offset;
 } told;
 
-/* The expected output: the reported rows without repeats, at most DIAG_MAX, sorted by selection. */
+/* The expected output: the reported errors without repeats, up to DIAG_MAX, sorted by selection. */
 static int expected(const told *rows, int count, told *printed, bool *more) {
     told kept[ERRORS_MOST];
     int rank[FILES] = {ERRORS_MOST, ERRORS_MOST, ERRORS_MOST};
@@ -85,7 +86,7 @@ TEST(diag, order) {
     for (unsigned c = 0; c < cases; c++) {
         told rows[ERRORS_MOST];
         const int count = 1 + (int)dice_one_of(&d, ERRORS_MOST);
-        /* so that several errors have the same place */
+        /* few places, so that several errors share one */
         const unsigned few = 1 + dice_one_of(&d, LENGTH);
         for (int i = 0; i < count; i++) {
             rows[i] = (told){(int)dice_one_of(&d, FILES), dice_one_of(&d, few)};
@@ -102,7 +103,7 @@ TEST(diag, order) {
     diags_free(all);
 }
 
-/* Statements of lengths around the limit are quoted whole if they fit, else with dots at the end. */
+/* A statement near the limit of length is quoted in full if it fits, else cut and with dots at its end. */
 TEST(diag, statements) {
     enum { ROOM = 20, MOST = 2 * ROOM };
     for (size_t length = 1; length <= MOST; length++) {
@@ -119,7 +120,7 @@ TEST(diag, statements) {
     }
 }
 
-/* A quoted statement ends at the bracket that closes its surroundings, and has no comments. */
+/* A quoted statement ends before the bracket that closes the block around it, and has no comment. */
 TEST(diag, statements_in_braces) {
     static const char *const own[] = {"a = 1", "when x { set y }", "when x { a { b } }", "e {}"};
     static const char *const begin[] = {"", "scene s { ", "\n  ", "effect e {"};
