@@ -1,5 +1,5 @@
-/* test_divergence.c: a diverging run stops, names the component, and keeps its last good state, in float and double,
- * with every method. */
+/* test_divergence.c: a run that diverges must stop, name the component, and keep its last good state, in float and
+ * double, with every method. Also the time until which a run is accurate. */
 #include "test.h"
 
 #include "core/method.h"
@@ -16,7 +16,7 @@
 
 /* === divergence =============================================================================== */
 
-/* x'' = 2 x^3 / m^2 from x = 1 m at 1 m/s: x = 1/(1 - t), infinite at 1 s. */
+/* x'' = 2 x^3/m^2 from x = 1 m at 1 m/s has the solution x = 1/(1 - t), infinite at 1 s. */
 static const char blow_up[] = "mechanism blow_up\n"
                               "coordinate x [m]\n"
                               "parameter m = 1 [kg]\n"
@@ -31,8 +31,8 @@ static const char blow_up[] = "mechanism blow_up\n"
 
 static const engine_kind *const kinds[] = {&engine_float, &engine_double};
 
-/* Steps until failure, at most `most` steps. The state must be the one before the failed step, and further steps must
- * fail in the same way. Returns the completed steps. */
+/* Steps until a step fails, which must be within `most` steps. The state must be that before the failed step, and
+ * further steps must fail in the same way. Returns the number of good steps. */
 static uint64_t run_into_failure(motion *m, unsigned most) {
     const uint64_t first = m->kind->steps(m->run);
     uint64_t before = m->kind->hash(m->run);
@@ -61,7 +61,7 @@ TEST(divergence, every_method_stops) {
                              (stepping){.kind = kinds[k % 2],
                                         .method = (wh_method)i,
                                         .compensated = k / 2 != 0});
-            /* Lower orders lag, so they fail a little later. */
+            /* methods of low order lag behind the solution and fail a little later */
             const uint64_t done = run_into_failure(&m, 1100);
             const double x = motion_value(&m, "x");
             TEST_ASSERT_TRUE(done >= 990);
@@ -71,8 +71,8 @@ TEST(divergence, every_method_stops) {
     }
 }
 
-/* A motor with an input that is no number: the step is refused, and the gear continues undisturbed with the next valid
- * torque. */
+/* A torque that is not a number. The step must be refused. With the next valid torque, the motion must go on as if
+ * nothing had happened. */
 TEST(divergence, an_input_that_is_no_number) {
     for (unsigned k = 0; k < 2; k++) {
         motion m;
@@ -94,7 +94,7 @@ TEST(divergence, an_input_that_is_no_number) {
     }
 }
 
-/* A start beyond all bounds is reported without proposing a smaller step or another number format. */
+/* A start outside all bounds must be reported, without a smaller step or another number type as the remedy. */
 TEST(divergence, starts_beyond_all_bounds) {
     static const char *const units[] = {"m", "mm", "km"};
     static const double si[] = {1.0, 1e-3, 1e3};
@@ -124,15 +124,13 @@ TEST(divergence, starts_beyond_all_bounds) {
 }
 
 /* === horizon ================================================================================== */
-/* Time until which each part of a run is accurate. Passages of a level are compared with all entered differences, and
- * verdicts on random columns with their definition. Twins of growth and decay are compared with powers of their known
- * factor per step. Words and rows are read back. */
-
-/* --- passages --------------------------------------------------------------------------------------------*/
+/* The time until which each column of a run is accurate. Passages of a level are compared with all entered
+ * differences; verdicts on random columns with their definition; step doubling of growth and decay with powers of
+ * the known factor of a step. Words and rows of the report are read back. */
 
 enum { ENTERED = 300 };
 
-/* Time of the first difference above `level`. */
+/* Time of the first difference above `level`; infinity if there is none. */
 static double first_above_s(const double *time_s, const double *size, int count, double level) {
     for (int i = 0; i < count; i++) {
         if (!(size[i] <= level)) {
@@ -142,8 +140,8 @@ static double first_above_s(const double *time_s, const double *size, int count,
     return (double)INFINITY;
 }
 
-/* Sizes that rise, fall, stay or end. A level is passed between the first size above it and the first size that exceeds
- * it by PASSAGE_GRAIN. */
+/* Sizes that rise, fall or stay, or become NaN. The reported passage of a level must lie between the first size
+ * above the level and the first size that exceeds it by PASSAGE_GRAIN. */
 TEST(horizon, levels_and_when_they_were_passed) {
     dice d = dice_of("horizon passages", 2312);
     for (unsigned k = 0; k < 60; k++) {
@@ -182,8 +180,6 @@ TEST(horizon, levels_and_when_they_were_passed) {
     }
 }
 
-/* --- verdicts --------------------------------------------------------------------------------------------*/
-
 enum { COLUMNS = 6, LOOKS = 40 };
 
 typedef struct drawn_column {
@@ -195,7 +191,7 @@ typedef struct drawn_column {
     int looks;
 } drawn_column;
 
-/* Moving or not, of any size, with any error; differences are separated by more than the grain. */
+/* A column that moves or not, of any size, with errors that differ by more than PASSAGE_GRAIN. */
 static drawn_column draw_column(dice *d) {
     drawn_column c = {.low = dice_between(d, -5.0, 5.0)};
     const bool moves = dice_one_of(d, 3) > 0;
@@ -228,7 +224,7 @@ static double most_off(const drawn_column *c, double left_out) {
     return most;
 }
 
-/* Does it stay in place? Definition from horizon.c's head. */
+/* Does the column count as one that does not move? By the definition at the head of horizon.c. */
 static bool keeps_its_place(const drawn_column *c) {
     const double moved = c->high - c->low;
     const double size = fmax(fabs(c->low), fabs(c->high));
@@ -315,7 +311,8 @@ TEST(horizon, verdicts_on_drawn_columns) {
         TEST_ASSERT_EQUAL_DOUBLE(until_s, h.until_s);
         TEST_ASSERT_EQUAL_INT(to_the_end, h.to_the_end);
         TEST_ASSERT_TRUE(to_the_end ? h.first == -1 : h.column[h.first].until_s == until_s);
-        for (int k = 1; !to_the_end && k < h.first; k++) { /* h.first is the first of several */
+        /* h.first is the first of several columns */
+        for (int k = 1; !to_the_end && k < h.first; k++) {
             TEST_ASSERT_TRUE(!ends_it(&h.column[k]) || h.column[k].until_s > until_s);
         }
         horizon_free(&h);
@@ -328,9 +325,7 @@ TEST(horizon, verdicts_on_drawn_columns) {
     }
 }
 
-/* --- twins -----------------------------------------------------------------------------------------------*/
-
-/* exp() truncated after z^order: the factor of a step of these methods for x' = a x. */
+/* exp(z) without the terms after z^order: the factor by which a step of these methods changes x in x' = a x. */
 static double factor(int order, double z) {
     double sum = 1.0;
     double next = 1.0;
@@ -341,8 +336,8 @@ static double factor(int order, double z) {
     return sum;
 }
 
-/* The finer run uses the method if its order is 4, else RK4. If both have the same order, the error of the finer run
- * adds a factor 16/15. */
+/* Growth or decay x' = a x. The finer run uses `method` if its order is 4, else RK4. If both runs have order 4, the
+ * estimated error is 16/15 of their difference. */
 static void hold_growth(dice *d, wh_method method, int order, bool events) {
     const double size = dice_between(d, 0.05, 0.3);
     const int steps = (int)(dice_between(d, 3.0, 12.0) / size);
@@ -403,9 +398,7 @@ TEST(horizon, twins_of_growths_and_decays) {
     }
 }
 
-/* --- words and rows ----------------------------------------------------------------------------------------*/
-
-/* Two springs, one soon wrong and one accurate to the end, and a third at rest. */
+/* Two springs, of which one is soon wrong and the other accurate to the end, and a third one at rest. */
 static const char springs[] =
     "mechanism springs\n"
     "coordinate a [m]\ncoordinate b [mm]\ncoordinate c [m]\n"
@@ -443,7 +436,7 @@ static void expect_csv(const horizon *h) {
     fclose(both);
 }
 
-/* The text after a column's name in the table. */
+/* The rest of the table's row for a column. */
 static const char *behind(const char *told, const char *name) {
     char start[40];
     snprintf(start, sizeof start, "\n  %-16s ", name);
@@ -486,8 +479,9 @@ static void expect_words(const horizon *h) {
         "after that no single coordinate is accurate; only the balances are meaningful, to t = 4 s:\n  energy: "));
 }
 
-/* The fast spring has w h = 1/2 and an amplitude of 1 m. It lags by w (w h)^4/120 = 0.026 rad per second. After 0.77 s
- * the lag is 0.02 rad and the error can be 0.02 m, a hundredth of its range; at the latest half a swing later. */
+/* The fast spring has w h = 1/2 and an amplitude of 1 m. Its phase lags by w (w h)^4/120 = 0.026 rad per second.
+ * After 0.77 s the lag is 0.02 rad. Then the error can be 0.02 m, a hundredth of the range, and reaches this half a
+ * swing later at the latest. */
 TEST(horizon, words_and_rows) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);
@@ -506,15 +500,15 @@ TEST(horizon, words_and_rows) {
 }
 
 /* === trust kinks ============================================================================== */
-/* Time until which a run with a kinked force is accurate: a body on a spring, and a second spring that starts at a
- * distance. Motions between kinks are sines, so the reference is a closed form. A kink destroys the order of the steps,
- * and two runs may have the same error. */
+/* The time until which a run with a kinked force is accurate. A body is on a spring, and a second spring acts beyond
+ * a gap. The motions between the kinks are sines, so the reference is a closed form. A kink destroys the order of
+ * the method, and two runs may have the same error. */
 
 #define TURN 6.28318530717958648
 
 typedef struct two_springs {
     double soft; /* N/m */
-    double hard; /* additional N/m beyond gap */
+    double hard; /* further N/m beyond the gap */
     double gap_m;
     double x_m;
     double v_mps;
@@ -541,7 +535,7 @@ static void go_on(two_springs *s, double span_s) {
     }
 }
 
-/* Time when the error of x or x' first exceeds a thousandth of its range; infinity: never. */
+/* The time at which the error of x or x' first exceeds a thousandth of its range; infinity if never. */
 static double right_until_s(const two_springs *start, const char *csv, double *most) {
     enum { ROWS_MOST = 400 };
     static double was[ROWS_MOST][3]; /* time, x and x' */
@@ -628,10 +622,8 @@ TEST(trust_kinks, trust_beside_a_kink) {
     TEST_ASSERT_TRUE(late <= cases / 100);
 }
 
-/* --- runs by one matrix a step ---------------------------------------------------------------- */
-
-/* Time until which matrix steps are accurate, for random linear mechanisms. Exact matrices are accurate to the end at
- * any step, Runge-Kutta matrices until the reference differs. */
+/* The time until which matrix steps are accurate, for random linear mechanisms. Exact matrices must be accurate to
+ * the end with any step; Runge-Kutta matrices until the reference shows a difference. */
 typedef struct way {
     const char *words;
     horizons_setting how;
@@ -652,7 +644,7 @@ enum {
 };
 static const int step_ms[STEPS] = {2, 20, 100};
 
-/* Draws mechanism n: one to four coordinates, with coupled masses if n is odd. Its scene lasts 2 s with this step. */
+/* Draws linear mechanism n with one to four coordinates, with coupled masses if n is odd, and runs it for 2 s. */
 static horizons one_of(uint64_t *seed, unsigned n, int ms, horizons_setting how) {
     char text[4000];
     linear of;
@@ -681,8 +673,8 @@ TEST(trust_kinks, exact_steps_are_right_to_the_end) {
     TEST_ASSERT_TRUE(worst > 0.0 && worst < 1e-11);
 }
 
-/* Two undamped masses on springs: the phases of the run deviate more and more from the exact ones, until the warning
- * and the exact error agree that they are too large. */
+/* Two undamped masses on springs. The phases of a run deviate more and more from the exact ones. The estimated time
+ * must agree with the time at which the true error becomes too large. */
 TEST(trust_kinks, coarse_steps_until_the_reference_says_so) {
     dice d = dice_of("trust matrix", 1409);
     int ended = 0;
@@ -714,12 +706,12 @@ TEST(trust_kinks, coarse_steps_until_the_reference_says_so) {
 }
 
 /* === twins ==================================================================================== */
-/* A run and its finer one (host/check/step_doubling.h): settings of the finer run, both ends, and the report, for
- * oscillators with known motion. */
+/* Step doubling (host/check/step_doubling.h): the settings of the finer run, the ends of both runs, and the report,
+ * for oscillators with a known motion. */
 
 enum { TEXT = 600 };
 
-/* A mass on a spring, from x = A at rest: x = A cos(w t). Its unit may differ from SI. */
+/* A mass on a spring, from rest at x = a: x = a cos(w t). The unit of x may differ from SI. */
 static void write_spring(char *text, const char *unit, double a, double w, double step_s,
                          double until_s) {
     snprintf(text, TEXT,
@@ -733,9 +725,8 @@ static step_doubling *twins_of(const motion *m, const image *im) {
     return step_doubling_run(&w);
 }
 
-/* --- the finer run -------------------------------------------------------------------------------------- */
-
-/* Exactly half the step, for any fraction; an exact matrix is used unchanged. */
+/* The finer run must have exactly half the step, whatever fraction the step is. The step of an exact matrix must not
+ * be halved. */
 TEST(twins, the_finer_run) {
     dice d = dice_of("twins", 31);
     for (unsigned method = 0; method < WH_METHODS; method++) {
@@ -809,10 +800,8 @@ TEST(twins, plain_settings) {
     }
 }
 
-/* --- the report ------------------------------------------------------------------------------------------ */
-
-/* The extremes are those of the motion, and the difference at the end is that of two separate runs. The round-off of a
- * rate moves its coordinate for the whole time. */
+/* The lowest and highest values must be those of the motion, and the difference at the end that of two separate
+ * runs. The round-off of a rate must count in its coordinate for the whole time. */
 TEST(twins, what_is_told) {
     static const struct {
         const char *name;
@@ -848,7 +837,8 @@ TEST(twins, what_is_told) {
         const double v_size = fmax(fabs(v->low), fabs(v->high));
         TEST_ASSERT_DOUBLE_WITHIN(1e-6 * x->rounding, v->rounding * t->end_s + unit * x_size,
                                   x->rounding);
-        /* The acceleration is one product; its round-off and that of its factors are some units of the largest. */
+        /* the acceleration is one product: with its factors, the round-off is some units in the last place of the
+         * largest value */
         const double pull = v->rounding - unit * v_size;
         TEST_ASSERT_TRUE(pull > 0.5 * unit * a * w * w * per_m * t->end_s);
         TEST_ASSERT_TRUE(pull < 20.0 * unit * a * w * w * per_m * t->end_s);
@@ -857,7 +847,7 @@ TEST(twins, what_is_told) {
     }
 }
 
-/* An interrupt ends both runs before the next of 1200 steps. */
+/* An interrupt must end both runs before the next step. */
 TEST(twins, an_end_from_outside) {
     char text[TEXT];
     motion m;
@@ -874,8 +864,8 @@ TEST(twins, an_end_from_outside) {
     motion_close(&m);
 }
 
-/* x'' = x^3 from x = s, x' = s^2/sqrt(2) is x = s/(1 - s t/sqrt(2)), which leaves all bounds at a known time. After
- * that nothing is reported of either run. */
+/* x'' = x^3 from x = s, x' = s^2/sqrt(2) has the solution x = s/(1 - s t/sqrt(2)), infinite at a known time. The
+ * report must end there. */
 TEST(twins, runs_that_fail) {
     dice d = dice_of("twins", 33);
     for (unsigned i = 0; i < 6U; i++) {
@@ -897,7 +887,8 @@ TEST(twins, runs_that_fail) {
     }
 }
 
-/* The predicted work of both runs equals the counted work, except for their first step and the samples of the state. */
+/* The predicted work of step doubling must be the counted work, except for the first steps and the samples of the
+ * state. */
 TEST(twins, what_they_take) {
     dice d = dice_of("twins", 34);
     for (unsigned i = 0; i < 2U * WH_METHODS; i++) {
@@ -911,7 +902,7 @@ TEST(twins, what_they_take) {
             (stepping){.kind = i % 2U == 0 ? &engine_double : &engine_float, .method = method});
         const double told = step_doubling_operations(m.image, m.image);
         const int own = wh_methods[method].order >= 4 ? (int)method : (int)WH_METHOD_DEFAULT;
-        const int methods[] = {(int)method, own, own}; /* the finer run takes two methods */
+        const int methods[] = {(int)method, own, own}; /* the finer run has two steps */
         double counted = 0.0;
         for (int k = 0; k < 3; k++) {
             motion run;

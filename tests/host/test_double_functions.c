@@ -1,10 +1,10 @@
-/* test_double_functions.c: the double build's own functions against long double.
+/* test_double_functions.c: the functions of the double build, compared with long double.
  *
- * WHIRL_FUNCTION_CASES=100000000 build/tests/host double_functions
+ *   WHIRL_FUNCTION_CASES=100000000 build/tests/host double_functions
  *
- * tests that many arguments of each kind instead of a hundred thousand. Long double with the 64 bits of x87 has errors
- * below 2^-10 of a double's unit, for angles of any size. Kinds of arguments: any bits, the range with results neither
- * 0 nor infinite, and values where digits are lost most easily. */
+ * tests so many arguments of each kind; the usual number is a hundred thousand. Long double has the 64 bits of x87:
+ * its errors are below 2^-10 of a double's last place, for angles of any size. The arguments are any bits, values
+ * with results that are neither 0 nor infinite, and values at which digits are easily lost. */
 #define WH_DOUBLE 1
 #include "core/function_double.h"
 
@@ -32,7 +32,7 @@ static double scaled_between(int least, int most) {
 }
 static double near(double x) { return wh_of_bits(wh_bits(x) + (scattered() % 4096U) - 2048U); }
 static double near_widely(double x) { return x * (1.0 + scaled_between(-53, -3)); }
-/* Doubles next to multiples of a quarter turn. */
+/* A double near a random multiple of a quarter turn. */
 static double quarter_turn(void) {
     const long double many = floorl(ldexpl((long double)unit(), (int)(scattered() % 60U)));
     return either(near((double)((many + 1.0L) * PI_L / 2.0L)));
@@ -47,7 +47,8 @@ static double error_of(double got, long double wanted) {
         return isnan(wanted) && isnan(got) ? 0.0 : HUGE_VAL;
     }
     const double nearest = (double)wanted;
-    if (isinf(nearest) || isinf(got)) { /* the last half unit below infinity may round either way */
+    /* the last half unit below infinity may round to either side */
+    if (isinf(nearest) || isinf(got)) {
         return got == nearest ? 0.0 : fabsl(wanted) < 0x1.fffffffffffffp1023L ? HUGE_VAL : 0.5;
     }
     if (wanted == 0.0L) {
@@ -173,7 +174,7 @@ TEST(double_functions, pow) {
                 y = within(-745.0, 710.0) / log(x);
             } else if (kind == 4) {
                 y = either((double)(scattered() % 40U));
-            } else if (kind == 5) { /* results without room for 53 bits */
+            } else if (kind == 5) { /* results too small for 53 bits */
                 x = within(0.0, 1.0);
                 y = x > 0.0 ? within(-745.2, -708.0) / log(x) : y;
             }

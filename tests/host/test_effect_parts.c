@@ -1,5 +1,6 @@
-/* test_effect_parts.c: parts of an effect: its parameters and inputs can be changed only if it is active, and inertia
- * may come from effects alone. Every effect of every built-in mechanism; random mechanisms. */
+/* test_effect_parts.c: the parameters and inputs of an effect can be changed only if the effect is active, and
+ * inertia may come from effects alone. Tested on every effect of every built-in mechanism and on random mechanisms.
+ * Also noise. */
 #include "test.h"
 
 #include "core/noise.h"
@@ -8,7 +9,7 @@
 #include "host/lang/value.h"
 #include "motion.h"
 
-/* The message on an instance with one change; "" if accepted. To be freed. */
+/* The errors of an instance with one change; "" if the change is accepted. The caller frees the text. */
 static char *said_of(const mechanism *of, const scene *in, const char *set, bool as_value,
                      const char *with) {
     const char *const sets[] = {set};
@@ -33,7 +34,8 @@ static char *said_of(const mechanism *of, const scene *in, const char *set, bool
     return text;
 }
 
-/* The message must name the effect and, for --set, the option to add. */
+/* The error must name the effect. If --set made the change, the error must also name the option that activates the
+ * effect. */
 static void expect_refused(const mechanism *of, const scene *in, const symbol *s, double value) {
     char wanted[200];
     const char *owner = of->effects[s->effect].name;
@@ -54,7 +56,7 @@ static void expect_refused(const mechanism *of, const scene *in, const symbol *s
     free(set);
 }
 
-/* A valid value of the parameter or input: its own. */
+/* The mechanism's own value of a parameter or an input, which is valid. */
 static double own_value(const mechanism *of, const symbol *s) {
     diags *errors = diags_new();
     instance *inst = instance_make(of, NULL, NULL, errors);
@@ -105,7 +107,7 @@ TEST(effect_parts, changes_of_what_takes_no_part_are_refused) {
     TEST_ASSERT_TRUE(checked > 30);
 }
 
-/* A scene's own `set`, before or after its `with`. */
+/* A scene may have its `set` before or after its `with`. */
 TEST(effect_parts, a_scene_sets_what_it_names) {
     static const struct {
         const char *scene;
@@ -134,7 +136,7 @@ TEST(effect_parts, a_scene_sets_what_it_names) {
     }
 }
 
-/* `--without E` leaves a scene usable that sets something of E. */
+/* If a scene has a `set` for something of effect E, `--without E` must still be possible. */
 TEST(effect_parts, a_scene_without_an_effect_that_it_sets) {
     static const char text[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "effect drag { parameter b = 1 [kg/s]; F += b*x'^2/2 }\n"
@@ -152,12 +154,10 @@ TEST(effect_parts, a_scene_without_an_effect_that_it_sets) {
     diags_free(errors);
 }
 
-/* --- inertia from effects ------------------------------------------------------------------------ */
-
 enum { COORDINATES = 3 };
 
-/* Coordinate i gets its inertia from the mechanism (giver[i] = 0) or from effect e1, e2, e3. Derived with the effects
- * in `with`. */
+/* Derives a mechanism in which coordinate i has its inertia from the mechanism (giver[i] = 0) or from effect e1, e2
+ * or e3. The bits of `with` are the active effects. */
 static derived derive_with(const int *giver, unsigned with) {
     char text[2000] = "mechanism parts\n";
     char line[160];
@@ -178,7 +178,7 @@ static derived derive_with(const int *giver, unsigned with) {
                          : none ? "T ="
                                 : "  +",
                          i + 2, i);
-                if (of == 0 && !none) { /* one statement contains the sum */
+                if (of == 0 && !none) { /* one statement has the sum of all terms */
                     text[strlen(text) - 1] = '\0';
                 }
                 none = of == 0 ? false : none;
@@ -199,12 +199,12 @@ static derived derive_with(const int *giver, unsigned with) {
 }
 
 TEST(effect_parts, inertia_of_effects) {
-    for (int way = 0; way < 64; way++) { /* every giver of every coordinate */
+    for (int way = 0; way < 64; way++) { /* every giver for every coordinate */
         int giver[COORDINATES];
         for (int i = 0; i < COORDINATES; i++) {
             giver[i] = way >> (2 * i) & 3;
         }
-        for (unsigned with = 0; with < 16; with += 2) { /* every choice of effects */
+        for (unsigned with = 0; with < 16; with += 2) { /* every set of active effects */
             derived d = derive_with(giver, with);
             int missing = -1;
             for (int i = COORDINATES - 1; i >= 0; i--) {
@@ -227,11 +227,9 @@ TEST(effect_parts, inertia_of_effects) {
     }
 }
 
-/* Noise acts on the records alone, the same everywhere. */
+/* Noise must change the records only, by the same numbers on every host. */
 
-/* --- noise ------------------------------------------------------------------------------------------------------ */
-
-/* FNV-1a, 32 bits: the published parameters. */
+/* The hash FNV-1a with 32 bits and its published parameters. */
 static uint32_t seed_of(const char *output, uint32_t seed) {
     uint32_t hash = 2166136261U;
     for (; *output != '\0'; output++) {
@@ -240,7 +238,7 @@ static uint32_t seed_of(const char *output, uint32_t seed) {
     return hash ^ seed;
 }
 
-/* An output with and without noise, step by step: the state must not depend on it. */
+/* Compares an output with and without noise, step by step. The state must not depend on the noise. */
 static void compare_noise(const char *use, const char *with, const char *output, uint32_t seed,
                           double deviation) {
     char text[200];
@@ -264,7 +262,7 @@ static void compare_noise(const char *use, const char *with, const char *output,
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&noisy, 1));
         TEST_ASSERT_EQUAL_UINT64(clean.kind->hash(clean.run), noisy.kind->hash(noisy.run));
     }
-    /* four standard errors of 4096 draws: 4/64 of the deviation, and sqrt(2) times that of its square */
+    /* four standard errors of 4096 samples: 4/64 of the deviation; for its square, sqrt(2) times as much */
     TEST_ASSERT_DOUBLE_WITHIN(deviation / 16.0, 0.0, sum / 4096.0);
     TEST_ASSERT_DOUBLE_WITHIN(deviation * deviation / 11.0, deviation * deviation,
                               squares / 4096.0);

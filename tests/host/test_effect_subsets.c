@@ -1,9 +1,10 @@
-/* test_effect_subsets.c: `whirl effects` against brute force: two carts with up to four random effects. All subsets are
- * integrated here from the numbers in the scene, by RK4 with bisected events, without shared code. */
+/* test_effect_subsets.c: `whirl effects` compared with an exhaustive search, for two carts with up to four random
+ * effects. The test itself integrates every subset of the effects, from the scene's numbers, by RK4 with bisected
+ * events, without code of the program. */
 #include "command.h"
 #include "host/study/subsets.h"
 
-/* X(id, its statement with one number p) */
+/* X(id, statement with one number p) */
 #define EFFECT_ROWS(X) \
     X(SPRING, "V += %g [N/m]*x^2/2") \
     X(DRAG, "F += %g [N*s/m]*y'^2/2") \
@@ -20,7 +21,7 @@
 enum { EFFECT_ROWS(EFFECT_ID) KINDS };
 #define EFFECT_TEXT(id, text) text,
 static const char *const effect_text[KINDS] = {EFFECT_ROWS(EFFECT_TEXT)};
-/* Bounds of the logarithm of p: effects of all sizes. */
+/* Bounds of the decimal logarithm of p, so that there are effects of all sizes. */
 static const double bounds[KINDS][2] = {
     [SPRING] = {-4, 0.5}, [DRAG] = {-4, 0},    [AIR] = {-4, 0},        [COUPLING] = {-4, 0.5},
     [HARD] = {-4, 0.5},   [STOP] = {-0.5, 0},  [FRICTION] = {-4, 0.5}, [FAR_SPRING] = {0, 2},
@@ -30,19 +31,17 @@ enum { MOST = 8, X = 0, VX = 1, Y = 2, VY = 3, N = 4, STEPS = 2000, CASES = 50, 
 #define STEP_S 1e-3
 
 typedef struct carts {
-    int kind[MOST]; /* [effects] a permutation of the kinds */
+    int kind[MOST]; /* a permutation of the kinds */
     int effects;
     double p[KINDS];
-    double m[2]; /* kg */
-    double k[2]; /* N/m, to the ground */
+    double m[2]; /* masses, kg */
+    double k[2]; /* springs to the ground, N/m */
     double start[N];
 } carts;
 
-/* --- the reference -----------------------------------------------------------------------------------*/
-
 typedef struct state {
     double q[N];
-    int slides; /* sign of y' under friction; 0: sticking or without friction */
+    int slides; /* sign of y' with friction; 0: sticks, or no friction */
 } state;
 
 typedef struct world {
@@ -91,7 +90,7 @@ static void go(const world *w, const double *from, int slides, double h, double 
     }
 }
 
-/* The event at q: 0 no event, 1 the stop, 2 the end of sliding, 3 the end of sticking. */
+/* The event in state q. 0: no event; 1: the stop; 2: the end of sliding; 3: the end of sticking. */
 static int happened(const world *w, const double *q, int slides) {
     const double *p = w->of->p;
     if (w->with[STOP] && q[X] > p[STOP] && q[VX] > 0.0) {
@@ -103,7 +102,7 @@ static int happened(const world *w, const double *q, int slides) {
     return w->with[FRICTION] && slides == 0 && fabs(pull_y(w, q)) > 0.3 * p[FRICTION] ? 3 : 0;
 }
 
-/* Sticks if static friction suffices, else slides in the direction of the pull. */
+/* Lets y stick if the static friction suffices, else slide in the direction of the pull. */
 static void settle(const world *w, state *s) {
     const double pull = pull_y(w, s->q);
     s->q[VY] = 0.0;
@@ -148,7 +147,8 @@ static state begin(const world *w) {
     return s;
 }
 
-/* moved: change of x and y without the effects in the bits of `out`. acted: the effects that act in the full run. */
+/* *moved: the changes of x and y without the effects in the bits of `out`. *acted: which effects act in the full
+ * run. */
 static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     world full = {.of = c};
     for (int i = 0; i < c->effects; i++) {
@@ -157,7 +157,7 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     world less = full;
     for (int i = 0; i < c->effects; i++) {
         less.with[c->kind[i]] = (out >> (unsigned)i & 1U) == 0;
-        /* these always act; the stop acts if it is hit; the others never act */
+        /* these effects always act; the stop acts if it is hit; all others never act */
         full.acted[c->kind[i]] =
             c->kind[i] <= HARD || c->kind[i] == FRICTION || c->kind[i] == NOISE;
     }
@@ -176,8 +176,6 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
         acted[i] = full.acted[c->kind[i]];
     }
 }
-
-/* --- random cases --------------------------------------------------------------------------------------- */
 
 static double drawn(dice *d, double low, double high, bool is_log) {
     const double value = dice_between(d, low, high);
@@ -232,7 +230,7 @@ static void write_scene(const carts *c, char *text, size_t size) {
              c->start[X], c->start[VX], c->start[Y], c->start[VY], STEP_S, STEP_S * STEPS);
 }
 
-/* A limit just above one of the movements, with a gap larger than round-off. */
+/* Draws a limit just above one of the movements. The gap to the next movement is larger than round-off. */
 static double limit_between(dice *d, const double (*moved)[2], int count, int which) {
     for (int tries = 0; tries < 200; tries++) {
         const double near = moved[dice_one_of(d, (unsigned)count)][which];
@@ -282,12 +280,12 @@ static void closed(subsets *s) {
 
 static int ones(uint64_t bits) { return __builtin_popcountll(bits); }
 
-/* Does this set meet the limits by brute force? Effects that did not act stay. */
+/* Does this movement meet the limits in the exhaustive search? */
 static bool keeps(const subsets *s, const double moved[2]) {
     return moved[0] * 1000.0 <= s->limit[1] && moved[1] <= s->limit[2];
 }
 
-/* Number of smallest sets that meet the limits. */
+/* How many sets are the smallest ones that meet the limits? */
 static int ties(const subsets *s, const double (*moved)[2], unsigned acting, unsigned count) {
     int most = 0;
     int found = 0;
@@ -300,8 +298,8 @@ static int ties(const subsets *s, const double (*moved)[2], unsigned acting, uns
     return found;
 }
 
-/* In every second case, draws the limits for which the largest number of sets has the least size: then the price
- * decides. */
+/* In every second case, draws the limits so that many sets have the smallest size. Then the price decides between
+ * these sets. */
 static void draw_limits(dice *d, subsets *s, const double (*moved)[2], unsigned acting,
                         unsigned count) {
     double best[2] = {0.0, 0.0};
@@ -401,7 +399,7 @@ TEST(effect_subsets, against_brute_force) {
                      (f.events > 0 && f.untested > 0 && f.left_out > 0 && f.ties > 0));
 }
 
-/* Seven active effects: they are removed one by one until no removal is allowed. */
+/* With seven active effects, `whirl effects` removes one after the other until no removal is allowed. */
 TEST(effect_subsets, greedy) {
     const overrides none = {0};
     dice d = dice_of("greedy effects", 4502);

@@ -1,8 +1,8 @@
-/* test_effects.c: additive effects of the built-in models, against closed forms or the same motion in other
- * coordinates, and by their work.
+/* test_effects.c: the additive effects of the built-in models, compared with closed forms or with the same motion in
+ * other coordinates, and checked by their work.
  *
- * For smooth motions RK4 at these steps is accurate to 1e-10 relative or better (values have order one). The bound is
- * 1e-9 unless stated otherwise. */
+ * For smooth motions with values of about one, RK4 has errors below 1e-10 with these steps. The bound is 1e-9 unless
+ * stated otherwise. */
 #include "motion.h"
 #include <complex.h>
 
@@ -15,12 +15,12 @@ typedef struct decay {
     const char *file;
     const char *says; /* statements of a scene in which only the carriage moves */
     double mass_kg;
-    double start_mps[2]; /* X', Y' */
+    double start_mps[2]; /* start values of X' and Y' */
     double viscous_Nspm;
     double quadratic_kgpm;
 } decay;
 
-/* Eccentric carriage: (1 + 1/ratio) times two arms of 0.152 lb with discs of 0.15 lb each. */
+/* Mass of the eccentric carriage: (1 + 1/ratio) times two arms of 0.152 lb, each with a disc of 0.15 lb. */
 #define ECCENTRIC_KG (4.0 * 2.0 * 0.302 * 0.45359237)
 
 static void follow_decay(const decay *d) {
@@ -65,7 +65,7 @@ TEST(effects, drag_decays) {
     }
 }
 
-/* Falling from rest: z' = -v tanh(g t/v), with the terminal velocity v = sqrt(m g/c). */
+/* A fall from rest: z' = -v tanh(g t/v), with the terminal velocity v = sqrt(m g/c). */
 TEST(effects, fall_reaches_the_terminal_velocity) {
     motion m;
     const double terminal_mps = sqrt(9.81 / 0.1);
@@ -104,7 +104,8 @@ TEST(effects, drag_is_the_same_in_spherical_coordinates) {
     motion_close(&b);
 }
 
-/* A wheel of constant inertia J spins up as w0 (1 - exp(-t M/(J w0))) to the no-load speed. */
+/* A wheel of constant inertia J spins up to the no-load speed w0 by w0 (1 - exp(-t M/(J w0))), with the stall torque
+ * M. */
 static void follow_spin_up(const char *file, const char *text, double torque_Nm,
                            double inertia_kgm2, double until_s) {
     motion m;
@@ -120,7 +121,7 @@ static void follow_spin_up(const char *file, const char *text, double torque_Nm,
 }
 
 TEST(effects, motor_line_ends_at_the_no_load_speed) {
-    /* with the ring centred: J = I_w + 6 m R^2 and I_r + 8 m R^2 */
+    /* with a centred ring, J is I_w + 6 m R^2, or I_r + 8 m R^2 */
     follow_spin_up("laskowitz.whirl",
                    "scene t { use laskowitz; with motor_line; set e = 0, torque = 5 [N*m] }\n", 5.0,
                    0.02 + 6.0 * 0.5 * 0.04, 16.0);
@@ -131,21 +132,22 @@ TEST(effects, motor_line_ends_at_the_no_load_speed) {
                    0.5 * 0.0225 + 8.0 * 0.25 * 0.0225, 16.0);
 }
 
-/* A tenth of the stall torque holds the arms at the angle of equal gravity torque S g. */
+/* A tenth of the stall torque must hold the arms at the angle where the torque of gravity is equal. */
 TEST(effects, motor_holds_the_arms_against_gravity) {
     const double S_kgm =
-        2.0 * 0.45359237 * 0.0254 * (0.152 * 7.25 / 2.0 + 0.15 * 6.5); /* the header's 0.035163 */
+        /* 0.035163 in the model's header */
+        2.0 * 0.45359237 * 0.0254 * (0.152 * 7.25 / 2.0 + 0.15 * 6.5);
     const double rise = asin(0.1 * 1.5 / (S_kgm * 9.80665));
     static const char *const mechanisms[] = {"eccentric_fixed", "eccentric", "eccentric_coupled"};
     for (int i = 0; i < 3; i++) {
         motion m;
         char text[200];
-        /* on the carriage theta counts from the level rail */
+        /* on the carriage, theta counts from the level rail */
         const double at = i == 1 ? rise - PI / 2.0 : rise;
         int length = snprintf(text, sizeof text,
                               "scene t { use %s; with gravity; set duty = 0.1; start theta = %.17g",
                               mechanisms[i], at);
-        if (i == 2) { /* the coupling's twist is torque over stiffness */
+        if (i == 2) { /* twist of the coupling: torque over stiffness */
             length += snprintf(text + length, sizeof text - (size_t)length, ", motor = %.17g",
                                at + 0.1 * 1.5 / 20.0);
         }
@@ -161,8 +163,8 @@ TEST(effects, motor_holds_the_arms_against_gravity) {
 #define LB 0.45359237
 #define IN 0.0254
 
-/* Undamped, motor and arms swing against each other with w^2 = k (1/I_arms + 1/J_rotor) and have no mean drift. RK4 at
- * 0.1 ms is late by (w h)^4/120 of the phase: 1e-7 of the amplitude in 0.2 s. */
+/* Without damping, motor and arms swing against each other with w^2 = k (1/I_arms + 1/J_rotor) and without drift.
+ * With 0.1 ms, RK4 lags by (w h)^4/120 of the phase: 1e-7 of the amplitude in 0.2 s. */
 TEST(effects, coupling_swings) {
     const double arms = 2.0 * LB * IN * IN * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) + 1e-4;
     const double rotor = 4e-4;
@@ -183,8 +185,7 @@ TEST(effects, coupling_swings) {
     motion_close(&m);
 }
 
-/* At the end the motor's line meets the bearing's drag: stall (duty - w/w0) = b w, and that torque twists the
- * coupling. */
+/* At the end, the motor's torque equals the bearing's drag, stall (duty - w/w0) = b w, and twists the coupling. */
 TEST(effects, coupled_motor_ends_at_its_load_speed) {
     motion m;
     motion_open_more(&m, "eccentric.whirl", "scene t { use eccentric_coupled; set duty = 0.6 }\n",
@@ -199,8 +200,8 @@ TEST(effects, coupled_motor_ends_at_its_load_speed) {
 }
 
 /* === effect work =============================================================================== */
-/* Additive effects of the built-in models by their work. The energies of the bodies, written here
- * in complex numbers, must change by the integral of the effect's power. */
+/* The work of the additive effects in the built-in models. The energies of the bodies, which are written in complex
+ * numbers here, must change by the integral of the effect's power. */
 
 #define J ((double complex)_Complex_I)
 
@@ -210,7 +211,7 @@ TEST(effects, coupled_motor_ends_at_its_load_speed) {
 
 static double square(double complex v) { return creal(v) * creal(v) + cimag(v) * cimag(v); }
 
-/* One unit of Thomson's device with the carriage's velocity `rail`: bodies 30, 26 and 33. */
+/* Energy of one unit of Thomson's device, with the bodies 30, 26 and 33. `rail` is the velocity of its carriage. */
 static double unit_energy_J(double arm, double arm_rate, double disc, double disc_rate,
                             double complex rail, bool spins, double g_mps2) {
     const double complex arm_at = 2.0 * R_M * cexp(J * arm);
@@ -281,7 +282,7 @@ static double no_power_W(const motion *m) {
     return 0.0;
 }
 
-/* A motor of -2 N*m whose torque vanishes at -20 rad/s. */
+/* Power of a motor with a stall torque of -2 N m and a no-load speed of -20 rad/s. */
 static double line_W(double rate) { return -2.0 * (1.0 - rate / -20.0) * rate; }
 static double motor_W(const motion *m) { return line_W(motion_value(m, "theta1'")); }
 
@@ -343,8 +344,8 @@ static const balance balances[] = {
     {"driven_hinge.whirl", "driven_hinge", "motor_line", "start theta1' = 3 [rad/s]", hinge_J,
      motor_W}};
 
-/* E(t) - E(0) is the work, by Simpson's rule over every step. Simpson and RK4 both have order 4: the bound holds at
- * 0.125 ms for 1 s with a margin of ten. */
+/* E(t) - E(0) must be the work, by Simpson's rule over every step. Simpson and RK4 have order 4. With 0.125 ms and 1
+ * s, the bound has a margin of ten. */
 TEST(effect_work, energy_changes_by_the_work_of_the_effect) {
     for (size_t i = 0; i < sizeof balances / sizeof balances[0]; i++) {
         const balance *b = &balances[i];

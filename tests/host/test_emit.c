@@ -1,12 +1,12 @@
-/* test_emit.c: printed equations equal the derived ones: they are read back and evaluated. Short ones look as in a
- * textbook; LaTeX is well formed. */
+/* test_emit.c: printed equations are read back and must equal the derived ones. Short equations must look as in a
+ * textbook, and LaTeX must be well-formed. */
 #include "formula.h"
 #include "printed.h"
 #include "test.h"
 
 enum { STATES = 10 };
 
-/* The whole printed text, in which the values of lets are looked up. */
+/* The printed text, in which value_of_name() looks up the values of lets. */
 static const char *whole_text;
 
 static double value_of_name(void *context, const char *name, int length) {
@@ -36,7 +36,7 @@ static double value_of_name(void *context, const char *name, int length) {
             return s->instance->input[i];
         }
     }
-    /* the name of a let, which is printed below "with" */
+    /* the name of a let, whose formula is printed below "with" */
     char label[80];
     snprintf(label, sizeof label, "\n  %.*s = ", length, name);
     const char *at = strstr(whole_text, label);
@@ -45,14 +45,15 @@ static double value_of_name(void *context, const char *name, int length) {
                       : formula_value(at + strlen(label), &end, value_of_name, context);
 }
 
-/* The value of the formula after `label` at a line's beginning; NaN without one. */
+/* The value of the formula after `label` at the beginning of a line; NaN without such a line. */
 static double labelled(const char *text, const char *label, state_values *s) {
     const char *at = strstr(text, label);
     const char *end;
     return at == NULL ? (double)NAN : formula_value(at + strlen(label), &end, value_of_name, s);
 }
 
-/* The first-order form: closed formulas inserted into the equations, or the printed A and b. */
+/* Checks the first-order form: the closed formulas must satisfy the equations; without them, the printed A and b
+ * must be right. */
 static void check_first_order(const char *name, derived *d) {
     const equations *e = d->equations;
     char *text = printed(d, TEXT);

@@ -1,6 +1,6 @@
-/* test_emitted.c: texts of the user in generated comments, which must neither end a comment nor cause a warning. The head
- * of generated C and its settings for size, for random scenes. Scripts compile and run the code: tests/cli/emitted_c.sh
- * compares its bits with the interpreter's, and embed_names.sh its headers with the model. */
+/* test_emitted.c: texts of the user in generated comments must neither end a comment nor cause a warning. Also the
+ * head of generated C and its settings for size, for random scenes. Scripts compile and run the code:
+ * tests/cli/emitted_c.sh compares its bits with the interpreter's, embed_names.sh the headers with the model. */
 #include "core/version.h"
 #include "derived.h"
 #include "drawn_scene.h"
@@ -12,8 +12,6 @@
 static dice die;
 static drawn_scene drawn;
 
-/* --- comments ----------------------------------------------------------------------------------------------- */
-
 static char *commented(const char *text) {
     char *written = NULL;
     size_t length = 0;
@@ -23,7 +21,8 @@ static char *commented(const char *text) {
     return written;
 }
 
-/* Characters that change the writing direction, as codes, because a compiler warns of them in this file, too. */
+/* The characters that change the writing direction, as codes, because compilers would warn of the characters in this
+ * file, too. */
 enum { TURNING = 7 };
 static const unsigned turning_codes[TURNING] = {0x200e, 0x200f, 0x202a, 0x202e,
                                                 0x2066, 0x2069, 0x061c};
@@ -42,8 +41,8 @@ static void make_turning(void) {
     }
 }
 
-/* Texts that are forbidden in a comment or after certain characters. Each changes the compiler's reading or the visible
- * order. */
+/* Texts that are forbidden in a comment, or forbidden after certain characters. Each would change what the compiler
+ * reads or what a reader sees. */
 static const char *const odd[] = {
     "*/",   "/*",       "?\?/",     "?\?",      "\\",       "\n",       "\t",       "\x7f",
     "\x01", turning[0], turning[1], turning[2], turning[3], turning[4], turning[5], turning[6]};
@@ -76,11 +75,11 @@ static bool turns_writing(const char *text) {
     return false;
 }
 
-/* Allowed pieces are unchanged. Forbidden pieces become the expected text. */
+/* Allowed pieces must stay unchanged. Forbidden pieces must become the expected text. */
 TEST(emitted, comments_stay_comments) {
     for (unsigned c = 0; c < dice_cases(400); c++) {
         char text[200] = "";
-        char bare[200] = ""; /* the text without blanks and without pieces that become a blank */
+        char bare[200] = ""; /* without blanks and pieces that become blanks */
         for (unsigned n = dice_one_of(&die, 12); n > 0; n--) {
             const bool is_plain = dice_one_of(&die, 2) == 0;
             const unsigned which = dice_one_of(&die, is_plain ? PLAIN : ODD);
@@ -109,21 +108,19 @@ TEST(emitted, comments_stay_comments) {
         TEST_ASSERT_EQUAL_STRING("", want + strspn(want, " "));
         free(got);
     }
-    for (int i = 0; i < PLAIN; i++) { /* alone, a character of any width is unchanged */
+    for (int i = 0; i < PLAIN; i++) { /* alone, a character of any width stays unchanged */
         char *got = commented(plain[i]);
         TEST_ASSERT_EQUAL_STRING(plain[i], got);
         free(got);
     }
-    for (int i = 5; i < ODD; i++) { /* forbidden pieces become one blank */
+    for (int i = 5; i < ODD; i++) { /* each forbidden piece becomes one blank */
         char *got = commented(odd[i]);
         TEST_ASSERT_EQUAL_STRING(" ", got);
         free(got);
     }
 }
 
-/* --- the head ------------------------------------------------------------------------------------------------- */
-
-static char *text; /* what is written of the current scene */
+static char *text; /* the generated text of the current scene */
 
 __attribute__((format(printf, 2, 3))) static void expect_line(bool wanted, const char *format,
                                                               ...) {
@@ -140,7 +137,7 @@ static const op_list *moving(const image *im) {
     return im->list[im->settings.matrix != MATRIX_NONE ? IMAGE_MATRIX : IMAGE_STEP];
 }
 
-/* The list's operations, and a line for each component, input and output. */
+/* The head must have the number of operations, and a line for each component, input and output. */
 static void expect_banner(const image *im) {
     const op_list_cost cost = op_list_count(moving(im));
     char functions[60] = "";
@@ -180,7 +177,7 @@ static void expect_banner(const image *im) {
     }
 }
 
-/* Long lists keep their order, and longer ones are called instead of inlined. */
+/* Long lists must keep their sequence; longer ones must be called instead of inlined. */
 static void expect_sizes(const image *im) {
     const int operations = op_list_operations(moving(im));
     const bool is_long = operations > 99;
@@ -203,9 +200,8 @@ TEST(emitted, the_head_tells_of_the_scene) {
     }
 }
 
-/* --- whirl describe -------------------------------------------------------------------------------------------- */
-
-/* Expects a line such as "  angle [0]  theta [rad]     ", then a number if `value` is given, then `more`. */
+/* Expects a line such as "  angle [0]  theta [rad]     ". If `value` is given, its number follows, then the text
+ * `more`. */
 static void expect_named(const char *kind, int index, const char *name, const char *si,
                          const double *value, const char *more) {
     char shown[80];
@@ -282,7 +278,7 @@ static void expect_rows(const image *im) {
     }
 }
 
-/* In any order; the page of the program's JSON has the same numbers (test_image.c). */
+/* Every item must be there, in any sequence. The JSON text has the same numbers (test_image.c). */
 TEST(emitted, readers_are_told_everything) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 50)); c++) {
         drawn_scene_draw(&drawn, &die);

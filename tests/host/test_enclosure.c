@@ -1,5 +1,6 @@
-/* test_enclosure.c: interval arithmetic contains exact results: operations on random ends and on random numbers between
- * them, against 113 bits, with exact sums and products of doubles. Results are no wider than necessary. */
+/* test_enclosure.c: intervals must contain the exact results and be no wider than necessary. The operations run on
+ * random ends and on random numbers between them. The reference has 113 bits, in which sums and products of these
+ * doubles are exact. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,14 +14,14 @@ void suite_enclosure(void);
 
 static dice die;
 
-/* Sizes between 2^-20 and 2^20, either sign, with all bits or few: sums have 113 bits at most. */
+/* A number between 2^-20 and 2^20 with either sign, with all bits or few, so that sums need 113 bits or less. */
 static double drawn(void) {
     const double size = ldexp(dice_between(&die, 1.0, 2.0), (int)dice_one_of(&die, 40) - 20);
     const double few = dice_one_of(&die, 4) == 0 ? nearbyint(size) : size;
     return dice_one_of(&die, 2) == 0 ? few : -few;
 }
 
-/* A point, a narrow interval, or a wide one, which may contain zero. */
+/* A point, a narrow interval, or a wide interval, which may contain zero. */
 static enclosure drawn_enclosure(void) {
     const double a = drawn();
     const unsigned kind = dice_one_of(&die, 3);
@@ -40,7 +41,7 @@ static void expect_holds(const char *what, enclosure got, quad exact) {
     TEST_ASSERT_TRUE_MESSAGE((quad)got.low <= exact && exact <= (quad)got.high, message);
 }
 
-/* For point arguments: at most `units` units in the last place between the ends. */
+/* For a point as argument: the ends must be within `units` units in the last place. */
 static void expect_narrow(const char *what, enclosure got, double units) {
     const double unit = fmax(fabs(got.low), fabs(got.high)) * 0x1p-52 + 1e-300;
     TEST_ASSERT_TRUE_MESSAGE(got.high - got.low <= units * unit, what);
@@ -60,7 +61,7 @@ static void test_four_operations(void) {
         const enclosure ratio = enclosure_div(a, b);
         if (b.low <= 0.0 && b.high >= 0.0) {
             TEST_ASSERT_FALSE(enclosure_is_finite(ratio));
-        } else { /* x = r y in exact products */
+        } else { /* x = r y, in exact products */
             const quad low = (quad)ratio.low * (quad)y;
             const quad high = (quad)ratio.high * (quad)y;
             expect_holds("a ratio", ratio, (quad)x / (quad)y);
@@ -77,7 +78,7 @@ static void test_four_operations(void) {
 #endif
 }
 
-/* At the ends of the range, where the error terms of products lose their bits. */
+/* At the ends of a double's range, the error terms of products lose their bits. */
 static void test_smallest_and_largest(void) {
     static const double sizes[] = {0x1p-1074, 0x1.8p-1073, 0x1p-1022, 0x1.fffffffffffffp-1022,
                                    0x1p-1000, 1.0,         0x1p1022,  0x1.fffffffffffffp1023};
@@ -99,14 +100,14 @@ static void test_smallest_and_largest(void) {
     TEST_ASSERT_FALSE(enclosure_is_finite(enclosure_add(lost, enclosure_of(0.0))));
 }
 
-/* Any finite double; subnormal and the largest ones as often as others. */
+/* Any finite double: subnormal and the largest numbers come as often as others. */
 static double drawn_bits(void) {
     const int exponent = (int)dice_one_of(&die, 2098) - 1074;
     const double size = ldexp(dice_between(&die, 1.0, 2.0), exponent);
     return dice_one_of(&die, 40) == 0 ? 0.0 : dice_one_of(&die, 2) == 0 ? size : -size;
 }
 
-/* An operation may give up on the largest doubles. */
+/* With the largest doubles, an operation may return an infinite interval. */
 static void expect_holds_or_large(const char *what, enclosure got, quad exact) {
     if (enclosure_is_finite(got)) {
         expect_holds(what, got, exact);
@@ -126,7 +127,7 @@ static void expect_whole_range(double x, double y) {
     expect_holds_or_large("a square", enclosure_square(a), (quad)x * (quad)x);
     const enclosure both = {fmin(x, y), fmax(x, y)};
     const enclosure parts[] = {enclosure_mul(both, a), enclosure_times(both, x)};
-    for (int i = 0; i < 2; i++) { /* the interval contains both products, or one is large */
+    for (int i = 0; i < 2; i++) { /* the interval must contain both products, or one is too large */
         const bool finite = enclosure_is_finite(parts[i]);
         expect_holds_or_large("all products", parts[i],
                               finite || fabs(x) > fabs(y) ? (quad)x * (quad)x : (quad)x * (quad)y);
@@ -149,7 +150,7 @@ static void expect_whole_range(double x, double y) {
                      (quad)both.high <= (quad)middle + (quad)radius);
 }
 
-/* Any double, or one with a subnormal product or ratio with x. */
+/* Any double, or one whose product or ratio with x is subnormal. */
 static double drawn_beside(double x) {
     const double y = drawn_bits();
     if (x == 0.0 || y == 0.0 || dice_one_of(&die, 2) == 0) {
@@ -173,7 +174,7 @@ static void test_whole_range(void) {
 #endif
 }
 
-/* Non-finite values stay so under every operation. */
+/* An interval that is not finite must stay so under every operation. */
 static void test_not_finite(void) {
     static const double large = 0x1.fffffffffffffp1023;
     const double ends[] = {-(double)INFINITY, (double)INFINITY, (double)NAN, 0.0, 1.0, -large};
@@ -219,12 +220,12 @@ static void test_sines(void) {
 #endif
 }
 
-/* For each function of the language: values between the ends are mapped between the bounds, and a point to a narrow
- * interval. */
+/* For each function of the language, the interval of the result must contain the values at numbers within the
+ * argument. A point must give a narrow interval. */
 static void test_functions(void) {
     for (unsigned i = 0; i < dice_cases(60000); i++) {
         const function_id function = (function_id)(i % (unsigned)FUNCTIONS);
-        const double scale = dice_one_of(&die, 2) == 0 ? 1.0 : 0x1p-20; /* near 1, or far from it */
+        const double scale = dice_one_of(&die, 2) == 0 ? 1.0 : 0x1p-20; /* else values far from 1 */
         enclosure a = drawn_enclosure();
         enclosure b = drawn_enclosure();
         a = (enclosure){scale * a.low, scale * a.high};

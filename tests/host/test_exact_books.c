@@ -1,5 +1,5 @@
-/* test_exact_books.c: a run with --matrix exact is accepted with any step. Its motion is exact, although the energy
- * balance is integrated too coarsely between long steps. */
+/* test_exact_books.c: a run with --matrix exact must be accepted with any step: its motion is exact, although the
+ * energy balance is integrated too coarsely between long steps. Also scenes without external forces. */
 #include "host/base/alloc.h"
 #include "host/check/books.h"
 #include "host/check/energy_residual.h"
@@ -24,7 +24,8 @@ static char *made_up(uint64_t *seed) {
         r[0], r[1], r[2], 90 * r[3], 60 * r[4], 0.3 * r[5], 0.02 * r[6], 0.3 * r[7]);
 }
 
-/* Largest error of x and y at the end, compared with a run in double with a fine step. *lost: the balance failed. */
+/* Largest error of x and y at the end, relative to a run in double with a fine step. *lost: did the energy balance
+ * fail? */
 static double try_one(const char *text, const engine_kind *kind, image_matrix_of matrix,
                       double step_s, bool *lost) {
     motion m;
@@ -67,7 +68,7 @@ TEST(exact_books, long_exact_steps_are_believed) {
                 TEST_ASSERT_TRUE_MESSAGE(off < 1e-5, text);
                 TEST_ASSERT_FALSE_MESSAGE(lost, text);
             }
-            /* the same by stages at too long steps is not accepted */
+            /* the same run by stages must not be accepted if its step is too long */
             const double off = try_one(text, &engine_double, MATRIX_NONE, step_s[n], &lost);
             coarse += lost;
             TEST_ASSERT_TRUE_MESSAGE(lost || off < 0.05, text);
@@ -78,26 +79,26 @@ TEST(exact_books, long_exact_steps_are_believed) {
 }
 
 /* === force free =============================================================================== */
-/* Scenes without external forces: momentum and centre of mass stay constant at each scene's own step, up to the
- * method's error.
+/* Scenes without external forces: momentum and centre of mass must stay constant with each scene's own step, apart from
+ * the method's error.
  *
- * The deriver selects them: the momentum of a length coordinate is conserved, since no force, potential, loss or
+ * The deriver finds these scenes: the momentum of a length coordinate is conserved if no force, potential, loss or
  * contact acts on it. Explicit equations have no momenta; such a scene is included if it records its centre of mass. */
 
-/* The project's limit for every such scene: drift of the momenta [kg m/s] and of the centre of mass [m] over the whole
- * run, in double. */
+/* The project's limit for each such scene, in double: drift of the momenta [kg m/s] and of the centre of mass [m]
+ * over the run. */
 #define DRIFT_MOST 1e-8
 
-/* Round-off: some hundred units in the last place of a metre. A scene without another cause of drift stays below it. */
+/* Round-off: some hundred units in the last place of a metre. The drift must be below this if it has no other cause. */
 #define ROUNDING 1e-13
 
 typedef struct free_scene {
     const char *name;
-    bool drifts; /* drifts because of the method's error; otherwise only by round-off */
+    bool drifts; /* drifts by the method's error; else only by round-off */
 } free_scene;
 
 static const free_scene FREE[] = {
-    /* no force along x and y, whose speed is a component of the state */
+    /* no force along x and y, whose rates are components of the state */
     {"cartesian_flight", false},
     {"cartesian_near_pole", false},
     {"epicyclic_from_rest", true},
@@ -105,7 +106,7 @@ static const free_scene FREE[] = {
     {"thomson_b", true},
     {"thomson_a_spin", true},
     {"thomson_b_spin", true},
-    /* the carriage from its momentum */
+    /* the carriage is recovered from its momentum */
     {"epicyclic_conserved", false},
     {"thomson_a_conserved", false},
     {"thomson_b_conserved", false},
@@ -114,7 +115,7 @@ static const free_scene FREE[] = {
     {"thomson_plane_b", true},
     {"thomson_pair_a", true},
     {"thomson_pair_b", true},
-    /* equal weights: their centre of mass rests on the carriage */
+    /* the weights are equal, so their centre of mass is fixed on the carriage */
     {"laskowitz_shifted", false},
     {"laskowitz_centred", false},
     {"laskowitz_uneven", true},
@@ -125,17 +126,15 @@ static const free_scene FREE[] = {
     {"carriage_free", true},
     {"carriage_ratio", true},
     {"halvorson_smooth", true},
-    /* the hold acts between disc and carriage */
+    /* the hold acts between disc and carriage only */
     {"thomson_magnet", true},
     {"thomson_magnet_conserved", false},
-    /* the belt's own momentum: it keeps its speed under any friction */
+    /* momentum of the belt, which keeps its speed under any friction */
     {"belt_stick_slip", false},
     {"belt_stiffening", false},
 };
 
 enum { FREE_COUNT = sizeof FREE / sizeof FREE[0] };
-
-/* --- scenes without external forces ---------------------------------------------------------------- */
 
 static bool is_length(const symbol *s) {
     for (int i = 0; i < DIM_BASES; i++) {
@@ -146,12 +145,12 @@ static bool is_length(const symbol *s) {
     return !s->is_angle;
 }
 
-/* A coordinate without external force on the mechanism as a whole. */
+/* Is unknown i a length along which no external force acts? */
 static bool is_free_along(const equations *e, int i) {
     return e->conserved != NULL && e->conserved[i] && is_length(e->unknowns[i].symbol);
 }
 
-/* Is `output` the centre of mass ("x_cm") along a free coordinate ("X" or "x")? */
+/* Is `output` the centre of mass ("x_cm") along a coordinate ("X" or "x") without external force? */
 static bool is_free_centre(const equations *e, const symbol *output) {
     if (strcmp(output->name + 1, "_cm") != 0) {
         return false;
@@ -186,7 +185,7 @@ static bool listed(const char *name) {
     return false;
 }
 
-/* Returns 1 if the scene has no external forces. Fails if that contradicts the list. */
+/* Returns 1 if the scene has no external forces. Fails the test if the list above says otherwise. */
 static int check_listed(const scene *s) {
     diags *errors = diags_new();
     instance *inst = instance_make(s->mechanism, s, &(overrides){0}, errors);
@@ -211,16 +210,14 @@ TEST(force_free, no_force_free_scene_is_forgotten) {
     TEST_ASSERT_EQUAL_INT(FREE_COUNT, each_builtin_scene(check_listed));
 }
 
-/* --- drift ------------------------------------------------------------------------------------------- */
-
 enum { QUANTITIES_MAX = 8 };
 
-/* The momenta along the free coordinates, then the positions of the centre of mass. */
+/* Momenta along the free coordinates, then positions of the centre of mass. */
 typedef struct drifts {
     unsigned count;
-    unsigned momenta; /* count of momenta, which come first */
+    unsigned momenta; /* number of momenta */
     char name[QUANTITIES_MAX][32];
-    double drift[QUANTITIES_MAX]; /* largest distance from the start, SI */
+    double drift[QUANTITIES_MAX]; /* largest difference from the start, SI */
 } drifts;
 
 static void look(const motion *m, const char *const *centre, unsigned centres, const double *start,
@@ -232,7 +229,7 @@ static void look(const motion *m, const char *const *centre, unsigned centres, c
     }
 }
 
-/* The scene's own run, sampled every millisecond or every step, whichever is longer. */
+/* Runs the scene with its own step. Takes a sample every millisecond, or every step if the step is longer. */
 static drifts drifts_of(const char *name) {
     motion m;
     drifts d = {0};
@@ -250,7 +247,7 @@ static drifts drifts_of(const char *name) {
             centres++;
         }
     }
-    /* Only the momenta are read, which need no entry at every step. */
+    /* only momenta are read here, so the balance needs no entry for every step */
     books *b = books_open(m.image);
     const double own_step_s = m.instance->step_s;
     const uint64_t steps = (uint64_t)floor(m.instance->until_s / own_step_s + 0.5);
@@ -272,7 +269,7 @@ static drifts drifts_of(const char *name) {
             snprintf(d.name[d.count], sizeof d.name[0], "momentum of %.16s",
                      m.equations->unknowns[i].symbol->name);
             d.drift[d.count++] = b->drift[i];
-            /* with a nonzero momentum the centre of mass moves as it should */
+            /* a centre of mass can only be constant if the momentum is zero */
             TEST_ASSERT_TRUE_MESSAGE(centres == 0 || fabs(b->momentum[i]) <= ROUNDING, name);
         }
     }
@@ -303,7 +300,7 @@ TEST(force_free, momentum_and_centre_of_mass_stay_at_each_scenes_own_step) {
 }
 
 /* === ledger scenes ============================================================================ */
-/* The energy balance of a built-in scene leaves the run unchanged. Its entries: test_contact.c. */
+/* The energy balance must not change the run of a built-in scene. test_contact.c tests the entries. */
 
 static int check_bits_with_books(const scene *s) {
     static const engine_kind *const kinds[] = {&engine_float, &engine_double};
@@ -325,12 +322,12 @@ static int check_bits_with_books(const scene *s) {
     return 1;
 }
 
-/* With energy balance, every scene runs to the same bits, in float and double. */
+/* Each scene must give the same bits with and without the energy balance, in float and double. */
 TEST(ledger_scenes, books_leave_every_scene_as_it_is) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_bits_with_books) > 40);
 }
 
-/* A system given by equations has no energies: its balance is refused, not zero. */
+/* A system of equations has no energies. Its energy balance must be refused instead of printed as zero. */
 TEST(ledger_scenes, systems_have_no_books) {
     static const char text[] = "mechanism decay\nstate x\nparameter k = 1 [1/s]\n"
                                "equation x' = -k*x\nscene d {\n  with ledger\n  start x = 1\n}\n";

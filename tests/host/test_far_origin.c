@@ -1,14 +1,15 @@
-/* test_far_origin.c: energy residual of runs far from the origin. Energies are expanded, so the terms of k (x - b)^2/2
- * with x near b are (b/amplitude)^2 larger than the energy. Their round-off does not count as an error of the step. The
- * origin of random mechanisms is 1 to 1e8 amplitudes away. A fine step must cause no warning, and a coarse one must not
- * be trusted, as far as round-off allows a verdict. A number format with too few digits must be reported exactly when
- * it matters, and the proposed remedy is applied. */
+/* test_far_origin.c: the energy residual of runs far from the origin. Energies are expanded: the terms of k (x -
+ * b)^2/2, with x near b, are (b/amplitude)^2 times the energy. Their round-off must not count as an error of the
+ * step. The origin of random mechanisms is 1 to 1e8 amplitudes away. A fine step must cause no warning. A coarse
+ * step must not be trusted, unless round-off allows no verdict. Too few digits must be reported if they matter, and
+ * only then; the proposed remedy must work. */
 #include "command.h"
 
 #include "host/cli/commands.h"
 #include "named_cures.h"
 
-/* Oscillations of the angular frequency omega (SOFT, WAVE: at small amplitudes) about a distant place or speed. */
+/* Kinds of motion about a distant place or speed. The oscillations have the angular frequency omega, SOFT and WAVE
+ * only at small amplitudes. */
 typedef enum far_kind {
     SPRING,
     APART,
@@ -74,7 +75,7 @@ static void far_mechanism(far_kind kind, const far_case *c, char *text, size_t s
             "T = %.17g [kg]*x'^2/2\nV = %.17g [N/m]*(x - %.17g [m])^2/2 + %.17g [N/m^3]*(x - %.17g [m])^4\n",
             m, 0.5 * k, b, 0.1 * k / (a * a), b);
         break;
-    case BELT: /* on a belt: T is no quadratic form of the rate */
+    case BELT: /* on a belt: T is not a quadratic form */
         snprintf(law, sizeof law, "T = %.17g [kg]*(x' + %.17g [m/s])^2/2\nV = %.17g [N/m]*x^2/2\n",
                  m, b * c->omega_radps, k);
         snprintf(start, sizeof start, "x = %.17g [m]", a);
@@ -106,7 +107,7 @@ static void far_mechanism(far_kind kind, const far_case *c, char *text, size_t s
         more, law, start, c->step_s, c->steps * c->step_s);
 }
 
-/* `more` is an option or NULL. Only the start and the end are recorded. */
+/* Runs `whirl run` with a record at the start and the end. `more` is an option or NULL. */
 static void run_with(const char *text, bool is_float, const char *more, const char *every,
                      said *what) {
     const char *words[] = {model_keep(text),
@@ -131,7 +132,7 @@ static void run(const char *text, bool is_float, said *what) {
 
 static bool is_of_digits(const said *what) { return strstr(what->err, "warning: ") != NULL; }
 
-/* The remedy in a warning of too few digits is applied: no warning remains. */
+/* Applies the remedy in a warning of too few digits. No warning may remain. */
 static void cure_digits(const char *text, bool is_float, const said *warned, const char *every) {
     said what;
     bool named = false;
@@ -156,15 +157,15 @@ static far_case case_of(dice *d, double far) {
     return c;
 }
 
-/* Decimal logarithm of the largest distance in amplitudes. An expanded square under a root has an error of 1e-16, in
- * float 6e-8, of far^2, and may be negative beyond that. A phase has the same relative error, and beyond a radian the
- * wave is lost. Such runs are wrong, and may say so. */
+/* Decimal logarithm of the largest tested distance in amplitudes. An expanded square under a root has an error of
+ * 1e-16 far^2, or 6e-8 far^2 in float, and may become negative. A phase has the same relative error; a wave is lost
+ * if the phase is wrong by a radian. Such runs are wrong, and Whirl may say so. */
 static double far_most(far_kind kind, bool is_float) {
     return kind == SOFT ? (is_float ? 2.0 : 6.0) : kind == WAVE && is_float ? 5.0 : 8.0;
 }
 
-/* A float has thousands of round-offs of 1e-7 of the distance. Up to a thousand amplitudes away, that is a small part
- * of the motion; from a hundred thousand on, more than a hundredth; beyond 1e7 the motion is lost. */
+/* In float, thousands of steps each round by 1e-7 of the distance. Up to a thousand amplitudes, this is a small part
+ * of the motion; from a hundred thousand on, more than a hundredth; beyond 1e7, the motion is lost. */
 static void expect_fine(const said *what, far_kind kind, bool is_float, double tens,
                         const char *text) {
     const bool swings = kind == SPRING || kind == APART || kind == PARAMETER || kind == DAMPED;
@@ -206,9 +207,9 @@ TEST(far_origin, fine_steps_are_silent) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* With these coarse steps, RK4 loses more than a hundredth of a spring's energy in 60 steps. Round-off at 1e5
- * amplitudes in double and 30 in float can take less. (On the belt and with the push, the balance's entries themselves
- * are as much larger.) */
+/* With these coarse steps, RK4 loses more than a hundredth of a spring's energy in 60 steps. The round-off is
+ * smaller up to 1e5 amplitudes in double, 30 in float. BELT and PUSHED are left out, because the entries of their
+ * balance are larger by the same ratio. */
 TEST(far_origin, coarse_steps_are_told) {
     static const far_kind kinds[] = {SPRING, APART, PARAMETER, DAMPED};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };
@@ -241,7 +242,7 @@ static double end_of(const said *what) {
     return end;
 }
 
-/* `whirl trust` alone accepts no run to the end whose error exceeds a thousandth of the way, at any distance. */
+/* `whirl trust` must not accept a run to its end if the error exceeds a thousandth of the distance moved. */
 static void ask_trust(const char *text, bool is_float, double off) {
     said what;
     const char *words[] = {model_keep(text), "--number", is_float ? "float" : "double", NULL};
@@ -251,8 +252,8 @@ static void ask_trust(const char *text, bool is_float, double off) {
     TEST_ASSERT_TRUE_MESSAGE(trusted ? off < 1.5e-3 : off > 5e-4, what.out);
 }
 
-/* A rolling cart far away: if its steps are below half a unit in its number's last place, it stands still with the
- * energy of a rolling cart. */
+/* A rolling cart far away stands still if its motion in a step is below half a unit in the last place of its
+ * position. Its energy is then still that of a rolling cart. */
 TEST(far_origin, carts_that_stand) {
     dice d = dice_of("carts", 4103);
     const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 400));
@@ -264,7 +265,7 @@ TEST(far_origin, carts_that_stand) {
         const double step_s = pow(10.0, dice_between(&d, -4.0, -2.0));
         const unsigned steps = 200 + dice_one_of(&d, 3000);
         const double way_m = speed_mps * step_s * steps;
-        /* half a unit of the position's last place, divided by the motion in a step */
+        /* half a unit in the last place of the position, divided by the motion in a step */
         const double places = pow(10.0, dice_between(&d, -4.0, 1.0));
         const double far_m =
             floor(speed_mps * step_s * places * (is_float ? 0x1p24 : 0x1p53) / 16.0) * 16.0;
@@ -287,7 +288,7 @@ TEST(far_origin, carts_that_stand) {
         if (off > 0.02) {
             told++;
             TEST_ASSERT_TRUE_MESSAGE(is_of_digits(&what), text);
-            run(text, is_float, &what); /* this report must not call the run right to its end */
+            run(text, is_float, &what); /* this report must not trust the run to its end */
             TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end: every"), what.out);
             cure_digits(text, is_float, &what, every);
             run_with(text, is_float, "--compensated", every, &what);
@@ -306,7 +307,7 @@ TEST(far_origin, carts_that_stand) {
     TEST_ASSERT_TRUE(told > cases / 5 && sound > cases / 5);
 }
 
-/* Far away and in steps too coarse for crude methods: the remedy for too few digits must leave no warning. */
+/* Far away, with steps that are too coarse for simple methods: the remedy for too few digits must leave no warning. */
 TEST(far_origin, cures_are_silent) {
     static const char *const methods[] = {"euler", "heun", "semi-implicit-euler", "rk4"};
     dice d = dice_of("far cures", 20261130);
@@ -358,9 +359,9 @@ TEST(far_origin, cures_are_silent) {
 }
 
 /* === far slopes ================================================================================ */
-/* Runs far from the origin whose slopes, not steps, have too few digits: roots, quotients and
- * exponentials of differences. The reference is the same mechanism at the origin in double. Errors must be reported, a
- * named cure must remove them, and only accurate runs are trusted to the end. */
+/* Runs far from the origin whose slopes have too few digits: roots, quotients and exponentials of differences. The
+ * reference is the same mechanism at the origin, in double. Errors must be reported, the named remedy must remove
+ * them, and only accurate runs may be trusted to the end. */
 
 typedef enum slope_kind { ORBIT, ANCHOR, QUOTIENT, BOND, STRUT, KINDS } slope_kind;
 
@@ -373,18 +374,19 @@ typedef struct slope_case {
     int steps;
 } slope_case;
 
-/* Distance in units of length_m beyond which two runs in double may both stand still. */
+/* Beyond this distance, in units of length_m, two runs in double may both stand still. */
 #define TOLD_MOST 4e7
 
 enum { RECORDS = 40, COLUMNS = 5 };
 
 typedef struct motion_rows {
-    int columns; /* number of columns, with the time */
+    int columns; /* number of columns, including the time */
     int rows;
     double value[RECORDS + 2][COLUMNS];
 } motion_rows;
 
-/* Units are energy_J, length_m and 1 kg. Both carts of STRUT, and x of the others, are far away. */
+/* Writes the mechanism in units of energy_J, length_m and 1 kg. Far away are both carts of STRUT, or x of the other
+ * kinds. */
 static void slope_mechanism(const slope_case *c, double far_m, char *text, size_t size) {
     const double l = c->length_m;
     const double e = c->energy_J;
@@ -423,7 +425,7 @@ static void slope_mechanism(const slope_case *c, double far_m, char *text, size_
 static void run_slope(const slope_case *c, const char *text, const char *number, const char *more,
                       said *what) {
     char every[40];
-    const int stride = c->steps / RECORDS; /* exact, because steps is a multiple of RECORDS */
+    const int stride = c->steps / RECORDS; /* exact: steps is a multiple of RECORDS */
     snprintf(every, sizeof every, "%.17gs", stride * c->step_s);
     const char *words[] = {model_keep(text), "--number", number, "--csv", "-",
                            "--every",        every,      more,   NULL};
@@ -475,7 +477,8 @@ static slope_case draw(dice *d, unsigned i, double tens) {
                     .energy_J = pow(10.0, dice_between(d, -2.0, 2.0)),
                     .far = pow(10.0, tens),
                     .steps = RECORDS * 2 * (5 + (int)dice_one_of(d, 20))};
-    /* the step is 1, 2 or 5 times a power of ten: an even number of such steps is a multiple of any smaller one */
+    /* The step is 1, 2 or 5 times a power of ten, so that an even number of steps is also a multiple of a smaller
+     * such step. */
     static const double digits[] = {1.0, 2.0, 5.0};
     const double most_s = 0.015 * c.length_m / sqrt(c.energy_J);
     const double decade_s = pow(10.0, floor(log10(most_s)));
@@ -487,8 +490,7 @@ static slope_case draw(dice *d, unsigned i, double tens) {
     return c;
 }
 
-/* Applies the hint of a warning: --step, --number double, both, or --compensated. The run must then be accurate to 5 %
- * of the reference. */
+/* Applies the hint of a warning: --step, --number double, both, or --compensated. Then the error must be below 5 %. */
 static void take_cure(const slope_case *c, const char *text, const char *number, const said *warned,
                       const motion_rows *reference, double far_m) {
     const char *hint = strstr(warned->err, "would do");
@@ -510,7 +512,7 @@ static void take_cure(const slope_case *c, const char *text, const char *number,
     TEST_ASSERT_TRUE_MESSAGE(off_by(&m, reference) < 0.05, warned->err);
 }
 
-/* Returns true if the only report is that the constant (D/l)^2 + 1 may have lost its 1, which need not be so. */
+/* Is the only report that the constant (D/l)^2 + 1 may have lost its 1? The run can still be right, by luck. */
 static bool is_luck(const slope_case *c, bool is_float, const char *err) {
     const char *warning = strstr(err, "whirl run: warning: ");
     return !is_float && warning != NULL && strstr(warning, "constants of 'far' are sums") != NULL &&
@@ -545,13 +547,13 @@ static void hold(bool is_float) {
         if (off > 0.03) {
             ruined++;
             TEST_ASSERT_TRUE_MESSAGE(is_float ? warns : !to_the_end || c.far > TOLD_MOST, text);
-            /* a failure that does not occur near the origin */
+            /* a run may fail in float only if the hint names double */
             TEST_ASSERT_TRUE_MESSAGE(what.status == said_owes(what.err) || !is_float ||
                                          strstr(what.err, "--number double would do") != NULL,
                                      what.err);
         }
         TEST_ASSERT_FALSE_MESSAGE(to_the_end && off > 5e-3 && c.far < TOLD_MOST, text);
-        if (off < (is_float ? 3e-3 : 5e-4)) { /* the double run beside it has as few digits */
+        if (off < (is_float ? 3e-3 : 5e-4)) { /* with as many digits as the reference */
             fine++;
             lucky += is_luck(&c, is_float, what.err) ? 1U : 0U;
             TEST_ASSERT_TRUE_MESSAGE(!warns || is_luck(&c, is_float, what.err), what.err);
