@@ -1,5 +1,6 @@
-/* test_faults.c: the verdicts of the fault campaign: random cases are reproducible; the true force and speed equal
- * closed forms; every violation of a rule is found, and nothing else. */
+/* test_faults.c: the verdicts of the fault campaign. Random cases must be reproducible, the true force and speed
+ * must equal closed forms, and the judge must find every violation of a rule and nothing else. Also taps, tapes and
+ * replay. */
 #include "test.h"
 
 #include <unistd.h>
@@ -14,13 +15,11 @@
 
 /* === faults =================================================================================== */
 
-/* --- the judge -------------------------------------------------------------------------------------------------------*/
-
 #define AMPLITUDE_N 42.0
 #define PHASE_RAD 0.3
 
-/* A rotor that speeds up and slows down by a twentieth within a turn. The firmware's model has no second order and no
- * mean; the rotor has both. */
+/* A rotor whose speed varies by a twentieth within a turn. Its force has a second harmonic and a mean, which the
+ * firmware's model does not have. */
 static const char *const text =
     "mechanism bench \"a rotor with a known force\"\n"
     "coordinate theta [rad]\ninput duty = 0\ninput enable = 0\n"
@@ -44,7 +43,7 @@ static const wh_hello hello_faults = {.program = "bench",
                                       .signals = sizeof signals / sizeof signals[0]};
 enum { NOTES_AT = 2 };
 
-/* Messages of a synthetic controller from said_s on, and its end. */
+/* A made-up controller: its messages from the time said_s on, and its end. */
 typedef struct made_up {
     double rpm;
     double swing_J;
@@ -56,8 +55,8 @@ typedef struct made_up {
     int quality;
     int turns;
     const char *fault;
-    double on_s;  /* time from which the enable is on */
-    double off_s; /* time until which the drive is on */
+    double on_s;  /* time at which the enable line goes on */
+    double off_s; /* time at which the drive goes off */
     bool drives;
     bool calibration;
     bool runs_away;
@@ -85,7 +84,7 @@ static const made_up honest = {.rpm = 330.0,
                                .cause = 2,
                                .end = LOCKSTEP_DONE};
 
-/* A processor in reset starts again. Returns true if it has started and has not sent anything. */
+/* Restarts the processor if it is in reset. Returns true if it has restarted and has sent nothing yet. */
 static bool starts_again(plant *on) {
     if (on->reset.now) {
         TEST_ASSERT_TRUE(plant_advance(on, on->reset.last_ticks + on->reset.takes_ticks));
@@ -154,7 +153,7 @@ static verdict judged(const made_up *m) {
     return j.verdict;
 }
 
-/* An error beyond the interval and 1 % is a lie of that size. */
+/* An error beyond the interval plus 1 % is a lie of that size. */
 TEST(faults, truth) {
     for (int i = -6; i <= 6; i++) {
         for (int which = 0; which < 2; which++) {
@@ -172,8 +171,8 @@ TEST(faults, truth) {
     }
 }
 
-/* A wrong result does not count as a lie if its quality is not good, it has no turns, its interval contains the true
- * value, or only calibration could show the error. */
+/* A wrong result is no lie if its quality is not good, if it has no turns, if its interval contains the true value,
+ * or if only a calibration could show the error. */
 TEST(faults, no_lies) {
     made_up wrong = honest;
     wrong.amplitude_N = 21.0;
@@ -195,7 +194,7 @@ TEST(faults, no_lies) {
     m = wrong;
     m.half_N = 25.0;
     TEST_ASSERT_TRUE(judged(&m).lie == 0.0);
-    m = honest; /* more turns than were recorded */
+    m = honest; /* the result has more turns than were recorded */
     m.turns = 40;
     TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
     m = honest;
@@ -203,7 +202,8 @@ TEST(faults, no_lies) {
     TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
 }
 
-/* The motor must not drive, but turns show a drive: enable off and a trip within a second. */
+/* In these states the motor must not drive, but the turns show a drive. The judge must report an enable line that
+ * stays on, and a missing trip. */
 TEST(faults, off_is_off) {
     static const int states[] = {0, 1, 4, 9, 15}; /* idle, armed, tripped, tare, coast */
     made_up m = honest;
@@ -213,7 +213,7 @@ TEST(faults, off_is_off) {
         m = honest;
         m.state = states[i];
         m.swing_J = 0.0;
-        m.fault = "stuck@0.5"; /* from then on each turn is faster */
+        m.fault = "stuck@0.5"; /* from here on each turn is faster */
         m.off_s = 99.0;
         verdict v = judged(&m);
         TEST_ASSERT_TRUE(v.stays_on && v.runs_on && v.untold == (states[i] != 4));
@@ -225,21 +225,21 @@ TEST(faults, off_is_off) {
     }
 }
 
-/* Pressed at 1 s: off by the next orders, permanently. */
+/* Stop is pressed at 1 s. The motor must be off with the next orders, and stay off. */
 TEST(faults, stops) {
     made_up m = honest;
     m.fault = "stop@1+0.5";
     m.off_s = 1.001;
     verdict v = judged(&m);
     TEST_ASSERT_TRUE(v.halted && fabs(v.halted_s - 2e-3) < 3e-4);
-    m.off_s = 0.5; /* the enable was already off */
+    m.off_s = 0.5; /* the enable was off already */
     v = judged(&m);
     TEST_ASSERT_TRUE(v.halted && v.halted_s == 0.0);
-    m.off_s = 1.003; /* an order that comes too late */
+    m.off_s = 1.003; /* the order comes too late */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
-    m.off_s = 99.0; /* an order that never comes */
+    m.off_s = 99.0; /* the order never comes */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
-    for (int when = 0; when < 12; when++) { /* driven again while stop is pressed, or afterwards */
+    for (int when = 0; when < 12; when++) { /* drives again while stop is pressed, or later */
         m.on_s = 1.02 + when * 0.13;
         m.off_s = m.on_s + 0.02;
         TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
@@ -248,8 +248,8 @@ TEST(faults, stops) {
     TEST_ASSERT_FALSE(judged(&m).halted);
 }
 
-/* After a reset the motor is off at once, permanently. The controller must know the trip afterwards, and the reset must
- * be recorded. */
+/* After a reset the motor must be off at once and stay off. The controller must still know its trip and must record
+ * the reset. */
 TEST(faults, resets) {
     made_up m = honest;
     for (int when = 0; when < 10; when++) {
@@ -292,14 +292,14 @@ TEST(faults, resets) {
 }
 
 /* === lockstep ================================================================================= */
-/* A firmware and a plant in turns, with an observer: taps that watch or change, and the tape. The firmware is
- * build/pil_cart in its own process. */
+/* A firmware and a plant exchange messages by turns. Taps listen or change the messages, and a tape records them.
+ * The firmware is build/pil_cart, in its own process. */
 
 static char firmware[512];
 static motion cart;
 static lockstep_report report;
 
-/* Finds the firmware in the folder of this program. */
+/* The firmware is in a folder above that of this program. */
 static void find_firmware(void) {
     const ssize_t length = readlink("/proc/self/exe", firmware, sizeof firmware - 20);
     firmware[length > 0 ? length : 0] = '\0';
@@ -379,7 +379,7 @@ static bool refuse_start(void *of, const wh_hello *hello, plant *on) {
     return hello == NULL || on == NULL;
 }
 
-/* Must be called every millisecond, with no millisecond missing. */
+/* Must be called every millisecond. */
 static void see_plant(void *of, double time_s, const plant *on) {
     listener *l = of;
     l->readings++;
@@ -388,7 +388,7 @@ static void see_plant(void *of, double time_s, const plant *on) {
     l->last_s = time_s;
 }
 
-/* A listening tap hears everything and changes nothing. */
+/* A tap that listens must receive every message and change nothing. */
 static void test_listening(void) {
     lockstep_wish wish = wish_until(1.5);
     run(&wish);
@@ -407,7 +407,7 @@ static void test_listening(void) {
     TEST_ASSERT_TRUE(heard.most_N > 1.0F && heard.most_N <= 20.0F);
 }
 
-/* A watching tap gets the states of the plant and changes nothing, even if the firmware computes for ten
+/* A tap that watches must receive the states of the plant and change nothing, even if the firmware computes for ten
  * milliseconds. */
 static void test_watching(void) {
     for (int late = 0; late < 2; late++) {
@@ -438,7 +438,7 @@ static void test_refused_start(void) {
     TEST_ASSERT_EQUAL_UINT64(0, report.exchanges);
 }
 
-/* A plant whose orders are lost moves as if alone. */
+/* A plant that loses its orders must move as it would alone. */
 static void test_deaf_plant(void) {
     lockstep_wish wish = wish_until(1.0);
     const tap taps[] = {{.name = "deaf", .orders = forget_orders}};
@@ -449,7 +449,7 @@ static void test_deaf_plant(void) {
     TEST_ASSERT_TRUE(report.plant_hash == engine_double.hash(cart.run));
 }
 
-/* A firmware without inputs pushes nothing. */
+/* A firmware without inputs must not push. */
 static void test_blind_firmware(void) {
     lockstep_wish wish = wish_until(0.2);
     listener heard = {.orders = 0};
@@ -462,7 +462,7 @@ static void test_blind_firmware(void) {
     TEST_ASSERT_TRUE(heard.most_N == 0.0F);
 }
 
-/* A tape contains the firmware's inputs and answers after all taps: replay gives the same answers. */
+/* A tape has the firmware's inputs and answers as they are after all taps. A replay must give the same answers. */
 static void tape_of_a_tapped_run(const tap *only, uint64_t exchanges) {
     char name[] = "/tmp/whirl_tape_XXXXXX";
     const int file = mkstemp(name);
@@ -492,18 +492,18 @@ static void test_tapes_of_tapped_runs(void) {
     tape_of_a_tapped_run(&taps[1], 300);
 }
 
-/* After a reset the processor sends its hello again; only the exchanges during the reset are missing. */
+/* After a reset the processor sends its hello again. Only the exchanges during the reset are missing. */
 static void test_tapes_of_resets(void) {
     static const struct {
         const char *words;
         unsigned resets;
         uint64_t exchanges;
     } rows[] = {
-        {"reset=0@0.1005", 1, 301}, /* one at 0.1005 s, then one per millisecond */
+        {"reset=0@0.1005", 1, 301}, /* at 0.1005 s, then each millisecond */
         {"reset=5ms@0.1005", 1, 296},
         {"reset=5ms@0.1005,reset=20ms@0.2001", 2, 276},
-        {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* a reset within another */
-        {"reset=0@0", 1, 301},                                        /* before its first orders */
+        {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* one reset within another */
+        {"reset=0@0", 1, 301},                                        /* before the first orders */
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         fault_plan plan = {.seed = 1};
@@ -514,7 +514,7 @@ static void test_tapes_of_resets(void) {
     }
 }
 
-/* After an interrupt it stops, and the process has ended. */
+/* An interrupt must stop the run and end the firmware's process. */
 static void test_interrupt(void) {
     lockstep_wish wish = wish_until(100.0);
     interrupted = 1;
@@ -540,11 +540,10 @@ SUITE(lockstep) {
 }
 
 /* === replay =================================================================================== */
-/* A random tape replaces the plant (host/pil/taped.c). It is played to its end or to the end of the firmware. The
- * replay ends at the first answer that differs, with a message. A tape of another firmware, or an invalid one, is
- * refused. */
+/* A random tape replaces the plant (host/pil/taped.c). A replay ends with the tape or with the firmware. It ends
+ * with a message at the first answer that differs. The tape of another firmware or an invalid tape is refused. */
 
-/* Plays the tape and expects this end after `turns` turns. Returns the message. */
+/* Replays the tape. Fails the test if the end differs or comes after another number of turns. Returns the message. */
 static const char *replay(lockstep_end end, unsigned turns, bool with_hello) {
     static stream heard;
     char name[] = "/tmp/whirl-talk-XXXXXX";
@@ -568,7 +567,8 @@ static double time_of(unsigned turn) {
     return (double)(talk_drawn.ticks[turn] - talk_drawn.hello.start_ticks) / 1e6;
 }
 
-/* Until the tape's end; or the firmware's, which is also the tape's; or the tape's last, unanswered message. */
+/* The replay ends with the tape, with the firmware, or after the tape's last message, to which the tape has no
+ * answer. */
 TEST(replay, replayed) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         talk_draw();
@@ -589,7 +589,7 @@ TEST(replay, replayed) {
     }
 }
 
-/* A different answer in one turn: replay ends there and names the outputs. Counts do not matter. */
+/* An answer of one turn differs: the replay must end there and name the outputs. Counts may differ. */
 TEST(replay, other_orders) {
     unsigned hints = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(50, 24)); c++) {
@@ -639,14 +639,14 @@ TEST(replay, not_replayed) {
         talk_tape_all(talk_drawn.turns);
         const unsigned turns = talk_one_of(talk_drawn.turns);
         talk_say_all(turns);
-        if (c % 4 == 0) { /* the firmware ends, and the tape continues */
+        if (c % 4 == 0) { /* the firmware ends before the tape */
             talk_put_end(&talk_line, 0, 4);
             const char *told = replay(LOCKSTEP_DIFFERENT, turns, true);
             snprintf(words, sizeof words,
                      "exchange %u, t = %.6f s: the firmware ended, and the tape goes on\n", turns,
                      time_of(turns));
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, words), told);
-        } else if (c % 4 == 1) { /* another firmware's */
+        } else if (c % 4 == 1) { /* the tape of another firmware */
             talk_drawn.hello.program = "another";
             talk_line.length = 0;
             talk_put_hello(&talk_line, &talk_drawn.hello);
@@ -670,7 +670,7 @@ TEST(replay, not_replayed) {
     }
 }
 
-/* A tape with a reset of the firmware: a line cannot replay it. */
+/* A line cannot replay a tape on which the firmware was reset. */
 TEST(replay, reset_on_tape) {
     uint8_t payload[WH_RESET_BYTES];
     const wh_reset reset = {.cause = WH_RESET_WATCHDOG};

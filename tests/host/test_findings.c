@@ -1,5 +1,5 @@
-/* test_findings.c: findings of short runs and of small numbers, against closed forms; the report of a sweep; each
- * finding on both sides of its limit. */
+/* test_findings.c: findings of short runs and of small numbers, compared with closed forms; the report of a sweep;
+ * each finding on both sides of its limit. */
 #include "host/base/exit.h"
 #include "host/check/finding.h"
 #include "host/cli/commands.h"
@@ -14,18 +14,18 @@
 static dice die;
 
 /* === short runs =============================================================================== */
-/* Runs of one to nine steps of a body pulled back by a force or a spring, with an unreached stop or without, against
- * closed forms. An odd number of steps leaves the balance's last step without a pair, and a single step beside a
- * contact has no successor. Accurate runs cause no warning; wrong ones are not trusted. */
+/* Runs of one to nine steps, compared with closed forms: a force or a spring pulls a body back, with or without a
+ * stop that is not reached. An odd number of steps leaves the balance's last step without a pair; a single step
+ * beside a contact has no successor. Accurate runs must cause no warning, and wrong runs must not be trusted. */
 
 typedef struct short_run {
     double swing_radps;
     double start_m;
     double step_s;
     int steps;
-    bool by_force; /* a force, which does work; false: a spring */
+    bool by_force; /* a force, which does work; else a spring */
     bool stop;
-    double beside_N; /* force on a second, falling body, whose energy may dominate */
+    double beside_N; /* force on a second, falling body, which may have most of the energy */
 } short_run;
 
 static short_run draw(dice *d) {
@@ -57,12 +57,12 @@ static void write(const short_run *r, char *text, size_t size) {
              law, stop, r->start_m, r->step_s, r->steps * r->step_s);
 }
 
-/* Largest error relative to the ranges of place and rate. */
+/* Largest error, relative to the ranges of position and rate. */
 static double off_by(const short_run *r, const char *csv) {
     double off[2] = {0.0, 0.0};
     double low[2] = {r->start_m, 0.0};
     double high[2] = {r->start_m, 0.0};
-    double value[5]; /* time, both positions, both rates */
+    double value[5]; /* time, two positions, two rates */
     for (const char *row = csv; (row = said_row(row, 5, value)) != NULL;) {
         const double phase = r->swing_radps * value[0];
         const double is[2] = {r->start_m * cos(phase), -r->start_m * r->swing_radps * sin(phase)};
@@ -108,14 +108,14 @@ TEST(short_runs, in_float) { hold("float"); }
 TEST(short_runs, in_double) { hold("double"); }
 
 /* === small told =============================================================================== */
-/* Figures in reports on small numbers: an angle with steps of a few of its units (host/check/slow.h), and a motion of a
- * few of the least numbers. */
+/* The figures in reports on small numbers: an angle that moves by a few of its units in a step (host/check/slow.h),
+ * and a motion of a few of float's smallest numbers. */
 
 static void expect_figure(double wanted, double is, const char *text) {
     TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 0.06 * wanted, text);
 }
 
-/* An angle moves by whole units of 2^-32 turn: each step is rounded to the nearest. */
+/* In each step, an angle moves by a whole number of units of 2^-32 turn, which is the nearest one. */
 TEST(small_told, slow_angles) {
     for (unsigned n = 0; n < dice_cases(usual_or(16, 6)); n++) {
         char text[400];
@@ -166,9 +166,8 @@ TEST(small_told, slow_angles) {
     model_drop();
 }
 
-/* A body that moves by a few to some hundred of float's smallest numbers. Round-off must be reported if it is above a
- * fiftieth of the distance, and not below a thousandth. The same for a spring whose products of rates are below the
- * normal numbers. */
+/* A spring with a start value of 2e-44 to 1e-36 m, so that products of rates are too small for float. Whirl must report round-off if it is above a twentieth of the start value, and must be silent below
+ * 1e-4. */
 TEST(small_told, small_numbers) {
     unsigned told = 0;
     for (unsigned n = 0; n < dice_cases(usual_or(40, 20)); n++) {
@@ -203,8 +202,8 @@ TEST(small_told, small_numbers) {
     model_drop();
 }
 
-/* A damper whose power is too small for float, with a stop, for which the run computes the energy account itself. The
- * motion is right, so the account must not be reported. */
+/* A damper whose power is too small for float. Because of the stop, the run itself computes the energy balance. The
+ * motion is right, so the balance must not be reported. */
 TEST(small_told, lost_powers) {
     for (unsigned n = 0; n < dice_cases(8); n++) {
         char text[300];
@@ -233,7 +232,8 @@ static unsigned times_in(const char *text, const char *words) {
     return times;
 }
 
-/* A start below the floor fails at any point: the first twenty are reported in order, then that there are more. */
+/* A start below the floor fails its point of the sweep. The first twenty failures must be listed in sequence, then
+ * that there are more. */
 TEST(sweeps_told, failures) {
     for (unsigned below = 19; below <= 21; below++) {
         char over[60];
@@ -260,26 +260,26 @@ TEST(sweeps_told, failures) {
 }
 
 /* === thresholds =============================================================================== */
-/* Each finding on both sides of its limit (host/check/finding.h). A scene with one parameter causes no report at one
- * end and one at the other. Bisection finds the parameter at the limit. Just beyond it, the finding is reported with a
- * value just beyond the limit; just within it, there is no report. The parameter at the limit is known, mostly in
- * closed form, so that a limit that is wrong by 5 % fails. Findings that count steps have their own suites (pole,
- * missed, busy). */
+/* Each finding on both sides of its limit (host/check/finding.h). A scene has one parameter, and is silent at one
+ * end of a range and reported at the other. Bisection finds the parameter at the limit. On one side of it the
+ * finding must be reported, with a value just beyond the limit; on the other side nothing. The parameter at the
+ * limit is known, mostly in closed form, so a limit that is wrong by 5 % fails. The suites pole, missed and busy
+ * have the findings that count steps. */
 
 enum { TEXT = 1200, HALVINGS = 24 };
 
-/* "%1$.17g" is the parameter. It is drawn between `silent` and `told`, and somewhat beyond. */
+/* %1$.17g is the parameter. Values from `silent` to `told`, and somewhat beyond, are tried. */
 static const struct {
     finding_id id;
     const char *number;
     double silent;
     double told;
-    double at; /* the parameter at which the report starts; 0: not known */
+    double at; /* the parameter at the limit; 0: not known */
     double limit;
     const char *text;
 } rows[] = {
     {FINDING_ENERGY, "double", 0.1, 10.0, 0.4335,
-     1e-3, /* N (h w)^6/72 of energy; largest entry: root 2 */
+     1e-3, /* N (h w)^6/72 of the energy; largest entry: sqrt(2) */
      "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %1$.17g [N/m]*x^2/2\n"
      "scene s { start x = 1 [m]\nstep 0.5 [s]\nuntil 40 [s] }\n"},
     {FINDING_ACCURACY, "double", 0.1, 4.0, 2.728, 0.5, /* w t (h w)^4/120: 1 % of the range */
@@ -304,7 +304,7 @@ static const struct {
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
-/* The reported value of this finding; NAN without a report. */
+/* The value of the finding in the report; NaN if it is not reported. */
 static double told_by(unsigned row, double parameter) {
     static said what;
     char text[TEXT];

@@ -1,5 +1,5 @@
-/* test_fixed.c: fixed-point runs report significant round-off and nothing else: random motions with closed forms in
- * ranges and steps of many sizes. Correct energy balances are accepted. */
+/* test_fixed.c: fixed-point runs must report significant round-off and nothing else. Random motions have closed
+ * forms, with ranges and steps of many sizes. A correct energy balance must be accepted. */
 #include "host/base/alloc.h"
 #include "host/check/energy_residual.h"
 #include "host/check/slow.h"
@@ -21,7 +21,7 @@ typedef struct outcome {
     energy_residual belief;
 } outcome;
 
-/* Result and messages of fixed_plan_make(); `report` to be freed. */
+/* Calls fixed_plan_make(). *report: its messages, which the caller frees. */
 static fixed_plan *plan_of(const image *im, char **report) {
     size_t length;
     diags *errors = diags_new();
@@ -33,7 +33,7 @@ static fixed_plan *plan_of(const image *im, char **report) {
     return p;
 }
 
-/* Makes the plan of the image and gives it to the image. drop() takes it away again. */
+/* Makes the plan of the image and stores it there. drop() removes it. */
 static fixed_plan *planned(const derived *d) {
     char *report;
     fixed_plan *p = plan_of(d->image, &report);
@@ -72,7 +72,8 @@ static outcome run_of(derived *d) {
     return end;
 }
 
-/* Runs 2 s of a pushed mass (kind 0), a rotor of constant speed (1), or a state of constant rate (2). */
+/* Runs a mass under a constant force (kind 0), a rotor at constant speed (1) or a state with a constant rate (2) for
+ * 2 s. */
 static void try_even_motion(int kind, double value, double times, int step_us, int *told,
                             int *quiet) {
     static const char *const texts[] = {
@@ -92,7 +93,7 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
     const outcome end = run_of(&d);
     const double span = 2.0 * value;
     const double where = kind == 1 ? end.angle[0] : end.real[0];
-    /* the start and the input each have one rounding error, too */
+    /* start and input are each rounded once more */
     double worst = fabs(where - span) / span;
     worst = kind == 0 ? fmax(worst, fabs(end.real[1] - span) / span) : worst;
     TEST_ASSERT_FALSE_MESSAGE(end.held, text);
@@ -115,7 +116,7 @@ TEST(fixed_loss, lost_steps_are_told) {
     for (int kind = 0; kind < 3; kind++) {
         for (int power = 0; power <= 6; power++) {
             for (int n = 0; n < 4; n++) {
-                /* an angle has a fixed unit, so the rotor is slow where the others have wide ranges */
+                /* an angle has a fixed unit, so the rotor is slow in the cases in which other kinds have wide ranges */
                 const double value = kind == 1 ? pow(10.0, -power) : 1.0;
                 try_even_motion(kind, value * random_between(&seed, 0.5, 2.0),
                                 kind == 1 ? 1.0 : pow(10.0, power), step_us[n], &told, &quiet);
@@ -126,7 +127,7 @@ TEST(fixed_loss, lost_steps_are_told) {
     TEST_ASSERT_GREATER_THAN_INT(25, quiet);
 }
 
-/* Oscillators of all masses and springs, some so slow that they hardly move: accepted whenever they are accurate. */
+/* Oscillators of all masses and springs, some almost at rest. The balance of an accurate run must be accepted. */
 TEST(fixed_loss, books_believe_what_is_right) {
     int right = 0;
     for (int mass = -6; mass <= 6; mass += 2) {
@@ -154,14 +155,14 @@ TEST(fixed_loss, books_believe_what_is_right) {
 }
 
 /* === fixed runs =============================================================================== */
-/* Fixed-point runs of random smooth mechanisms, against the run in double within the formats' round-off; ranges that
- * are too small; refusals. */
+/* Fixed-point runs of random smooth mechanisms, compared with the run in double: the difference must be below the
+ * round-off of the number formats. Also ranges that are too small, and refusals. */
 
 enum { KINDS = 5, CASES = 40, TEXT_SIZE = 3000, MOST = 8 };
 
-/* A mechanism m with a scene s of kind `which` with these ranges. Kinds are masses between springs, one of them
- * one-sided, a damped pendulum on a carriage, and a driven rotor with an uneven load. Two coupled pendulums and a system
- * of first order are the others. */
+/* Writes a mechanism m of kind `which` and its scene s with these ranges. Kinds: masses between springs, one of
+ * which is one-sided; a damped pendulum on a carriage; a driven rotor with an uneven load; two coupled pendulums; a
+ * system of first order. */
 static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t seed,
                             const char *ranges) {
     double r[10];
@@ -218,7 +219,8 @@ static void write_mechanism(char text[static TEXT_SIZE], int which, uint64_t see
     }
 }
 
-/* Runs the scene to its end. Results: real[reals], then the angles; and the largest value of each real. */
+/* Runs the scene to its end. Results: end[] has the reals, then the angles; far[] has the largest absolute value of
+ * each real. */
 static uint64_t run(const engine_kind *kind, const image *im, double *end, double *far) {
     void *of = kind->start(im);
     for (uint64_t k = 0; k <= im->steps; k++) {
@@ -233,7 +235,8 @@ static uint64_t run(const engine_kind *kind, const image *im, double *end, doubl
     return held;
 }
 
-/* "range x = -0.3 .. 0.3 [m]": this factor times the run's largest value, for each real and input. */
+/* Writes the range of each real and input, such as "range x = -0.3 .. 0.3 [m]". The limit is `times` times the
+ * largest value of the run. */
 static void write_ranges(char *text, const image *im, const double *far, double times) {
     size_t length = 0;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -248,9 +251,9 @@ static void write_ranges(char *text, const image *im, const double *far, double 
     }
 }
 
-/* Bound on the round-off of component i of the reals at the end. Each step adds a unit of the stored number, and two
- * units of the list's results, which constants may add each time. Positions integrate the rates' errors. The mechanisms
- * are damped, so errors do not grow, but a swing may be passed on for a while. */
+/* Bound on the round-off of real i at the end. A step adds one unit of the stored number and two units of each list
+ * result. Constants can make each of the latter errors have the same sign. Positions integrate the errors of rates.
+ * The mechanisms are damped, so an error does not grow; the factor PASSED_ON allows for swings between bodies. */
 static double bound_of(const fixed_plan *p, int i) {
     enum { PASSED_ON = 12 };
     const image *im = p->image;
@@ -281,7 +284,7 @@ static void check_beside_double(const derived *d, bool declared, const char *tex
     for (int i = 0; i < d->image->reals; i++) {
         const double bound = bound_of(p, i);
         const double size = fmax(fabs(p->range[i].low), fabs(p->range[i].high));
-        TEST_ASSERT_TRUE_MESSAGE(bound < 3e-3 * size, text); /* the bound must be significant */
+        TEST_ASSERT_TRUE_MESSAGE(bound < 3e-3 * size, text); /* else the comparison says nothing */
         TEST_ASSERT_TRUE_MESSAGE(fabs(fixed[i] - exact[i]) <= bound, text);
     }
     d->image->fixed = NULL;
@@ -397,7 +400,7 @@ TEST(fixed_runs, ranges_keep_denominators_from_zero) {
     derived_free(&d);
 }
 
-/* Bounds in any unit, and of parameters; mistakes are in tests/bad/scene.texts. */
+/* Bounds with any unit, and bounds that use parameters. tests/bad/scene.texts has the mistakes. */
 TEST(fixed_runs, ranges_in_the_language) {
     derived d =
         derived_scene("mechanism m\ncoordinate x [m]\nparameter vm = 3 [m/s]\nT = 1 [kg]*x'^2/2\n"
@@ -411,8 +414,8 @@ TEST(fixed_runs, ranges_in_the_language) {
 }
 
 /* === fixed ranges ============================================================================ */
-/* Ranges and steps of all sizes in fixed point: planning ends, with a step or with a refusal whose
- * hint helps. Coordinates without acceleration still move. */
+/* Fixed point with ranges and steps of all sizes. Planning must end with a plan, or with a refusal whose hint helps.
+ * Coordinates without acceleration must still move. */
 
 static bool is_made(const image *im) {
     char *report;
@@ -444,7 +447,7 @@ static const char *const wide[] = {
     "state x\nstate y\nequation x'*1 [s] = 1/(1 + x^2) - y\nequation y'*1 [s] = x*y\n",
 };
 
-/* Following this hint, and the next one, succeeds: by smaller steps, or narrower ranges. */
+/* With shorter steps or narrower ranges, as the hints ask, planning must succeed. */
 static void check_hint(image *im, double size, const char *report) {
     const double step_s = im->step_s;
     bool helped = false;
@@ -501,18 +504,18 @@ static void run_to_end(const image *im, double *angle, double *real) {
     engine_fixed.stop(run);
 }
 
-/* Bound on the round-off of a position: half a unit per step, and a unit of the rate over the whole time. */
+/* Bound on the round-off of a position: half a unit for each step, and one unit of the rate over the whole time. */
 static double range_bound_of(const fixed_plan *p, int at, int rate, double until_s) {
     const double unit = at >= 0 ? ldexp(1.0, -p->format[at].bits) : 1.4629180793e-9;
     const double of_rate = rate >= 0 ? ldexp(1.0, -p->format[rate].bits) : 0.0;
     return 0.51 * (double)p->image->steps * unit + until_s * of_rate;
 }
 
-/* Uniform motion: closed forms. */
+/* Uniform motions, compared with closed forms. */
 TEST(fixed_ranges, what_has_no_acceleration_moves) {
     static const struct {
         const char *text;
-        int at, rate; /* indices of position and rate in the reals; -1: the angle, or absent */
+        int at, rate; /* numbers of position and rate in the reals; -1: the angle, or none */
         bool moves;
     } kinds[] = {
         {"coordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nscene s { start a' = %.9f [rad/s]", -1, 0,
@@ -553,7 +556,7 @@ TEST(fixed_ranges, what_has_no_acceleration_moves) {
     }
 }
 
-/* An oscillation that is so small that one step changes the rate by more than its whole range. No range is declared. */
+/* A swing that is so small that one step changes the rate by more than its whole range. No range is declared. */
 TEST(fixed_ranges, small_swings) {
     for (int power = -7; power <= 0; power++) {
         char *text = alloc_words("mechanism m\ncoordinate th [rad]\nT = 0.144 [kg*m^2]*th'^2/2\n"
@@ -569,8 +572,8 @@ TEST(fixed_ranges, small_swings) {
 
 enum { INPUTS_MOST = 3, RANGES_TEXT = 400 };
 
-/* A scene with inputs that push to either side, and these ranges. Returns the message of `whirl derive` on its
- * fixed-point code. */
+/* Derives the fixed-point code of a scene with inputs that push to either side, and with these ranges. *said: the
+ * messages. */
 static void derive_pushed(int inputs, const double *start, const char *ranges, said *what) {
     char text[1500];
     int length = snprintf(text, sizeof text, "mechanism pushed\ncoordinate x [m]\n");
@@ -590,7 +593,7 @@ static void derive_pushed(int inputs, const double *start, const char *ranges, s
     model_drop();
 }
 
-/* Each input without a range is refused with a hint; pasting the hints suffices. */
+/* Each input without a range must be refused with a hint. If all hints are pasted, the scene must be accepted. */
 TEST(fixed_ranges, inputs_must_declare_ranges) {
     dice d = dice_of("fixed_ranges", 46);
     const unsigned cases = dice_cases(usual_or(24, 8));
@@ -603,7 +606,7 @@ TEST(fixed_ranges, inputs_must_declare_ranges) {
         said what;
         for (int i = 0; i < inputs; i++) {
             start[i] = dice_one_of(&d, 4) == 0 ? 0.0 : dice_between(&d, -2.0, 2.0);
-            if ((declared >> i & 1U) != 0) { /* around its start, and perhaps zero */
+            if ((declared >> i & 1U) != 0) { /* a range around the start, perhaps with zero */
                 length += (size_t)snprintf(
                     ranges + length, sizeof ranges - length, "; range u%d = %.17g .. %.17g [N]", i,
                     start[i] - dice_between(&d, 0.1, 3.0), start[i] + dice_between(&d, 0.1, 3.0));
@@ -630,9 +633,9 @@ TEST(fixed_ranges, inputs_must_declare_ranges) {
 }
 
 /* === engine fixed ============================================================================ */
-/* Steps in fixed point (host/fixed/engine_fixed.h) of random mechanisms against the same steps in
- * double. The steps are so long and few that the difference is round-off, while a stage other than Runge-Kutta's would
- * be visible. Also other queries of a run. The suites above have whole runs. */
+/* Steps in fixed point (host/fixed/engine_fixed.h), compared with the same steps in double, for random mechanisms.
+ * The steps are so long and so few that a wrong Runge-Kutta stage would exceed the round-off. Also other queries of
+ * a run. The suites above test whole runs. */
 
 enum { ENGINE_TEXT_SIZE = 1500, ENGINE_KINDS = 5, ENGINE_MOST = 16 };
 
@@ -640,7 +643,7 @@ static dice die;
 
 static double some(double low, double high) { return dice_between(&die, low, high); }
 
-/* A mechanism m with a scene s. Every operation of the lists occurs in one of them. */
+/* Writes mechanism number `which`, m, and its scene s. Together, the mechanisms use every operation of the lists. */
 static void engine_write_mechanism(char *text, int which) {
     char rest[200];
     snprintf(rest, sizeof rest, "step %.3f [s]; until %.1f [s] }\n",
@@ -685,7 +688,7 @@ static void engine_write_mechanism(char *text, int which) {
             "output o = v*q\noutput e = d\nscene s { range d = -2 .. 2 [V], v = -4 .. 4 [V], q = -4 .. 4, q' = -30 .. 30 [1/s]; %s",
             some(0.2, 1), some(1, 4), some(0.5, 3), some(0.1, 0.4), rest);
         break;
-    default: /* a negative denominator, and one of a wide range */
+    default: /* a negative denominator, and one with a wide range */
         snprintf(
             text, ENGINE_TEXT_SIZE,
             "mechanism m\nstate x\nstate y\ninput d = %.6f\n"
@@ -703,12 +706,12 @@ static fixed_plan *begin(derived *d, int which, char *text) {
     return planned(d);
 }
 
-/* Angles, then reals. */
+/* state[]: angles, then reals. */
 static void state_of(const engine_kind *kind, const image *im, const void *run, double *state) {
     kind->state(run, state, state + im->angles);
 }
 
-/* The largest difference, each in its own fixed-point unit. */
+/* The largest difference of any component, in units of its fixed-point format. */
 static double units_off(const image *im, const void *fixed, const void *exact) {
     double is[ENGINE_MOST];
     double wanted[ENGINE_MOST];
@@ -724,9 +727,9 @@ static double units_off(const image *im, const void *fixed, const void *exact) {
     return most;
 }
 
-/* Bound on round-off: list results have errors of some units, a step has four of them, and positions integrate the
- * rates' errors. A force with a squared rate has fewer digits than the rate. Maxima of 25 seeds: 482, 36, 631, 10 and
- * 7. */
+/* Bounds on the round-off, in units. List results have errors of some units, a step has four of them, and positions
+ * integrate the errors of rates. A force with a squared rate has fewer digits. The maxima of 25 seeds were 482, 36,
+ * 631, 10 and 7. */
 static const double units_most[ENGINE_KINDS] = {1200.0, 90.0, 1600.0, 25.0, 25.0};
 
 TEST(engine_fixed, steps) {
@@ -747,7 +750,7 @@ TEST(engine_fixed, steps) {
                 worst[which] = fmax(worst[which], units_off(im, fixed, exact));
                 TEST_ASSERT_EQUAL_INT(WH_OK, engine_fixed.step(fixed));
                 TEST_ASSERT_EQUAL_INT(WH_OK, engine_double.step(exact));
-                if (k == im->steps / 2) { /* another input from here on */
+                if (k == im->steps / 2) { /* from here on with another input */
                     const double input = im->input[0].value * some(0.2, 0.9);
                     engine_fixed.set_input(fixed, 0, input);
                     engine_double.set_input(exact, 0, input);
@@ -764,7 +767,8 @@ TEST(engine_fixed, steps) {
     }
 }
 
-/* Outputs belong to the reported state. An input is stored to half a unit and clamped to its range, with a count. */
+/* Outputs must belong to the reported state. An input must be stored to half a unit and limited to its range; the
+ * limiting must be counted. */
 TEST(engine_fixed, outputs_and_inputs) {
     for (unsigned c = 0; c < dice_cases(usual_or(10, 5)); c++) {
         static char text[ENGINE_TEXT_SIZE];
@@ -803,7 +807,8 @@ TEST(engine_fixed, outputs_and_inputs) {
     }
 }
 
-/* The same run has the same hash after each step, and the next step another; no failures, no events. */
+/* Two equal runs must have the same hash after each step, and the hash must change with a step. There must be no
+ * failures and no events. */
 TEST(engine_fixed, asked) {
     for (unsigned c = 0; c < dice_cases(usual_or(5, 5)); c++) {
         static char text[ENGINE_TEXT_SIZE];

@@ -1,11 +1,11 @@
-/* test_flat_named.c: a linkage that lies flat ends its run, and the redundant hold is named, in any order of the
- * file's statements. */
+/* test_flat_named.c: when a linkage lies flat, the run must end and name the redundant hold, whatever the sequence
+ * of the file's statements. */
 #include "command.h"
 #include "host/cli/commands.h"
 
 enum { STOPS = 3, FLAT_TEXT = 2048 };
 
-/* The file's text so far, and its number of lines. */
+/* The text of the file up to here, and its number of lines. */
 typedef struct writing {
     char text[FLAT_TEXT];
     size_t length;
@@ -26,7 +26,7 @@ static void add_stops(writing *w, int count) {
     }
 }
 
-/* A parallelogram becomes flat along the x axis, where no angle changes lengths along it: that direction's hold becomes
+/* A parallelogram becomes flat along the x axis. There, no angle changes a length along x, so the hold along x is
  * redundant. */
 static void flat_is_named(int before, int behind, bool across_first, dice *d) {
     const double crank_m = dice_between(d, 0.05, 0.15);

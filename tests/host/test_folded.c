@@ -1,8 +1,8 @@
-/* test_folded.c: a light body on a soft spring, and a heavy one counted from it on a stiff spring. The sum k1 + k2,
- * folded to double, keeps few digits of the softer spring, the only force on the light body, and every run of the scene
- * uses that number. Given by energies or equations, with parameters or numbers, with dampers or without, sometimes with
- * a third body between. The reference never adds quantities of two bodies: each by itself, in long double. Errors are
- * reported; accurate runs cause no report. */
+/* test_folded.c: a light body on a soft spring, and a heavy body on a stiff spring, whose coordinate is relative to
+ * the light one. The constant k1 + k2, folded to double, keeps few digits of the soft spring, which is the only
+ * force on the light body. Every run of the scene uses this constant. Energies or equations, parameters or numbers,
+ * dampers and a third body vary. The reference, in long double, never adds quantities of two bodies. Errors must be
+ * reported; accurate runs must not. */
 #include "test.h"
 
 #include "host/cli/commands.h"
@@ -23,7 +23,7 @@ typedef struct link {
     double damper_Nspm;
 } link;
 
-/* Bodies 0 ... bodies - 1, each measured from the previous one, the first from the ground. */
+/* Coordinate i is the position of body i relative to body i - 1; that of body 0 is relative to the ground. */
 typedef struct held {
     int bodies;
     int links;
@@ -33,10 +33,8 @@ typedef struct held {
     double step_s;
     int steps;
     bool by_equations;
-    bool by_numbers; /* no parameters */
+    bool by_numbers; /* numbers in place of parameters */
 } held;
-
-/* --- the text -------------------------------------------------------------------------------------------------------- */
 
 static void put_place(FILE *out, int body, const char *primes) {
     fputs("(0", out);
@@ -90,12 +88,12 @@ static void put_energies(FILE *out, const held *h) {
     fputc('\n', out);
 }
 
-/* Lagrange's equations, expanded by hand. */
+/* Writes Lagrange's equations, which were expanded by hand. */
 static void put_equations(FILE *out, const held *h) {
     for (int q = 0; q < h->bodies; q++) {
         fputs("equation 0 [N]", out);
         for (int b = q; b < h->bodies; b++) {
-            /* the bodies whose coordinates are relative to this one */
+            /* the bodies whose position contains coordinate q */
             fputs(" + ", out);
             put_number(out, h, "m", b, h->mass_kg[b], "kg");
             fputc('*', out);
@@ -146,8 +144,6 @@ static void held_text(const held *h, char *text, size_t size) {
     TEST_ASSERT_EQUAL_INT(0, fclose(out));
 }
 
-/* --- the reference ---------------------------------------------------------------------------------------------- */
-
 typedef struct bodies_state {
     long double x_m[MOST];
     long double v_mps[MOST];
@@ -193,7 +189,7 @@ static void step_bodies(const held *h, bodies_state *s) {
     *s = next;
 }
 
-/* With the scene's own step: the coordinates at the end, and the range of each. */
+/* Runs each body by itself with the scene's step. Results: the coordinates at the end, and the range of each. */
 static void run_by_bodies(const held *h, long double *end, double *range) {
     bodies_state s = {{0.0L}, {0.0L}};
     double low[MOST] = {0.0};
@@ -214,21 +210,19 @@ static void run_by_bodies(const held *h, long double *end, double *range) {
     }
 }
 
-/* --- messages ---------------------------------------------------------------------------------------------------- */
-
 typedef struct seen {
     bool refused;
     bool told;    /* a loss by constant folding was reported */
     bool warned;  /* any warning */
-    bool trusted; /* trusted to the end */
+    bool trusted; /* the run is trusted to its end */
     /* `whirl trust` answered "unknown", because the bound on round-off is too large */
     bool untold;
-    bool singular;     /* the mass matrix is nearly singular */
-    double off;        /* largest error relative to the coordinate's range */
-    double off_of_all; /* largest error relative to the largest range */
+    bool singular;     /* a warning: the mass matrix is nearly singular */
+    double off;        /* largest error, relative to the range of that coordinate */
+    double off_of_all; /* largest error, relative to the largest range */
 } seen;
 
-/* Two runs with the same folded numbers cannot show the error. */
+/* Two runs with the same folded constants cannot show the error, so `whirl trust` must not trust the run to its end. */
 static void no_trust_in(const char *text) {
     said what;
     command_say_model(command_trust, text, &what);
@@ -268,7 +262,7 @@ static seen see(const held *h) {
         char name[8];
         snprintf(name, sizeof name, "q%d", b);
         const double off = fabs((double)((long double)motion_value(&m, name) - wanted[b]));
-        if (range[b] > fmin(1e-3, 2e-3 * largest)) { /* a smaller one may be round-off */
+        if (range[b] > fmin(1e-3, 2e-3 * largest)) { /* a smaller range may be round-off */
             s.off = fmax(s.off, off / range[b]);
         }
         s.off_of_all = fmax(s.off_of_all, off / largest);
@@ -284,7 +278,7 @@ static double power_of_ten(dice *d, double low, double high) {
     return pow(10.0, dice_between(d, low, high));
 }
 
-/* The heavy body has `ratio` times the mass; each oscillates at its own rate on its spring. */
+/* Draws a heavy body with `ratio` times the mass of the light one. Each has its own natural frequency. */
 static held draw(dice *d, double ratio) {
     held h = {.bodies = 2 + (dice_one_of(d, 4) == 0 ? 1 : 0),
               .links = 2,
@@ -300,7 +294,7 @@ static held draw(dice *d, double ratio) {
         (link){0, dice_one_of(d, 3) == 0 ? GROUND : heavy, h.mass_kg[0] * slow_radps * slow_radps,
                dice_one_of(d, 2) * 0.02 * h.mass_kg[0] * slow_radps};
     h.start[0] = 0.1;
-    h.start[heavy] = -0.1; /* in its place */
+    h.start[heavy] = -0.1; /* at position 0 */
     if (heavy == 2) {
         h.mass_kg[1] = h.mass_kg[0] * power_of_ten(d, 0.0, 4.0);
         h.link[h.links++] = (link){1, 2, h.mass_kg[1] * slow_radps * slow_radps, 0.0};
@@ -354,9 +348,7 @@ TEST(folded, what_is_lost_is_told) {
     TEST_ASSERT_TRUE(10 * (told_right + ended_right) <= right);
 }
 
-/* --- round-off only ----------------------------------------------------------------------------------------------- */
-
-/* Number of other ways of folding that the image keeps. */
+/* Number of further foldings, with other rounding, that the image keeps. */
 static int ways_of(const char *text) {
     motion m;
     motion_open_text(&m, text, IN_DOUBLE);
@@ -365,8 +357,8 @@ static int ways_of(const char *text) {
     return ways;
 }
 
-/* A mass on an arm from a carriage. The arm's zero differs by quarter turns, whose cosines have round-off in their last
- * digits; so have the decimals of a spring. The term with `k` must not be lost beside this round-off. */
+/* A mass on an arm on a carriage. The arm's zero is a multiple of a quarter turn, whose cosine has round-off in the
+ * last digit. So have the decimals of a spring. The term with `k` must not be lost beside this round-off. */
 static void arm_text(dice *d, double k, char *text, size_t size) {
     static const char *const angle[] = {"90 [deg]",  "pi/2",      "180 [deg]",
                                         "-90 [deg]", "270 [deg]", "pi"};
@@ -401,11 +393,11 @@ TEST(folded, rounding_alone_is_nothing_lost) {
         TEST_ASSERT_TRUE_MESSAGE(ways_of(text) > 0, text);
     }
     printf("  %u arms with last digits alone: %u derived in other ways\n", cases, asked);
-    TEST_ASSERT_TRUE(20 * asked <= cases); /* few: those whose round-offs add up */
+    TEST_ASSERT_TRUE(20 * asked <= cases); /* only the few whose round-off adds up */
 }
 
-/* Numbers that are smaller than such round-off are lost and must be reported. Round-off that is smaller than the
- * numbers must not be reported. */
+/* Numbers smaller than such round-off are lost, which must be reported. Round-off that is smaller than the numbers
+ * must not be reported. */
 TEST(folded, numbers_beside_a_rest) {
     dice d = dice_of("folded", 3);
     for (unsigned k = 0; k < dice_cases(200); k++) {
@@ -423,8 +415,8 @@ TEST(folded, numbers_beside_a_rest) {
     }
 }
 
-/* Two stiff springs, one pulling and one pushing, differ by 20 to 80 units in the last place. That is as small as the
- * round-off of decimals in constant folding, but it is the whole force on the mass. */
+/* Two stiff springs, one that pulls and one that pushes, differ by 20 to 80 units in the last place. This is as
+ * little as the round-off of decimals, but it is the whole force on the mass. */
 TEST(folded, what_is_nearly_the_same) {
     dice d = dice_of("folded", 4);
     for (unsigned k = 0; k < dice_cases(usual_or(40, 5)); k++) {
@@ -450,16 +442,16 @@ TEST(folded, what_is_nearly_the_same) {
 }
 
 /* === blurred ================================================================================== */
-/* Bodies on a line with relative coordinates and masses that differ by up to 1e13. Round-off leaves few digits of their
- * mass matrix, also in double, so two runs can agree on a wrong result. A wrong run must have a warning. Coordinates
- * relative to the heavier body are accurate and cause no warning. */
+/* Bodies on a line with relative coordinates and masses that differ by up to 1e13. Round-off leaves few digits of
+ * their mass matrix, in double too, so two runs can agree on a wrong result. A wrong run must have a warning.
+ * Coordinates relative to the heavier body are accurate and must cause no warning. */
 
 typedef struct line {
     int bodies;
     double mass_kg[MOST];
-    double spring_Npm[MOST]; /* spring between a body and the previous one; [0] to the ground */
+    double spring_Npm[MOST]; /* between body i and body i - 1; [0]: between body 0 and the ground */
     double start_m[MOST];
-    int order[MOST]; /* start of each body, relative to the previous one; [0] to the ground */
+    int order[MOST]; /* numbers of the bodies, in the sequence of the coordinates */
 } line;
 
 static held held_of(const line *l) {
@@ -482,8 +474,8 @@ static seen see_line(const line *l) {
     return see(&h);
 }
 
-/* The stiffnesses are similar, at most about 20 rad/s. Whether round-off of a stiff spring hides a soft one is not
- * tested here. */
+/* Draws springs of similar stiffness, for up to about 20 rad/s. Whether the round-off of a stiff spring hides a soft
+ * one is not tested here. */
 static line draw_line(dice *d, double decades) {
     line l = {.bodies = 2 + (int)dice_one_of(d, 2)};
     for (int b = 0; b < l.bodies; b++) {
@@ -507,7 +499,7 @@ static line draw_line(dice *d, double decades) {
     return l;
 }
 
-/* Orders the bodies so that each is measured relative to the heavier one. */
+/* Sorts the bodies so that each is measured relative to a heavier one. */
 static void count_from_heavier(line *l) {
     for (int i = 1; i < l->bodies; i++) {
         for (int k = i; k > 0 && l->mass_kg[l->order[k]] > l->mass_kg[l->order[k - 1]]; k--) {
@@ -518,7 +510,7 @@ static void count_from_heavier(line *l) {
     }
 }
 
-/* Largest ratio of a body's mass to that of the lighter body relative to which it is measured. */
+/* Largest ratio of a body's mass to that of a lighter body before it in the sequence. */
 static double against_the_grain(const line *l) {
     double most = 1.0;
     double lightest = l->mass_kg[l->order[0]];
@@ -570,7 +562,7 @@ TEST(blurred, what_is_off_is_told) {
     TEST_ASSERT_TRUE(cases < 40 || (refused > 0 && warned > 0 && quiet > 0));
 }
 
-/* The mass of the light body depends on the position of the heavy one, so no constants are folded at derivation. Only
+/* The inertia of the light body depends on the position of the heavy one, so the derivation folds no constants. Only
  * the round-off of each step loses digits. */
 static void varying_text(double light_kg, double ratio, double spring_Npm, double start_m,
                          char *text, size_t size) {
@@ -582,7 +574,7 @@ static void varying_text(double light_kg, double ratio, double spring_Npm, doubl
              light_kg, light_kg * ratio, spring_Npm, start_m);
 }
 
-/* The two runs of `whirl trust` always agree, so agreement must not be taken for accuracy. */
+/* The two runs of `whirl trust` always agree here. It must not take this for accuracy. */
 TEST(blurred, no_trust_in_what_both_have_wrong) {
     dice d = dice_of("blurred", 13);
     for (int k = 0; k < 12; k++) {
@@ -608,7 +600,7 @@ TEST(blurred, no_trust_in_what_both_have_wrong) {
             TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
             TEST_ASSERT_TRUE_MESSAGE((strstr(what.out, "trusted to the end") == NULL) == is_lost,
                                      what.out);
-            /* the loss by constant folding is reported with another number */
+            /* a loss by constant folding is reported in other words */
             const bool by_rounding = strstr(what.out, "unknown") != NULL;
             TEST_ASSERT_TRUE_MESSAGE(is_lost ? by_rounding || varies == 0 : !by_rounding, what.out);
         }
@@ -636,15 +628,16 @@ TEST(blurred, equations_that_say_nearly_the_same) {
 }
 
 /* === folded numbers =========================================================================== */
-/* A soft spring whose rate is computed from much larger numbers, by parameters or in the formula: differences,
- * quotients, roots and functions. It acts on a mass, or determines the mass's start, a push, friction or an event's
- * assignment. The reference is the closed form with the intended spring. Wrong runs are not trusted; accurate ones
- * cause no report. */
+/* A soft spring whose stiffness is computed from much larger numbers, by parameters or in the formula: differences,
+ * quotients, roots and functions. The spring acts on a mass, or its stiffness determines the start, a push, a
+ * friction or the `set` of an event. The reference is the closed form with the intended stiffness. Wrong runs must
+ * not be trusted; accurate runs must cause no report. */
 
-/* The soft spring is `k`, or the number in the last column is chosen so that the formula of K yields k. */
+/* A way to compute the soft spring. Either the parameter `k` is the spring, or a number is chosen so that the
+ * formula yields the spring. */
 typedef struct maker {
-    const char *numbers; /* parameters that lead to K */
-    const char *soft;    /* formula of the soft spring K */
+    const char *numbers; /* parameters that the formula uses */
+    const char *soft;    /* formula of the soft spring */
     enum { OF_K, OF_ANGLE, OF_EXPONENT, OF_ROOT, OF_SATURATION, OF_LIMIT } by;
 } maker;
 
@@ -670,7 +663,7 @@ typedef enum use { HOLDS, STARTS, PUSHES, RUBS, SETS, USES } use;
 typedef struct drawn {
     unsigned maker;
     use use;
-    bool inside; /* in the formula, without parameters of its own */
+    bool inside; /* the formula has them inside, without parameters */
     double soft_Npm;
     double hard_Npm;
     double rate_radps;
@@ -678,7 +671,8 @@ typedef struct drawn {
     char text[2000];
 } drawn;
 
-/* Returns the number with which the formula of K gives about `part`. *of_hard gets the exact result of that number. */
+/* Returns the number with which the function in the formula of the spring gives about `part`. *of_hard: the exact
+ * value for this number. */
 static double made_by(const maker *of, double part, long double *of_hard) {
     switch (of->by) {
     case OF_ANGLE: {
@@ -704,7 +698,7 @@ static double made_by(const maker *of, double part, long double *of_hard) {
     return part;
 }
 
-/* Its use, up to the scene's step. `soft` evaluates to the intended spring. */
+/* Writes how the soft spring is used, up to the scene's step. `soft` is its formula. */
 static void put_motion(FILE *out, const drawn *w, const char *soft) {
     char part[200]; /* a factor that is 1 if no digits are lost */
     snprintf(part, sizeof part, "%s/(%.17g [N/m])", soft, w->soft_Npm);
@@ -731,7 +725,7 @@ static void put_motion(FILE *out, const drawn *w, const char *soft) {
     }
 }
 
-/* The reference's places and rates at the end. */
+/* The true position and rate at the end. */
 static void wanted_of(const drawn *w, double *x_m, double *v_mps) {
     const double turn = w->rate_radps * w->end_s;
     switch (w->use) {
@@ -848,9 +842,8 @@ TEST(folded_numbers, what_numbers_lose_is_told) {
     TEST_ASSERT_TRUE(20 * doubted <= right && 50 * by_luck <= right);
 }
 
-/* --- standstill for lack of digits --------------------------------------------------------------- */
-
-/* A force from a small change of a large number: at some lengths nothing of it remains, and the mass stands still. */
+/* A force from a small change of a large number. At some lengths no digit of the force remains, and the mass stands
+ * still. */
 TEST(folded_numbers, what_stands_for_want_of_digits) {
     static const char *const force[] = {
         "%s [N]*(1 - exp(x/%s [m]))",          "%s [N]*(1 - sqrt(1 + 2*x/%s [m]))",
@@ -887,8 +880,6 @@ TEST(folded_numbers, what_stands_for_want_of_digits) {
     TEST_ASSERT_TRUE(cases < 40 || stand > 0);
 }
 
-/* --- divergence under other rounding ------------------------------------------------------------- */
-
 TEST(folded_numbers, what_leaves_all_bounds) {
     dice d = dice_of("folded_numbers", 3);
     for (unsigned k = 0; k < dice_cases(usual_or(40, 10)); k++) {
@@ -906,8 +897,6 @@ TEST(folded_numbers, what_leaves_all_bounds) {
         TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end: every"), text);
     }
 }
-
-/* --- limits that decimals miss by a last digit --------------------------------------------------- */
 
 static int status_beside(const char *contact) {
     char text[400];

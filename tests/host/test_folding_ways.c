@@ -1,14 +1,14 @@
-/* test_folding_ways.c: constants folded with other roundings (host/number/folding.h): sums, products, quotients, powers
- * and functions of random numbers, compared with long double or fma(). Exact results stay. Other results change by one
- * or two units in the last place: with one rounding to the other side of the exact value, with the others to either
- * side. */
+/* test_folding_ways.c: constants folded with other roundings (host/number/folding.h): sums, products, quotients,
+ * powers and functions of random numbers, compared with long double or fma(). Exact results must stay. Other results
+ * must change by up to two units in the last place: to the far side of the exact value with FOLDING_OTHER, to either
+ * side with later ways. */
 #include "host/number/folding.h"
 
 #include "command.h"
 
 enum { DRAWN = 2000 };
 
-/* Of 53 digits, so that sums fit a long double's 64. */
+/* A number of 53 digits. The sum of two such numbers fits into the 64 digits of a long double. */
 static double drawn(dice *d) {
     const double size = ldexp(dice_between(d, 1.0, 2.0), (int)dice_one_of(d, 9) - 4);
     return dice_one_of(d, 2) == 0 ? size : -size;
@@ -16,7 +16,7 @@ static double drawn(dice *d) {
 
 typedef enum kind { SUM, PRODUCT, QUOTIENT, POWER, SINE, ROOT, KINDS } kind;
 
-/* Sign of the exact value minus the nearest; 0: exact or unknown. */
+/* Sign of the exact result minus `nearest`; 0 if the result is exact, or if the sign is not known. */
 static int side_of(kind of, double x, double y, double nearest) {
     switch (of) {
     case SUM: {
@@ -56,7 +56,7 @@ static double folded_by(int way, kind of, double x, double y) {
     return made;
 }
 
-/* How many doubles `to` is above `from`, at most 7 either way; 9: further away. */
+/* The number of doubles from `from` up to `to`, between -7 and 7; 9 if the distance is larger. */
 static int doubles_from(double from, double to) {
     double up = from;
     double down = from;
@@ -72,7 +72,7 @@ static int doubles_from(double from, double to) {
 
 TEST(folding_ways, what_is_not_exact_is_moved) {
     dice d = dice_of("folding ways", 1);
-    unsigned times[KINDS][FOLDING_WAYS][5] = {{{0}}}; /* moved by -2 to 2 */
+    unsigned times[KINDS][FOLDING_WAYS][5] = {{{0}}}; /* [moved by -2 to 2] */
     for (unsigned i = 0; i < DRAWN; i++) {
         const double x = drawn(&d);
         const double y = drawn(&d);
@@ -100,7 +100,7 @@ TEST(folding_ways, what_is_not_exact_is_moved) {
         TEST_ASSERT_EQUAL_UINT(DRAWN, times[of][FOLDING_APART][2]);
         TEST_ASSERT_TRUE((times[of][FOLDING_OTHER][2] == DRAWN) == stays);
         for (int way = FOLDING_SOME; way < FOLDING_WAYS; way++) {
-            /* each way and each size often; a third of the sums is exact */
+            /* each size of change must be frequent; a third of the sums is exact */
             for (int by = 0; by < 5; by++) {
                 TEST_ASSERT_TRUE(by == 2 ? times[of][way][by] < DRAWN / 2
                                          : times[of][way][by] > DRAWN / 9);
@@ -109,7 +109,8 @@ TEST(folding_ways, what_is_not_exact_is_moved) {
     }
 }
 
-/* The ways differ; a repeated folding, in any order, moves the same. */
+/* Different ways must change results differently. If the same constant is folded again, or its operands are swapped,
+ * the change must be the same. */
 TEST(folding_ways, ways_are_several) {
     dice d = dice_of("folding ways", 2);
     unsigned alike = 0;
@@ -126,8 +127,8 @@ TEST(folding_ways, ways_are_several) {
     TEST_ASSERT_TRUE(alike < DRAWN * (FOLDING_WAYS - FOLDING_SOME - 1) * 2 / 5);
 }
 
-/* Sums, products and quotients of small integers, roots of squares, absolute values, and functions where their rows
- * begin. */
+/* Exact results: sums, products and quotients of small integers, roots of squares, absolute values, and functions at
+ * arguments such as zero. */
 TEST(folding_ways, what_is_exact_stays) {
     static const struct {
         function_id function;

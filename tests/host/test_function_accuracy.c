@@ -1,10 +1,11 @@
-/* test_function_accuracy.c: the float functions against the library's in long double, at arguments of every exponent
- * and where digits are lost most easily.
+/* test_function_accuracy.c: the float functions, compared with the library's in long double, at arguments of every
+ * exponent and at arguments where digits are easily lost.
  *
- * WHIRL_FUNCTION_CASES=10000000 build/tests/host function_accuracy
+ *   WHIRL_FUNCTION_CASES=10000000 build/tests/host function_accuracy
  *
- * tests that many arguments of each kind instead of thirty thousand. `make functions-exhaustive` tests all. The bounds
- * are its results, rounded up. A worst error below half a unit would mean that the function is not tested. */
+ * tests so many arguments of each kind instead of thirty thousand. `make functions-exhaustive` tests all arguments;
+ * the bounds below are its results, rounded up. A worst error below half a unit would mean that the function was not
+ * tested. */
 #include "core/function.h"
 
 #include "test.h"
@@ -27,7 +28,7 @@ static float below_104(void) { return either(unit() * 104.0f); }
 static float near_one(void) { return 1.0f + either(between(-24, -2)); }
 static float up_to_one(void) { return either(unit()); }
 static float near_unit(void) { return either(1.0f - between(-24, -1) * 0.5f); }
-/* The floats next to multiples of a quarter turn. */
+/* A float next to a random multiple of a quarter turn. */
 static float quarter_turn(void) {
     const long double many = floorl(ldexpl((long double)unit(), (int)(scattered() % 127U)));
     float x = (float)((many + 1.0L) * 1.5707963267948966192313216916398L);
@@ -38,7 +39,8 @@ static float quarter_turn(void) {
 }
 
 static double error_of(float got, long double wanted) {
-    const long double truth = fminl(fabsl(wanted), 0x1p128L); /* from 2^128 on: infinite */
+    /* from 2^128 on, a float is infinite */
+    const long double truth = fminl(fabsl(wanted), 0x1p128L);
     const long double reached = isinf(got) ? 0x1p128L : fabsl((long double)got);
     int exponent = -125;
     if (truth != 0.0L) {
@@ -98,7 +100,7 @@ TEST(function_accuracy, functions_of_one) {
     }
 }
 
-/* An exponent that keeps the power in range. */
+/* A random exponent with which the power of `base` is in float's range. */
 static float exponent_for(float base) {
     return (float)(either(unit() * 150.0f) / log2f(fabsf(base)));
 }

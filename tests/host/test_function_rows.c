@@ -1,10 +1,10 @@
-/* test_function_rows.c: every row of host/number/functions.h in all its uses. These are slopes in numbers and
- * symbols (against differences), the operation list, an energy's force, accepted dimensions, generated texts, the
- * fuzzers' words and the docs. A new function is tested through its row.
+/* test_function_rows.c: every row of host/number/functions.h in all its uses. These are
+ * slopes (compared with differences), operations, the force from an energy, dimensions, generated texts, the words of
+ * the fuzzers, and the docs. A new function is tested through its row.
  *
- * WHIRL_RANDOM_STATES=10000 build/tests/host function_rows
+ *   WHIRL_RANDOM_STATES=10000 build/tests/host function_rows
  *
- * tests that many places of each function instead of two hundred. */
+ * tests so many points of each function instead of two hundred. */
 #include "derived.h"
 #include "host/algebra/algebra.h"
 #include "host/engine/engine.h"
@@ -29,7 +29,7 @@ static void expect_near(int f, double wanted, double got, double allowed, double
 
 #define WIDTH 1e-3
 
-/* The slope by fourth-order differences. Returns false if the function is not smooth near this point. */
+/* The slope, by differences of fourth order. Returns false if the function is not smooth near this point. */
 static bool difference(int f, int which, double x, double y, double *slope) {
     double value[5];
     for (int k = -2; k <= 2; k++) {
@@ -40,7 +40,7 @@ static bool difference(int f, int which, double x, double y, double *slope) {
     const double narrow = (value[3] - value[1]) / (2.0 * WIDTH);
     const double wide = (value[4] - value[0]) / (4.0 * WIDTH);
     *slope = narrow + (narrow - wide) / 3.0;
-    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* false for NaN */
+    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* false for NaN, too */
 }
 
 static const symbol variables[2] = {
@@ -70,7 +70,7 @@ TEST(function_rows, slopes) {
                 const double allowed = 1e-6 * (1.0 + fabs(wanted));
                 expect_near(f, wanted, number_slope(at(f), which, point[0], point[1]), allowed,
                             point[0], point[1]);
-                /* by the rule itself, and as a derivative */
+                /* by the rule for this function, and by poly_derivative() */
                 const poly *rule = function_slope(a, at(f), which, x, y);
                 const poly *of_whole = poly_derivative(a, whole, &variables[which], 0);
                 expect_near(f, wanted, poly_evaluate(rule, variable_value, point), allowed,
@@ -85,7 +85,7 @@ TEST(function_rows, slopes) {
     }
 }
 
-/* At a tie both arguments have half of the slope; an absolute value has slope 0 at zero. */
+/* At a tie, each argument has half of the slope. The absolute value has slope 0 at zero. */
 TEST(function_rows, slopes_where_they_jump) {
     for (int which = 0; which < 2; which++) {
         TEST_ASSERT_TRUE(number_slope(FN_MIN, which, 2.0, 2.0) == 0.5);
@@ -95,7 +95,8 @@ TEST(function_rows, slopes_where_they_jump) {
     TEST_ASSERT_TRUE(number_slope(FN_SIGN, 0, 0.0, 0.0) == 0.0);
 }
 
-/* A function that is real everywhere has a value at every point; any other function has none at some points. */
+/* A function that counts as real everywhere must have a value at every point; the others must have none at some
+ * points. */
 TEST(function_rows, range) {
     uint64_t seed = SEED + 4;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -108,7 +109,7 @@ TEST(function_rows, range) {
     }
 }
 
-/* The same bits as number_call(), except for sine and cosine, which are a phase's. */
+/* The operation list must give the bits of number_call(), except for sine and cosine, whose argument is a phase. */
 TEST(function_rows, operations) {
     uint64_t seed = SEED + 1;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -134,7 +135,7 @@ TEST(function_rows, operations) {
             }
         }
         evaluator_free(ev);
-        /* an operation on numbers is a number, if the list can evaluate it */
+        /* a function of constants must be folded if the list can evaluate it */
         const int known = op_list_call(t, at(f), op_list_constant(t, 0.25), of_two(f) ? x : -1);
         double number;
         if (op_list_is_constant(t, known, &number)) {
@@ -156,7 +157,7 @@ static bool accepted(const char *dimensions, const char *call) {
     return read != NULL;
 }
 
-/* Returns true if f(4 x, 4 y) = times f(x, y) at all tested places above zero. */
+/* Is f(4 x, 4 y) = times f(x, y) at all tested points? All have positive x. */
 static bool grows(int f, double times) {
     for (int i = 1; i < 20; i++) {
         const double x = 0.05 * i;
@@ -180,7 +181,7 @@ static bool has_period(int f, double period) {
     return true;
 }
 
-/* How a function's value changes with the unit of its arguments tells which dimensions it allows. */
+/* How a function's value changes with the unit of its arguments shows which dimensions the function may allow. */
 TEST(function_rows, dimensions_of_values) {
     for (int f = 0; f < FUNCTIONS; f++) {
         const function_dimensions takes = function_takes(at(f));
@@ -195,7 +196,8 @@ TEST(function_rows, dimensions_of_values) {
     }
 }
 
-/* A length, lengths, or a length and a time: the result is a number, a length, a root, or an error. */
+/* Arguments: a length, two lengths, or a length and a time. The result must have the right dimension, or there must
+ * be an error. */
 TEST(function_rows, dimensions) {
     for (int f = 0; f < FUNCTIONS; f++) {
         char alike[80];
@@ -229,7 +231,7 @@ TEST(function_rows, names) {
         TEST_ASSERT_FALSE_MESSAGE(
             function_find(name(f), strlen(name(f)) - 1, &found) && (int)found == f, name(f));
     }
-    /* hashes of models contain the functions' numbers, so these must not change */
+    /* the hashes of models contain these numbers, so they must not change */
     TEST_ASSERT_EQUAL_INT(2, FN_TAN);
     TEST_ASSERT_EQUAL_INT(9, FN_LOG);
     TEST_ASSERT_EQUAL_INT(13, FN_MAX);
@@ -246,7 +248,7 @@ static char *read_whole(const char *path) {
     return text;
 }
 
-/* The text must contain `before`, the name of f and `after`, one after the other. */
+/* Fails the test if the text does not contain `before`, the name of f and `after`, one directly after the other. */
 static void expect_in(const char *text, const char *before, int f, const char *after,
                       const char *where) {
     char words[80];
@@ -259,7 +261,7 @@ static void expect_in(const char *text, const char *before, int f, const char *a
 TEST(function_rows, words_of_the_docs) {
     char *docs = read_whole("docs/language.md");
     char *words = read_whole("tests/fuzz/fuzz_lang.dict");
-    for (char *c = docs; *c != '\0'; c++) { /* regardless of the page's line breaks */
+    for (char *c = docs; *c != '\0'; c++) { /* joins the lines of the page */
         *c = *c == '\n' ? ' ' : *c;
     }
     char *list = strstr(docs, "`+ - * / ^`, parentheses, `");
