@@ -1,5 +1,5 @@
-/* builtin.h: the models built into the program: copies of the files in core/models. mk/setup/embed_models.sh generates
- * the definitions. */
+/* builtin.h: the models built into the program. Their C, made by mk/setup/embed_models.sh, holds copies of the files in
+ * core/models. */
 #ifndef LANG_BUILTIN_H
 #define LANG_BUILTIN_H
 
@@ -15,7 +15,7 @@ struct builtin_model {
 extern const struct builtin_model builtin_models[];
 extern const size_t builtin_model_count;
 
-/* As above, for the descriptions of figures, mk/figures/NAME.fig (host/io/figure_draw.h). */
+/* As builtin_models, for the descriptions of figures, mk/figures/NAME.fig (host/io/figure_draw.h). */
 extern const struct builtin_model builtin_figures[];
 extern const size_t builtin_figure_count;
 

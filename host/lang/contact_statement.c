@@ -17,9 +17,9 @@ static bool add_contact(parser *in, const contact_statement *made);
  *   both       := comparison { and comparison }
  *   comparison := sum (> | >= | < | <=) sum | ( condition )
  *
- * It becomes one expression, true when above zero: a > b is a - b, `and` is min, `or` is max. Only the text after a
- * closing parenthesis shows if it enclosed a condition or the beginning of a sum. So the same functions read both, and
- * a sum continues after it. NESTING_MAX bounds the recursion. */
+ * It becomes one expression, above zero if the condition is true: a > b is a - b, `and` is min, `or` is max. Only the
+ * text after a closing parenthesis shows whether it enclosed a condition or the beginning of a sum. So the same
+ * functions read both, and after the beginning of a sum they read its rest. NESTING_MAX bounds the recursion. */
 
 typedef struct reading {
     word_id statement; /* the statement, for hints */
@@ -43,7 +43,7 @@ static const expr *missing_comparison(parser *in, const reading *how) {
     return NULL;
 }
 
-/* A condition in parentheses, or the sum that begins with them. */
+/* Reads a condition in parentheses, or a sum that begins with parentheses. */
 static const expr *parse_group(parser *in, reading *how, bool *is_condition) {
     const place open = in->token.at;
     if (how->depth == NESTING_MAX) {
@@ -88,7 +88,7 @@ static const expr *parse_comparison(parser *in, reading *how, bool *is_condition
     if (by == NULL) {
         return NULL;
     }
-    /* only the signs of comparisons matter, so that a length and a speed may be combined */
+    /* only the sign of a difference matters; without dimension, conditions on a length and a speed may be combined */
     expr *made = expr_new(in, by->op, by->at);
     *made = *by;
     made->dim = dim_none();
@@ -96,7 +96,7 @@ static const expr *parse_comparison(parser *in, reading *how, bool *is_condition
     return made;
 }
 
-/* PART { word PART }; two or more parts must be conditions. */
+/* Reads PART { word PART }. If there are several parts, each must be a condition. */
 static const expr *parse_joined(parser *in, reading *how, word_id word, function_id function,
                                 const expr *(*part)(parser *, reading *, bool *),
                                 bool *is_condition) {
@@ -127,7 +127,7 @@ static const expr *parse_any(parser *in, reading *how, bool *is_condition) {
     return parse_joined(in, how, WORD_OR, FN_MAX, parse_both, is_condition);
 }
 
-/* Comparisons joined by `and`, `or` as one expression: true when above zero. Hints quote the statement. */
+/* Reads a condition as one expression, which is above zero if the condition is true. Hints quote the statement. */
 static const expr *parse_condition(parser *in, word_id statement) {
     reading how = {statement, 0};
     bool is_condition = false;
@@ -139,7 +139,7 @@ static const expr *parse_condition(parser *in, word_id statement) {
 
 static const char *form(void) { return word_row(WORD_WHEN)->form; }
 
-/* The coordinate or rate to be set; *usable is false for another name (reported). */
+/* Reads the coordinate or rate to be set. *usable is false for another name (reported). */
 static bool take_target(parser *in, const contact_statement *made, assignment *set, bool *usable) {
     char words[80];
     const token name = in->token;
@@ -213,7 +213,7 @@ static bool parse_set(parser *in, contact_statement *made) {
     return true;
 }
 
-/* set ITEM {, ITEM}: a line may end after a comma. */
+/* Reads set ITEM {, ITEM}. A line may end after a comma. */
 static bool parse_sets(parser *in, contact_statement *made) {
     if (!parser_expect_word(in, WORD_SET, WORD_WHEN)) {
         return false;
@@ -253,7 +253,7 @@ static bool parse_block(parser *in, contact_statement *made) {
     return parser_end_statement(in, "the crossing");
 }
 
-/* Returns false if the token is neither a direction nor a brace, nor similar to a direction. */
+/* Reads an optional direction. Returns false for another name, unless it is similar to a direction. */
 static bool take_direction(parser *in, contact_statement *made) {
     if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;
@@ -397,7 +397,7 @@ bool read_stop(parser *in, const statement_word *word) {
            add_contact(in, &made);
 }
 
-/* The coordinate's generalized force: a force for a length, a torque for an angle. */
+/* Reads the normal force, in the dimension of the coordinate's generalized force: a torque for an angle. */
 static const expr *parse_normal(parser *in, const symbol *coordinate) {
     const place at = in->token.at;
     const expr *value = parse_expression(in, CONTEXT_EVENT);

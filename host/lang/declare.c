@@ -4,7 +4,7 @@
 
 #include "host/lang/statements.h"
 
-/* The output of this name; NULL, reported, if the name is unknown or no output. */
+/* Returns the output of this name, or NULL (reported) if the name is unknown or not an output. */
 static const symbol *find_output(parser *in, const token *name) {
     char words[80];
     char hint[120] = "";
@@ -48,7 +48,7 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     return true;
 }
 
-/* The recorded output. Noises of several effects on one output have the same record. */
+/* Returns the symbol of the noisy output. All noises of an output, in whichever effect, share it. */
 static const symbol *record_of(parser *in, const symbol *output) {
     const mechanism *inside = in->builder->made;
     for (int i = 0; i < inside->noise_count; i++) {
@@ -113,7 +113,7 @@ bool read_noise(parser *in, const statement_word *word) {
 
 /* === coordinate, state, parameter, input, let, output ========================================= */
 
-/* A new symbol of this name, or NULL if the name is not available (reported). */
+/* Returns a new symbol of this name, or NULL (reported) if the name is not available. */
 static named *claim_name(parser *in, const token *name) {
     function_id function = FN_SIN;
     const int length = (int)name->length;
@@ -218,7 +218,7 @@ bool read_unknown(parser *in, const statement_word *word) {
     return parser_end_statement(in, "the declaration");
 }
 
-/* = EXPR, after the name. Declares the name even if the expression fails. */
+/* Reads "= EXPR" after the name. The name stays declared if the expression fails. */
 static bool parse_value(parser *in, symbol *made, const statement_word *word, expr_context context,
                         place *value_at) {
     named *entry = made == NULL ? NULL : (named *)made;
@@ -245,13 +245,14 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         made->value = value;
         if (value != NULL) {
             made->dim = value->dim;
-            made->dim.any &= made->kind == SYM_LET; /* a zero with a name is an ordinary number */
+            /* a named zero has a fixed dimension, except in a let */
+            made->dim.any &= made->kind == SYM_LET;
         }
     }
     return value != NULL;
 }
 
-/* `rate NAME`, after an input's name or value: the input that is its time derivative. It may be declared later. */
+/* Reads `rate NAME` after an input's name or value: the input that is its derivative, perhaps declared later. */
 static bool parse_rate(parser *in, symbol *made) {
     if (!parser_is_word(in, WORD_RATE) || (made != NULL && made->rate != NULL)) {
         return true;

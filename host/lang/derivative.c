@@ -1,5 +1,5 @@
-/* derivative.c: time derivatives of lets, by the chain rule. Each derivative is a let without a statement, made when it
- * is first named. Other code treats it like any let. */
+/* derivative.c: time derivatives of lets, by the chain rule. Each derivative is a let without a statement, made when an
+ * expression first names it. Other code treats it as any other let. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "host/lang/statements.h"
 #include "host/lang/value.h"
 
-/* A derivative that is 0 has no tree: *d is NULL. All functions return false after an error. */
+/* *d: the time derivative of `of`, or NULL if it is 0. Returns false after an error. */
 static bool derive(parser *in, const expr *of, const token *name, const expr **d);
 
 static const expr *number(parser *in, place at, double value) {
@@ -27,8 +27,8 @@ static const expr *call(parser *in, function_id f, place at, const expr *a) {
     return a == NULL ? NULL : expr_call(in, f, at, a, NULL);
 }
 
-/* a^n. Slopes have negative powers instead of quotients by products: the derivative of a power treats its base as a
- * whole. NULL if the nesting is too deep, which is reported. */
+/* Builds a^n; NULL if the nesting is too deep (reported). Slopes contain negative powers instead of quotients,
+ * because the derivative of a power keeps its base as one expression. */
 static const expr *power(parser *in, const expr *a, double n) {
     return a == NULL ? NULL : binary(in, EXPR_POW, a->at, a, number(in, a->at, n));
 }
@@ -39,7 +39,7 @@ static const expr *negative(parser *in, const expr *a) {
     return a == NULL ? NULL : expr_negate(in, a->at, a);
 }
 
-/* a + b, a - b, with NULL for 0. */
+/* Builds a + b or a - b. NULL stands for 0. */
 static const expr *sum(parser *in, expr_op op, place at, const expr *a, const expr *b) {
     if (b == NULL) {
         return a;
@@ -50,7 +50,7 @@ static const expr *sum(parser *in, expr_op op, place at, const expr *a, const ex
     return expr_binary(in, op, at, a, b);
 }
 
-/* The derivative of the function by its argument u; NULL: zero, or too deep. */
+/* The derivative of a function of one argument u by u. NULL if it is 0, or if the nesting is too deep (reported). */
 static const expr *slope(parser *in, const expr *of) {
     const expr *u = of->left;
     const place at = of->at;
@@ -73,7 +73,7 @@ static const expr *slope(parser *in, const expr *of) {
     case FN_SINH: return call(in, FN_COSH, at, u);
     case FN_COSH: return call(in, FN_SINH, at, u);
     case FN_TANH: return power(in, call(in, FN_COSH, at, u), -2.0);
-    case FN_ATAN2: /* functions of two arguments are handled below */
+    case FN_ATAN2: /* of_call() handles functions of two arguments */
     case FN_MIN:
     case FN_MAX:
     case FN_SIGN: break; /* the slope is 0, except at the jump */
@@ -91,7 +91,8 @@ static const expr *of_call(parser *in, const expr *of, const expr *du, const exp
         const expr *size = binary(in, EXPR_ADD, at, square(in, u), square(in, v));
         return binary(in, EXPR_MUL, at, top, power(in, size, -1.0));
     }
-    if (of->function == FN_MIN || of->function == FN_MAX) { /* half of each at equality */
+    /* if both arguments are equal, half the slope of each */
+    if (of->function == FN_MIN || of->function == FN_MAX) {
         const expr *lead = call(in, FN_SIGN, at, binary(in, EXPR_SUB, at, u, v));
         const expr *half = number(in, at, of->function == FN_MIN ? -0.5 : 0.5);
         return sum(in, EXPR_ADD, at,
@@ -102,7 +103,7 @@ static const expr *of_call(parser *in, const expr *of, const expr *du, const exp
     return binary(in, EXPR_MUL, at, slope(in, of), du);
 }
 
-/* u^v: v u^(v-1) u' + u^v log(u) v' */
+/* (u^v)' = v u^(v-1) u' + u^v log(u) v' */
 static const expr *of_power(parser *in, const expr *of, const expr *du, const expr *dv) {
     const expr *u = of->left;
     const expr *v = of->right;
@@ -231,7 +232,7 @@ const symbol *let_rate(parser *in, const symbol *let, const token *name) {
 }
 
 /* === inputs with a rate ======================================================================= */
-/* Inputs with a rate. Inside a step such an input moves like a coordinate of given acceleration. */
+/* Inside a step, an input with a rate moves as a coordinate of given acceleration does. */
 
 const symbol *symbol_moving(const symbol *s, int *primes) {
     if (s->kind != SYM_INPUT || s->driven == NULL) {
@@ -257,7 +258,7 @@ char *input_rate_hint(const symbol *input, char *buffer) {
     return buffer;
 }
 
-/* Is the rate an input of the right kind? */
+/* Reports a rate that is not a suitable input, and returns false. */
 static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
     const named *rate = (const named *)s->rate;
     char unit[DIM_TEXT_SIZE];
@@ -299,7 +300,7 @@ static bool is_rate(const mechanism *made, const symbol *s) {
     return is;
 }
 
-/* Adds the coordinate that has the value of the input. */
+/* Adds the coordinate that moves in place of the input. */
 static void drive(parser *in, mechanism *made, named *input) {
     named *coordinate = arena_alloc(in->arena, sizeof *coordinate);
     named *rate = (named *)input->symbol.rate;
@@ -339,7 +340,7 @@ static const symbol *find_input(const mechanism *made, const expr *tree, bool ra
     return found != NULL ? found : find_input(made, tree->right, rates, mark);
 }
 
-/* A hold fixes a value, so the rates of the inputs in the value must be known. */
+/* Stops and holds must not contain a rate. In a hold, each input must have a rate: the hold fixes the value. */
 static void check_contact(parser *in, const mechanism *made, const contact_statement *each,
                           int mark) {
     char hint[RATE_HINT_SIZE];

@@ -51,7 +51,8 @@ int name_declared_later(const token *name) {
     return 0;
 }
 
-/* The hint "x'" for a rate in another spelling, such as xdot, if x has a rate; else false. */
+/* Writes a hint such as "write x'" for a derivative in another spelling, such as xdot, if x is a coordinate, state or
+ * let. Returns false if there is no such hint. */
 static bool rate_hint(parser *in, const token *name, char *hint, size_t size) {
     static const char *const forms[][3] = {
         {"", "dot", "'"}, {"", "_dot", "'"}, {"", "ddot", "''"}, {"", "_ddot", "''"},
@@ -202,7 +203,7 @@ static const expr *unknown_value(expr *made) {
     return made;
 }
 
-/* Copies height, order and uses of a name to its node: for a let or an output, those of its expression. */
+/* Copies the height, order and uses of a name to its node. A let or an output has those of its expression. */
 static const expr *take_properties(parser *in, expr *made, const token *name) {
     const symbol *found = made->symbol;
     switch (found->kind) {
@@ -221,7 +222,7 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
     case SYM_RECORD:
         made->uses = found->kind == SYM_OUTPUT ? USES_OUTPUT : 0;
         if (found->value != NULL) {
-            /* even a let of plain numbers has a unit, because its name stands for a quantity */
+            /* the name of a let stands for a quantity, so a let of plain numbers has a unit, too */
             made->uses |= found->value->uses | (found->kind == SYM_LET ? USES_UNIT : 0);
             made->order = found->value->order;
             made->height = found->value->height + 1;
@@ -258,7 +259,7 @@ static const expr *expr_name(parser *in, const token *name) {
         }
         report_unknown(in, name);
         if (in->builder != NULL && !in->all_effects) {
-            /* The name is added as an unknown one, so that it is reported only once. */
+            /* The unknown name is added, so that it is reported only once. */
             found = names_add(in->builder->names, name->text, name->length);
             found->is_placeholder = true;
             found->symbol.kind = SYM_LET;

@@ -9,23 +9,24 @@
 #define PI 3.14159265358979323846
 
 /* --- grammar (expression.c, contact_statement.c) --- */
-const expr *parse_expression(parser *in, expr_context context); /* NULL: gave up */
-bool parse_close(parser *in, place open);                       /* the ')' that closes `open` */
-/* The current unit token; *text is its text without blanks. */
+const expr *parse_expression(parser *in, expr_context context); /* NULL after an error */
+/* reads the ')' that closes `open` */
+bool parse_close(parser *in, place open);
+/* Reads the current unit token. *text is its text without blanks. */
 bool parse_unit(parser *in, unit_scale *result, const char **text);
 
-/* The line of a later statement of the mechanism that declares the name, or 0. */
+/* Returns the line of a later statement of the mechanism that declares the name, or 0. */
 int name_declared_later(const token *name);
-/* Report an unknown coordinate, with the nearest known name as a hint. */
+/* Reports an unknown coordinate, with the nearest known name as a hint. */
 void no_such_coordinate(parser *in, const token *name);
 /* As no_such_coordinate(), for a name that a scene or the command line changes. */
 void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
-/* The coordinate of that name, or NULL (reported). Messages name the owner with `whose`. */
+/* Returns the coordinate of that name, or NULL (reported). `whose` names the statement in messages. */
 const symbol *find_coordinate(parser *in, const token *name, const char *whose);
 
 /* --- derivatives (derivative.c) --- */
-/* The let that is the time derivative of `let`; NULL if it has no derivative (reported at `name`). */
+/* Returns the let that is the time derivative of `let`, or NULL if there is no derivative (reported at `name`). */
 const symbol *let_rate(parser *in, const symbol *let, const token *name);
 
 /* --- operators (operators.c) --- */
@@ -36,16 +37,16 @@ const expr *expr_difference(parser *in, place at, const expr *left, const expr *
 const expr *expr_negate(parser *in, place at, const expr *operand);
 const expr *expr_call(parser *in, function_id function, place at, const expr *left,
                       const expr *right);
-/* The value of an expression of numbers and operators only; false for others. */
+/* *value: the value of an expression that has only numbers and operators. Returns false for other expressions. */
 bool expr_constant(const expr *tree, double *value);
-/* Report at `at` "RULE, but this is ..." if the dimension of `value` is not `wanted`. */
+/* Reports "RULE, but this is ..." at `at`, and returns false, if the dimension of `value` is not `wanted`. */
 bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule);
-/* Report at `at` a nonzero value without a unit if the declared unit of the symbol (or its derivative) is not SI. The
- * current token is the one after the value. */
+/* Reports a nonzero value without a unit at `at`, and returns false, if the declared unit of the symbol (or of its
+ * derivative) is not SI. The current token must be the one after the value. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
-/* As above, for the limit in a stop or a crossing, if `of` is a single symbol. */
+/* As check_unit(), for the limit `value` in a stop or a crossing, if `of` is a single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
-/* "SUBJECT is mass [kg]": the rule for a quantity of known dimension. */
+/* Writes the rule for check_dimension(), such as "SUBJECT is mass [kg]", to buffer[RULE_SIZE]. Returns `buffer`. */
 enum { RULE_SIZE = 300 };
 char *dimension_rule(char *buffer, const char *subject, const char *verb, dimension dim);
 

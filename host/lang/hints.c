@@ -5,12 +5,11 @@
 #include "host/base/alloc.h"
 #include "host/lang/value.h"
 
-/* A rate near zero, SI, far below any rate of interest. At a tenth of it, a force that vanishes with the rate is ten
- * times smaller. */
+/* A rate near zero, SI, far below any rate of interest. */
 #define NEAR_REST 1e-6
 
-/* Does the tree name a coordinate other than `own`, or `own` without a prime? Lets are searched, too; EXPR_HEIGHT_MAX
- * bounds the recursion. */
+/* Returns true if the tree names a coordinate other than `own`, or `own` without a prime. Lets are searched, too.
+ * EXPR_HEIGHT_MAX bounds the recursion. */
 static bool names_others(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;
@@ -22,7 +21,7 @@ static bool names_others(const expr *tree, const symbol *own) {
     return names_others(tree->left, own) || names_others(tree->right, own);
 }
 
-/* Does the tree contain sign(an expression of the coordinate's rate and constants)? */
+/* Does the tree contain the sign() of an expression of the coordinate's rate and constants? */
 static bool has_sign_of_rate(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;
@@ -45,7 +44,8 @@ static double term_at(const term *of, const symbol *coordinate, valuation *known
     return value;
 }
 
-/* Does the force jump against the motion at rest? False if it is not finite. */
+/* Does the force jump against the motion at rate 0? At a tenth of the rate, a jump keeps its size, but a smooth force
+ * changes by a tenth. False if the force is not finite. */
 static bool opposes_at_rest(const term *of, valuation *known) {
     const symbol *own = of->coordinate;
     const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);
@@ -54,13 +54,13 @@ static bool opposes_at_rest(const term *of, valuation *known) {
     return jump < 0.0 && nearer < 0.5 * jump;
 }
 
-/* The second difference of F over two rates on either side of zero. */
+/* F at +rate plus F at -rate, minus twice F at rate 0. */
 static double bend(const term *of, const symbol *coordinate, valuation *known, double rate) {
     return term_at(of, coordinate, known, rate) + term_at(of, coordinate, known, -rate) -
            2.0 * term_at(of, coordinate, known, 0.0);
 }
 
-/* Has F a kink at rest of this coordinate? The second difference of a smooth F shrinks to a hundredth at a tenth of the rate. */
+/* Has F a kink at rate 0? At a tenth of the rate, a kink keeps a tenth of the bend, a smooth F a hundredth. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
     const double size = term_at(of, coordinate, known, 0.0);
     const double far = bend(of, coordinate, known, NEAR_REST);

@@ -4,9 +4,9 @@
 
 #include "model.h"
 
-/* The first active Q or F that is dry friction written by hand, or NULL; *of is the coordinate with friction. Such a Q
- * contains the sign of its own coordinate's rate and jumps against the motion about rest at the start. Such an F grows
- * with the size of a rate. */
+/* Returns the first active Q or F that is dry friction without the statement `friction`, or NULL. *of is the coordinate
+ * with the friction. Such a Q contains the sign of its coordinate's rate. At the start, it jumps against the motion
+ * when this rate changes its sign. Such an F has a kink at rate 0. */
 const term *hint_friction(const instance *made, const symbol **of);
 
 #endif

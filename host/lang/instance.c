@@ -17,7 +17,7 @@ double instance_value(const instance *of, const symbol *s, int primes) {
     case SYM_INPUT: return of->input[s->index];
     case SYM_COORDINATE:
     case SYM_STATE: return primes < of->start_count[s->index] ? of->start[s->index][primes] : 0.0;
-    case SYM_LET: /* expressions */
+    case SYM_LET:
     case SYM_OUTPUT:
     case SYM_RECORD: break;
     }
@@ -29,12 +29,11 @@ const effect *instance_lacks(const instance *of, const symbol *what) {
 }
 
 /* === ranges of contacts and of noise ========================================================== */
-/* Checks that need the numbers of one run: the ranges of its active contacts and noise. */
 
-/* Rounding of decimals: 0.1 + 0.2 does not count as above 0.3, nor 0.3 - 0.2 - 0.1 as below zero. */
+/* Allowance for rounded decimals: 0.1 + 0.2 is not above 0.3, nor 0.3 - 0.2 - 0.1 below zero. */
 #define LAST_DIGITS 1e-15
 
-/* The value at the start; NAN if it changes with the motion, or is not finite (reported). */
+/* Returns the value at the start. NAN if it changes with the motion, or is not finite (reported). */
 static double value_at_start(const expr *tree, valuation *known, const char *what) {
     if ((tree->uses & USES_UNKNOWNS) != 0) {
         return (double)NAN;
@@ -77,7 +76,7 @@ static void check_noise(const noise *each, valuation *known) {
     }
 }
 
-/* Report statements of two active effects that exclude each other. */
+/* Reports statements of two active effects that exclude each other. */
 static void check_pairs(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
     for (int i = 0; i < of->contact_count; i++) {
@@ -108,7 +107,7 @@ static void check_pairs(const instance *made, diags *all) {
     }
 }
 
-/* A scene may name symbols of any effect; an input exists only with its effect. */
+/* Reports an input of an inactive effect, in which case there is no such input. A scene may name it. */
 static void check_inputs(const instance *made, const expr *tree, diags *all) {
     if (tree == NULL) {
         return;
@@ -130,7 +129,7 @@ static void check_inputs(const instance *made, const expr *tree, diags *all) {
     check_inputs(made, tree->right, all);
 }
 
-/* Count events, and the values that they set, and compare the counts with their limits. */
+/* Counts a contact and the values that it sets, and reports the first one above a limit. */
 static void count_event(const contact_statement *each, int *events, int *sets, diags *all) {
     *events += 1;
     *sets += each->set_count;
@@ -143,8 +142,8 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     }
 }
 
-/* Report values out of range in `made`, whose parameters are `known`. Inputs are checked with their initial values; a
- * program that changes them during a run is responsible for the new values. */
+/* Reports values of `made` that are out of range. Inputs are checked with their initial values. A program that
+ * changes inputs during a run is responsible for the new values. */
 static void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
     known->input = made->input;
@@ -231,7 +230,7 @@ instance *instance_again(const instance *first) {
 
 #define STEP_DEFAULT_S 1e-3
 #define UNTIL_DEFAULT_S 10.0
-#define ROUNDING 1e-9 /* round-off of unit conversions, as a part of a step */
+#define ROUNDING 1e-9 /* round-off of unit conversions, relative to a step */
 
 enum { WORDS_SIZE = 120 };
 
@@ -240,7 +239,7 @@ typedef struct given {
     place at;
 } given;
 
-/* The values from the scene and from the command line; the later one counts. */
+/* The values from the scene and from the command line, which overrides the scene. */
 typedef struct plan {
     valuation values;
     given *input;  /* [input_count] */
@@ -347,7 +346,7 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
     }
 }
 
-/* Applies "all" before the other names, which add or remove effects. */
+/* Applies "all", which must come before the names of single effects. */
 static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
     bool found = false;
     for (int i = 0; i < count && !found; i++) {
@@ -513,7 +512,7 @@ static void allocate(instance *made) {
     }
 }
 
-/* An instance whose numbers are not computed yet, and the plan for computing them. */
+/* Returns an instance whose numbers are not computed yet. *what: the plan for computing them. */
 static instance *begin(const mechanism *of, const scene *from, const overrides *changes, diags *all,
                        plan *what) {
     struct arena *memory = arena_new();

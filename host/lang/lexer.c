@@ -16,7 +16,7 @@ static int at_offset(const lexer *in, size_t ahead) {
     return offset < text->length ? (unsigned char)text->text[offset] : -1;
 }
 
-/* Advance by one byte. Columns count characters, so UTF-8 continuation bytes do not count. */
+/* Advances by one byte. Columns count characters, so UTF-8 continuation bytes do not count. */
 static void step_over(place *at) {
     const unsigned char c = (unsigned char)at->source->text[at->offset++];
     if (c == '\n') {
@@ -47,8 +47,9 @@ static bool is_letter(int c) {
 
 static bool is_digit(int c) { return c >= '0' && c <= '9'; }
 
-/* Lines end with a line feed, optionally after a carriage return. A lone carriage return would hide the text after it
- * when the file is displayed. After a comment, it could hide a whole file with such line ends. */
+/* Reports a carriage return within a line. Lines end with a line feed, optionally after a carriage return. A lone
+ * carriage return would hide the text after it when the file is displayed. After a #, a file whose lines end with it
+ * would be one comment. */
 static void check_line_ends(const lexer *in) {
     const source *text = in->at.source;
     const char *at = text->text + in->at.offset;
@@ -74,7 +75,7 @@ lexer lexer_start(const source *text, diags *all) {
     return in;
 }
 
-/* A comment of another language: to the end of the line, or to a star and a slash. */
+/* Reports a comment in the form of another language, and skips it. Returns false if there is none. */
 static bool skip_foreign_comment(lexer *in) {
     const int c = at_offset(in, 0);
     const int next = at_offset(in, 1);
@@ -122,7 +123,8 @@ static size_t behind_digits(const lexer *in, size_t from) {
 
 static void read_number(lexer *in, token *made) {
     size_t length = behind_digits(in, 0);
-    if (at_offset(in, length) == '.' && at_offset(in, length + 1) != '.') { /* 1 .. 2 */
+    /* not the dots of a range, 1 .. 2 */
+    if (at_offset(in, length) == '.' && at_offset(in, length + 1) != '.') {
         length = behind_digits(in, length + 1);
     }
     const int mark = at_offset(in, length);
@@ -186,7 +188,7 @@ static void read_name(lexer *in, token *made) {
 static void read_string(lexer *in, token *made) {
     size_t length = 1;
     int c = at_offset(in, length);
-    bool is_clean = true; /* no carriage return (those were reported at the start) */
+    bool is_clean = true; /* no control characters; carriage returns were reported at the start */
     bool is_utf8 = true;
     while (c > 0 && c != '"' && c != '\n') {
         const size_t left = in->at.source->length - in->at.offset - length;

@@ -9,8 +9,8 @@
 #include "host/number/enclosure.h"
 
 enum {
-    NAME_LENGTH_MAX = 63, /* characters of a name */
-    PRIMES_MAX = 9        /* time derivatives written on one name */
+    NAME_LENGTH_MAX = 63, /* most characters of a name */
+    PRIMES_MAX = 9        /* most primes after a name */
 };
 
 typedef enum token_kind {
@@ -34,7 +34,7 @@ typedef struct token {
     size_t length;
     int primes;
     double number;
-    enclosure exact;  /* the exact decimal value, which a double may not have */
+    enclosure exact;  /* encloses the decimal value, which a double may not represent */
     bool starts_line; /* first token of its line */
 } token;
 

@@ -29,26 +29,27 @@ typedef struct symbol {
                        * unit after the only number of its value */
     unit_scale declared; /* scale of the declared unit; divisor 0 if no unit is declared */
     dimension dim;       /* dimension of the symbol without primes */
-    bool is_angle;       /* declared [rad] (or [deg], [rev]): coordinate or state */
+    bool is_angle;       /* coordinate or state: declared in rad, deg or rev */
     const expr *value;   /* parameter, input, let, output, record: its expression; else NULL */
     place at;            /* place of its declaration */
-    int index;           /* running number within its kind in its mechanism, declaration order */
+    int index;           /* number within its kind in its mechanism, in the order of declaration */
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
     const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
-    /* An input with a rate moves inside a step. For the input and its rate: the coordinate that they drive, which is
-     * after the declared ones. For that coordinate: the input. Else NULL. */
+    /* An input with a rate moves inside a step: a driven coordinate, listed after the declared ones, takes its place.
+     * This pointer leads from the input, and from its rate, to that coordinate, and from the coordinate to the input.
+     * For other symbols it is NULL. */
     const struct symbol *driven;
 } symbol;
 
-/* The symbol that takes the place of `s` during motion. For an input with a rate, and for that rate, it is the driven
- * coordinate with *primes primes; for any other symbol it is `s`. */
+/* Returns the symbol that takes the place of `s` during motion. For an input with a rate, and for that rate, it is
+ * the driven coordinate with *primes primes. For any other symbol it is `s`. */
 const symbol *symbol_moving(const symbol *s, int *primes);
 
-/* The input that accelerates a driven coordinate, or NULL. Its rate is constant inside a step. */
+/* Returns the input that accelerates a driven coordinate. If NULL, the rate is constant inside a step. */
 const symbol *symbol_acceleration(const symbol *driven);
 
-/* A hint that declares the rate of an input: two statements that can be pasted. */
+/* Writes a hint that declares the rate of an input to buffer[RATE_HINT_SIZE]: two statements that can be pasted. */
 enum { RATE_HINT_SIZE = 320 };
 char *input_rate_hint(const symbol *input, char *buffer);
 
@@ -71,16 +72,18 @@ struct expr {
     function_id function;
     int primes;      /* time derivatives on a symbol: 0, 1, 2, ... */
     double number;   /* SI value of EXPR_NUMBER */
-    enclosure exact; /* the exact decimal value, which a double may not have */
+    enclosure exact; /* encloses the decimal value, which a double may not represent */
     const symbol *symbol;
     const expr *left;
     const expr *right;
-    place at; /* the operator's or the operand's place, for messages */
+    place at; /* place of the operator or the operand, for messages */
     dimension dim;
-    int height;          /* 1 for a leaf; a let or output has the height of its expression */
-    int order;           /* most primes on any coordinate or state, also within lets */
-    unsigned uses;       /* USES_ bits of its dependencies, through lets too */
-    const symbol *angle; /* a symbol in it that is an angle not declared in SI, or NULL */
+    /* 1 for a leaf; for a let or an output, one more than its expression's height */
+    int height;
+    int order;     /* most primes on any coordinate or state, also within lets */
+    unsigned uses; /* USES_ bits of its dependencies, through lets too */
+    /* a symbol in the expression that is an angle not declared in SI, or NULL */
+    const symbol *angle;
 };
 
 enum {
@@ -113,8 +116,8 @@ typedef struct effect {
     int last_line; /* end of its block */
 } effect;
 
-/* `set NAME = EXPR` or `start NAME' = EXPR` of a scene, with an expression of constants. Or one assignment of a `when`,
- * with coordinates, rates, parameters and inputs. */
+/* An assignment of a scene, `set NAME = EXPR` or `start NAME' = EXPR`, whose expression is constant. Or an assignment
+ * of a `when`, whose expression may contain coordinates, rates, parameters and inputs. */
 typedef struct assignment {
     const symbol *symbol;
     int primes;
@@ -128,26 +131,29 @@ typedef struct contact_statement {
     /* stop: left - right, >= 0 when apart (coordinates, no rates). hold: the expression whose rate is zero while the
      * hold acts (coordinates, no rates). when: left - right (rates allowed). friction: NULL. */
     const expr *value;
-    const symbol *coordinate;    /* friction: acts on its rate; else NULL */
+    const symbol *coordinate;    /* friction: the coordinate whose motion it opposes; else NULL */
     const expr *restitution;     /* stop: 0 to 1 */
     const expr *static_friction; /* friction: coefficients, 0 <= kinetic <= static */
     const expr *kinetic_friction;
-    const expr *normal;     /* friction: normal force [N]; below zero counts as zero */
-    const expr *condition;  /* hold: true while this is above zero; `and` is min, `or` is max */
-    int direction;          /* when: +1 rising, -1 falling, 0 both */
-    const assignment *sets; /* when: coordinates and rates, all evaluated before any is set */
+    const expr *normal; /* friction: normal force [N]; below zero counts as zero */
+    /* hold: active while this expression is above zero; `and` has become min, `or` max */
+    const expr *condition;
+    int direction; /* when: +1 rising, -1 falling, 0 both */
+    /* when: assignments to coordinates and rates; all values are computed before any is set */
+    const assignment *sets;
     int set_count;
     int effect; /* index of the effect that contains the statement, or -1 */
     place at;
 } contact_statement;
 
-/* Limits of one run: stops, frictions, holds and whens together, and values set by whens. */
+/* Largest numbers in one run: of stops, frictions, holds and whens together, and of values that whens set. */
 enum { CONTACTS_MAX = 16, SETS_MAX = 128 };
 
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
     const symbol *output;
-    const symbol *record;  /* the noisy output, SYM_RECORD: one for each output */
+    /* symbol of the noisy output (SYM_RECORD); all noises of an output share it */
+    const symbol *record;
     const expr *deviation; /* expression of constants, in the output's dimension, >= 0 */
     uint32_t seed;
     int effect;
@@ -189,7 +195,7 @@ typedef struct mechanism {
     const struct names *names; /* finds symbols by name (parser.h) */
 } mechanism;
 
-/* Limits of one mechanism or file. */
+/* Largest numbers in one mechanism or one file. */
 enum { COORDINATES_MAX = 64, EFFECTS_MAX = 500, MECHANISMS_MAX = 500, SCENES_MAX = 1000 };
 
 /* --- scenes ------------------------------------------------------------------------------------ */
@@ -232,20 +238,20 @@ void model_free(whirl_model *model);
 
 /* --- instances: a scene, or a bare mechanism, with the command line's changes, in numbers -------- */
 
-/* Changes from the command line; every `const char *` is text as typed ("m=3 [kg]", "theta'=1.2"). If the declared unit
- * is SI, a bare number is an SI value of the wanted dimension. */
+/* Changes from the command line. Every `const char *` is text as the user typed it ("m=3 [kg]", "theta'=1.2"). A number
+ * without a unit has the SI unit of the quantity; it is refused if the declared unit is not SI. */
 typedef struct overrides {
     const char *const *sets;
     int set_count; /* --set: parameters and inputs */
     const char *const *starts;
     int start_count; /* --start: coordinates and rates */
     const char *const *values;
-    int value_count; /* number of values of either kind, depending on the name (`accel`) */
+    int value_count; /* values of all symbols: the name decides between set and start */
     const char *const *with;
-    int with_count; /* effect names added, or "ledger"; "all": every effect */
+    int with_count; /* effect names added, or "ledger"; "all" adds every effect */
     const char *const *without;
-    int without_count; /* effect names removed; "all" comes first; "conserve": removes the scene's
-                        * conserve */
+    /* Effect names removed. "all" is applied first. "conserve" removes the scene's conserve. */
+    int without_count;
     const char *step;  /* "1ms", "1 [ms]", "0.001", or NULL */
     const char *until; /* the end of the scene, or NULL */
     const char
@@ -264,7 +270,7 @@ typedef struct range_value {
 
 typedef struct instance {
     const mechanism *mechanism;
-    const scene *scene; /* NULL for a bare mechanism */
+    const scene *scene; /* balance contacts during the run, also without `with ledger` */
     const char *name;   /* the scene's name, the mechanism's, or overrides.name */
     bool *with;         /* [effect_count] */
     const bool
@@ -275,42 +281,43 @@ typedef struct instance {
     double *input;     /* [input_count] SI */
     const expr **parameter_given; /* expressions of the values */
     const expr **input_given;
-    const expr ***start_given; /* NULL: not given, which is 0 */
-    double **start;            /* [coordinate_count][order] value, rate, ...: SI; order >= 2 */
-    place **start_at;          /* like start: the place of the value; no source for a default */
-    int *start_count;          /* [coordinate_count] entries in start[i] (2 for coordinates) */
-    range_value *range;        /* [range_count] */
+    const expr ***start_given; /* NULL: not given, so the start is 0 */
+    /* [coordinate_count][order] value, rate, ...: SI; order is at least 2 */
+    double **start;
+    place **start_at;   /* like start: the place of the value; no source for a default */
+    int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
+    range_value *range; /* [range_count] */
     int range_count;
     double step_s;    /* default 1e-3 */
     double until_s;   /* default 10 */
-    folding folding;  /* folding of the expressions above */
-    whole_ratio step; /* step_s, as it was written */
-    uint64_t steps;   /* to the end: until_s / step_s to the nearest, at most 2^63 */
+    folding folding;  /* constant folding of the expressions above */
+    whole_ratio step; /* step_s as a fraction */
+    uint64_t steps;   /* steps of the run: until_s / step_s, rounded to nearest, at most 2^63 */
     struct arena *arena;
 } instance;
 
-/* Is a statement of this effect active? One of the mechanism itself (-1) always is. */
+/* Is a statement of the effect with index `within` active? A statement of the mechanism itself (-1) always is. */
 bool instance_has(const instance *of, int within);
 
-/* The value of a parameter or an input, or the start of a coordinate or of its derivative, SI; NAN for other symbols. */
+/* The SI value of a parameter or an input, or the start of a coordinate or its derivative. NAN for other symbols. */
 double instance_value(const instance *of, const symbol *s, int primes);
 
 /* The inactive effect that declared this parameter or input. NULL if the effect is active, or if the symbol belongs to
  * no effect. */
 const effect *instance_lacks(const instance *instance, const symbol *what);
 
-/* Evaluate a scene to numbers. Without a scene (NULL), evaluate the mechanism at rest at zero. `changes` may be NULL.
+/* Evaluates a scene to numbers. Without a scene (NULL), the mechanism starts at rest at zero. `changes` may be NULL.
  * Returns NULL after an error, reported to `diags`. */
 instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
                         diags *diags);
-/* A copy with parameters, inputs and initial values folded with the setting of folding_way(). The first instance must
- * outlive it. NULL if a value is not finite. */
+/* A copy whose parameters, inputs and initial values are folded in the way of folding_way(). `first` must outlive the
+ * copy. Returns NULL if a value is not finite. */
 instance *instance_again(const instance *first);
 void instance_free(instance *instance);
 
-/* A time from the command line, such as `--from 1.5 [s]`, in seconds, at least 0. `text` may name parameters, with
- * their values in the changed scene. `what` is its name in messages. Returns false after an error, reported to `diags`.
- */
+/* *seconds: a time from the command line, such as `--from 1.5 [s]`, at least 0. `text` may contain parameters, which
+ * have their values in the changed scene. `what` is the time's name in messages. Returns false after an error, reported
+ * to `diags`. */
 bool instance_duration(const mechanism *mechanism, const scene *scene, const overrides *changes,
                        const char *what, const char *text, diags *diags, double *seconds);
 

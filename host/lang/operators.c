@@ -14,7 +14,7 @@ expr *expr_new(parser *in, expr_op op, place at) {
     return made;
 }
 
-/* Does the expression contain pi? Then it is meant in radians. */
+/* Returns true if the expression contains pi. Then it is meant in radians. */
 static bool has_pi(const expr *tree) {
     return tree != NULL && ((tree->op == EXPR_NUMBER && tree->number == PI) || has_pi(tree->left) ||
                             has_pi(tree->right));
@@ -116,7 +116,7 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
 
 static const char is_declared[] = "'%s' is declared in [%s], and this value has no unit";
 
-/* Report a bare number that is added to, or compared with, an angle that was not declared in radians. */
+/* Reports a bare number that is added to an angle, or compared with it, if the angle is not declared in radians. */
 static void check_bare(parser *in, const expr *value, const symbol *angle) {
     const symbol *s = value->symbol;
     const expr *is = s != NULL && s->kind == SYM_LET && s->value != NULL ? s->value : value;
@@ -137,7 +137,7 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 
-/* Reports a missing unit, and returns false. `with_name`: the hint has the symbol's name before the value. */
+/* Reports a missing unit, and returns false. If `with_name` is true, the hint begins with the symbol's name. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
     enum { SHOWN_MAX = 60 };
@@ -150,7 +150,7 @@ static bool has_unit(parser *in, place at, const expr *value, const symbol *of, 
     const char *text = at.source->text + at.offset;
     size_t length =
         (in->token.kind == TOKEN_END ? at.source->length : in->token.at.offset) - at.offset;
-    for (size_t i = 1; i < length; i++) { /* a range's end stops before ".." */
+    for (size_t i = 1; i < length; i++) { /* the low end of a range stops before ".." */
         length = text[i - 1] == '.' && text[i] == '.' ? i - 1 : length;
     }
     while (length > 0 && strchr(" \t\r\n", text[length - 1]) != NULL) {
@@ -188,7 +188,7 @@ bool check_limit(parser *in, place at, const expr *value, const expr *of) {
            has_unit(in, at, value, of->symbol, of->primes, false);
 }
 
-/* The common dimension; if they differ, reports "cannot BEFORE left BETWEEN right". */
+/* Returns the common dimension. If the dimensions differ, reports "cannot BEFORE left BETWEEN right". */
 static dimension common_dimension(parser *in, place at, const expr *left, const expr *right,
                                   const char *before, const char *between) {
     dimension common = left->dim.any ? right->dim : left->dim;
@@ -280,7 +280,7 @@ const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, cons
     return made;
 }
 
-/* Equal texts, apart from blanks and parentheses? */
+/* Returns true if both expressions have the same operators and operands in the same order. */
 static bool are_same(const expr *a, const expr *b) {
     if (a == NULL || b == NULL || a->op != b->op) {
         return a == b;
@@ -337,7 +337,7 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
     switch (function_takes(function)) {
     case TAKES_RATIO:
         common_dimension(in, at, left, right, words, "and");
-        made->uses |= USES_UNIT; /* radians */
+        made->uses |= USES_UNIT; /* the value is in radians */
         break;
     case TAKES_CHOICE:
         made->dim = common_dimension(in, at, left, right, words, "and");
@@ -368,7 +368,7 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
                        dim_text(left->dim, text, sizeof text));
         }
         if (function == FN_ASIN || function == FN_ACOS || function == FN_ATAN) {
-            made->uses |= USES_UNIT; /* radians */
+            made->uses |= USES_UNIT; /* the value is in radians */
         }
         break;
     }

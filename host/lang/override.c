@@ -19,8 +19,8 @@ static parser begin(const mechanism *of, const char *text, struct arena *arena, 
     return in;
 }
 
-/* Parses [+|-] NUMBER UNIT up to the end, with the unit without brackets: "1ms", "-8.5 rad/s". NULL for any other text;
- * `in` is then unchanged. */
+/* Reads [+|-] NUMBER UNIT up to the end of the text, with the unit without brackets: "1ms", "-8.5 rad/s". Returns NULL
+ * for any other text, and `in` is then unchanged. */
 static const expr *parse_plain_quantity(parser *in) {
     const parser before = *in;
     const token first = in->token;
@@ -56,7 +56,7 @@ static const expr *parse_plain_quantity(parser *in) {
     return first.sign == '-' && first.kind == TOKEN_SIGN ? expr_negate(in, first.at, made) : made;
 }
 
-/* Parses the remaining text. A value of bare numbers is SI in the wanted dimension. */
+/* Reads the remaining text. A value of numbers without units is SI in the wanted dimension. */
 static const expr *parse_quantity(parser *in, dimension wanted, const char *what) {
     const place at = in->token.at;
     const expr *made = parse_plain_quantity(in);
@@ -82,7 +82,7 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
     return made;
 }
 
-/* May this symbol be changed by this option? */
+/* Returns true if this option may change the symbol. Otherwise reports the reason. */
 static bool check_target(parser *in, override_kind kind, const token *name, const symbol *target) {
     const bool moves = target->kind == SYM_COORDINATE || target->kind == SYM_STATE;
     const bool is_constant = target->kind == SYM_PARAMETER || target->kind == SYM_INPUT;
@@ -149,7 +149,7 @@ const expr *override_quantity(const mechanism *of, const char *what, const char 
     return diags_calls(all) == before ? made : NULL;
 }
 
-/* The coordinate, state or output of this name, and its number of derivatives. NULL: unknown name. */
+/* Returns the coordinate, state or output of this name, or NULL. *primes: the number of primes. */
 static const symbol *quantity_named(const mechanism *of, const char *name, int *primes) {
     const size_t length = strcspn(name, "'");
     const named *known = names_find(of->names, name, length);

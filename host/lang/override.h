@@ -7,29 +7,30 @@
 
 typedef enum override_kind { OVERRIDE_SET, OVERRIDE_START, OVERRIDE_EITHER } override_kind;
 
-/* "NAME=EXPR" or "NAME'=EXPR". Returns false after an error (reported, in a source called "<command line>"). A bare
- * number is SI, and refused if the declared unit is not. "2 N*m" needs no brackets. */
+/* Reads "NAME=EXPR" or "NAME'=EXPR". A number without a unit is SI, and is refused if the declared unit is not. "2
+ * N*m" needs no brackets. Returns false after an error, reported in a source called "<command line>". */
 bool override_parse(const mechanism *of, override_kind kind, const char *text, struct arena *arena,
                     diags *diags, assignment *made);
 
-/* "1ms", "1 [ms]", "0.001": seconds; NULL after an error. `what` is "step" or "until". */
+/* Reads "1ms", "1 [ms]" or "0.001", in seconds. `what` is "step" or "until". Returns NULL after an error. */
 const expr *override_duration(const mechanism *of, const char *what, const char *text,
                               struct arena *arena, diags *diags);
 
-/* "500 Hz", "0.1mm", "1e-6": a quantity of this dimension, in SI; a bare number is SI. NULL after an error. */
+/* Reads a quantity of the wanted dimension, such as "500 Hz" or "1e-6" (SI). Returns NULL after an error. */
 const expr *override_quantity(const mechanism *of, const char *what, const char *text,
                               dimension wanted, struct arena *arena, diags *diags);
 
-/* A change of "X", "theta'" or an output, in SI. It needs the quantity's dimension, and a unit unless SI is declared.
- * An unknown name is not reported. NULL after an error. */
+/* Reads a change of `name`, a coordinate ("X"), a rate ("theta'") or an output, in SI. The text needs the quantity's
+ * dimension, and a unit unless the declared one is SI. Returns NULL after an error; an unknown name is not
+ * reported. */
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *diags);
 
-/* The hint for an unknown effect: a similar name, or all names; returns `hint`. */
+/* Writes the hint for an unknown effect: a similar name, or all names. Returns `hint`. */
 enum { EFFECT_HINT = 300 };
 const char *effect_hint(const mechanism *of, const char *text, size_t length,
                         char hint[EFFECT_HINT]);
-/* The index of the effect called `text`, or -1 (reported). */
+/* Returns the index of the effect called `text`, or -1 (reported). */
 int override_effect(const mechanism *of, const char *text, struct arena *arena, diags *diags);
 
 #endif

@@ -222,7 +222,7 @@ static bool is_decimal_comma(const token *sign) {
 
 const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]) {
     const token *next = &in->token;
-    const char *line = next->text - next->at.offset; /* begin of the text */
+    const char *line = next->text - next->at.offset; /* beginning of the text */
     const char *end = next->text;                    /* end of the operand before the token */
     while (end > line && (end[-1] == ' ' || end[-1] == '\t')) {
         end--;
@@ -238,7 +238,7 @@ const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]) {
     const size_t rest = opens ? length + 2 : length + (size_t)next->primes;
     const int before = (int)(end - begin);
     const bool known = in->names != NULL && names_find(in->names, name, length) != NULL;
-    size_t unit = length; /* length of the longest prefix that is a unit, as of kg/s */
+    size_t unit = length; /* length of the longest beginning that may be a unit, such as kg/s */
     while (!opens && (isalnum((unsigned char)name[unit]) || strchr("*/^", name[unit]) != NULL) &&
            name[unit] != '\0') {
         unit++;
@@ -324,7 +324,7 @@ bool statement_unknown(parser *in, unsigned where) {
     const token word = in->token;
     parser_next(in);
     if (in->builder != NULL && !in->all_effects) {
-        /* names that this statement may declare are not reported */
+        /* a name that the unknown statement may declare is not reported later */
         const token *declared = in->token.kind == TOKEN_NAME ? &in->token : &word;
         const bool fresh = !word_is_reserved(declared->text, declared->length) &&
                            names_find(in->names, declared->text, declared->length) == NULL;

@@ -25,9 +25,10 @@ typedef struct names names;
 
 names *names_new(struct arena *arena);
 named *names_find(const names *all, const char *text, size_t length);
-/* Add an entry; the name must be new. */
+/* Adds an entry. The name must be new. */
 named *names_add(names *all, const char *text, size_t length);
-/* Offers the search the declared names outside effects and in effect `effect_index` (-1: in none, -2: in all). */
+/* Offers declared names to the search: those outside effects, and those of effect `effect_index` (-1: of no effect,
+ * -2: of all effects). */
 void names_offer(const names *all, int effect_index, nearest *search);
 
 enum { NESTING_MAX = 200 };
@@ -52,8 +53,8 @@ typedef struct builder {
     int equation_count;
     bool has_energies;  /* has a coordinate, T, V, F or Q */
     bool has_equations; /* has a state or an equation */
-    bool mixed;         /* mixing energies with equations was reported */
-    bool nameless;      /* replaces a missing `mechanism` line */
+    bool mixed;         /* a mix of energies and equations was reported */
+    bool nameless;      /* made up, because the `mechanism` line or its name is missing */
     bool broken;        /* a statement failed: do not report anything as missing */
 } builder;
 
@@ -71,8 +72,8 @@ typedef struct draft {
 
 /* A scene's text, read after all mechanisms are known. */
 typedef struct pending_scene {
-    lexer from; /* after `next` */
-    token next; /* after the word `scene` */
+    lexer from; /* the lexer, after `next` */
+    token next; /* the token after the word `scene` */
     place at;
     builder *inside; /* the enclosing mechanism, or NULL */
 } pending_scene;
@@ -89,7 +90,7 @@ typedef struct parser {
     unit_scale number_unit; /* the unit after the last number, and its text */
     const char *number_unit_text;
     const expr *ready;         /* first operand of the next expression, if already read */
-    int effect;                /* the current one, or -1 */
+    int effect;                /* index of the current effect, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */
     const struct names *names; /* NULL: no names allowed */
     builder *builder;          /* the current mechanism, or NULL */
@@ -110,31 +111,31 @@ bool parser_is_word(const parser *in, word_id word);
 bool parser_at_end_of_line(const parser *in); /* newline, `;`, end of text */
 bool token_is(const token *each, const char *word);
 bool token_is_word(const token *each, word_id word);
-/* The row of the statement that this token begins, or NULL. */
+/* Returns the row of the statement that this token begins, or NULL. */
 const statement_word *token_statement(const token *each);
 bool parser_is_body_word(const parser *in); /* begins a statement of a file, mechanism or effect */
-/* Does the token begin a line with a word that ends a block by this rule (ENDS_EFFECT, ...)? */
+/* Does the token begin a line, with a word that ends a block by this rule (ENDS_EFFECT, ...)? */
 bool parser_leaves(const parser *in, unsigned rule);
-/* Expect this word. If it is missing, report an error with the statement's usual form as a hint. */
+/* Expects this word. If it is missing, reports this with the statement's form as a hint, and returns false. */
 bool parser_expect_word(parser *in, word_id word, word_id statement);
-/* Report an error at the current token, unless the lexer has already reported it. Returns false. */
+/* Reports an error at the current token, unless the lexer has already reported it. Returns false. */
 bool parser_fail(parser *in, const char *hint, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 bool parser_expect_sign(parser *in, int sign, const char *where);
-/* The name of the token in messages, such as "'x'" or "the end of the line". */
+/* Writes the name of the token for messages, such as "'x'" or "the end of the line". */
 const char *token_words(const token *each, char *buffer, size_t size);
-/* Skip to the end of a failed statement, including the braces it opened. */
+/* Skips to the end of a failed statement, including the braces that it opened. */
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */
 void parser_skip_newlines(parser *in); /* skip empty lines only */
-/* The hint for a missing operator before the current name, number or '('; returns `hint`. */
+/* Writes the hint for a missing operator before the current name, number or '('. Returns `hint`. */
 enum { OPERATOR_HINT = 200 };
 const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]);
 bool parser_end_statement(parser *in, const char *what);
 char *parser_copy_text(parser *in, const token *each);
-/* An optional text in quotes; "" without one. */
+/* Reads an optional text in quotes; returns "" if there is none. */
 const char *parser_title(parser *in);
-/* Report that the current token begins no statement allowed here (IN_ bits); returns false. */
+/* Reports that the current token begins no statement that is allowed here (IN_ bits). Returns false. */
 bool statement_unknown(parser *in, unsigned where);
 
 #endif

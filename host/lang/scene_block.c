@@ -1,5 +1,4 @@
-/* scene_block.c: the parser of scene blocks. Scenes are read last, so that they may name effects that come after
- * them. */
+/* scene_block.c: the parser of scene blocks. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,10 +6,10 @@
 #include "host/lang/statements.h"
 #include "host/lang/value.h"
 
-/* Takes the name of a symbol of the mechanism; *found is NULL if it is unknown (reported). */
+/* Reads the name of a symbol of the mechanism. *found is NULL if the name is unknown (reported). */
 static bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
                               named **found);
-/* ITEM {, ITEM}: a line may end after a comma. */
+/* Reads ITEM {, ITEM}. A line may end after a comma. */
 static bool scene_list(parser *in, const statement_word *word, statement_reader *read);
 
 static bool is_number(const expr *tree) {
@@ -20,7 +19,7 @@ static bool is_number(const expr *tree) {
     return tree->op == EXPR_NUMBER;
 }
 
-/* -5 .. 5 [m]: a bare number before a number with a unit gets that unit, too. */
+/* In -5 .. 5 [m], the number without a unit gets the unit of the other number. */
 static const expr *with_unit(parser *in, const expr *low, const expr *high) {
     if (!is_number(low) || !is_number(high) || low->uses != 0 || (high->uses & USES_UNIT) == 0) {
         return low;
@@ -111,7 +110,7 @@ bool read_range(parser *in, const statement_word *word) { return scene_list(in, 
 
 /* === the lists of a scene: with, set, start, conserve ========================================= */
 
-/* Report "WORD needs a name". */
+/* Reports "WORD needs a name", and returns false. */
 static bool scene_fail_name(parser *in, const statement_word *word) {
     char words[80];
     return parser_fail(
@@ -162,7 +161,7 @@ static bool scene_take_symbol(parser *in, draft *into, const statement_word *wor
     return true;
 }
 
-/* = EXPR of the symbol, with the wanted dimension (not checked for an unknown name: NULL). */
+/* Reads "= EXPR" of the wanted dimension, which is not checked if the name is unknown (`of` is NULL). */
 static bool parse_assigned(parser *in, const token *name, const symbol *of, dimension wanted,
                            const expr **value) {
     char words[80];
@@ -220,7 +219,8 @@ static bool set_item(parser *in, const statement_word *word) {
     return true;
 }
 
-/* Symbols that the scene sets must belong to effects that it names. Checked at its end: the names may follow the sets. */
+/* Reports a symbol that the scene sets if its effect is not selected. This is checked at the end of the scene, because
+ * `with` may come after `set`. */
 static void scene_check_sets(parser *in, const draft *read) {
     const scene *made = read->made;
     for (int i = 0; i < made->set_count; i++) {
@@ -361,7 +361,7 @@ bool read_use(parser *in, const statement_word *word) {
     return true;
 }
 
-/* step EXPR, until EXPR: seconds. */
+/* Reads step EXPR or until EXPR, in seconds. */
 static bool parse_duration(parser *in, const statement_word *word, place *first,
                            const expr **into) {
     if (first->line > 0) {
@@ -476,7 +476,7 @@ static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     }
     in->scenes = arena_room(in->arena, in->scenes, in->scene_count, sizeof *in->scenes);
     in->scenes[in->scene_count++] = into->made;
-    /* distinct from the numbers that statements.c gives to blocks */
+    /* from 2 on: statements.c marks lets with 1 */
     into->number = 2 + in->scene_count;
     const bool good = parse_body(in);
     if (good && into->of == NULL) {

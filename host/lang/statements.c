@@ -11,7 +11,7 @@ static void add_term(parser *in, term made) {
     into->terms = arena_push(in->arena, into->terms, &into->term_count, &made, sizeof made);
 }
 
-/* `=` in the mechanism, `+=` in an effect. */
+/* Reads `=` in the mechanism, `+=` in an effect. */
 static bool parse_assign_sign(parser *in, const char *what) {
     char words[80];
     char hint[120];
@@ -32,7 +32,7 @@ static bool parse_assign_sign(parser *in, const char *what) {
     return true;
 }
 
-/* Report a second `T =` of the same mechanism. */
+/* Reports a second statement of the same kind in the mechanism, such as a second `T =`. */
 static void check_once(parser *in, place *first, place at, const char *what) {
     if (in->effect >= 0) {
         return;
@@ -157,8 +157,8 @@ bool read_equation(parser *in, const statement_word *word) {
 
 /* === which statement comes next =============================================================== */
 
-/* Without a parser, raises the order of each state to its highest derivative in an equation. With a parser, reports a higher
- * derivative in an output. Each let is visited once; EXPR_HEIGHT_MAX bounds the recursion. */
+/* If `in` is NULL, raises the order of each state to its highest derivative in an equation. Otherwise reports a higher
+ * derivative in an output. Each let is visited once. EXPR_HEIGHT_MAX bounds the recursion. */
 static void walk_orders(parser *in, const expr *tree) {
     if (tree == NULL) {
         return;
@@ -214,7 +214,7 @@ static void finish_system(parser *in, builder *done) {
     }
 }
 
-/* All of T may come from effects. Deriving the equations shows which scenes have a T. */
+/* Finds a T in the mechanism or its effects. Whether a scene has a T is checked when its equations are derived. */
 static bool has_kinetic_energy(const mechanism *made) {
     for (int i = 0; i < made->term_count; i++) {
         if (made->terms[i].kind == TERM_T) {
@@ -250,7 +250,7 @@ static void finish_mechanism(parser *in, builder *done) {
 static bool read_statement(parser *in, unsigned where);
 
 static bool parse_name(parser *in, effect *made) {
-    /* words that begin a list of effects in other languages */
+    /* words that have a meaning of their own in a list of effects */
     static const struct {
         word_id word;
         const char *as;
@@ -363,7 +363,7 @@ static bool read_mechanism(parser *in, const statement_word *word) {
     return parser_end_statement(in, "the mechanism's title");
 }
 
-/* Stores the place of the scene and skips the scene: it may name later effects. */
+/* Stores the place of the scene and skips the scene, because it may name later effects. */
 static bool read_scene(parser *in, const statement_word *word) {
     (void)word;
     if (in->pending_count == SCENES_MAX) {
@@ -389,7 +389,7 @@ static bool read_scene(parser *in, const statement_word *word) {
 static statement_reader *const readers[] = {BODY_WORD_ROWS(READER)};
 #undef READER
 
-/* Coordinates need energies, states need equations; a mechanism has one or the other. */
+/* Coordinates need energies, and states need equations. A mechanism must not mix them. */
 static void note_way(parser *in, const statement_word *word) {
     builder *into = in->builder;
     if (into == NULL) {
@@ -423,7 +423,7 @@ static bool read_statement(parser *in, unsigned where) {
     return readers[word - word_row((word_id)0)](in, word);
 }
 
-/* Statements outside all blocks. */
+/* Reads a statement outside all blocks. */
 static bool read_outside(parser *in) {
     const bool in_file = parser_is_word(in, WORD_MECHANISM) || parser_is_word(in, WORD_SCENE);
     if (in->builder == NULL && !in_file) {

@@ -1,6 +1,6 @@
 /* statements.h: the readers of statements, one for each row of words.h. The current token is the one after the
- * statement's word. A reader returns false, after a report, if it gave up inside the statement; its caller then skips
- * to the next one. */
+ * statement's word. A reader that gives up inside the statement reports the error and returns false; its caller then
+ * skips to the next statement. */
 #ifndef LANG_STATEMENTS_H
 #define LANG_STATEMENTS_H
 
@@ -15,13 +15,14 @@ statement_reader read_stop, read_friction, read_hold;      /* contact_statement.
 statement_reader read_when;                                /* contact_statement.c */
 statement_reader read_noise;                               /* declare.c */
 
-/* Begin the contact of the current statement. Add it to its mechanism or to the current scene; returns true. */
+/* Reports that the contact cannot be combined with state and equation. */
 void contact_on_system(parser *in, const contact_statement *each);
 
-/* Are statements of these effects active together whenever one of them is? -1: of no effect. */
+/* Returns true if the two effects are the same, or if one is the mechanism itself (-1). Then the statements of both
+ * are active together whenever an effect among them is selected. */
 static inline bool always_meet(int one, int other) { return one == other || one < 0 || other < 0; }
 
-/* Read the whole text except the scenes. Scenes are read last, because they may name effects that come after them. */
+/* Reads the whole text except the scenes, which are read last: they may name effects that come later. */
 void read_file(parser *in);                                      /* statements.c */
 void finish_inputs(parser *in, mechanism *made);                 /* derivative.c */
 void read_noted_scene(parser *in, const pending_scene *pending); /* scene_block.c */

@@ -25,7 +25,7 @@ typedef struct unit_entry {
 #define POUND_KG 0.45359237
 #define POUND_FORCE_N 4.4482216152605
 
-/* Grouped by quantity; the SI unit has no factor. */
+/* Grouped by quantity. The SI unit has the factors 1 and 1. */
 static const unit_entry units[] = {
     {"m", 1, 1, QUANTITY_LENGTH},
     {"km", 1e3, 1, QUANTITY_LENGTH},
@@ -100,7 +100,7 @@ static const unit_entry units[] = {
 };
 enum { UNIT_COUNT = sizeof units / sizeof units[0] };
 
-/* Other spellings, and the unit's name here. */
+/* Other spellings of units, and the name to write instead. */
 static const struct {
     const char *written;
     const char *meant;
@@ -152,8 +152,8 @@ static const unit_entry *find_unit(const char *name, size_t length) {
     return NULL;
 }
 
-/* An enclosure of a factor of the table. Whole numbers are exact. Other factors are decimals, or multiples of pi,
- * rounded to the nearest double. */
+/* Encloses a factor of the table. Whole numbers are exact. Other factors are decimals, or multiples of pi, rounded to
+ * the nearest double. */
 static enclosure exact_factor(double factor) {
     return number_nearest(factor) == factor ? enclosure_of(factor) : enclosure_about(factor, 1);
 }
@@ -162,7 +162,7 @@ static enclosure exact(const unit_entry *u) {
     return enclosure_div(exact_factor(u->scale), exact_factor(u->divisor));
 }
 
-/* An exponent that is not a multiple of 1/2 is the nearest double. */
+/* Encloses base^exponent. An exponent that is not a multiple of 1/2 may have been rounded. */
 static enclosure exact_power(enclosure base, double exponent) {
     const bool is_exact = number_nearest(2.0 * exponent) == 2.0 * exponent;
     return enclosure_power(base, is_exact ? enclosure_of(exponent) : enclosure_about(exponent, 0));
@@ -212,7 +212,7 @@ static bool read_whole(reader *in, int *value) {
     return true;
 }
 
-/* ^2, ^-1, ^1.5, ^(1/2), ^(-3/2) */
+/* Reads the exponent after ^, such as 2, -1, 1.5, (1/2) or (-3/2). */
 static bool read_exponent(reader *in, double *exponent) {
     const bool open = peek(in) == '(';
     if (open) {
@@ -258,7 +258,7 @@ static bool read_product(reader *in, unit_scale *result);
 
 #define BARE "leave the brackets out: a number without them has no unit"
 
-/* Does the rest of the text consist of this sign and blanks? */
+/* Returns true if the text consists of this sign and blanks only. */
 static bool is_all(const reader *in, const char *sign) {
     const size_t blanks = strspn(in->text, " ");
     return strncmp(in->text + blanks, sign, strlen(sign)) == 0 &&
@@ -508,7 +508,7 @@ static void append_factor(char *buffer, size_t size, const char *symbol, int twe
     append(buffer, size, factor);
 }
 
-/* The order of base units in SI products. */
+/* Base units in the order in which products show them. */
 static const struct {
     int base;
     const char *symbol;
@@ -567,7 +567,7 @@ static dimension dim_of_quantity(quantity_id which) {
     return dim_of(e[DIM_LENGTH], e[DIM_MASS], e[DIM_TIME], e[DIM_CURRENT], e[DIM_TEMPERATURE]);
 }
 
-/* A dimension without a name is a number in base units. */
+/* Returns the row of this dimension; the row of NUMBER if the dimension has no name. */
 static const quantity_row *find_quantity(dimension dim) {
     for (int i = 0; i < QUANTITIES; i++) {
         if (same_exponents(dim, dim_of_quantity((quantity_id)i))) {

@@ -1,4 +1,4 @@
-/* units.h: physical dimensions, and the units of .whirl files. Values inside are SI. */
+/* units.h: physical dimensions, and the units of .whirl files. Values in the program are SI. */
 #ifndef LANG_UNITS_H
 #define LANG_UNITS_H
 
@@ -9,8 +9,8 @@
 
 /* === physical quantities: their names in messages, if unambiguous, and their usual units ====== */
 
-/* X(id, exponents of m, kg, s, A and K, name in messages, unit in hints, unit in records and the balance). "" means no
- * name, or base units. */
+/* X(id, exponents of m, kg, s, A and K, name in messages, unit in hints, unit in records and the balance). "" instead
+ * of a name: there is none. "" instead of a unit: base units are shown. */
 #define QUANTITY_ROWS(X) \
     X(NUMBER, 0, 0, 0, 0, 0, "", "", "") \
     X(ANGLE, 0, 0, 0, 0, 0, "", "", "") \
@@ -46,7 +46,7 @@
 typedef enum quantity_id { QUANTITY_ROWS(QUANTITY) } quantity_id;
 #undef QUANTITY
 
-/* Exponents of m, kg, s, A, K in twelfths, so that square and cube roots stay exact. Angles are
+/* Exponents of m, kg, s, A and K are stored in twelfths, so that square and cube roots stay exact. Angles are
  * dimensionless: rad = 1. `any` marks a literal zero, which fits every dimension. */
 enum { DIM_LENGTH, DIM_MASS, DIM_TIME, DIM_CURRENT, DIM_TEMPERATURE, DIM_BASES };
 #define DIM_DENOMINATOR 12
@@ -54,7 +54,7 @@ enum { DIM_LENGTH, DIM_MASS, DIM_TIME, DIM_CURRENT, DIM_TEMPERATURE, DIM_BASES }
 typedef struct dimension {
     short twelfths[DIM_BASES];
     bool any;
-    bool unknown; /* contains a reported error: fits everything, to avoid more reports */
+    bool unknown; /* contains a reported error: fits every dimension, to avoid more reports */
 } dimension;
 
 /* A dimension with whole exponents. */
@@ -62,34 +62,34 @@ dimension dim_of(int length, int mass, int time, int current, int temperature);
 dimension dim_none(void);
 dimension dim_energy(void); /* also the dimension of torque */
 
-/* Equal, or one of them fits everything. */
+/* True if the dimensions are equal, or if one of them fits every dimension. */
 bool dim_fits(dimension a, dimension b);
 bool dim_is_none(dimension dim); /* dimensionless, zero or unknown */
 
-/* a*b, a/b, base^exponent. Returns false if an exponent leaves the range +-99 or is not a multiple of 1/12. */
+/* Compute a*b, a/b and base^exponent. Return false if an exponent exceeds 99 in size or is not a multiple of 1/12. */
 bool dim_multiply(dimension a, dimension b, dimension *product);
 bool dim_divide(dimension a, dimension b, dimension *quotient);
 bool dim_power(dimension base, double exponent, dimension *power);
-/* The dimension of a time derivative: `of` per second for each prime. */
+/* Computes the dimension of a time derivative: `of` divided by time once for each prime. */
 bool dim_derivative(dimension of, int primes, dimension *derivative);
 
-/* "force [kg*m/s^2]", "[kg/s]" or "dimensionless", cut to `size` bytes; returns `buffer`. */
+/* Writes the dimension for messages: "force [kg*m/s^2]", "[kg/s]" or "dimensionless". Returns `buffer`. */
 char *dim_text(dimension dim, char *buffer, size_t size);
-/* The dimension in base units, "kg*m^2/s^2"; "1" if dimensionless. */
+/* Writes the dimension in base units, such as "kg*m^2/s^2"; "1" if dimensionless. */
 char *dim_symbols(dimension dim, char *buffer, size_t size);
-/* The usual unit: "N*m", "rad/s"; base units if there is no usual one. */
+/* Writes the usual unit, such as "N*m" or "rad/s", or base units if there is no usual one. */
 char *dim_unit(dimension dim, char *buffer, size_t size);
-/* The unit of records and the balance: "N", "N*m*s"; base units if there is no usual one. */
+/* Writes the unit of records and the balance, such as "N" or "N*m*s", or base units if there is no usual one. */
 char *dim_recorded_unit(dimension dim, char *buffer, size_t size);
 #define DIM_TEXT_SIZE 128
 
-/* SI value = number * scale / divisor. Two factors make 7 [ms] exactly 7/1000, correctly rounded. scale/divisor lies
+/* SI value = number * scale / divisor. With two factors, 7 [ms] is 7/1000 with a single rounding. scale/divisor lies
  * between 1e-200 and 1e200. */
 typedef struct unit_scale {
     double scale;
     double divisor;
     dimension dim;
-    enclosure exact; /* enclosure of the unit in SI, which two doubles may not represent exactly */
+    enclosure exact; /* encloses the unit in SI, which two doubles may not represent exactly */
 } unit_scale;
 
 typedef struct unit_error {
@@ -98,22 +98,21 @@ typedef struct unit_error {
     char hint[160]; /* "" without a hint */
 } unit_error;
 
-/* Read a unit expression such as `N*s/m`, `lbf*s^2/in`, `kg*(m/s)^2`, `1/s`, `m^(1/2)`. Factors associate from left to
- * right. Returns false and fills `error` if the text is no unit. */
+/* Reads a unit expression such as `N*s/m`, `lbf*s^2/in`, `kg*(m/s)^2`, `1/s` or `m^(1/2)`. Factors associate from left
+ * to right. Returns false and fills `error` if the text is no unit. */
 bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error *error);
 
-/* Is the unit an SI unit, up to the rounding of its factors? Then messages need not name it. Also true for {0}, which means no
- * unit. */
+/* Returns true for an SI unit, up to rounded factors, and for {0}, no unit: messages need not name it. */
 bool unit_is_si(unit_scale u);
 
-/* The name of unit `index`, counted from 0, or NULL beyond the last. */
+/* Returns the name of unit `index`, counted from 0, or NULL after the last. */
 const char *unit_name(int index);
 
-/* The SI unit of unit `index`, by name or in base units, cut to `size` bytes; returns `buffer`. One unit `index` is
- * *value SI units. */
+/* Writes the name of the SI unit for unit `index`, or base units, cut to `size` bytes. Returns `buffer`. One unit
+ * `index` is *value SI units. */
 char *unit_in_si(int index, double *value, char *buffer, size_t size);
 
-/* True if the unit's text contains an angle: rad, deg or rev. */
+/* True if the text is a unit of angle: rad, deg or rev. */
 bool unit_is_angle(const char *text, size_t length);
 
 #endif

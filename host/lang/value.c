@@ -23,7 +23,7 @@ const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size
 
 unit_scale shown_unit(const symbol *s, int primes) {
     const unit_scale si = {1.0, 1.0, s->dim, enclosure_of(1.0)};
-    (void)primes; /* a derivative has the same number, only per second */
+    (void)primes; /* a derivative has the same scale, because its unit only adds "per second" */
     return s->unit[0] == '\0' || unit_is_si(s->declared) ? si : s->declared;
 }
 
@@ -63,7 +63,8 @@ char *shown_written(const expr *given) {
     const char *text = leaf->at.source->text;
     size_t at = leaf->at.offset;
     while (at > 0 &&
-           strchr("=\n", text[at - 1]) == NULL) { /* before it: signs, parentheses, a function */
+           /* back over signs, parentheses and the function's name */
+           strchr("=\n", text[at - 1]) == NULL) {
         at--;
     }
     at += strspn(text + at, " \t");
@@ -105,7 +106,8 @@ char *shown_assignment(const symbol *s, int primes, const char *number) {
 
 enum {
     NAME_BUFFER = 100,
-    DEPTH_MAX = 20000 /* operators in a chain of values that set each other: bounds the recursion */
+    /* largest total height of expressions in a chain of values that set each other; bounds the recursion */
+    DEPTH_MAX = 20000
 };
 
 valuation valuation_new(const mechanism *of, struct arena *arena, diags *all) {

@@ -26,8 +26,8 @@ typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
 
 const char *symbol_kind_words(symbol_kind kind);
 
-/* Terms: the kind, its name, the quantity that is undefined if its value is not finite, and the rule of its dimension.
- * Q's rule follows from its coordinate, an equation's from its sides: "" here. */
+/* Terms: the kind, its name, the quantity that a message calls undefined if the value is not finite, and the rule for
+ * its dimension. The rule is "" if it depends on the coordinate (Q) or on the other side (equation). */
 #define TERM_KIND_ROWS(X) \
     X(T, "the kinetic energy", "the kinetic energy", \
       "kinetic energy T must be an energy [kg*m^2/s^2]") \
@@ -47,7 +47,7 @@ const char *term_part(term_kind kind);
 const char *term_rule(term_kind kind);
 
 /* Contacts, in the order in which the core handles simultaneous ones: the kind, its name in messages, and the
- * quantities that may be undefined. Its word is WORD_STOP, ... (words.h), its kind in the core WH_STOP, ...
+ * quantities that may be undefined. The statement's word is WORD_STOP, ..., the kind in the core WH_STOP, ...
  * (core/contact.h). */
 #define CONTACT_KIND_ROWS(X) \
     X(STOP, "the stop", "the restitution, or the gap, of this stop") \
@@ -66,9 +66,9 @@ enum { CONTACT_KINDS = 0 CONTACT_KIND_ROWS(CONTACT_ONE) };
 const char *contact_called(contact_kind kind);    /* "the stop" */
 const char *contact_undefined(contact_kind kind); /* "the restitution, or the gap, of this stop" */
 
-/* The places for a statement. */
+/* The places in which a statement may stand. */
 enum {
-    IN_FILE = 1, /* outside all blocks, even after a mechanism has begun */
+    IN_FILE = 1, /* outside all blocks, also after the line `mechanism` */
     IN_MECHANISM = 2,
     IN_EFFECT = 4,
     IN_SCENE = 8,
@@ -81,23 +81,23 @@ enum {
     DECLARES = 2, /* declares the name after it */
     /* if the word is at the beginning of a line inside an effect, the effect's brace is missing */
     ENDS_EFFECT = 4,
-    ENDS_SCENE = 8,    /* the same for a scene */
-    ENDS_WHEN = 16,    /* the same for a `when` */
-    INTO_EFFECT = 32,  /* in a scene: the message points to an effect */
+    ENDS_SCENE = 8,    /* the same, for a scene */
+    ENDS_WHEN = 16,    /* the same, for a `when` */
+    INTO_EFFECT = 32,  /* in a scene, the message says that the statement belongs into an effect */
     BY_ENERGIES = 64,  /* only for mechanisms given by their energies */
     BY_EQUATIONS = 128 /* only for systems given by their equations */
 };
 #define FILE_FORM "a file begins with: mechanism NAME \"title\""
 #define ENDS_ALL (ENDS_EFFECT | ENDS_SCENE | ENDS_WHEN)
 
-/* Statements of files, mechanisms and effects, in the order of comparison with a misspelt word:
+/* Statements of files, mechanisms and effects. A misspelt word is compared with them in this order.
  *
- *   word    its spelling, and its name here: WORD_COORDINATE is `coordinate`.
- *   where   the blocks that allow it.
- *   rules   its other rules.
- *   reader  reads the part after it (statements.c).
- *   kind    of its result: symbol_kind, term_kind or contact_kind, as its reader expects.
- *   form    its usual form, for hints. */
+ *   word    its spelling. WORD_COORDINATE is the constant of `coordinate`.
+ *   where   the blocks that allow the statement.
+ *   rules   other rules, from the list above.
+ *   reader  the function that reads the part after the word (statements.h).
+ *   kind    the kind of the result: symbol_kind, term_kind or contact_kind, as the reader expects.
+ *   form    the usual form, for hints. */
 #define BODY_WORD_ROWS(X) \
     X(MECHANISM, "mechanism", IN_FILE, RESERVED | ENDS_ALL, read_mechanism, 0, \
       "mechanism pendulum \"A pendulum\"") \
@@ -151,7 +151,7 @@ enum {
     X(CONSERVE, "conserve", IN_SCENE, RESERVED, read_conserve, 0, "conserve X") \
     X(RANGE, "range", IN_SCENE, 0, read_range, 0, "range x' = -2 .. 2 [m/s]")
 
-/* Words inside statements: the statement, and whether they are reserved. */
+/* Words inside statements: id, spelling, rules. */
 #define INNER_WORD_ROWS(X) \
     X(RATE, "rate", 0) \
     X(RESTITUTION, "restitution", 0) \
@@ -187,8 +187,8 @@ enum {
 
 typedef struct statement_word {
     const char *text;
-    const char *form; /* "" inside statements */
-    unsigned stands;  /* IN_ bits; 0 inside statements */
+    const char *form; /* "" for a word inside statements */
+    unsigned stands;  /* IN_ bits; 0 for a word inside statements */
     unsigned rules;
     int kind;
 } statement_word;
@@ -196,13 +196,13 @@ typedef struct statement_word {
 const statement_word *word_row(word_id id);
 
 bool word_is(word_id id, const char *text, size_t length);
-/* The word that begins a statement, or WORD_COUNT if there is no such word. */
+/* Returns the word that begins a statement, or WORD_COUNT if there is no such word. */
 int word_find(const char *text, size_t length);
 bool word_is_reserved(const char *text, size_t length);
 
-/* The hint for a word of other languages without a meaning here, such as "if"; or NULL. */
+/* Returns the hint for a word of other languages that has no meaning here, such as "if"; or NULL. */
 const char *first_word_hint(const char *text, size_t length);
-/* The energy with this name in other texts, and its name here; or NULL. */
+/* Returns the hint for an energy under another name, such as "the kinetic energy is T = ..."; or NULL. */
 const char *energy_hint(const char *text, size_t length);
 
 const char *contact_word(contact_kind kind);
