@@ -10,11 +10,11 @@
 
 /* === the influences on a coordinate, and of a coordinate ====================================== */
 
-/* The statements besides the energies that change the momentum of coordinate i, in words: "the Q in line 9, the stop in
- * line 12". *count is their number. */
+/* Appends a statement other than an energy that changes a momentum to the text, such as "the Q in line 9, the stop in
+ * line 12". *count is the number of statements so far. */
 #define INFLUENCE_TEXT_SIZE 200
 
-/* At most this many influences are listed by name. */
+/* At most this many statements are listed. */
 enum { TOLD_MAX = 4 };
 
 static void tell(char text[INFLUENCE_TEXT_SIZE], int *count, const char *what, place at) {
@@ -89,8 +89,6 @@ static bool influence_of(const equations *e, const symbol *q) {
 
 /* === recovered coordinates ==================================================================== */
 
-/* --- the start -----------------------------------------------------------------------------------*/
-
 static double start_value(void *context, const symbol *s, int primes) {
     return instance_value(context, s, primes);
 }
@@ -99,10 +97,8 @@ static double at_start(const equations *e, const poly *p) {
     return poly_evaluate(p, start_value, (void *)(uintptr_t)e->instance);
 }
 
-/* --- integrating a momentum's coefficients -------------------------------------------------------*/
-
-/* The antiderivative of one term by q. The term must be a power of q times a factor without q, or a sine or cosine
- * with an angle linear in q. Returns NULL for any other term. */
+/* Returns the antiderivative of a term with respect to q. The term must be a power of q times a factor without q, or
+ * a sine or cosine whose angle is linear in q. Returns NULL for any other term. */
 static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *q) {
     const mono *m = t->mono;
     const poly *factors = poly_number(a, t->coefficient);
@@ -135,7 +131,7 @@ static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *
     return poly_mul(a, factors, turned);
 }
 
-/* The function G with dG/dq_j = mass[j] for every unknown j, or NULL if there is none. */
+/* Returns the function G with dG/dq_j = mass[j] for every unknown j, or NULL if there is none. */
 static const poly *potential_of(const equations *e, const poly *const *mass) {
     algebra *a = e->algebra;
     const poly *g = poly_number(a, 0.0);
@@ -159,7 +155,7 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
     return g;
 }
 
-/* As potential_of(). If unexpanded powers of sums prevent a result, they are multiplied out. */
+/* As potential_of(). If unexpanded powers of sums prevent a result, they are multiplied out first. */
 static const poly *potential_of_any(const equations *e, const poly *const *mass) {
     const poly *g = potential_of(e, mass);
     if (g == NULL) {
@@ -172,8 +168,6 @@ static const poly *potential_of_any(const equations *e, const poly *const *mass)
     }
     return g;
 }
-
-/* --- both ----------------------------------------------------------------------------------------*/
 
 static bool check_wanted(const equations *e, int i, diags *errors) {
     algebra *a = e->algebra;
@@ -206,7 +200,7 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
     return false;
 }
 
-/* The recovery needs a momentum that is linear in the rates, p = sum m_j q_j'. */
+/* Is the momentum linear in the rates, p = sum m_j q_j'? Otherwise a rate cannot be recovered from it. */
 static bool is_linear(const equations *e, const poly *momentum, const poly *const *mass) {
     algebra *a = e->algebra;
     const poly *rest = momentum;
@@ -217,13 +211,13 @@ static bool is_linear(const equations *e, const poly *momentum, const poly *cons
 }
 
 typedef struct momentum_law {
-    double momentum;    /* constant value, SI */
+    double momentum;    /* constant value of the momentum, SI */
     double start;       /* G at the start */
     const poly **mass;  /* [equations->count] coefficients of the rates */
     const poly *others; /* G without the conserved coordinates' part */
 } momentum_law;
 
-/* Solves sum m_kl x_l = right_k, over the conserved coordinates l, for x by Cramer's rule. */
+/* Solves sum_l m_kl x_l = right_k for x by Cramer's rule. The sum is over the conserved coordinates l. */
 static void solve_conserved(const equations *e, const conservation *c, const momentum_law *laws,
                             const poly *const *right, const poly **x) {
     algebra *a = e->algebra;
@@ -247,7 +241,8 @@ static void solve_conserved(const equations *e, const conservation *c, const mom
 
 const symbol conservation_time = {.kind = SYM_INPUT, .name = "time", .text = "", .unit = "s"};
 
-/* Rates follow from p_k minus the other rates' terms; closed coordinates from G_k(start) + p_k t - others_k. */
+/* The conserved rates follow from p_k minus the terms of the other rates. If `closed`, the coordinates follow from
+ * G_k(start) + p_k t minus others_k. */
 static void recover(const equations *e, conservation *c, const momentum_law *laws) {
     algebra *a = e->algebra;
     const poly *rates[CONSERVED_MAX];

@@ -17,25 +17,25 @@
 typedef struct conservation {
     int count;          /* unknowns recovered */
     int *unknown;       /* [count] */
-    int *number;        /* [equations->count] index in unknown[], or -1 */
+    int *number;        /* [equations->count] index of the unknown in unknown[], or -1 */
     bool closed;        /* the coordinates follow from G(q); otherwise they are integrated */
     const poly **rate;  /* [count] their rates as functions of the other rates */
     const poly **value; /* [count] the coordinates as functions of the others and time; NULL unless
                          * closed */
 } conservation;
 
-/* Most coordinates of one scene that are recovered from momenta. */
+/* Largest number of coordinates of one scene that are recovered from momenta. */
 #define CONSERVED_MAX 3
 
 /* The symbol of time in the polys above. */
 extern const symbol conservation_time;
 
-/* Recovers the coordinates that wanted[equations->count] names (NULL: none). Returns NULL, and reports it, if the
- * momentum of a named coordinate is not conserved. */
+/* Recovers the coordinates for which wanted[equations->count] is true (NULL: none). Returns NULL, and reports the
+ * reason, if such a coordinate's momentum is not conserved. */
 conservation *conservation_make(const equations *e, const bool *wanted, diags *errors);
 void conservation_free(conservation *c);
 
-/* p with the conserved coordinates and rates replaced by their expressions. */
+/* Returns p with the conserved coordinates and rates replaced by their expressions. */
 const poly *conservation_settle(const equations *e, const conservation *c, const poly *p);
 
 #endif

@@ -63,7 +63,7 @@ static int enter_symbol(maker *k, const symbol *s, int primes) {
 
 static int of_expr(maker *k, const expr *tree);
 
-/* A let may be used at many places; its nodes are entered once. */
+/* A let may be used in many expressions, but its nodes are entered once. */
 static int of_let(maker *k, const symbol *let) {
     if (k->let[let->index] < 0) {
         k->let[let->index] = of_expr(k, let->value);
@@ -99,8 +99,6 @@ static int of_expr(maker *k, const expr *tree) {
     k->made->blame.node[node].at = image_place(k->draft, tree->at);
     return node;
 }
-
-/* --- derivatives of expressions ------------------------------------------------------------------------ */
 
 static known *find(const maker *k, const void *what) {
     size_t at = (size_t)(((uintptr_t)what >> 4) * UINT64_C(0x9e3779b97f4a7c15) >> 32);
@@ -183,7 +181,7 @@ static int of_poly(maker *k, const poly *p) {
     return remember(k, p, node);
 }
 
-/* Sums and products of numbers, symbols and waves are differentiable wherever they are defined. */
+/* Returns true for sums and products of numbers, symbols and waves, which are differentiable at every state. */
 static bool has_slopes(const poly *p) {
     for (int i = 0; i < p->count; i++) {
         const mono *m = p->terms[i].mono;
@@ -203,8 +201,6 @@ static bool has_slopes(const poly *p) {
     return true;
 }
 
-/* --- questions -----------------------------------------------------------------------------------------*/
-
 static void ask(maker *k, place where, int node, bool derived, const char *what) {
     image_blame *b = &k->made->blame;
     b->question = arena_room(k->made->memory, b->question, b->questions, sizeof *b->question);
@@ -221,7 +217,7 @@ static void ask_value(maker *k, place where, const expr *tree, const char *what)
     }
 }
 
-/* Enters the derivatives by all coordinates (primes 0) or by all rates (primes 1). */
+/* Enters the derivatives of an expression by all coordinates (primes 0) or by all rates (primes 1). */
 static void ask_slopes(maker *k, place where, const expr *tree, const char *what, int primes) {
     const equations *e = k->equations;
     const poly *value = poly_from_expr(e->algebra, tree);
@@ -246,7 +242,7 @@ static void ask_term(maker *k, const term *t) {
     ask_value(k, where, t->right, part);
     if (differentiated) {
         snprintf(slope, sizeof slope, "the slope of %s", part);
-        if (t->kind != TERM_F) { /* derivatives of F by the coordinates are not used */
+        if (t->kind != TERM_F) { /* no equation contains a derivative of F by a coordinate */
             ask_slopes(k, where, t->value, slope, 0);
         }
         ask_slopes(k, where, t->value, slope, 1);

@@ -9,7 +9,7 @@
 
 static void contact_laws_free(contact_laws *laws);
 
-/* sum_i d(value)/dq_i q_i'. */
+/* Returns the rate of `value`: sum_i d(value)/dq_i q_i'. */
 static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < m->coordinate_count; i++) {
@@ -77,7 +77,7 @@ bool contact_loosens(const contact_statement *h) {
     return h->kind == CONTACT_WHEN && h->normal != NULL;
 }
 
-/* Does the motion change the value? (Inputs change it only between steps.) */
+/* Does the motion change the value? Inputs change it only between steps. */
 static bool moves(algebra *a, const mechanism *m, const poly *value) {
     for (int i = 0; i < m->coordinate_count; i++) {
         for (int primes = 0; primes < 2; primes++) {
@@ -252,7 +252,8 @@ void equations_report_growth(const equations *e, diags *errors) {
     char *limit = algebra_limit(e->algebra);
     char hint[200] = "use smaller powers of sums, or coordinates nearer to the joints";
     if (m->parameter_count >
-        0) { /* each product of parameters is a separate term; a product of numbers is one number */
+        /* each product of parameters is a term of its own, but a product of numbers is one number */
+        0) {
         snprintf(
             hint, sizeof hint,
             "write let instead of parameter: %d parameters become numbers; or use smaller powers of sums, or coordinates nearer to the joints",
@@ -282,12 +283,11 @@ void equations_free(equations *e) {
 }
 
 /* === the energy in the balance ================================================================ */
-/* The test for a quadratic form of the rates, and the energy integral of other forms. */
 
 #define TRIES 12       /* sampled states */
 #define TRIES_NEEDED 3 /* sampled states that must give finite values */
-/* Round-off allowed in Euler's theorem, relative to its terms. T must be exactly zero at rest, so this test only has to
- * find kinks, such as abs(x'), whose second derivative vanishes. */
+/* Round-off allowed in Euler's theorem, relative to the terms. The theorem needs to find only kinks, such as abs(x'),
+ * whose second derivative vanishes, since T must be exactly zero at rest. */
 #define EULER_ROUNDING 1e-9
 
 typedef struct trial_state {
@@ -296,8 +296,8 @@ typedef struct trial_state {
     bool at_rest;
 } trial_state;
 
-/* Parameters and inputs have their values. Coordinates are between 0.2 and 1.8. Rates have
- * sizes in the same range, with either sign, or are zero at rest. */
+/* Values for a test. Parameters and inputs have their own values, coordinates lie between 0.2 and 1.8. Rates have
+ * sizes in the same range and either sign; at rest they are zero. */
 static double trial_value(void *context, const symbol *s, int primes) {
     const trial_state *state = context;
     if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT) {
@@ -331,7 +331,8 @@ bool energy_mass_has_rates(const equations *e) {
     return false;
 }
 
-/* Checks that T and its derivatives by the rates are zero at rest, as in a quadratic form. *known: they are finite there. */
+/* Checks that T and its derivatives by the rates are zero at rest, as in a quadratic form. *known: the values at rest
+ * are finite. */
 static bool nothing_at_rest(const equations *e, unsigned number, bool *known) {
     trial_state state = {e->instance, number, true};
     double most = fabs(poly_evaluate(e->kinetic, trial_value, &state));
@@ -342,7 +343,7 @@ static bool nothing_at_rest(const equations *e, unsigned number, bool *known) {
     return most == 0.0;
 }
 
-/* Checks Euler's theorem at one state: sum q' dT/dq' = 2 T. *known: all terms are finite there. */
+/* Checks Euler's theorem at one state: sum q' dT/dq' = 2 T. *known: all terms are finite at this state. */
 static bool twice_itself(const equations *e, unsigned number, bool *known) {
     trial_state state = {e->instance, number, false};
     double rest = -2.0 * poly_evaluate(e->kinetic, trial_value, &state);
@@ -357,8 +358,8 @@ static bool twice_itself(const equations *e, unsigned number, bool *known) {
     return fabs(rest) <= EULER_ROUNDING * size;
 }
 
-/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? If no mass contains a rate, T has
- * degree two at most. Its parts of degree one and zero are found at rest. */
+/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? If no mass contains a rate, T has at
+ * most degree two. Parts of degree one and zero show at rest. */
 static bool is_quadratic(const equations *e) {
     if (has_rates(e, e->stored) || energy_mass_has_rates(e)) {
         return false;

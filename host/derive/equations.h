@@ -32,11 +32,11 @@ typedef struct contact_set {
 
 typedef struct contact_laws {
     int count;
-    int forced;               /* number of contacts before the crossings, which come last */
+    int forced;               /* number of contacts that are not crossings; crossings come last */
     contact_law *law;         /* [count] */
     contact_set *sets;        /* [count] */
     int set_count;            /* number of values that crossings set */
-    contact_statement *loose; /* [loosening] crossings that Whirl adds: see contact_loosens() */
+    contact_statement *loose; /* [loosening] crossings added by Whirl: see contact_loosens() */
     int loosening;
 } contact_laws;
 
@@ -52,24 +52,22 @@ bool contact_law_pushes(const contact_law *law, int i);
 bool contact_laws_push(const contact_laws *laws, int i);
 
 /* === forces =================================================================================== */
-/* The forces on the coordinates besides the energies, by statement. The equations of motion, the power balance and the
- * entries of the ledger all use them. */
 
 /* The forces of one statement Q or F: Q_i or -dF/dq_i', and their power, the sum of force times rate. Positive power
- * adds energy. */
+ * adds energy. The equations of motion, the power balance and the ledger's entries all use them. */
 typedef struct statement_force {
     const term *from;
     const poly **force; /* [coordinates] of the mechanism */
     const poly *power;
 } statement_force;
 
-/* The forces of the active statements, in the order of the file; *count of them. Empty for a system. The algebra may
- * overflow. Free with forces_free(). */
+/* Returns the forces of the active statements, in the order of the file; *count: their number, 0 for a system. The
+ * algebra may overflow. Free with forces_free(). */
 statement_force *forces_derive(algebra *a, const instance *inst, int *count);
 
-/* The total of these forces on coordinate i. */
+/* Returns the total of these forces on coordinate i. */
 const poly *forces_on(algebra *a, const statement_force *forces, int count, int i);
-/* The power of all statements of a kind, TERM_Q or TERM_F. */
+/* Returns the power of all statements of a kind, TERM_Q or TERM_F. */
 const poly *forces_power(algebra *a, const statement_force *forces, int count, term_kind kind);
 
 typedef struct unknown {
@@ -80,7 +78,7 @@ typedef struct unknown {
 typedef struct equations {
     algebra *algebra;
     const instance *instance;
-    int count;         /* unknowns, and equations */
+    int count;         /* number of unknowns, and of equations */
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
     double
@@ -105,13 +103,13 @@ void equations_free(equations *e);
 /* The place of the first kinetic energy. */
 place equations_kinetic_place(const instance *inst);
 
-/* Report that the equations exceed the limits of size. */
+/* Reports that the equations exceed the limits of size. */
 void equations_report_growth(const equations *e, diags *errors);
 
-/* mass * highest = force: the right side has all terms except the highest derivatives. */
+/* Returns the right-hand side f_i of M q'' = f: all terms without the highest derivatives. */
 const poly *equations_force(const equations *e, int i);
 
-/* p with the parameters replaced by the instance's values. */
+/* Returns p with the parameters replaced by the instance's values. */
 const poly *equations_fold(const equations *e, const poly *p);
 
 /* === the energy in the balance ================================================================ */
@@ -125,11 +123,11 @@ const poly *equations_fold(const equations *e, const poly *p);
  * the rates and V contains no rate, h is T + V. On a turntable, in a magnetic potential or at relativistic speeds it is
  * not. There T + V also changes by the work of the turntable's drive, which no statement of the file mentions. */
 
-/* The energy integral h, with folded constants, if it differs from T + V; otherwise, and for a system, NULL. If h
- * equals T + V, no expression is added to the algebra, so that the generated code does not change. */
+/* Returns the energy integral h, with folded constants, if it differs from T + V; otherwise, and for a system, NULL.
+ * If h equals T + V, no expression is added to the algebra, so that the generated code does not change. */
 const poly *energy_integral(const equations *e);
 
-/* The power of the drive of unknown i, which is an input with a rate. Contacts are not included. */
+/* Returns the power of the drive of unknown i, which is an input with a rate. Contacts are not included. */
 const poly *energy_drive(const equations *e, int i);
 
 /* Does any mass depend on a rate? Then an impulse is not mass times the change of the rates. */

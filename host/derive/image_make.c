@@ -42,11 +42,11 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
-/* Most parts of a start that are examined. Their number may double with each level of lets: p*p with p = q*q, and so
- * on. */
+/* Largest number of parts of a start value that are examined. Their number may double with each level of lets, as in
+ * p*p with p = q*q. */
 enum { MOST_PARTS = 1000 };
 
-/* Is the expression a product of literal numbers? If not, a value near zero may be the round-off of a sum. */
+/* Is the expression a product of literal numbers? Otherwise a value near zero may be the round-off of a sum. */
 static bool is_written(const instance *inst, const expr *e, int *parts) {
     if (++*parts > MOST_PARTS) {
         return false;
@@ -83,7 +83,7 @@ static void start_unknown(image_draft *d, const instance *inst, int i) {
         inst->start_given[i][0] != NULL && is_written(inst, inst->start_given[i][0], &parts);
 }
 
-/* The starts of the components and the inputs, from those of the unknowns. */
+/* Sets the starts of the components and the inputs from those of the unknowns. */
 static void start_components(image_draft *d) {
     image *im = d->made;
     im->start_rad = image_room(d, im->angles, sizeof *im->start_rad);
@@ -100,7 +100,7 @@ static void start_components(image_draft *d) {
     }
 }
 
-/* The unit of a momentum: energy divided by rate. */
+/* Returns the unit of a momentum: energy divided by rate. */
 static const char *momentum_unit(image_draft *d, const symbol *q) {
     char si[DIM_TEXT_SIZE];
     dimension dim = dim_none();
@@ -158,7 +158,7 @@ static const char *primed_name(image_draft *d, const char *name, int primes) {
     return image_text(d, text);
 }
 
-/* The declared ranges of components and inputs, for fixed point. */
+/* Copies the declared ranges of components and inputs, which fixed point uses. */
 static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
     image *im = d->made;
     const instance *inst = e->instance;
@@ -197,8 +197,6 @@ static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
     }
 }
 
-/* --- the lists ---------------------------------------------------------------------------------------*/
-
 static void *copy(image_draft *d, const void *from, int count, size_t size) {
     void *made = image_room(d, count, size);
     if (count > 0) {
@@ -207,7 +205,7 @@ static void *copy(image_draft *d, const void *from, int count, size_t size) {
     return made;
 }
 
-/* Transfer the list to the image. */
+/* Takes the list out of the program. */
 static op_list *take(op_list **list) {
     op_list *taken = *list;
     *list = NULL;
@@ -269,7 +267,7 @@ static void take_ledger(image_draft *d, ledger_lists *l) {
     im->list[IMAGE_LEVELS] = take(&l->levels);
 }
 
-/* The number in the image of an input of the mechanism. */
+/* Returns the number in the image of an input of the mechanism. */
 static int input_number(const layout *map, const symbol *input) {
     int number = 0;
     while (map->input[number] != input->index) {
@@ -321,8 +319,8 @@ static void take_program(image_draft *d, program *p) {
     }
 }
 
-/* Make the requested matrix; `use` tells whether there is a blame list. Returns the image; or NULL, and reports the
- * reason. */
+/* Makes the requested matrix; `use` decides whether the image has a blame list. Returns the image, or NULL after
+ * reporting the reason. */
 static image *with_matrix(image_draft *d, const equations *e, image_use use, diags *errors) {
     bool wants_blame;
     bool good = matrix_make(d, use == IMAGE_TO_RUN, &wants_blame, errors);
@@ -347,8 +345,8 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
         program_free(p);
         return NULL;
     }
-    /* Only compensated steps are scaled. Variants are not run in float, contacts use the same mass matrix, and tables
-     * are rounded separately: scaling does not suit them. */
+    /* Only the lists of compensated steps are scaled. Scaling does not suit variants, which are not run in float;
+     * contacts, which use the same mass matrix; and tables, which are rounded separately. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&p->step, op_list_scaling_price(p->step));
@@ -406,7 +404,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* If folding loses more than this part of a number, an image to run gets variants that show the effect. */
+/* If folding loses more than this, relative to a number, an image to run gets variants that show the effect. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
@@ -429,7 +427,7 @@ static bool is_alike(const image *im, const image *other) {
     return alike;
 }
 
-/* Evaluates and derives again with another way of folding. Returns NULL if the result has another form. */
+/* Evaluates and derives the scene again with another way of folding. Returns NULL if the result has another form. */
 static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();

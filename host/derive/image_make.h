@@ -6,21 +6,19 @@
 #include "host/image/image.h"
 
 /* === one image ================================================================================ */
-/* Makes one image, whose constants are folded with the current rounding (host/number/folding.h). image_make() makes
- * variants, too. */
 
-/* The purpose of an image. One to run also has the expressions that may be undefined, in the spelling of the file, so
- * that a message can quote the failed one (host/check/nonfinite.h). */
+/* The purpose of an image. An image to run also has the expressions that may be undefined, in the spelling of the
+ * file, so that a message can quote the failed one (host/check/nonfinite.h). */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN } image_use;
 
-/* An image with the lists of `base`, and the starts, inputs, step and end of `inst`, which must be an instance of the
- * same mechanism and scene with the same parameters. If the step differs, the image gets its own matrix. Free `base`
- * last. Returns NULL, and reports the reason, if there is no such matrix. */
+/* Returns an image with the lists of `base`, and with the starts, inputs, step and end of `inst`, which must be an
+ * instance of the same mechanism and scene with the same parameters. If the step differs, the image gets its own
+ * matrix. Returns NULL, and reports the reason, if there is no such matrix. Free `base` last. */
 image *image_again(const image *base, const instance *inst, diags *errors);
 
-/* The image of an instance with the equations `e`. `conserve` [count] names the coordinates to recover from their
- * momentum, or is NULL. The image has no pointers to `e`, the instance or the model: all may be freed. NULL after an
- * error, reported (see program_make()). */
+/* Returns the image of an instance with the equations `e`, and its variants. `conserve` [count] names the coordinates
+ * to recover from their momentum, or is NULL. The image has no pointers to `e`, the instance or the model, so all
+ * three may be freed. Returns NULL after an error, reported (see program_make()). */
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors);
 

@@ -7,26 +7,26 @@
 
 typedef struct image_draft {
     image *made;
-    /* [sources] sources of places, and their copies */
+    /* [sources] sources of places, and their copies in the image */
     const source **original;
     source **copy;
     int sources;
 } image_draft;
 
 image_draft image_draft_new(void);
-/* Free the helper data, and return the image. */
+/* Frees the helper data, and returns the image. */
 image *image_draft_done(image_draft *d);
 
-/* Zeroed memory of the image for `count` elements; NULL for count 0. */
+/* Returns zeroed memory of the image for `count` elements; NULL for count 0. */
 void *image_room(image_draft *d, int count, size_t size);
 const char *image_text(image_draft *d, const char *text);
 
 /* Converts a source place to one in the image's copy of the source; each source is copied once. */
 place image_place(image_draft *d, place at);
 
-/* The unit of a symbol's derivative with `primes` primes. */
+/* Returns the unit of a symbol's derivative with `primes` primes. */
 image_unit image_unit_of(image_draft *d, const symbol *s, int primes);
-/* A quantity with this value, SI. */
+/* Returns a quantity with this value, SI. */
 image_quantity image_quantity_of(image_draft *d, const symbol *s, double value);
 
 #endif

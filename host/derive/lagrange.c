@@ -11,10 +11,10 @@
 #include "host/number/functions.h"
 #include "host/number/gauss.h"
 
-/* Passes over rows and columns; each halves the error of the logarithms of the scales. */
+/* Number of passes over rows and over columns. Each pass halves the error of the scales' logarithms. */
 #define PASSES 16
-/* Part of the scaled size below which a pivot is round-off, even with exact entries: about four times the
- * algebra's threshold of zero in a sum. */
+/* A pivot below this, relative to the scaled size, is round-off even if the entries are exact. It is about four times
+ * the algebra's threshold of zero in a sum. */
 #define NO_PIVOT 4e-14
 
 /* The power of two nearest to 1/sqrt(x); 1 for zero. */
@@ -59,8 +59,8 @@ static double largest_of(const double *m, int n, line of) {
     return largest;
 }
 
-/* One pass scales the rows, the next the columns. Each divides by the root of the largest entry, so rows and columns
- * share the scaling. */
+/* A pass scales all rows, the next pass all columns. Each divides by the root of the largest entry, so rows and
+ * columns share the scaling. */
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
@@ -104,14 +104,14 @@ bool rank_is_positive(double *m, int n) {
 }
 
 /* === can the equations be solved for the highest derivatives? ================================= */
-/* Tests the mass matrix at generic states, and at the start. */
+/* Number of generic states at which the mass matrix is tested. */
 
 #define TRIES 24
-/* The last tried state is the start of the run. A mass matrix with a narrow domain may be undefined at all other states. */
+/* The last tried state is the start of the run. A mass matrix may be undefined at all other states. */
 #define TRY_START TRIES
 /* Round-off of an entry, relative to the sum of its terms' sizes. */
 #define ENTRY_ROUNDING 4e-16
-/* If the mass matrix is this accurate, no better state is searched for. */
+/* If the relative error of the mass matrix is below this, no better state is searched for. */
 #define MASS_BLUR_FINE 1e-10
 
 enum { HINT_SIZE = 320 };
@@ -121,7 +121,8 @@ typedef struct generic_state {
     uint64_t seed;
 } generic_state;
 
-/* Parameters and inputs have their values, and so has every symbol at TRY_START. Others: a hash of try, index and primes. */
+/* At TRY_START, every symbol has its value at the start. At other states, parameters and inputs have their values, and
+ * other symbols a hash of try, index and primes. */
 static double generic_value(void *context, const symbol *s, int primes) {
     const generic_state *state = context;
     if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT || state->seed == TRY_START) {
@@ -135,10 +136,11 @@ static double generic_value(void *context, const symbol *s, int primes) {
     return (state->seed % 2 == 0 ? 0.1 : -0.9) + 1.7 * part;
 }
 
-/* Memory for four n by n matrices. */
+/* Memory for four n by n matrices; the caller frees it. */
 static double *room_for(int n) { return alloc(4 * (int64_t)n * n, sizeof(double)); }
 
-/* The values of the mass matrix at one tried state, and their error bounds; false if one is not finite. */
+/* Computes the mass matrix at one tried state, and the error bounds of its entries. Returns false if one is not
+ * finite. */
 static bool mass_at(const equations *e, int try, double *m, double *error) {
     generic_state state = {e->instance, (uint64_t)try};
     bool finite = true;
@@ -150,8 +152,8 @@ static bool mass_at(const equations *e, int try, double *m, double *error) {
     return finite;
 }
 
-/* The first row with highest derivatives that depend on those of the rows above, at the first
- * finite try; -1: all are independent. */
+/* Returns the first row whose highest derivatives depend on those of the rows above, at the first try with finite
+ * values; -1 if all rows are independent. */
 static int dependent_row(const equations *e) {
     const int n = e->count;
     double *m = room_for(n);
@@ -187,7 +189,7 @@ static place place_of_equation(const equations *e, int row) {
     return m->at;
 }
 
-/* Has the row no highest derivative? Then it constrains the states, but does not move them. */
+/* Has the row no highest derivative? Then the equation constrains the states, but does not move them. */
 static bool row_is_empty(const equations *e, int row) {
     bool empty = true;
     for (int j = 0; j < e->count; j++) {
@@ -214,7 +216,7 @@ static void report_singular_system(const equations *e, diags *errors) {
     }
 }
 
-/* An inactive effect with the rate of `s` in its T; NULL: there is no such effect. */
+/* Returns an inactive effect whose T contains the rate of `s`, or NULL. */
 static const char *effect_with_inertia(const equations *e, const symbol *s) {
     const mechanism *m = e->instance->mechanism;
     for (int i = 0; i < m->term_count; i++) {
@@ -227,7 +229,7 @@ static const char *effect_with_inertia(const equations *e, const symbol *s) {
     return NULL;
 }
 
-/* The number of tried states at which this part of the kinetic energy is negative. */
+/* Returns the number of tried states at which this part of the kinetic energy is negative. */
 static int times_negative(const equations *e, const term *t) {
     const poly *value = poly_from_expr(e->algebra, t->value);
     int negative = 0;
@@ -238,8 +240,8 @@ static int times_negative(const equations *e, const term *t) {
     return negative;
 }
 
-/* The part of the kinetic energy that is negative most often; *most is the number of states. NULL if no part is ever
- * negative. */
+/* Returns the part of the kinetic energy that is negative at most states; *most is their number. NULL if no part is
+ * ever negative. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;
@@ -306,17 +308,17 @@ static void report_singular(const equations *e, diags *errors) {
         e->instance->mechanism->name);
 }
 
-/* Are the energies finite, including constant parts? Constants vanish from the equations, but 1/0 in one of them is a
+/* Are the energies finite, including constant parts? Constants vanish from the equations, but 1/0 in a constant is a
  * mistake of the user. */
 static bool energies_finite(const equations *e, generic_state *state) {
     return e->kinetic == NULL || (isfinite(poly_evaluate(e->kinetic, generic_value, state)) &&
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
 }
 
-/* The best result of the tried states. */
+/* The result of the tried states; a later one is better. */
 typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } run_checks;
 
-/* The largest error of a regular matrix after rank_of(), relative to its least pivot. */
+/* Returns the largest error of a regular matrix after rank_of(), divided by its smallest pivot. */
 static double blur_of(const double *m, const double *error, int n) {
     double least = (double)INFINITY;
     double most = 0.0;
@@ -327,7 +329,7 @@ static double blur_of(const double *m, const double *error, int n) {
     return most / least;
 }
 
-/* The verdict at one tried state; *blur is set if it is SOLVABLE. m comes from room_for(n). */
+/* Returns the verdict at one tried state. *blur is set if it is SOLVABLE. `m` comes from room_for(n). */
 static run_checks verdict_at(const equations *e, int try, double *m, double *blur) {
     const int n = e->count;
     generic_state state = {e->instance, (uint64_t)try};
@@ -352,10 +354,10 @@ static run_checks verdict_at(const equations *e, int try, double *m, double *blu
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
-/* Tries the mass matrix at a number of generic states and at the start. Returns false, with an error that names the
- * cause, if the matrix is singular or undefined at all of them. The mass matrix of a mechanism given by energies must
- * also be positive definite at one of them; otherwise a mass is negative. A matrix that is singular only at some states
- * (a pole of spherical coordinates) passes: such states are found while running. e->mass_blur is set. */
+/* Tries the mass matrix at generic states and at the start. Returns false, with an error that names the cause, if the
+ * matrix is singular or undefined at all of them. The mass matrix of a mechanism given by energies must also be
+ * positive definite at one of them; otherwise a mass is negative. A matrix that is singular only at some states, such
+ * as a pole of spherical coordinates, passes: the run finds such states. Sets e->mass_blur. */
 static bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);
@@ -393,8 +395,6 @@ static bool equations_check_solvable(equations *e, diags *errors) {
 
 /* === the equations of motion ================================================================== */
 
-/* --- energies ------------------------------------------------------------------------------------*/
-
 static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind) {
     const mechanism *m = inst->mechanism;
     const poly *sum = poly_number(a, 0.0);
@@ -407,7 +407,7 @@ static const poly *sum_of_terms(algebra *a, const instance *inst, term_kind kind
     return sum;
 }
 
-/* An input without a rate must not occur in a momentum. */
+/* Reports an input without a rate that occurs in a momentum, and returns false. */
 static bool momentum_free_of_inputs(const equations *e, const poly *momentum, diags *errors) {
     const mechanism *m = e->instance->mechanism;
     char hint[RATE_HINT_SIZE];
@@ -423,14 +423,14 @@ static bool momentum_free_of_inputs(const equations *e, const poly *momentum, di
     return true;
 }
 
-/* The acceleration of an input with a rate. */
+/* Returns the acceleration of an input with a rate. */
 static const poly *acceleration_of(algebra *a, const symbol *driven) {
     const symbol *input = symbol_acceleration(driven);
     return input != NULL ? poly_symbol(a, input, 0) : poly_number(a, 0.0);
 }
 
-/* The equation of a driven coordinate: q'' = its input's acceleration. A driven coordinate has no momentum, and no
- * force moves it. */
+/* Sets the equation of a driven coordinate: q'' is the acceleration of its input. A driven coordinate has no
+ * momentum, and no force moves it. */
 static void drive(equations *e, int i) {
     algebra *a = e->algebra;
     e->momentum[i] = e->velocity[i] = e->potential[i] = poly_number(a, 0.0);
@@ -554,8 +554,6 @@ static bool derive_system(equations *e, diags *errors) {
     return good;
 }
 
-/* --- both ----------------------------------------------------------------------------------------*/
-
 static const poly **polys(int count) { return alloc(count, sizeof(const poly *)); }
 
 /* Do the equations exceed the limits of the algebra, or are they larger than POLY_SIZE_MAX? */
@@ -604,7 +602,8 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
     e->output = polys(m->output_count);
     for (int i = 0; i < n; i++) {
         e->unknowns[i] = (unknown){m->coordinates[i], 2};
-        poly_symbol(e->algebra, m->coordinates[i], 0); /* coordinates lead the canonical order */
+        /* coordinates come first in the normal form's order */
+        poly_symbol(e->algebra, m->coordinates[i], 0);
     }
     for (int i = 0; i < m->parameter_count; i++) {
         poly_symbol(e->algebra, m->parameters[i], 0);

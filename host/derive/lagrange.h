@@ -18,10 +18,10 @@
  * pivot counts as zero if it is within the error bound of its elimination. */
 int rank_of(double *m, double *error, int n, bool symmetric);
 
-/* Is a regular symmetric matrix positive definite? Destroys m. */
+/* Is a regular symmetric matrix positive definite? m is destroyed. */
 bool rank_is_positive(double *m, int n);
 
-/* Derive the equations. Returns NULL after an error, reported to `diags`. Errors are a coordinate without kinetic
+/* Derives the equations. Returns NULL after an error, reported to `errors`. Errors are a coordinate without kinetic
  * energy, a singular mass matrix, an equation that is nonlinear in the highest derivative, and an expression above the
  * limit of size. */
 equations *equations_derive(const instance *inst, diags *errors);

@@ -1,4 +1,3 @@
-/* layout.c: the components of a state, and the mapping from symbols to them. */
 #include "host/derive/layout.h"
 
 #include <stdlib.h>
@@ -7,8 +6,8 @@
 #include "host/base/alloc.h"
 #include "host/base/hashing.h"
 
-/* The operation that adds noise k to `node`. Its seed includes the hash of the output's name, so that the noises of two
- * outputs differ for equal seeds. */
+/* Returns the operation that adds a noise to `node`. The seed includes the hash of the output's name, so that the
+ * noises of two outputs differ if their seeds are equal. */
 static int with_noise(const equations *e, lowering *l, const noise *each, int node) {
     op_list *t = l->list;
     const poly *deviation = poly_from_expr(e->algebra, each->deviation);
@@ -30,7 +29,7 @@ void noise_on_outputs(const equations *e, lowering *l, int *result) {
     }
 }
 
-/* Has this record's output any active noise? */
+/* Has the output of this record an active noise? */
 static bool is_noisy(const equations *e, const symbol *record) {
     const mechanism *m = e->instance->mechanism;
     for (int k = 0; k < m->noise_count; k++) {
@@ -46,7 +45,7 @@ typedef struct recording {
     const conservation *conserved;
 } recording;
 
-/* The output of a record, ready for a list. */
+/* Returns the output of a record, ready for a list. */
 static const poly *exact_output(const recording *r, const symbol *record) {
     const equations *e = r->equations;
     const poly *output = poly_from_expr(e->algebra, record->value);
@@ -124,7 +123,7 @@ static int layout_turn(void *context, const symbol *s) {
     return moves ? map->angle_number[s->index] : -1;
 }
 
-/* The operation for an input. An input of an inactive effect cannot change, so it is a constant. */
+/* Returns the operation for an input. An input of an inactive effect cannot change, so it is a constant. */
 static int input_leaf(const layout *map, op_list *t, const symbol *s) {
     for (int i = 0; i < map->inputs; i++) {
         if (map->input[i] == s->index) {
@@ -158,9 +157,8 @@ static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
     return op_list_leaf(t, OP_LINEAR, real);
 }
 
-/* --- arranging the state -------------------------------------------------------------------------*/
-
-/* Is this derivative of unknown i in the state? A conserved coordinate has only its value there, if it is integrated. */
+/* Is this derivative of unknown i in the state? A conserved coordinate has no rate in the state, and its value only if
+ * it is integrated. */
 static bool in_state(const layout *map, int i, int primes) {
     if (map->conserved->number[i] < 0) {
         return primes < map->equations->unknowns[i].order;
@@ -173,7 +171,7 @@ static int add_real(layout *map, int i, int primes) {
     return map->reals++;
 }
 
-/* Arranges the inputs. Those of inactive effects are left out. */
+/* Arranges the inputs, without those of inactive effects. */
 static void arrange_inputs(layout *map, const instance *inst) {
     const mechanism *m = inst->mechanism;
     map->input = alloc(m->input_count, sizeof *map->input);

@@ -10,14 +10,14 @@
 
 /* === noise on recorded quantities: on outputs, and on measures of recorded outputs ============ */
 
-/* Add the active noises to those of result[mechanism->output_count] that are outputs of the mechanism itself. A sweep
- * replaces outputs by its measures, which get no noise. */
+/* Adds the active noises to the outputs of the mechanism in result[mechanism->output_count]. In a sweep, measures
+ * take the place of outputs; measures get no noise. */
 void noise_on_outputs(const equations *e, lowering *l, int *result);
 
 /* Recorded outputs (SYM_RECORD), the inputs of measures. */
 typedef struct noise_records {
     const poly **exact; /* [noise_count] the output without noise; NULL if no measure names it */
-    int *node;          /* [noise_count] the operation of the output with all its noise */
+    int *node;          /* [noise_count] operation of the output with its noise */
     int count;          /* number of entries of exact[] that are not NULL */
 } noise_records;
 
@@ -36,7 +36,7 @@ typedef struct layout {
     int coordinates;  /* integrated coordinates, angles included (second order) */
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */
-    int inputs;       /* the mechanism's own and those of the active effects */
+    int inputs;       /* [inputs] number of each input in the mechanism */
     int *input;       /* [inputs] number in the mechanism */
     component *angle; /* [angles] */
     component *real;  /* [reals] */
@@ -45,21 +45,22 @@ typedef struct layout {
     int *angle_number; /* [unknown] turn angle, or -1 */
     int *real_number;  /* [unknown * order_room + primes] real component, or -1 */
     int order_room;
-    /* set while a list is entered: */
-    const int *highest; /* operations of the highest derivatives by unknown, or NULL */
-    const int *record;  /* operations of recorded outputs, or NULL */
+    /* while a list is entered: operations of the highest derivatives by unknown; else NULL */
+    const int *highest;
+    /* while a list is entered: operations of recorded outputs; else NULL */
+    const int *record;
 } layout;
 
-/* Arrange the state. An angle that `dynamics` [count] contain only inside sines and cosines becomes a turn angle.
+/* Arranges the state. An angle that dynamics[count] contain only inside sines and cosines becomes a turn angle.
  * Returns false if there are too many components. */
 bool layout_arrange(layout *map, const equations *e, const conservation *conserved,
                     const poly *const *dynamics, int count);
 void layout_free(layout *map);
 
-/* p ready for a list: folded, and without conserved coordinates. */
+/* Returns p ready for a list: folded, and without conserved coordinates. */
 const poly *layout_ready(const layout *map, const poly *p);
 
-/* A lowering onto `t` that finds its leaves and turn angles by this layout. */
+/* Returns a lowering onto `t` that finds its leaves and turn angles by this layout. */
 lowering layout_lowering(layout *map, op_list *t);
 
 #endif

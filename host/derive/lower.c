@@ -9,11 +9,10 @@
 #include "host/number/folding.h"
 
 /* === turn angles ============================================================================== */
-/* The choice of turn angles: coordinates that occur only inside sines and cosines, with whole factors. */
 
 static bool whole_in_angle(const poly *angle, const symbol *sym);
 
-/* Does `sym` occur in this product only inside sines and cosines, or inside tangents too if they are allowed? */
+/* Does `sym` occur in this product only inside sines and cosines, or, if `tangents` is true, inside tangents? */
 static bool is_in_waves(const mono *m, const symbol *sym, bool tangents) {
     for (int k = 0; k < m->count; k++) {
         const atom *x = m->factors[k].atom;
@@ -56,21 +55,21 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 
 /* === powers from multiple angles ============================================================== */
 /* With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k cos 2kx is a sum of products s^j c^(n-j). A sum
- * of sin 2kx is sin x cos x times such a sum of degree n - 1. If the products lack c^n, the sum cancels near x = 0;
- * if they lack s^n, near x = pi/2. There the products keep the digits. */
+ * of sin 2kx is sin x cos x times such a sum of degree n - 1. If the coefficient of c^n is zero, the sum cancels near
+ * x = 0; if that of s^n is zero, near x = pi/2. There the products keep the digits. */
 
-/* Coefficients that differ by less than this part count as equal: they come from the same number. */
+/* Coefficients whose relative difference is smaller than this come from the same number. */
 #define SAME_PIECE 1e-13
-/* A sum below this part of its addends counts as cancelled, as in the algebra. */
+/* A sum that is smaller than this, relative to its addends, counts as cancelled, as in the algebra. */
 #define CANCELLED 1e-14
 /* Powers up to sin(x)^16, from k = 0 ... 8. */
 #define MULTIPLE_MAX 8
 #define INDICES (MULTIPLE_MAX + 1)
-/* Limit of the growth of coefficients: the absolute sum of the products, at the worst angle, relative to the original
- * sum. Above it, the loss elsewhere would exceed the gain near the zero. */
+/* Limit of the growth of the coefficients: the sum of the products' sizes at the worst angle, relative to the
+ * original sum. Beyond it, the loss at other angles would exceed the gain near the zero. */
 #define GROWTH_MAX 8.0
 
-/* Compared member by member: padding bytes between a 32-bit pointer and a double are undefined. */
+/* Compares member by member, because padding bytes between a 32-bit pointer and a double are undefined. */
 static bool same_factors(const mono *x, const mono *y) {
     bool same = x->count == y->count;
     for (int i = 0; i < x->count && same; i++) {
@@ -89,8 +88,6 @@ static bool halves_to_whole(const poly *angle) {
     return true;
 }
 
-/* --- families of multiple angles -----------------------------------------------------------------*/
-
 typedef struct family {
     trig trig;                   /* TRIG_COS: c_k cos 2kx; TRIG_SIN: c_k sin 2kx */
     int last;                    /* largest k */
@@ -99,7 +96,7 @@ typedef struct family {
     int members;
 } family;
 
-/* The whole number m with angle = m * base; 0 if there is none. */
+/* Returns the whole number m with angle = m * base; 0 if there is none. */
 static int multiple_of(const poly *angle, const poly *base) {
     if (angle->count != base->count) {
         return 0;
@@ -113,7 +110,8 @@ static int multiple_of(const poly *angle, const poly *base) {
     return good ? (int)m : 0;
 }
 
-/* The terms of the family of term `base`; false if its angle is itself a multiple of another's. */
+/* Collects the terms of the family of term `base`. Returns false if the angle of `base` is itself a multiple of
+ * another term's angle. */
 static bool collect(const poly *p, const bool *used, int base, family *f) {
     const mono *lead = p->terms[base].mono;
     *f = (family){.trig = lead->trig};
@@ -139,7 +137,7 @@ static bool collect(const poly *p, const bool *used, int base, family *f) {
     return true;
 }
 
-/* A sum of coefficient[j] s^j c^(degree-j); `added` is the sum of absolute addends. */
+/* A sum of coefficient[j] s^j c^(degree-j). `added` has the sums of the absolute values of the addends. */
 typedef struct expansion {
     int degree;
     double coefficient[INDICES];
@@ -154,8 +152,8 @@ static void times_one(double *p, int degree) {
     }
 }
 
-/* The family's sum, without a factor sin x cos x. P_k is cos 2kx, or sin 2kx / (sin x cos x). From P_0 = 1, or from
- * P_1 = 2, the recurrence is P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1). */
+/* Returns the family's sum, without a factor sin x cos x. P_k is cos 2kx, or sin 2kx / (sin x cos x). From P_0 = 1,
+ * or from P_1 = 2, the recurrence is P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1). */
 static expansion expand(const family *f) {
     const int first = f->trig == TRIG_SIN ? 1 : 0;
     double before[INDICES + 1] = {0};
@@ -188,13 +186,13 @@ static expansion expand(const family *f) {
     return sum;
 }
 
-/* The largest value of |sin x|^a |cos x|^b. */
+/* Returns the largest value of |sin x|^a |cos x|^b. */
 static double largest_product(int a, int b) {
     const double share = a + b > 0 ? (double)a / (a + b) : 0.0;
     return number_power(share, a / 2.0) * number_power(1.0 - share, b / 2.0);
 }
 
-/* Write the family's expansion to pieces[]; returns their number, or 0 if it should not change. */
+/* Writes the family's expansion to pieces[]. Returns the number of pieces, or 0 if the family should not change. */
 static int products_of(algebra *a, const poly *p, int base, const family *f, piece *pieces) {
     const expansion sum = expand(f);
     double before = 0.0;
@@ -223,7 +221,7 @@ static int products_of(algebra *a, const poly *p, int base, const family *f, pie
     return f->last > 1 && vanishes && after <= GROWTH_MAX * before ? count : 0;
 }
 
-/* The expansion of every family; its terms are marked as used. */
+/* Expands every family, and marks its terms as used. Returns the number of pieces. */
 static int find_families(algebra *a, const poly *p, bool *used, piece *pieces) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {
@@ -244,9 +242,7 @@ static int find_families(algebra *a, const poly *p, bool *used, piece *pieces) {
     return count;
 }
 
-/* --- squares -------------------------------------------------------------------------------------*/
-
-/* Finds c (1 - cos 2x) and c (1 + cos 2x), even if other multiples of x are present. */
+/* Finds c (1 - cos 2x) and c (1 + cos 2x), also if other multiples of x are present. */
 static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {
@@ -288,11 +284,10 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 }
 
 /* === which sines are evaluated ================================================================ */
-/* Sines and cosines of several angles from as few evaluations as possible: the choice between evaluation and the
- * addition theorems. Evaluating a pair costs some thirty instructions, sin(a + b) from known pairs at most six. So
- * the angles are taken in order of size. A sum, a difference or a double of earlier angles is computed from their
- * pairs. Another angle is tried in the first place, too (solve.c): b = a - (a - b) and 2a - b = a + (a - b) share all
- * four products. */
+/* Sines and cosines of several angles are computed with as few evaluations as possible. Evaluating a pair costs some
+ * thirty instructions, sin(a + b) from known pairs at most six. So the angles are taken in order of size. A sum, a
+ * difference or a double of earlier angles is computed from their pairs. Another angle is tried in the first place,
+ * too (solve.c): b = a - (a - b) and 2a - b = a + (a - b) share all four products. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
@@ -310,7 +305,7 @@ struct wave {
     int cosine;
 };
 
-/* Only this many of the smallest known angles are tried as summands of another angle. */
+/* Only this many of the smallest known angles are tried as parts of another angle. */
 #define PARTS_MAX 96
 #define BETWEEN_MAX 32
 
@@ -331,7 +326,7 @@ static int append(lowering *l, wave w) {
     return l->wave_count++;
 }
 
-/* The size of an angle: the sum of its factors' sizes, and a little for each term. */
+/* Returns the size of an angle: the sum of the absolute coefficients, and a little for each term. */
 static double size_of(const poly *angle) {
     double size = 0.0;
     for (int i = 0; i < angle->count; i++) {
@@ -340,13 +335,14 @@ static double size_of(const poly *angle) {
     return size + 0.01 * angle->count;
 }
 
-/* Makes the first factor positive. *flipped: the sign has changed (cos(-x) = cos(x), sin(-x) = -sin(x)). */
+/* Makes the first coefficient of an angle positive. *flipped: the sign has changed (cos(-x) = cos(x), sin(-x) =
+ * -sin(x)). */
 static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
     *flipped = angle->count > 0 && angle->terms[0].coefficient < 0.0;
     return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
 }
 
-/* The nesting depth of sines in p. */
+/* Returns the nesting depth of sines in p. */
 static int sines_inside(const poly *p) {
     int most = 0;
     for (int i = 0; i < p->count; i++) {
@@ -365,13 +361,14 @@ static int sines_inside(const poly *p) {
     return most;
 }
 
-/* Can a wave be part of this angle's rule? Not if the wave has more nested sines than the angle: one of them could be the
- * angle's own sine. Rules refer to earlier waves, and an evaluated wave to fewer nested sines, so the recursion ends. */
+/* May a wave be part of this angle's rule? Not if the wave has more nested sines than the angle, because the angle's
+ * own sine could be among them. A rule refers to earlier waves, and an evaluated wave to fewer nested sines, so the
+ * recursion ends. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
 
-/* Finds a rule that computes `angle` from two known ones. Returns true if there is one. */
+/* Finds a rule that computes `angle` from two known angles. Returns false if there is none. */
 static bool rule_for(lowering *l, const poly *angle, wave *w) {
     int longest = 0;
     for (int i = 0; i < l->wave_count; i++) {
@@ -382,7 +379,8 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
         const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
         double number;
         if (poly_is_number(rest, &number) || rest->count > longest) {
-            /* equal except for a constant, which does not help; or too long to be a known angle */
+            /* the angles are equal except for a constant, which does not help, or the rest is too long to be a known
+             * angle */
             continue;
         }
         rest = upright(l, rest, &flipped);
@@ -401,7 +399,7 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
     return false;
 }
 
-/* The turn angle, if the term is a number times a turn angle; otherwise -1. */
+/* Returns the turn angle if the term is a number times a turn angle, otherwise -1. */
 static int turn_of(const lowering *l, const poly_term *t) {
     const mono *m = t->mono;
     const bool alone = m->trig == TRIG_NONE && m->count == 1 && m->factors[0].exponent == 1.0;
@@ -419,7 +417,7 @@ static bool waves_turns(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Does the angle contain a fraction of a turn angle, such as half of one? */
+/* Does the angle contain a turn angle times a fraction, such as half a turn angle? */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (!op_list_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
@@ -429,7 +427,7 @@ static bool has_part(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Removes angles with fractions of turn angles, which occur in records only. Their sines are evaluated, for full
+/* Removes angles with fractions of turn angles, which occur only in records. Their sines are evaluated, for full
  * precision. No other sine is computed from them, so the other results keep their bits. */
 static int without_parts(const lowering *l, const poly **angles, int count) {
     int kept = 0;
@@ -441,7 +439,7 @@ static int without_parts(const lowering *l, const poly **angles, int count) {
     return kept;
 }
 
-/* Choose rules for `count` different angles. */
+/* Chooses rules for `count` different angles. */
 static void waves_plan(lowering *l, const poly **angles, int count) {
     count = without_parts(l, angles, count);
     for (int i = 1; i < count; i++) { /* a stable sort, smallest first */
@@ -484,7 +482,8 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
     }
 }
 
-/* The operation for an angle's phase: turn angles times numbers, a fixed offset, and the other terms in radians. */
+/* Returns the operation for an angle's phase: turn angles times numbers, a fixed offset, and the other terms in
+ * radians. */
 static int phase_of(lowering *l, const poly *angle) {
     double *multiple = alloc(l->list->angles, sizeof *multiple);
     double offset = 0.0;
@@ -506,8 +505,8 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
-/* In this file each operation has its own statement. In C the order of evaluation of arguments is open, and it would
- * become the order of the list. */
+/* In this file each operation is entered by its own statement. C does not fix the order in which arguments are
+ * evaluated, and that order would become the order of the list. */
 static int sine_of(lowering *l, int i);
 
 static int cosine_of(lowering *l, int i) {
@@ -578,13 +577,13 @@ static int planned(lowering *l, const poly *angle) {
     return i >= 0 ? i : append(l, (wave){angle, WAVE_EVALUATED, -1, -1, -1, -1});
 }
 
-/* The operation for the sine or cosine of an angle; an unplanned angle is evaluated. */
+/* The operation for the sine or cosine of an angle. An angle without a rule is evaluated. */
 static int waves_sine(lowering *l, const poly *angle) { return sine_of(l, planned(l, angle)); }
 static int waves_cosine(lowering *l, const poly *angle) { return cosine_of(l, planned(l, angle)); }
 
 /* === polys to operations ====================================================================== */
 
-/* Coefficients that differ by less than this part count as equal: they come from the same number. */
+/* Coefficients whose relative difference is smaller than this come from the same number. */
 #define SAME 1e-13
 
 /* --- planning the sines --------------------------------------------------------------------------*/
@@ -644,7 +643,7 @@ void lower_done(lowering *l) {
 /* --- factoring -----------------------------------------------------------------------------------*/
 
 #define FACTORS_MAX 24
-/* Larger whole exponents are not expanded to products, here or in op_list_power(). They are tested first: an int
+/* Whole exponents above this are not expanded to products, here or in op_list_power(). They are tested first: an int
  * would truncate large ones, and a power of a reciprocal would amplify the reciprocal's round-off. */
 #define EXPONENT_MAX 64.0
 
@@ -686,7 +685,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
-    /* a phase resolves 1.5e-9 rad: enough for a turn angle, which has no more digits, but not for a small number */
+    /* a phase resolves 1.5e-9 rad, which is enough for a turn angle, but not for a small number */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return op_list_div(l->list, s, waves_cosine(l, x->argument[0]));
@@ -724,7 +723,7 @@ static void product_factor(lowering *l, product *p, const mono_factor *f) {
     product_multiply(l, p, node, (int)size);
 }
 
-/* Sum of the products' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
+/* Returns the sum of the products' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
 static int sum_of_like(lowering *l, const product *products, const int *nodes, const bool *member,
                        int count, double size) {
     op_list *t = l->list;
@@ -739,7 +738,7 @@ static int sum_of_like(lowering *l, const product *products, const int *nodes, c
     return op_list_mul(t, op_list_constant(t, size), sum);
 }
 
-/* Products without a common factor: terms with coefficients of the same size are added first. */
+/* Adds products without a common factor. Terms with coefficients of the same size are added first. */
 static int sum_flat(lowering *l, const product *products, int count) {
     op_list *t = l->list;
     int *nodes = alloc(count, sizeof *nodes);
@@ -776,7 +775,8 @@ static int sum_flat(lowering *l, const product *products, int count) {
     return sum;
 }
 
-/* The node that most products share, or -1. Rates are preferred, so that sums of sines are not split. */
+/* Returns the node that the largest number of products share, or -1. Rates are preferred, so that sums of sines are
+ * not split. */
 static int most_shared(lowering *l, const product *products, int count) {
     int best = -1;
     int best_uses = 1;
@@ -810,7 +810,7 @@ static int most_shared(lowering *l, const product *products, int count) {
     return best;
 }
 
-/* The operation for the sum of the products, which are overwritten. */
+/* Returns the operation for the sum of the products, which are overwritten. */
 static int sum_of(lowering *l, product *products, int count) {
     op_list *t = l->list;
     if (count <= 0) {
@@ -828,7 +828,7 @@ static int sum_of(lowering *l, product *products, int count) {
             }
         }
     }
-    product *with = alloc_more(NULL, count, sizeof *with); /* large: not cleared */
+    product *with = alloc_more(NULL, count, sizeof *with); /* large, so not cleared */
     int in = 0;
     int out = 0; /* products without the node are moved to the front */
     for (int i = 0; i < count; i++) {

@@ -6,7 +6,6 @@
 #include "host/image/op_list.h"
 
 /* === powers from multiple angles ============================================================== */
-/* A poly's terms, with the multiple angles of the normal form converted back to powers of sines and cosines. */
 
 /* One term: coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines. */
 typedef struct piece {
@@ -28,23 +27,23 @@ typedef struct wave wave;
 typedef struct lowering {
     algebra *algebra;
     op_list *list;
-    /* The operation for a symbol outside sines (a leaf of the list). */
+    /* Returns the operation for a symbol outside sines (a leaf of the list). */
     int (*leaf)(void *context, op_list *t, const symbol *sym, int primes);
-    /* Index of the symbol's turn angle, or -1. */
+    /* Returns the index of the symbol's turn angle, or -1. */
     int (*turn)(void *context, const symbol *sym);
     void *context;
-    /* The planned angle that is evaluated first: its rank by size, 0 for the smallest. */
+    /* Rank by size of the planned angle that is evaluated first; 0 for the smallest. */
     int lead;
     wave *waves;
     int wave_count;
-    int *uses; /* [uses_room] by operation: scratch of zeros */
+    int *uses; /* [uses_room] working memory, one entry per operation, all zero between uses */
     int uses_room;
 } lowering;
 
-/* Announce all polys before lowering the first: the choice of evaluated sines depends on all of them. */
+/* Announces all polys before the first one is lowered: the choice of evaluated sines depends on all of them. */
 void lower_plan(lowering *l, const poly *const *polys, int count);
 
-/* The operation that computes p. */
+/* Returns the operation that computes p. */
 int lower(lowering *l, const poly *p);
 
 void lower_done(lowering *l);

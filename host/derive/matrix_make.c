@@ -12,14 +12,14 @@
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 
-/* A sum below this part of its addends counts as zero, as in host/algebra. Decimal parameters must leave no spurious
- * spring between two masses that move together. */
+/* A sum that is smaller than this, relative to its addends, counts as zero, as in host/algebra. Decimal parameters
+ * must leave no spurious spring between two masses that move together. */
 #define GHOST 1e-14
 
 static int affine_states(const image *im) { return im->angles + im->reals; }
 int affine_columns(const image *im) { return affine_states(im) + im->inputs + 1; }
 
-/* The column of a leaf, or -1 if it is neither state nor input. */
+/* Returns the column of a leaf, or -1 if it is neither state nor input. */
 static int column_of(const image *im, const op *o) {
     if (o->code == OP_LINEAR) {
         return im->angles + o->a;
@@ -56,7 +56,8 @@ static void multiply(const twofold *a, twofold factor, int columns, twofold *to)
     }
 }
 
-/* The coefficients of operation o, from those of all earlier ones. Returns false if the operation is not affine. */
+/* Computes the coefficients of operation `o` from those of all earlier operations. Returns false if `o` is not
+ * affine. */
 static bool step(const image *im, const op *o, const twofold *all, twofold *to) {
     const int columns = affine_columns(im);
     const twofold *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
@@ -154,16 +155,15 @@ static void affine_takes(const image *im, int number, bool *taking) {
 }
 
 /* === the report of a nonlinear term =========================================================== */
-/* The innermost subexpression, in the spelling of the file, whose degree in the state is too high. */
 
-/* The degree of an expression that is not a polynomial. Sums of degrees stay within an int. */
+/* The degree of an expression that is not a polynomial. It is small enough that sums of degrees fit into an int. */
 enum { NO_POWER = 1000 };
 
 /* The dependencies of a node of the blame list. */
 typedef struct made_of {
     int degree;      /* degree in states, rates and inputs together */
-    uint64_t states; /* unknowns, a bit each; above 64 they share bits */
-    uint64_t inputs; /* inputs, as bits in the same way */
+    uint64_t states; /* a bit for each unknown; unknowns beyond 64 share bits */
+    uint64_t inputs; /* a bit for each input, in the same way */
 } made_of;
 
 static uint64_t bit(int number) { return UINT64_C(1) << (number % 64); }
@@ -210,8 +210,8 @@ static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
     return both;
 }
 
-/* If the whole exceeds a limit of degree, and the other operand has the degree `other`, does this operand exceed the
- * limit by itself? If not, only the combination of both exceeds it. */
+/* The result of an operation exceeds a limit of degree, and its other operand has the degree `other`. Returns true if
+ * this operand may exceed the limit by itself, false if only the combination of both exceeds it. */
 static bool passes_on(diagnostics_code code, int other) {
     switch (code) {
     case DIAGNOSTICS_SAME:
@@ -229,7 +229,8 @@ static bool passes_on(diagnostics_code code, int other) {
     return false;
 }
 
-/* Descends from `node`, whose degree exceeds `most`, to operands that exceed it by themselves. Returns the last node found. */
+/* Descends from `node`, whose degree exceeds `most`, to operands that exceed it by themselves. Returns the last such
+ * node. */
 static int innermost(const image_blame *b, const made_of *of, int node, int most) {
     for (;;) {
         const diagnostics_node *n = &b->node[node];
@@ -246,7 +247,7 @@ static int innermost(const image_blame *b, const made_of *of, int node, int most
     }
 }
 
-/* The names of the dependencies: "theta", "x and y", "x, y and M". */
+/* Returns the names of the dependencies, such as "theta", "x and y" or "x, y and M". */
 static char *names(const image *im, made_of of) {
     char *text = NULL;
     size_t length = 0;
@@ -300,7 +301,7 @@ static void report(const image *im, const made_of *of, int node, place where, di
     free(of_what);
 }
 
-/* Report that `operation` of the step's list is not linear. The image needs a blame list. */
+/* Reports that `operation` of the step's list is not linear. The image needs a blame list. */
 static void not_linear_report(const image *im, int operation, diags *errors) {
     const image_blame *b = &im->blame;
     const int states = affine_states(im);
@@ -345,13 +346,14 @@ static void not_linear_report(const image *im, int operation, diags *errors) {
 
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
 
-/* Each halving of the step needs a squaring, which may lose one of the 104 bits. After 50 squarings a double's digits remain. */
+/* Each halving of the step needs a squaring, which may lose one of the 104 bits. After 50 squarings, a double's digits
+ * remain. */
 enum { HALVINGS_MOST = 50 };
 
-/* After this many powers of a matrix of norm 1/2 or less, the series' remainder is 2^-110 of the matrix. */
+/* Number of terms of the series. For a matrix of norm 1/2 or less, the remainder is then 2^-110 of the matrix. */
 enum { POWERS = 26 };
 
-/* to = a b, with the first `states` columns of a; b has as many columns as `to`. */
+/* Computes to = a b with the first `states` columns of a; b has as many columns as `to`. */
 static void product(const twofold *a, const twofold *b, int states, int columns, twofold *to) {
     for (int i = 0; i < states; i++) {
         for (int k = 0; k < columns; k++) {
@@ -365,8 +367,8 @@ static void product(const twofold *a, const twofold *b, int states, int columns,
     }
 }
 
-/* As exponential_exact(), but without scaling, and the series ends with the power `order`. A Runge-Kutta method of
- * that order with as many stages gives this result for any weights. */
+/* As exponential_exact(), but without scaling, and with a series that ends with the power `order`. A Runge-Kutta
+ * method with that order and as many stages gives this result, whatever its weights. */
 static void exponential_series(twofold *step, int states, int columns, int order) {
     const int count = states * columns;
     twofold *power = alloc(count, sizeof *power);
@@ -386,7 +388,7 @@ static void exponential_series(twofold *step, int states, int columns, int order
     free(of);
 }
 
-/* The largest sum of absolute entries in a row of A. */
+/* Returns the largest sum of absolute entries in a row of A. */
 static double norm(const twofold *a, int states, int columns) {
     double most = 0.0;
     for (int i = 0; i < states; i++) {
@@ -399,7 +401,7 @@ static double norm(const twofold *a, int states, int columns) {
     return most;
 }
 
-/* Sum of the sizes in row i of A (`row`) or in column i, without the diagonal. */
+/* Returns the sum of the absolute values in row i of A (`row`), or in column i, without the diagonal. */
 static double off_diagonal(const twofold *a, int i, bool row, int states, int columns) {
     double sum = 0.0;
     for (int j = 0; j < states; j++) {
@@ -418,7 +420,7 @@ static void in_units(twofold *a, int i, double by, int states, int columns) {
     }
 }
 
-/* Balancing by powers of two, which makes corresponding rows and columns of A similar in size (Parlett & Reinsch,
+/* Balances A by powers of two, which makes corresponding rows and columns similar in size (Parlett & Reinsch,
  * Numerische Mathematik 13 (1969) 293). Otherwise a stiffness of 1e9 N/m next to a rate of 1e-3 m/s would need many
  * halvings. */
 static void balance(twofold *a, double *unit, int states, int columns) {
@@ -442,8 +444,9 @@ static void balance(twofold *a, double *unit, int states, int columns) {
     }
 }
 
-/* Entries of states below this part of the largest in their row, in balanced units, become zero. Example: the last of
- * twenty masses in a row contributes 1e-60 to the first one's motion within a millisecond, below the range of float. */
+/* An entry below this, relative to the largest in its row in balanced units, becomes zero. Example: the last of twenty
+ * masses in a row contributes 1e-60 to the first one's motion within a millisecond, which is below the range of
+ * float. */
 #define LEAST_PART 0x1p-100
 
 static void drop_least(twofold *step, int states, int columns) {
@@ -461,11 +464,11 @@ static void drop_least(twofold *step, int states, int columns) {
     }
 }
 
-/* On entry step[states * columns] has the rates A | B | c times the step. On return it has exp([A B c; 0 0 0] h) - 1
- * without its lower rows: the change of the states in one step. The method is scaling and squaring of the exponential
- * minus one, which keeps the digits of small changes. (Moler & Van Loan, Nineteen Dubious Ways to Compute the
- * Exponential of a Matrix, method 3.) The matrix is balanced first. Returns false if a number overflows, or if the
- * scaled steps are so small that digits would be lost: step[] is then invalid. */
+/* On entry, step[states * columns] has the rates A | B | c times the step. On return, it has exp([A B c; 0 0 0] h) -
+ * 1 without its lower rows: the change of the states in one step. The method is scaling and squaring of the
+ * exponential minus one, which keeps the digits of small changes (Moler & Van Loan, Nineteen Dubious Ways to Compute
+ * the Exponential of a Matrix, method 3). The matrix is balanced first. Returns false if a number overflows, or if
+ * the scaled steps are so small that digits would be lost; step[] is then invalid. */
 static bool exponential_exact(twofold *step, int states, int columns) {
     const int count = states * columns;
     double *unit = alloc(states, sizeof *unit);
@@ -529,9 +532,7 @@ static bool is_possible(const image *im, diags *errors) {
     return false;
 }
 
-/* --- the list --------------------------------------------------------------------------------------*/
-
-/* The operation for a column: a state, an input or the constant. Columns of turn angles have no entries. */
+/* Returns the operation for a column: a state, an input or the constant. Columns of turn angles have no entries. */
 static int leaf(const image *im, op_list *t, int column) {
     const int real = column - im->angles;
     const int linears = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
@@ -545,7 +546,7 @@ static int leaf(const image *im, op_list *t, int column) {
                           : op_list_leaf(t, OP_RATE, real - linears);
 }
 
-/* The sum of a row's entries, each rounded to double, times their columns. */
+/* Enters the sum of a row's entries, each rounded by constant(), times their columns. */
 static int enter_row(const image *im, op_list *t, const twofold *row,
                      double (*constant)(twofold entry)) {
     int sum = op_list_constant(t, 0.0);
@@ -567,7 +568,7 @@ static int enter_near(const image *im, op_list *t, twofold *row, int of) {
     return op_list_add(t, leaf(im, t, of), enter_row(im, t, row, double_double_constant));
 }
 
-/* The part of an entry beyond a float's digits, if a float can represent that part. */
+/* Returns the part of an entry beyond a float's digits; 0 if a float cannot represent that part. */
 static double rest(twofold entry) {
     const double beyond = double_double_beyond_float(entry);
     return fits_float(beyond) ? beyond : 0.0;
@@ -587,7 +588,7 @@ static int enter_angle(const image *im, op_list *t, twofold *row, int i, twofold
     return enter_near(im, t, row, rate);
 }
 
-/* The list of a step. `change` has the change in a step of length h, and is overwritten. */
+/* Returns the list of a step. `change` has the change in a step of length h, and is overwritten. */
 static op_list *make_list(const image *im, twofold *change, twofold h) {
     const int states = affine_states(im);
     const bool compensated = im->settings.compensated;
@@ -608,8 +609,6 @@ static op_list *make_list(const image *im, twofold *change, twofold h) {
     return t;
 }
 
-/* --- the matrix ------------------------------------------------------------------------------------*/
-
 static void keep_numbers(image_draft *d, const twofold *change) {
     image *im = d->made;
     image_matrix *m = &im->matrix;
@@ -625,7 +624,7 @@ static void keep_numbers(image_draft *d, const twofold *change) {
     }
 }
 
-/* On entry change[] has the rates. */
+/* Makes the matrix and its list. On entry, change[] has the rates. */
 static bool make(image_draft *d, twofold *change, diags *errors) {
     image *im = d->made;
     const int states = affine_states(im);

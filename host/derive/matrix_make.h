@@ -7,20 +7,20 @@
 #include "host/number/double_double.h"
 
 /* === an affine right-hand side ================================================================ */
-/* The coefficients of an affine right-hand side, x' = A x + B u + c, from its operation list. */
 
-/* The states of a scene, angles first, and the columns: states, inputs, and the constant. */
+/* Number of columns of an affine right-hand side x' = A x + B u + c: states (angles first), inputs, and the
+ * constant. */
 int affine_columns(const image *im);
 
-/* rates[states * columns]: the rates of the states, row by row, with the list's own round-off. Each operation is
- * repeated on its operands' coefficients. Returns -1, or the first operation that is not affine; rates[] is then
- * unchanged. */
+/* Computes rates[states * columns], the rates of the states, row by row, with the list's own round-off. Each
+ * operation is repeated on the coefficients of its operands. Returns -1, or the first operation that is not affine;
+ * then rates[] is unchanged. */
 int affine_rates(const image *im, twofold *rates);
 
-/* Make the matrix and its list, as the image's settings require; the image must be otherwise complete. Returns false,
- * reported, if there is no such matrix: events, a ledger, another method, a nonlinear term, or numbers that grow too
- * large. `has_blame`: the image has its blame list, which locates the nonlinear term. Without that list a nonlinear term
- * is not reported; *wants_blame is set instead. */
+/* Makes the matrix and its list, as the image's settings require; the image must be otherwise complete. Returns false,
+ * reported, if there is no such matrix: because of events, a ledger, another method, a nonlinear term, or numbers that
+ * grow too large. `has_blame`: the image has its blame list, which locates the nonlinear term. Without that list a
+ * nonlinear term is not reported; *wants_blame is set instead. */
 bool matrix_make(image_draft *d, bool has_blame, bool *wants_blame, diags *errors);
 
 #endif

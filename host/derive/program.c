@@ -20,7 +20,7 @@ CONTACT_KIND_ROWS(SAME_KIND)
 _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
                "the core has room for what a run may have");
 
-/* Fills p[] (if not NULL) with every poly of the step of a scene with these laws, ready for a list. Returns their number. */
+/* Fills p[] (if not NULL) with every poly of the scene's contacts, ready for a list. Returns their number. */
 static int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
     const contact_laws *laws = e->contacts;
     int count = 0;
@@ -41,7 +41,7 @@ static int contact_lists_polys(const equations *e, const conservation *c, const 
     return count;
 }
 
-/* A list that computes wanted[count], which must be ready for a list (layout_ready()). */
+/* Returns a list that computes wanted[count], which must be ready for a list (layout_ready()). */
 static op_list *enter_ready(layout *map, const poly *const *wanted, int count) {
     op_list *t = op_list_new(map->angles, count);
     lowering l = layout_lowering(map, t);
@@ -93,7 +93,8 @@ static op_list *make_sets(layout *map) {
     return t;
 }
 
-/* The list of the contacts' rows J and their responses M^-1 J^T, by the same elimination as the accelerations. */
+/* Makes the list of the contacts' rows J and their responses M^-1 J^T, by the same elimination as the
+ * accelerations. */
 static op_list *make_forces(layout *map, const linear_system *s) {
     const contact_laws *laws = map->equations->contacts;
     const int n = map->equations->count;
@@ -136,7 +137,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
     return t;
 }
 
-/* The only scene coordinate with an entry in the row, if the entry is a number; else -1. */
+/* Returns the only scene coordinate with an entry in the row, if the entry is a number; else -1. */
 static int pin_of(const layout *map, const contact_law *law) {
     int pin = -1;
     for (int i = 0; i < map->equations->count; i++) {
@@ -153,7 +154,7 @@ static int pin_of(const layout *map, const contact_law *law) {
     return pin;
 }
 
-/* The state component of an assignment, or -1: a conserved coordinate has none. */
+/* Returns the state component of an assignment, or -1: a conserved coordinate has none. */
 static int component_of(const layout *map, const assignment *set) {
     const component *const lists[] = {map->angle, map->real};
     const int counts[] = {map->angles, map->reals};
@@ -198,8 +199,8 @@ static contact_row make_row(contact_lists *c, const layout *map, const contact_l
     return row;
 }
 
-/* Are all numbers in these expressions finite, with the parameters' values? `max` may hide an infinite one, so each
- * expression is checked in its original form. */
+/* Are all numbers in these expressions finite, with the parameters' values? A `max` may hide an infinite number, so
+ * each expression is checked in its original form. */
 static bool are_finite(const equations *e, const expr *const *each, int count) {
     for (int i = 0; i < count; i++) {
         if (each[i] != NULL &&
@@ -210,7 +211,7 @@ static bool are_finite(const equations *e, const expr *const *each, int count) {
     return true;
 }
 
-/* Are all laws finite? Parameter values may produce 1/0, and then a contact would have no defined side. */
+/* Are all laws finite? Parameter values may produce 1/0, and then the side of a contact would be undefined. */
 static bool have_finite_laws(const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, a root or logarithm of a negative number, or too large values";
@@ -248,7 +249,7 @@ static bool have_impulses(const equations *e, diags *errors) {
     return true;
 }
 
-/* Enter the lists. `s` is the folded system. NULL after an error, reported. */
+/* Enters the lists. `s` is the folded system. Returns NULL after an error, reported. */
 static contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors) {
     const equations *e = map->equations;
     const contact_laws *laws = e->contacts;
@@ -275,7 +276,7 @@ static contact_lists *contact_lists_make(layout *map, const linear_system *s, di
     return c;
 }
 
-/* The hash after mixing in the lists and the table. */
+/* Returns the hash after mixing in the lists and the table. */
 static uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
     hash = wh_hash_u64(hash, op_list_hash(c->signals));
     hash = wh_hash_u64(hash, op_list_hash(c->forces));
@@ -312,12 +313,12 @@ static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, con
     }
 }
 
-/* Is unknown i driven by an input with a rate? It has no momentum, so its account has no entries. */
+/* Does unknown i follow an input with a rate? It has no momentum, so its account has no entries. */
 static bool is_driven(const layout *map, int i) {
     return map->equations->unknowns[i].symbol->driven != NULL;
 }
 
-/* The entries of one statement. */
+/* Adds the entries of one statement. */
 static void add_statement(ledger_lists *l, const layout *map, const statement_force *of,
                           const poly **power) {
     const bool drives = of->from->kind == TERM_Q;
@@ -339,7 +340,7 @@ static void order_accounts(ledger_lists *l, const layout *map) {
     }
 }
 
-/* The continuous entries, between events. */
+/* Adds the continuous entries, between events, and returns their rates. */
 static const poly **smooth_entries(ledger_lists *l, const layout *map) {
     const equations *e = map->equations;
     algebra *a = e->algebra;
@@ -363,7 +364,7 @@ static const poly **smooth_entries(ledger_lists *l, const layout *map) {
     return power;
 }
 
-/* Inputs in the energies: their changes between steps are entries. */
+/* Finds the inputs in the energies. Their changes between steps are entries. */
 static void find_inputs(ledger_lists *l, const layout *map) {
     const equations *e = map->equations;
     const poly *kinetic = layout_ready(map, e->kinetic);
@@ -407,8 +408,8 @@ static bool can_keep(const layout *map, diags *errors) {
     return true;
 }
 
-/* Enter the lists of a scene with this number of contacts and the energy integral `integral` (NULL: T + V, see
- * equations.h). NULL after an error, reported. */
+/* Enters the lists of a scene with this number of contacts. `integral` is the energy integral, or NULL if it is T + V
+ * (see equations.h). Returns NULL after an error, reported. */
 static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts,
                                        diags *errors) {
     const equations *e = map->equations;
@@ -427,7 +428,7 @@ static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int co
     if (good) {
         l->powers = enter_ready(map, power, l->smooth);
         l->levels = make_levels(l, integral, map);
-        /* the equations have this angle only inside sines, with whole factors, but the rate of an entry has it elsewhere */
+        /* an angle that the equations contain only inside sines may occur elsewhere in an entry's rate */
         l->turned = op_list_reads_turns(l->powers);
     }
     if (!good) {
@@ -456,9 +457,9 @@ static void ledger_lists_free(ledger_lists *l) {
 
 static const char no_stabilized[] = "leave out --stabilized";
 
-/* The check before the ledger exists. The scene needs an energy, a method with stages, and no contacts: a correction
- * would undo their energy changes. `contacts` may be NULL, and `integral` is NULL if the energy is T + V. Returns false
- * if impossible, reported with its place. */
+/* Checks, before the ledger exists, that a step can be stabilized. The scene needs an energy, a method with stages, and
+ * no contacts: a correction would undo their energy changes. `contacts` may be NULL; `integral` is NULL if the energy
+ * is T + V. Returns false, and reports the place, if it is impossible. */
 static bool stabilizing_possible(const layout *map, const contact_lists *contacts,
                                  const poly *integral, const image_settings *settings,
                                  diags *errors) {
@@ -500,7 +501,7 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
     return false;
 }
 
-/* The check with the ledger: nothing may add or remove energy. */
+/* Checks with the ledger that nothing adds or removes energy, which a stabilized step requires. */
 static bool stabilizing_conserves(const ledger_lists *books, const equations *e, diags *errors) {
     for (int i = 0; i < books->smooth; i++) {
         if (books->entry[i].account == 0) {
@@ -523,7 +524,7 @@ static bool stabilizing_conserves(const ledger_lists *books, const equations *e,
 
 /* === the lists of an instance ================================================================= */
 
-/* The derivative of a component of a first-order scene. */
+/* Returns the derivative of a component of a first-order scene. */
 static int slope_of(layout *map, lowering *l, component of, const int *highest) {
     const int k = map->conserved->number[of.unknown];
     if (k >= 0) {
@@ -565,8 +566,8 @@ static op_list *make_step(layout *map, const linear_system *s) {
     return t;
 }
 
-/* A list that first solves for the highest derivatives, then computes `wanted`. With `keep`, the
- * highest derivatives are the first results. */
+/* Makes a list that first solves for the highest derivatives, then computes `wanted`. With `keep`, the highest
+ * derivatives are the first results. */
 static op_list *make_observer(layout *map, const linear_system *s, const poly *const *wanted,
                               int count, bool keep) {
     const equations *e = map->equations;
@@ -615,7 +616,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     return t;
 }
 
-/* The mechanism's outputs, then value and rate of each conserved coordinate. */
+/* Makes the list of the mechanism's outputs, then value and rate of each conserved coordinate. */
 static op_list *make_observe(const program *p, layout *map, const linear_system *s) {
     const equations *e = map->equations;
     const int own = e->instance->mechanism->output_count;
@@ -663,7 +664,7 @@ static op_list *make_books(const program *p, layout *map, const linear_system *s
     return t;
 }
 
-/* Are all constants finite? Parameter values may produce 1/0 or too large a number, and such a program cannot run. */
+/* Are all constants finite? Parameter values may produce 1/0 or too large a number; such a program cannot run. */
 static bool lists_finite(const program *p, const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, or values that are too large or too small";
@@ -692,8 +693,8 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
-/* Does the step use turn angles only as phases? A step has no whole angles. A coordinate that is needed elsewhere is
- * a real, so this fails only if a factor grew too large while solving the equations. */
+/* Does the step use turn angles only as phases? A step has no whole angles. A coordinate that is needed in another
+ * form is a real. So this fails only if a factor became too large when the equations were solved. */
 static bool steps_need_no_turns(const program *p, const equations *e, diags *errors) {
     const contact_lists *c = p->contacts;
     const op_list *const lists[] = {p->step, c != NULL ? c->signals : NULL,

@@ -38,7 +38,8 @@ typedef struct contact_lists {
 
 typedef struct ledger_entry {
     ledger_kind kind;
-    const place *at; /* of the term or input that causes it; NULL for LEDGER_ENERGIES */
+    /* place of the term or input that causes the entry; NULL for LEDGER_ENERGIES */
+    const place *at;
     int account;
 } ledger_entry;
 
@@ -65,7 +66,6 @@ typedef struct program {
     op_list *step;
     op_list
         *tables; /* exact list of the tables' functions; NULL without tables (program_look_up()) */
-    /* The outputs. */
     op_list *observe;
     contact_lists *contacts; /* NULL without contacts */
     ledger_lists *ledger;    /* NULL without a ledger */

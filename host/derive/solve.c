@@ -1,8 +1,8 @@
-/* solve.c: the solution for the highest derivatives in the cheapest of several arrangements. Arrangements
- * differ in the scale of the equations, the order of elimination, the evaluated sines, and the symbolic elimination.
- * Coordinates with a constant diagonal may be eliminated symbolically (a carriage's total mass, a body on a hinge): the
- * remaining equations return to normal form and may shrink. Two remaining equations are solved by Cramer's rule, with
- * one division. op_list_weight() decides between them. */
+/* solve.c: the solution for the highest derivatives in the cheapest of several arrangements. Arrangements differ in the
+ * scale of the equations, the order of elimination, the evaluated sines, and the symbolic elimination. Coordinates with
+ * a constant diagonal may be eliminated symbolically (a carriage's total mass, a body on a hinge). The remaining
+ * equations return to normal form and may shrink. Two remaining equations are solved by Cramer's rule, with one
+ * division. op_list_weight() measures the cost. */
 #include "host/derive/solve.h"
 
 #include <math.h>
@@ -18,7 +18,8 @@ static int minus_product(op_list *t, int from, int x, int y) {
     return op_list_sub(t, from, op_list_mul(t, x, y));
 }
 
-/* mass[n * n] and force[n] are operations (overwritten). solution[n] receives the operations. */
+/* mass[n * n] and force[n] are operations, and are overwritten. solution[n] receives the operations of the
+ * unknowns. */
 
 /* --- symmetric positive definite -----------------------------------------------------------------*/
 
@@ -45,7 +46,7 @@ static void solve_pair(op_list *t, int n, const int *mass, const int *force, int
     solution[j] = op_list_mul(t, y, inverse);
 }
 
-/* order[n] is the order of elimination. The first `done` unknowns are already eliminated symbolically, and only need back
+/* Eliminates in the order order[n]. The first `done` unknowns are already eliminated symbolically, and need only back
  * substitution. */
 static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const int *order,
                                 int done, int *solution) {
@@ -78,12 +79,12 @@ static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const 
 
 /* --- any regular matrix --------------------------------------------------------------------------*/
 
-/* A number between 0.3 and 0.67, different for each leaf, and independent of the leaf's place in the list. */
+/* Returns a number between 0.3 and 0.67, different for each leaf, and independent of the leaf's place in the list. */
 static double generic(double of) {
     return 0.3 + 0.37 * number_remainder(fabs(of) * 0.6180339887, 1.0);
 }
 
-/* The value of every operation at an artificial generic state, to find pivots that vanish. */
+/* Returns the value of every operation at an artificial generic state, which shows pivots that vanish. */
 static double *sample(const op_list *t) {
     double *v = alloc(t->count, sizeof *v);
     for (int i = 0; i < t->count; i++) {
@@ -128,7 +129,7 @@ static double *sample(const op_list *t) {
     return v;
 }
 
-/* Determinant of the equations rows[] in the unknowns columns[], by cofactors (size <= 3). */
+/* Enters the determinant of the equations rows[] in the unknowns columns[], by cofactors (size <= 3). */
 static int determinant(op_list *t, int n, const int *mass, const int *rows, const int *columns,
                        int size) {
     if (size == 1) {
@@ -174,8 +175,8 @@ static void exchange(int *a, int *b) {
     *b = kept;
 }
 
-/* Move the best pivot among the equations and unknowns from `at` on to position `at`. The best is a constant one or, if
- * there is none, the largest at the sample state. Returns true if it is constant. */
+/* Moves the best pivot among the equations and unknowns from `at` on to position `at`. A constant pivot is best;
+ * otherwise the largest at the sample state. Returns true if the pivot is constant. */
 static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int *columns, int at) {
     double *v = sample(t);
     double best = -1.0;
@@ -245,20 +246,20 @@ static void eliminate_general(op_list *t, int n, int *mass, int *force, int *sol
  *
  *     A q'' + sum_j P_j x_j = f,        P_j = Re(z_j exp(i c q)),    f = Re(w exp(i c q)) + rest
  *
- * z_j and w do not contain q. Gaussian elimination adds -P_i P_j / A to the others' m_ij, the total effect of the body
- * on them. With the quadratures P~_j = Im(z_j exp(i c q)),
+ * z_j and w do not contain q. Gaussian elimination adds -P_i P_j / A to the other rows' m_ij, the total effect of the
+ * body on them. With the quadratures P~_j = Im(z_j exp(i c q)),
  *
  *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
  *
- * The first part has no q and joins m_ij in the normal form. The second part acts like a mass that moves along
- * the line from the hinge to the body only. The same is true of the forces: their common factor is the pull along that
- * line. P~ is minus the derivative of P by q, divided by c. */
+ * The first part has no q and joins m_ij in the normal form. The second part acts as a mass that moves only along the
+ * line from the hinge to the body. The same is true of the forces: their common factor is the pull along that line.
+ * P~ is minus the derivative of P by q, divided by c. */
 
 static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
 }
 
-/* c^2 if p'' = -c^2 p and p is not zero; else 0. */
+/* Returns c^2 if p'' = -c^2 p and p is not zero; else 0. */
 static double frequency_squared(algebra *a, const poly *p, const symbol *q) {
     const poly *bent = bend(a, p, q);
     if (poly_is_zero(p) || bent->count != p->count) {
@@ -271,7 +272,7 @@ static double frequency_squared(algebra *a, const poly *p, const symbol *q) {
 
 typedef struct wave_of {
     const poly *here;   /* Re(z exp(i c q)) */
-    const poly *across; /* Im */
+    const poly *across; /* Im(z exp(i c q)) */
 } wave_of;
 
 static wave_of wave_make(algebra *a, const poly *p, const symbol *q, double c) {
@@ -283,7 +284,7 @@ static const poly *without_turn(algebra *a, wave_of x, wave_of y) {
     return poly_add(a, poly_mul(a, x.here, y.here), poly_mul(a, x.across, y.across));
 }
 
-/* The common frequency of all entries of row k, or 0. */
+/* Returns the common frequency of all entries of row k, or 0. */
 static double shared_frequency(algebra *a, int n, const poly *const *mass, const bool *gone, int k,
                                const symbol *q) {
     double squared = 0.0;
@@ -330,8 +331,8 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
     return g;
 }
 
-/* Eliminate the angle `turning`, unknown k of n, from the remaining equations mass[n * n] and force[n]. Returns true if
- * the diagonal entry of row k is a number, *own, and its other entries are waves of the angle with one frequency. Then
+/* Eliminates the angle `turning`, unknown k of n, from the remaining equations mass[n * n] and force[n]. This is possible
+ * if the diagonal entry of row k is a number, *own, and its other entries are waves of the angle with one frequency. Then
  *
  *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
  *
@@ -381,15 +382,15 @@ static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **f
 }
 
 /* === forms of the equations =================================================================== */
-/* The equations M x = f in one of several forms, before entry into a list: scales, and symbolic elimination. */
 
 /* The choices of an arrangement. */
 typedef struct arrangement {
     bool scaled;
-    bool rescaled; /* the equations after symbolic elimination */
-    bool hinged;   /* unknowns on hinges are eliminated first, in this order */
+    bool rescaled; /* rescale the equations after symbolic elimination */
+    bool hinged;   /* eliminate unknowns on hinges first, in the order below */
     int lead;      /* the sine that is evaluated first: lower.h */
-    int first; /* unknown eliminated symbolically; -1: no unknown; -2: every constant diagonal */
+    /* unknown that is eliminated symbolically; -1: none; -2: all with a constant diagonal */
+    int first;
     int order[COORDINATES_MAX]; /* order of elimination */
 } arrangement;
 
@@ -402,7 +403,7 @@ typedef struct arranged {
     int hinges;
     const poly **across; /* [hinges * (n + 1)] of hinge_eliminate() */
     double *inverse;     /* [hinges] factor of the products of across */
-    double *scale;       /* [n] of rows and columns */
+    double *scale;       /* [n] scale of each row and column */
     bool *gone;          /* [n] eliminated symbolically */
     int *order;          /* [n] eliminated unknowns first */
     int eliminated;
@@ -411,12 +412,10 @@ typedef struct arranged {
 /* Symbolic elimination stops before an entry gets more terms than this. */
 #define SYMBOLIC_TERMS_MAX 60
 
-/* --- scaling -------------------------------------------------------------------------------------*/
-
-/* Most different numbers in a tally. Large equations have more, which are ignored. */
+/* Largest number of different numbers in a tally. Large equations have more; the others are ignored. */
 #define TALLY_MAX 128
 
-/* Starts as {0}. */
+/* Counts numbers by their size. Its initial value is {0}. */
 typedef struct tally {
     double size[TALLY_MAX];
     int uses[TALLY_MAX];
@@ -449,7 +448,8 @@ static double tally_favourite(const tally *t) {
     return best < 0 ? 1.0 : t->size[best];
 }
 
-/* Chooses scale[i] for row and column i, and returns a common divisor, so that most coefficients become one. */
+/* Chooses scale[i] for row and column i, and returns a common divisor, so that as many coefficients as possible
+ * become one. */
 static double choose_scales(const linear_system *s, double *scale) {
     const int n = s->n;
     tally all = {.count = 0};
@@ -484,7 +484,8 @@ static double choose_scales(const linear_system *s, double *scale) {
     return common;
 }
 
-/* c * scale, rounded to a simple fraction if it is within round-off of one: 1.0000000000000002 would cost a product. */
+/* Returns c * scale. A result within round-off of a simple fraction becomes that fraction, because 1.0000000000000002
+ * would cost a product. */
 static double scale_number(double c, double scale) {
     const double scaled = folding_product(c, scale);
     const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
@@ -495,10 +496,8 @@ static const poly *scale_simply(algebra *a, const poly *p, double scale) {
     return poly_each_number(a, p, scale_number, scale);
 }
 
-/* --- symbolic elimination ------------------------------------------------------------------------*/
-
-/* Eliminates unknown k from the others symbolically. Returns false, and changes nothing, if an entry would grow too
- * much. */
+/* Eliminates unknown k from the other equations symbolically. Returns false, and changes nothing, if an entry would
+ * grow too much. */
 static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone, int k) {
     double diagonal;
@@ -527,8 +526,8 @@ static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly 
     return true;
 }
 
-/* Forgets the eliminated unknowns, in order, up to the first wanted one. No wanted solution depends on them, so their
- * equations, and sines that occur only there, need not be computed. */
+/* Forgets the first eliminated unknowns, up to the first wanted one. No wanted solution depends on them, so their
+ * equations, and sines that occur only in these, need not be computed. */
 static void forget_unwanted(algebra *a, const linear_system *s, const poly **mass,
                             const poly **force, const int *order, int eliminated) {
     const int n = s->n;
@@ -557,7 +556,7 @@ static void scale_equations(algebra *a, int n, const poly **mass, const poly **f
     }
 }
 
-/* Divide the remaining equations by the most frequent size of their numbers, which becomes one. */
+/* Divides the remaining equations by the most frequent size of their numbers, which becomes one. */
 static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone) {
     tally all = {.count = 0};
@@ -573,8 +572,6 @@ static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly 
     }
     scale_equations(a, n, mass, force, gone, 1.0 / tally_favourite(&all));
 }
-
-/* --- one arrangement -----------------------------------------------------------------------------*/
 
 static arranged arranged_room(int n) {
     arranged w = {.n = n, .polys = n * n + n + n * (n + 1)};
@@ -624,7 +621,7 @@ static void put_away(arranged *w, int k) {
     w->order[w->eliminated++] = k;
 }
 
-/* Does unknown k occur in none of the hinges that were found so far? */
+/* Does unknown k occur in none of the hinges found so far? */
 static bool off_hinges(const arranged *w, int k) {
     bool off = true;
     for (int h = 0; h < w->hinges; h++) {
@@ -633,7 +630,7 @@ static bool off_hinges(const arranged *w, int k) {
     return off;
 }
 
-/* Eliminates all unknowns on hinges, in order. Returns false if there are none. */
+/* Eliminates all unknowns on hinges, in the arrangement's order. Returns false if there are none. */
 static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangement *how,
                              arranged *w) {
     const int n = s->n;
@@ -650,7 +647,7 @@ static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangeme
     return w->hinges > 0;
 }
 
-/* Scale the remaining equation of unknown i, its column, and its entries in across. */
+/* Scales the remaining equation of unknown i, its column, and its entries in `across`. */
 static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     const int n = w->n;
     for (int j = 0; j < n; j++) {
@@ -665,8 +662,8 @@ static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     w->scale[i] *= scale;
 }
 
-/* Turn most numbers of the remaining equations into one: scale all equations, then rows and columns of unknowns that
- * are not angles. */
+/* Makes the most frequent numbers of the remaining equations one: scales all equations, then the rows and columns of
+ * unknowns that are not angles. */
 static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
     const int n = s->n;
     const double common = 1.0 / w->inverse[0];
@@ -692,7 +689,7 @@ static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w)
     }
 }
 
-/* Builds one arrangement of the system. Returns false if it is impossible; free it in both cases. */
+/* Builds one arrangement of the system. Returns false if it is impossible. The caller frees *w in both cases. */
 static bool arrange(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
     const int n = s->n;
     *w = arranged_room(n);
@@ -726,15 +723,13 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 
 /* === the cheapest of several arrangements ===================================================== */
 
-/* All orders of elimination are tried if neither limit is exceeded; otherwise only the first order. */
+/* All orders of elimination are tried if neither limit is exceeded; otherwise only the first order is tried. */
 #define PERMUTED_MAX 4           /* unknowns */
-#define PERMUTED_SIZE_MAX 4000.0 /* leaves of the equations */
-/* Besides the smallest angle, this many angles are tried as the first evaluated one. */
+#define PERMUTED_SIZE_MAX 4000.0 /* operands in the equations */
+/* This many angles, besides the smallest one, are tried as the first evaluated angle. */
 #define LEADS_MAX 5
 
-/* --- one arrangement -----------------------------------------------------------------------------*/
-
-/* Adds one hinge's terms, across_i across_j * inverse, to the mass matrix and the forces. */
+/* Adds a hinge's terms, across_i across_j * inverse, to the mass matrix and the forces. */
 static void add_across(op_list *t, int n, const int *across, double inverse, int *mass,
                        int *force) {
     const int factor = op_list_constant(t, inverse);
@@ -750,7 +745,7 @@ static void add_across(op_list *t, int n, const int *across, double inverse, int
     }
 }
 
-/* Enter the solution on `t`; solution[] receives the operations. If this arrangement is impossible, enters nothing and
+/* Enters the solution on `t`; solution[] receives the operations. If the arrangement is impossible, enters nothing and
  * returns false. */
 static bool enter(const lowering *like, op_list *t, const linear_system *s, const arrangement *how,
                   int *solution) {
@@ -788,7 +783,7 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
     return can;
 }
 
-/* The weight of the list of an arrangement; -1 if the arrangement is impossible. */
+/* Returns the weight of the list of an arrangement, or -1 if the arrangement is impossible. */
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
     op_list *t = op_list_new(l->list->angles, s->n);
     int weight = -1;
@@ -806,7 +801,7 @@ static int weigh(const lowering *l, const linear_system *s, const arrangement *h
     return weight;
 }
 
-/* The next permutation in lexical order; false after the last. */
+/* Makes the next permutation in lexical order. Returns false after the last one. */
 static bool next_order(int *order, int n) {
     int i = n - 2;
     while (i >= 0 && order[i] > order[i + 1]) {
@@ -837,8 +832,6 @@ static bool can_be_permuted(const linear_system *s) {
     return s->n <= PERMUTED_MAX && size <= PERMUTED_SIZE_MAX;
 }
 
-/* --- the cheapest ---------------------------------------------------------------------------------*/
-
 typedef struct choice {
     arrangement how;
     int weight; /* -1: no arrangement was tried yet */
@@ -852,7 +845,7 @@ static void try_it(const lowering *l, const linear_system *s, const arrangement 
     }
 }
 
-/* Tries the system as it is, and rescaled if that may help. */
+/* Tries the system without rescaling, and rescaled if that may help. */
 static void try_scales(const lowering *l, const linear_system *s, arrangement how, bool rescales,
                        choice *best) {
     for (int again = 0; again <= rescales; again++) {

@@ -15,15 +15,15 @@ typedef struct linear_system {
     const symbol *const *unknown; /* [n] */
     const bool *turning; /* [n] the unknown is an angle: its row keeps the scale of energy */
     const bool *wanted;  /* [n] the unknown's solution is needed, so its cost counts */
-    /* Unwanted solutions are arbitrary, which allows more arrangements. It is false if contacts solve with the same
-     * matrix, because the bits of their steps must not change. */
+    /* Unwanted solutions need not be correct, which allows more arrangements. This is false if contacts solve with
+     * the same matrix, because the bits of their steps must not change. */
     bool sparing;
     /* Precision matters more than operations: no hinge is eliminated (solve.c). A list with hinges has two to five times
      * the round-off (docs/dev/numerics.md). */
     bool precise;
 } linear_system;
 
-/* Enter the solution into l->list and store the operation for each unknown in solution[n]. The caller sets `leaf`,
+/* Enters the solution into l->list, and stores the operation for each unknown in solution[n]. The caller sets `leaf`,
  * `turn` and `context` of *l. Several arrangements are tried on separate lists; the cheapest is entered. */
 void solve_highest(lowering *l, const linear_system *system, int *solution);
 

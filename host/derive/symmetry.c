@@ -8,8 +8,8 @@
 #include "host/number/functions.h"
 
 /* === the null space =========================================================================== */
-/* The null space of many linear conditions: a triangular factor, and its singular values by one-sided Jacobi
- * rotations (Hestenes, "Inversion of matrices by biorthogonalization", 1958). */
+/* The null space of many linear conditions is found from a triangular factor and its singular values, by one-sided
+ * Jacobi rotations (Hestenes, "Inversion of matrices by biorthogonalization", 1958). */
 
 /* The triangular factor of all conditions so far. */
 typedef struct conditions {
@@ -17,12 +17,12 @@ typedef struct conditions {
     double *r; /* [columns * columns] */
 } conditions;
 
-/* An entry of a vector below this is round-off. So is the remainder of a vector that depends on others. */
+/* An entry of a unit vector below this is round-off, and so is the remainder of a vector that depends on others. */
 #define NULL_SPACE_ROUNDING 1e-8
 
 #define SWEEPS_MOST 60
 
-/* No conditions yet. The caller frees r. */
+/* Returns an empty set of conditions. The caller frees r. */
 static conditions conditions_none(int columns) {
     return (conditions){columns, alloc((int64_t)columns * columns, sizeof(double))};
 }
@@ -39,7 +39,7 @@ static double vector_length(const double *row, int columns) {
     return most * number_root(sum);
 }
 
-/* Adds a row to the factor by Givens rotations; the row is destroyed. */
+/* Adds a row to the factor by Givens rotations. The row is destroyed. */
 static void rotate_in(conditions *c, double *row) {
     const int n = c->columns;
     for (int k = 0; k < n; k++) {
@@ -57,7 +57,7 @@ static void rotate_in(conditions *c, double *row) {
     }
 }
 
-/* Adds a condition row . v = 0, scaled to length 1; the row is destroyed. */
+/* Adds the condition row . v = 0, scaled to length 1. The row is destroyed. */
 static void conditions_take(conditions *c, double *row) {
     const double length = vector_length(row, c->columns);
     for (int k = 0; k < c->columns && length > 0.0; k++) {
@@ -78,8 +78,8 @@ static void conditions_add(conditions *c, const conditions *more) {
     free(row);
 }
 
-/* One Jacobi rotation that makes columns p and q of m orthogonal, applied to v as well. Returns false if they already
- * are. */
+/* Makes columns p and q of m orthogonal by a Jacobi rotation, which is applied to v, too. Returns false if they
+ * already are. */
 static bool make_orthogonal(double *m, double *v, int n, int p, int q) {
     double pp = 0.0;
     double qq = 0.0;
@@ -109,8 +109,8 @@ static bool make_orthogonal(double *m, double *v, int n, int p, int q) {
     return true;
 }
 
-/* The orthonormal vectors that meet all conditions, as rows of basis[columns * columns]; returns how many. Singular values below
- * `zero` times the largest count as zero. */
+/* Finds the orthonormal vectors that meet all conditions, as rows of basis[columns * columns], and returns their
+ * number. A singular value counts as zero if it is below `zero` times the largest one. */
 static int null_space(const conditions *c, double zero, double *basis) {
     const int n = c->columns;
     double *m = alloc((int64_t)n * n, sizeof *m);
@@ -153,7 +153,7 @@ static int null_space(const conditions *c, double zero, double *basis) {
     return count;
 }
 
-/* Replaces the basis by vectors that are easy to read: the reduced echelon form, from the last columns on. */
+/* Replaces the basis by vectors that are easier to read: its reduced echelon form, from the last columns on. */
 static void null_space_tidy(double *basis, int count, int columns) {
     for (int done = 0; done < count; done++) {
         int row = done;
@@ -191,19 +191,17 @@ static void null_space_tidy(double *basis, int count, int columns) {
 
 /* === symmetries =============================================================================== */
 
-/* Singular values below these parts of the largest one count as zero. A part of an energy may be as small as a
+/* A singular value below this, relative to the largest one, counts as zero. A part of an energy may be as small as a
  * millionth of it. */
 #define ZERO_OF_TERMS 1e-12  /* conditions from coefficients */
 #define ZERO_OF_VALUES 1e-11 /* conditions from values at random states */
-/* Attempts to find one random state at which all functions are defined. */
+/* Number of attempts to find a random state at which all functions are defined. */
 #define DRAWS 50
 
-/* --- the change of an energy ----------------------------------------------------------------------*/
-
-/* The number of columns: A row by row, then b. */
+/* Returns the number of columns: the entries of A, row by row, then those of b. */
 static int columns_of(const equations *e) { return e->count * (e->count + 1); }
 
-/* The change of an energy by the motion of column k alone. */
+/* Returns the change of an energy by the motion of column k alone. */
 static const poly *change_by(const equations *e, const poly *energy, int k) {
     algebra *a = e->algebra;
     const int n = e->count;
@@ -217,7 +215,7 @@ static const poly *change_by(const equations *e, const poly *energy, int k) {
                     poly_mul(a, poly_derivative(a, energy, moved, 1), poly_symbol(a, with, 1)));
 }
 
-/* The angle without its constant, which goes to *number. */
+/* Returns the angle without its constant term, which goes to *number. */
 static const poly *angle_without_number(algebra *a, const poly *angle, double *number) {
     *number = 0.0;
     for (int i = 0; i < angle->count; i++) {
@@ -228,7 +226,7 @@ static const poly *angle_without_number(algebra *a, const poly *angle, double *n
     return *number != 0.0 ? poly_sub(a, angle, poly_number(a, *number)) : angle;
 }
 
-/* sin(theta + 0.5) and sin(theta) are not independent, so sines and cosines with a constant phase are expanded. */
+/* Expands sines and cosines with a constant phase, because sin(theta + 0.5) and sin(theta) are not independent. */
 static const poly *without_phases(algebra *a, const poly *p) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < p->count; i++) {
@@ -256,7 +254,7 @@ static const poly *without_phases(algebra *a, const poly *p) {
     return sum;
 }
 
-/* The power of a generalized force, or the rate of a gap, in the motion of column k alone. */
+/* Returns the power of a generalized force, or the rate of a gap, in the motion of column k alone. */
 static const poly *power_by(const equations *e, const poly *const *row, int k) {
     const int n = e->count;
     const poly *on = equations_fold(e, row[k < n * n ? k / n : k - n * n]);
@@ -278,7 +276,7 @@ static int by_mono(const void *left, const void *right) {
                                       : x->column - y->column;
 }
 
-/* Adds a condition for each term of the normal form: the coefficients of the term, by column. */
+/* Adds a condition for each term of the normal form. Its entries are the coefficients of that term in each column. */
 static void take_terms(conditions *s, const poly *const *change) {
     int64_t count = 0;
     for (int k = 0; k < s->columns; k++) {
@@ -316,7 +314,8 @@ static void take_row(const equations *e, conditions *s, const poly *const *row,
     take_terms(s, change);
 }
 
-/* Adds the conditions of a symbol that a crossing sets, because that changes every momentum that depends on the symbol. */
+/* Adds the conditions of a symbol that a crossing sets, because this changes every momentum that depends on the
+ * symbol. */
 static void take_set(const equations *e, conditions *s, const assignment *set,
                      const poly **change) {
     for (int k = 0; k < s->columns; k++) {
@@ -328,7 +327,7 @@ static void take_set(const equations *e, conditions *s, const assignment *set,
     take_terms(s, change);
 }
 
-/* Changes of a momentum besides the energies: the sum of all forces, and each contact. */
+/* Adds the conditions that all forces together, and each contact, leave the momentum unchanged. */
 static void take_forces(const equations *e, conditions *s, const poly **change) {
     const contact_laws *laws = e->contacts;
     take_row(e, s, e->applied, change);
@@ -343,9 +342,7 @@ static void take_forces(const equations *e, conditions *s, const poly **change) 
     }
 }
 
-/* --- the check by values ---------------------------------------------------------------------------*/
-
-/* The number for a symbol at a random state; always the same for one state. */
+/* Returns the number for a symbol at a random state; it is always the same for one state. */
 static double drawn_value(void *context, const symbol *s, int primes) {
     const uint64_t *seed = context;
     uint64_t x = *seed * UINT64_C(0x9e3779b97f4a7c15) +
@@ -355,7 +352,8 @@ static double drawn_value(void *context, const symbol *s, int primes) {
     return 0.1 + 1.7 * (double)(x >> 11) * 0x1p-53 - (*seed % 2 == 0 ? 0.0 : 1.0);
 }
 
-/* The number of motions that leave an energy unchanged, from its changes at random states; -1 if no state has a value. */
+/* Returns the number of motions that leave an energy unchanged, computed from its changes at random states; -1 if no
+ * state has a finite value. */
 static int count_by_values(const equations *e, const poly *const *change) {
     const int columns = columns_of(e);
     conditions of_values = conditions_none(columns);
@@ -415,8 +413,8 @@ static symmetry symmetry_of(const equations *e, const double *by) {
     return s;
 }
 
-/* Orthogonalize v against known[count], orthonormal rows. If the remainder exceeds round-off, adds it and returns
- * true. */
+/* Orthogonalizes v against known[count], whose rows are orthonormal. If the remainder exceeds round-off, adds it as a
+ * row and returns true. */
 static bool is_new(const double *v, double *known, int *count, int columns) {
     double *mine = &known[*count * columns];
     const double length = vector_length(v, columns);
@@ -453,7 +451,7 @@ typedef struct finding {
     double *basis; /* [columns * columns] scratch */
 } finding;
 
-/* Find new symmetries that meet all conditions; returns the number of all that meet them. */
+/* Finds new symmetries that meet all conditions. Returns the number of all symmetries that meet them. */
 static int find_more(finding *f, const conditions *c, bool of_both, bool conserved) {
     const int count = null_space(c, ZERO_OF_TERMS, f->basis);
     null_space_tidy(f->basis, count, c->columns);
@@ -476,7 +474,7 @@ static int find_more(finding *f, const conditions *c, bool of_both, bool conserv
     return count;
 }
 
-/* Restrict to shifts: every entry of A is zero. */
+/* Adds the conditions that every entry of A is zero, so that only shifts remain. */
 static void take_no_turning(conditions *s, int n) {
     double *row = alloc(s->columns, sizeof *row);
     for (int k = 0; k < n * n; k++) {
@@ -503,7 +501,7 @@ symmetries *symmetries_find(const equations *e) {
     const int64_t square = (int64_t)columns * columns;
     const poly **change = alloc(columns, sizeof *change);
     const poly *const energy[] = {equations_fold(e, e->kinetic), equations_fold(e, e->stored)};
-    conditions of[] = {conditions_none(columns), conditions_none(columns)}; /* T, V */
+    conditions of[] = {conditions_none(columns), conditions_none(columns)}; /* of T, of V */
     conditions of_forces = conditions_none(columns);
     symmetries *found = alloc(1, sizeof *found);
     *found = (symmetries){

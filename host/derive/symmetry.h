@@ -31,11 +31,13 @@ typedef struct symmetries {
     bool flat;      /* T has constant coefficients: every direction and rotation is affine */
 } symmetries;
 
-/* For a mechanism given by energies, with the values of its parameters. NULL if the algebra overflows. */
+/* Finds the symmetries of a mechanism given by energies, with the values of its parameters. Returns NULL if the
+ * algebra overflows. */
 symmetries *symmetries_find(const equations *e);
 void symmetries_free(symmetries *s);
 
-/* Sum of row[i] times the symmetry's motion of coordinate i: the power of a generalized force, or the rate of a gap. */
+/* Returns the sum of row[i] times the symmetry's motion of coordinate i: the power of a generalized force, or the rate
+ * of a gap. */
 const poly *symmetry_along(const equations *e, const symmetry *s, const poly *const *row);
 
 #endif

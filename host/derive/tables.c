@@ -10,9 +10,8 @@
 #include "host/number/ratio.h"
 
 /* === functions of one angle, at any part of its turn, with their slopes ======================= */
-/* Sines in double, computed with the program's own functions, so that they are identical on every host. */
 
-/* The value of an operation at some angle. */
+/* The value of an operation at an angle. */
 typedef struct turn_value {
     double value;
     double slope; /* derivative by the angle in turns */
@@ -21,7 +20,7 @@ typedef struct turn_value {
 
 #define TURN_RAD 6.283185307179586477
 
-/* Sine and cosine of a fraction of a turn: exact at quarter turns, and with exact symmetries. */
+/* Sine and cosine of a fraction of a turn. They are exact at quarter turns, and have exact symmetries. */
 static void turn_wave_of(double turns, double *sine, double *cosine) {
     const double quarters = number_even(4.0 * turns);
     const double rest_rad = (turns - 0.25 * quarters) * TURN_RAD;
@@ -68,7 +67,8 @@ static turn_value of_wave(op_code code, double turns, int multiple) {
 }
 
 /* Evaluates all operations of the list to value[t->count] at an angle of `turns`. Phase i is multiple[i] times this
- * angle; entries of other operations are unused. All operations are functions of that angle: no rates or reals. */
+ * angle; entries of other operations are unused. All operations must be functions of that angle, without rates or
+ * reals. */
 static void turn_evaluate(const op_list *t, const int *multiple, double turns, turn_value *value) {
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
@@ -117,20 +117,21 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
 }
 
 /* === the numbers in the cells of tables ======================================================= */
-/* A table's pieces meet at knots half a cell from the cells' middles. With the function's values at the knots, straight
- * pieces would have errors of h^2/8 f'', and h^2/12 f'' on average. Cubic pieces, with its slopes, would have h^4/384
- * f'''' and h^4/720 f''''. The error has one sign, and a rotating mechanism would accumulate it. So the knots are moved
- * by the mean error, estimated from differences between knots. The mean error vanishes, and the largest error falls by
- * a third (straight) or a half (cubic). */
+/* A table's pieces meet at knots half a cell from the cells' middles. If straight pieces took the function's values at
+ * the knots, their error would be h^2/8 f'', and h^2/12 f'' on average. The error of cubic pieces, which take the
+ * slopes, too, would be h^4/384 f'''' and h^4/720 f''''. The error has one sign, and a rotating mechanism would
+ * accumulate it. So the knots are moved by the mean error, estimated from differences between knots. The mean error
+ * vanishes, and the largest error falls by a third (straight) or a half (cubic). */
 
-/* The tabled functions: operations of a list of functions of one angle; its phase i is multiple[i] times the angle. */
+/* The functions to be tabled: operations of a list of functions of one angle. Phase i is multiple[i] times the
+ * angle. */
 typedef struct table_functions {
     const op_list *list;
     const int *multiple; /* [list->count] */
     const int *function; /* [tables] operations */
 } table_functions;
 
-/* The value at knot `at`. Knots form a ring, and `cells` is a power of two. */
+/* Returns the value at knot `at`. Knots form a ring, and `cells` is a power of two. */
 static double knot(const double *of, int cells, int at) { return of[at & (cells - 1)]; }
 
 static double second_difference(const double *of, int n, int i) {
@@ -142,7 +143,7 @@ static double fourth_difference(const double *of, int n, int i) {
            4.0 * (knot(of, n, i - 1) + knot(of, n, i + 1)) + 6.0 * of[i];
 }
 
-/* Cell i of the table, between knots i and i + 1. */
+/* Writes cell i of the table, between knots i and i + 1. */
 static void write_linear(const double *value, int n, int i, double *number) {
     const double left = value[i] - second_difference(value, n, i) / 12.0;
     const int next = (i + 1) & (n - 1);
@@ -167,7 +168,7 @@ static void write_cubic(const double *value, const double *slope, int n, int i, 
     number[1] = rise - 0.25 * number[3];
 }
 
-/* Is table k an even function of the angle (if `odd`, an odd one), to the last bit? */
+/* Is table k an even function of the angle, or, if `odd` is true, an odd one, to the last bit? */
 static bool mirrors(const op_list_tables *of, int k, bool odd) {
     const int n = 1 << of->bits;
     for (int i = 0; i <= n / 2; i++) {
@@ -191,7 +192,7 @@ static void find_mirrors(op_list_tables *of) {
     }
 }
 
-/* Finds the largest error of each table from TRIED points per cell, including the middle and the knots. */
+/* Finds the largest error of each table at TRIED points per cell, which include the middle and the knots. */
 static void set_errors(const table_functions *f, op_list_tables *of) {
     enum { TRIED = 16 };
     const op_list *c = f->list;
@@ -215,7 +216,7 @@ static void set_errors(const table_functions *f, op_list_tables *of) {
     free(all);
 }
 
-/* Fill in all fields of the tables except count, bits and terms. */
+/* Fills in all fields of the tables except count, bits and terms. */
 static void table_numbers(const table_functions *f, op_list_tables *into) {
     const op_list *c = f->list;
     const int n = 1 << into->bits;
@@ -250,7 +251,8 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
 }
 
 /* === a list as sums of products =============================================================== */
-/* The operations in order: sums are added, multiplied out, and divided by functions of the angles alone. */
+/* The state of the conversion. The operations are taken in order: sums are added, multiplied out, and divided by
+ * functions of the angles alone. */
 
 typedef struct collecting {
     products *made;
@@ -289,7 +291,7 @@ static bool is_zero(const op_list *t, int a) {
     return op_list_is_constant(t, a, &value) && value == 0.0;
 }
 
-/* sum += coefficient * powers. Cancelled terms are removed. */
+/* Adds coefficient * powers to the sum. Cancelled terms are removed. */
 static void enter(collecting *c, product_sum *sum, const unsigned char *power, int coefficient) {
     products *p = c->made;
     for (int i = 0; i < sum->count; i++) {
@@ -320,7 +322,7 @@ static product_sum of_angles(collecting *c, int coefficient) {
     return sum;
 }
 
-/* Does the sum depend on the angles alone? Then *coefficient is the operation of its value. */
+/* Does the sum depend only on the angles? Then *coefficient is the operation of its value. */
 static bool is_of_angles(collecting *c, product_sum sum, int *coefficient) {
     bool alone = sum.count <= 1;
     for (int i = 0; i < c->made->symbols && sum.count == 1; i++) {
@@ -390,7 +392,7 @@ static product_sum divided(collecting *c, product_sum x, product_sum y) {
     return sum;
 }
 
-/* A function of one or two operands that depend on the angles alone. */
+/* Enters a function of one or two operands, which must depend only on the angles. */
 static product_sum function_of(collecting *c, const op *o) {
     op_list *t = c->made->coefficients;
     int a;
@@ -500,10 +502,11 @@ static void products_free(products *p) {
 /* Number of angles at which coefficients are compared. */
 enum { TRIES = 4096 };
 
-/* Values below this part of the sum of absolute addends count as zero; smaller differences count as equality. */
+/* A value below this, relative to the sum of absolute addends, counts as zero. Values that differ by less are
+ * equal. */
 #define ALIKE 1e-13
 
-/* A denominator whose size falls below this part of its maximum counts as reaching zero. */
+/* A denominator counts as reaching zero if its size falls below this part of its maximum. */
 #define POLE 1e-6
 
 typedef enum coefficient_kind { IS_NOTHING, IS_CONSTANT, IS_TABLE } coefficient_kind;
@@ -520,8 +523,8 @@ typedef struct coefficient {
 typedef struct tabling {
     products *from;
     refusal *why;
-    int *turns;               /* [angles] of the looked-up phase */
-    int *multiple;            /* [coefficients->count] the multiple of that phase */
+    int *turns;               /* [angles] factors of the phase that is looked up */
+    int *multiple;            /* [coefficients->count] multiple of that phase */
     coefficient *coefficient; /* [count] of the products, result after result */
     int count;
     int *table; /* [tables] operations of the coefficients' list */
@@ -532,9 +535,7 @@ int tables_cells(image_tables form) {
     return form == TABLES_CUBIC ? TABLES_CELLS_CUBIC : TABLES_CELLS_LINEAR;
 }
 
-/* --- which phase is looked up ------------------------------------------------------------------------*/
-
-/* The first angle with a nonzero factor in a phase. */
+/* Returns the first angle with a nonzero factor in a phase. */
 static int leading(const int *turns, int angles) {
     int k = 0;
     while (k < angles - 1 && turns[k] == 0) {
@@ -559,7 +560,7 @@ static bool shares(int *turns, const int *other, int angles) {
     return true;
 }
 
-/* The index of an angle of the other phase that this phase does not have; if there is none, the other's first angle. */
+/* Returns the index of an angle that only the other phase has; if there is none, the first angle of the other phase. */
 static int angle_of_other(const int *turns, const int *other, int angles) {
     for (int k = 0; k < angles; k++) {
         if (other[k] != 0 && turns[k] == 0) {
@@ -596,8 +597,6 @@ static void find_phase(tabling *t) {
         t->multiple[i] = op_list_is_wave(&c->ops[i]) ? c->ops[i].turns[k] / t->turns[k] : 0;
     }
 }
-
-/* --- constants, poles, and common factors -------------------------------------------------------------- */
 
 typedef struct span_of {
     double least;
@@ -640,7 +639,7 @@ static void try_angles(tabling *t) {
     free(span);
 }
 
-/* The tried angle at which the coefficient is largest. */
+/* Returns the tried angle at which the coefficient is largest. */
 static int peak_of(const coefficient *c) {
     int at = 0;
     for (int s = 1; s < TRIES; s++) {
@@ -658,7 +657,7 @@ static bool is_constant(const coefficient *c) {
     return true;
 }
 
-/* Is c, which is largest at `peak`, a multiple of `of`? */
+/* Is `c`, which is largest at `peak`, a multiple of `of`? *factor is the multiple. */
 static bool is_multiple(const coefficient *c, int peak, const coefficient *of, double *factor) {
     *factor = of->value[peak] != 0.0 ? c->value[peak] / of->value[peak] : 0.0;
     const double size = c->size + fabs(*factor) * of->size;
@@ -701,8 +700,6 @@ static void sort_out(tabling *t) {
     free(first);
 }
 
-/* --- the list --------------------------------------------------------------------------------------*/
-
 /* A product in a remaining sum. */
 typedef struct part {
     int coefficient; /* operation of the new list */
@@ -731,7 +728,7 @@ static int product_of(const writing *w, const part *p) {
     return op_list_mul(w->made, p->coefficient, made);
 }
 
-/* The symbol that occurs in the most parts, if it occurs in more than one; otherwise -1. */
+/* Returns the symbol that occurs in the largest number of parts, if in more than one; otherwise -1. */
 static int commonest(const writing *w, const part *parts, int count) {
     int best = -1;
     int most = 1;
@@ -748,7 +745,7 @@ static int commonest(const writing *w, const part *parts, int count) {
     return best;
 }
 
-/* The sum of parts[count], which are overwritten. Common symbols are factored out, recursively. */
+/* Returns the sum of parts[count], which are overwritten. Common symbols are factored out, recursively. */
 static int sum_up(const writing *w, part *parts, int count) {
     const int common = w->nested ? commonest(w, parts, count) : -1;
     int with = 0;
@@ -762,7 +759,7 @@ static int sum_up(const writing *w, part *parts, int count) {
         }
     }
     if (with > 0) {
-        /* in each of these parts the power is lower by one */
+        /* the powers in these parts are already lower by one */
         const int inner = sum_up(w, parts, with);
         sum = op_list_mul(w->made, symbol_of(w, common), inner);
         return op_list_add(w->made, sum, sum_up(w, parts + with, count - with));
@@ -827,7 +824,7 @@ static op_list *cheaper(const tabling *t, const op_list *list, image_tables form
     return made[taken];
 }
 
-/* The coefficients' list becomes the exact list of the tables. */
+/* Turns the coefficients' list into the exact list of the tables. */
 static op_list *take_exact(tabling *t) {
     op_list *exact = t->from->coefficients;
     t->from->coefficients = NULL;
@@ -853,7 +850,7 @@ static void take_coefficients(tabling *t) {
     }
 }
 
-/* The list with tables; NULL if it is refused (t->why). */
+/* Returns the list with tables, or NULL if it is refused (t->why). */
 static op_list *make(tabling *t, const op_list *list, image_tables form, int bits,
                      op_list **exact) {
     find_phase(t);

@@ -6,7 +6,7 @@
 #include "host/image/op_list.h"
 
 /* === a list as sums of products =============================================================== */
-/* A step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles only. */
+/* Largest number of products in a sum. */
 
 enum { PRODUCTS_MOST = 128 };
 
@@ -30,7 +30,7 @@ typedef struct products {
     struct arena *memory;
 } products;
 
-/* The reason why a list has no such form, in words after "the accelerations ", and a hint. */
+/* The reason why a list has no such form, as words that follow "the accelerations ", and a hint. */
 typedef struct refusal {
     const char *reason;
     const char *hint;
@@ -40,14 +40,14 @@ typedef struct refusal {
 /* Default number of cells of a table, for one turn. */
 enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
 
-/* The accelerations (or derivatives) as sum_k c_k(phase) m_k, with m_k products of rates, inputs and reals. The result
- * is `list` with a table for each c_k that is not constant. All c_k must be functions of one phase: a turn angle, or a
- * whole multiple or a sum of turn angles. c_k that differ by a factor have one table. *exact is a list of the tables'
- * functions. Returns NULL, and the reason in *why, if the list has no such form. */
+/* Returns `list` with table look-ups. The accelerations (or derivatives) are written as sum_k c_k(phase) m_k, with
+ * products m_k of rates, inputs and reals. Each c_k that is not constant becomes a table; c_k that differ by a factor
+ * share one. All c_k must be functions of one phase: a turn angle, or a whole multiple or a sum of turn angles. *exact
+ * is a list of the tables' functions. Returns NULL, and the reason in *why, if the list has no such form. */
 op_list *tables_make(const op_list *list, image_tables form, int cells, op_list **exact,
                      refusal *why);
 
-/* The default number of cells of a table of that form. */
+/* Returns the default number of cells of a table of that form. */
 int tables_cells(image_tables form);
 
 #endif

@@ -1,5 +1,5 @@
-/* core_rows.h: conversion of the image to the core's tables (core/contact.h, core/ledger.h), in one place. The
- * interpreter adds the functions and passes them on; the generated C prints them. */
+/* core_rows.h: conversion of an image to the core's tables (core/contact.h, core/ledger.h), in one place. The
+ * interpreter gives these tables to the core and adds the functions; the writer of C prints them. */
 #ifndef IMAGE_CORE_ROWS_H
 #define IMAGE_CORE_ROWS_H
 
@@ -46,12 +46,12 @@ static inline wh_driven core_drive(const image_drive *d) {
                        (uint8_t)d->rate_at};
 }
 
-/* The argument of WH_CONTACT_EVALUATIONS(): the number of stages; 0 for a matrix. */
+/* The number of stages, for WH_CONTACT_EVALUATIONS(); 0 if a step is a matrix. */
 static inline int core_stages(const image *im) {
     return im->settings.matrix != MATRIX_NONE ? 0 : wh_methods[im->settings.method].stages;
 }
 
-/* The position of the rates for wh_step_matrix(): the number of reals before them. */
+/* Index of the first rate among the reals, for wh_step_matrix(). */
 static inline int core_rates_at(const image *im) {
     return im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : 0;
 }
@@ -64,7 +64,7 @@ static inline int core_stops(const image *im) {
     return stops;
 }
 
-/* The largest number of evaluations in a step, of the accelerations (or derivatives) and of the contacts' signals. */
+/* Largest numbers of evaluations in a step: of the accelerations (or derivatives), and of the contacts' signals. */
 static inline int core_evaluations(const image *im) {
     const int stages = core_stages(im);
     return im->contacts == 0 ? stages : WH_CONTACT_EVALUATIONS(stages, core_stops(im), im->forced);
@@ -90,13 +90,13 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
                             .stabilized = im->settings.stabilized};
 }
 
-/* Words of the ledger: entries, their round-off, and one for each of the form's accounts. */
+/* Number of reals for the ledger: entries, their round-off, and one for each account of the form. */
 static inline int core_ledger_words(const image *im) {
     const wh_ledger_form form = core_ledger_form(im, NULL, NULL);
     return im->ledger.kept ? 2 * form.entries + form.accounts : 0;
 }
 
-/* The second argument of WH_MEMORY_BYTES(): numbers of the state, low parts of compensated sums, inputs, holds and the ledger. */
+/* Number of reals for WH_MEMORY_BYTES(): the state, low parts of compensated sums, inputs, holds and the ledger. */
 static inline int core_memory_reals(const image *im) {
     const int carried = im->settings.compensated ? im->angles + im->reals : 0;
     return im->reals + carried + im->inputs + im->held + core_ledger_words(im);

@@ -1,12 +1,13 @@
 /* image.h: the image: one scene with its effects and settings, ready to run, to be written as code, or to be described.
- * It has the complete result of the derivation in numbers, names and operation lists, for both number types. It has
- * pointers only to itself, so the language and the algebra may be freed (host/derive/image_make.h makes it). host/engine
+ * It has the complete result of the derivation in numbers, names and operation lists, for both number types. It has no
+ * pointers to the model or the algebra, so these may be freed after host/derive/image_make.h has made it. host/engine
  * and host/emit read only the image.
  *
- * Arrays state their length in brackets; units are SI, angles radians; an `index` counts from 0. Texts are never NULL.
+ * Arrays state their length in brackets. Units are SI, angles are in radians, and an `index` counts from 0. Texts are
+ * never NULL.
  *
- * To extend it: a new list gets a role. A property of each operation of a list (its range) is stored beside that list,
- * by role. A property of a parameter is stored in its row. */
+ * To extend the image: a new list gets a role. A property of each operation of a list, such as a range, is stored
+ * beside that list, by role. A property of a parameter is stored in the parameter's row. */
 #ifndef IMAGE_IMAGE_H
 #define IMAGE_IMAGE_H
 
@@ -15,14 +16,14 @@
 #include "host/image/op_list.h"
 #include "host/number/ratio.h"
 
-/* Most variants with other ways of folding numbers. */
+/* Largest number of variants of an image with other ways of folding numbers. */
 enum { IMAGE_WAYS = 6 };
 
-/* Most coordinates of a mechanism, or first-order components of a system. */
+/* Largest number of coordinates of a mechanism, or of first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
-/* The source of a stage's sines of turn angles. If possible, they are looked up once per step and then rotated
- * (core/step/stage_turn.h); otherwise they are looked up at each stage (core/step.h). */
+/* How the stages of a step get the sines of turn angles. ANGLES_TURNED: looked up once per step and then rotated, if
+ * possible (core/step/stage_turn.h). ANGLES_LOOKUP: looked up at each stage (core/step.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
     X(ANGLES_LOOKUP, "lookup")
@@ -32,7 +33,7 @@ typedef enum image_angles { IMAGE_ANGLES_ROWS(IMAGE_ANGLES_NAME) } image_angles;
 #define IMAGE_ANGLES_ONE(id, word) +1
 enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ANGLES_ONE) };
 #undef IMAGE_ANGLES_ONE
-/* The words of the sources in options and descriptions. */
+/* The words in options and descriptions. */
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
 /* A whole step of a linear mechanism as one constant matrix (core/step/matrix_step.h): none, the exact motion with constant
@@ -47,11 +48,10 @@ typedef enum image_matrix_of { IMAGE_MATRIX_ROWS(IMAGE_MATRIX_NAME) } image_matr
 #define IMAGE_MATRIX_ONE(id, word) +1
 enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_MATRIX_ONE) };
 #undef IMAGE_MATRIX_ONE
-/* The words of the matrices in options and descriptions. */
 extern const char *const image_matrix_words[IMAGE_MATRICES];
 
-/* The accelerations' functions of their single turn angle: computed, or interpolated in tables of one turn
- * (core/step/table.h), linearly or cubically. */
+/* How functions of a single turn angle in the accelerations are obtained: computed, or interpolated linearly or
+ * cubically in tables of one turn (core/step/table.h). */
 #define IMAGE_TABLES_ROWS(X) \
     X(TABLES_NONE, "none") \
     X(TABLES_LINEAR, "linear") \
@@ -64,10 +64,10 @@ enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_TABLES_ONE) };
 #undef IMAGE_TABLES_ONE
 extern const char *const image_tables_words[IMAGE_TABLES_FORMS];
 
-/* Least and most cells of a table for one turn, powers of two. */
+/* Smallest and largest number of cells of a table for one turn; both are powers of two. */
 enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
 
-/* How to integrate. */
+/* The settings of the integration. */
 typedef struct image_settings {
     wh_method method;
     bool compensated;
@@ -85,12 +85,14 @@ typedef struct image_settings {
 /* --- the lists -----------------------------------------------------------------------------------*/
 
 typedef enum image_role {
-    IMAGE_STEP,    /* second order: result[i] is the acceleration of the scene's coordinate i; first
-                 * order: the derivative of component i, angles first */
-    IMAGE_OBSERVE, /* the outputs, then value and rate of each coordinate recovered from its
-                    * momentum */
-    IMAGE_BOOKS, /* highest derivatives (by unknown). For a mechanism with energies also the entries
-                  * of image_book, the momenta (by unknown) and the energy integral, if any */
+    /* result[i]. Second order: the acceleration of the scene's coordinate i. First order: the derivative of component
+     * i, angles first. */
+    IMAGE_STEP,
+    /* the outputs, then value and rate of each coordinate that is recovered from its momentum */
+    IMAGE_OBSERVE,
+    /* The highest derivatives, by unknown. If the mechanism has energies, then BOOK_KINETIC to BOOK_LOSS_POWER, the
+     * momenta by unknown, and the energy integral if it is not T + V. */
+    IMAGE_BOOKS,
     IMAGE_SIGNALS, /* this and the next two lists: for contacts (core/contact.h) */
     IMAGE_FORCES,
     IMAGE_SETS,
@@ -101,12 +103,12 @@ typedef enum image_role {
     IMAGE_ROLES
 } image_role;
 
-/* Results of the list IMAGE_BOOKS, after the highest derivatives. */
+/* Results of the list IMAGE_BOOKS, counted from the end of the highest derivatives. */
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
 
 /* --- names, units, places ------------------------------------------------------------------------*/
 
-/* The displayed unit of a number, and its SI unit here. */
+/* The unit in which a number is displayed, and its SI unit. */
 typedef struct image_unit {
     const char *shown; /* "deg/s" */
     const char *si;    /* "rad/s" */
@@ -119,7 +121,7 @@ typedef struct image_quantity {
     const char *name;
     const char *text; /* the description in quotes, or "" */
     image_unit unit;
-    double value; /* SI; of an output 0 */
+    double value; /* SI; 0 for an output */
     place at;     /* place of its declaration */
 } image_quantity;
 
@@ -129,7 +131,7 @@ typedef struct image_effect {
     bool with; /* active */
 } image_effect;
 
-/* A coordinate, or an unknown of a system given by equations. */
+/* A coordinate of a mechanism, or an unknown of a system given by equations. */
 typedef struct image_unknown {
     const char *name;
     const char *text;
@@ -137,18 +139,20 @@ typedef struct image_unknown {
     bool is_angle;           /* declared in an angle's unit */
     bool is_length;          /* the unit is a length */
     bool conserved;          /* the momentum of this unknown is constant */
-    bool driven;             /* an input with a rate: it has no momentum */
+    bool driven;             /* the unknown follows an input with a rate, and has no momentum */
     int order;               /* order of the highest derivative */
     image_unit *unit;        /* [order + 1] of the value, the rate, ... */
     const char *momentum_si; /* unit of its momentum */
-    int starts;              /* order, but at least 2 */
+    int starts;              /* number of start values: the order, but at least 2 */
     double *start;           /* [starts] value, rate, ... */
     place *start_at;         /* [starts] place of the value; no source for a default */
     bool
-        start_written; /* its value is a product of literal numbers, without the round-off of a sum */
+        /* start[0] is a product of literal numbers, without the round-off of a sum */
+        start_written;
 } image_unknown;
 
-/* An input with a rate. Inside a step, two components of the state (indices in real[]) move with its value and rate. */
+/* An input with a rate. Inside a step, two components of the state move with its value and its rate: real[value_at] and
+ * real[rate_at]. */
 typedef struct image_drive {
     int input;
     int rate; /* index of the rate, which is also an input */
@@ -156,18 +160,18 @@ typedef struct image_drive {
     int rate_at;
 } image_drive;
 
-/* The unknown of a state component, and the order of its derivative. */
+/* A component of the state: its unknown, and the order of its derivative. */
 typedef struct component {
     int unknown;
     int primes;
 } component;
 
-/* The range in fixed point of a real component or an input. */
+/* The range of a real component, or of an input, in fixed point. */
 typedef struct image_range {
     const char *name; /* "theta'" */
     place at;         /* place of the range in the source, or of the symbol */
     bool declared;
-    double low; /* SI; of the declared symbol */
+    double low; /* SI; only if `declared` is true */
     double high;
 } image_range;
 
@@ -184,8 +188,8 @@ typedef struct image_contact {
     int sets;
     const char *unit; /* SI, of a stop's gap; "1" for other kinds */
     place at;
-    /* Indices in the list of diagnostic expressions: expressions that may be undefined, then those that are evaluated
-     * only at an impact. */
+    /* Indices of blame.question: expressions that may be undefined, then expressions that are evaluated only at an
+     * impact. */
     int first_question, questions;
     int first_late, late;
 } image_contact;
@@ -207,10 +211,11 @@ typedef struct image_entry {
 typedef struct image_ledger {
     bool kept;  /* the run has a ledger */
     bool asked; /* requested by `with ledger`; else the ledger only balances the run */
-    int smooth; /* continuous entries, between events */
-    int entries; /* smooth ones, then each contact's energy and impulses by coordinate, then inputs */
+    int smooth; /* number of continuous entries, between events */
+    /* number of all entries: smooth ones, then each contact's energy and impulses by coordinate, then inputs */
+    int entries;
     int accounts;       /* 1 + unknowns: the energy, then the momenta */
-    int inputs;         /* inputs in the energies: their changes are the last entries */
+    int inputs;         /* number of inputs in the energies: their changes are the last entries */
     bool turned;        /* the rate of an entry has a turn angle outside sines and cosines */
     image_entry *entry; /* [smooth] */
     int *unknown;       /* [accounts] the unknown of a momentum; -1 for the energy */
@@ -220,10 +225,10 @@ typedef struct image_ledger {
 /* --- blame lists --------------------------------------------------------------------------------- */
 
 /* The expressions of the file, operation by operation, in the spelling of the file, so that a message can point at the
- * undefined one. They are not folded, and an expression at two places is not shared. */
+ * undefined part. They are not folded. An expression that occurs twice is entered twice. */
 typedef enum diagnostics_code {
     DIAGNOSTICS_NUMBER, /* number */
-    DIAGNOSTICS_STATE,  /* unknown a, its derivative b */
+    DIAGNOSTICS_STATE,  /* derivative b of unknown a */
     DIAGNOSTICS_INPUT,  /* input a of the image */
     DIAGNOSTICS_SAME,   /* node a, with a name */
     DIAGNOSTICS_ADD,
@@ -238,7 +243,7 @@ typedef enum diagnostics_code {
 typedef struct diagnostics_node {
     diagnostics_code code;
     function_id function;
-    int a; /* earlier nodes; for states and inputs indices */
+    int a; /* numbers of earlier nodes; for states and inputs, indices */
     int b;
     double number;
     place at; /* no source in a derived expression */
@@ -247,8 +252,9 @@ typedef struct diagnostics_node {
 /* A number that must be finite. If it is not, a message names `what` in the statement at `where`. */
 typedef struct diagnostics_question {
     int node;
-    bool derived; /* a derivative: the message can name only the statement, not a part of it */
-    int power;    /* highest degree in the state that a linear mechanism allows; of terms only */
+    /* a derivative: a message can name only the statement, not a part of it */
+    bool derived;
+    int power; /* highest degree in the state that a linear mechanism allows; of terms only */
     const char *what;
     place where;
 } diagnostics_question;
@@ -276,13 +282,13 @@ typedef struct image_matrix {
 typedef struct image {
     struct arena *memory;
     const struct image
-        *base; /* the owner of the lists, which must outlive this image; NULL: this one */
+        *base; /* owner of the lists, which must outlive this image; NULL: this image */
 
     const char *name; /* the scene's, or the mechanism's */
     const char *title;
     const char *mechanism;
     place mechanism_at;
-    place at; /* the scene's, or the mechanism's */
+    place at; /* place of the scene, or of the mechanism */
     image_effect *effect;
     int effects;
 
@@ -298,16 +304,16 @@ typedef struct image {
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */
     int inputs;       /* the mechanism's own and those of the active effects */
-    int own_outputs;  /* the mechanism's */
+    int own_outputs;  /* number of the mechanism's outputs */
     int outputs;      /* own_outputs, plus value and rate of each recovered coordinate */
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* the mechanism's own and those of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    /* If constant folding lost digits: variants folded with other roundings (host/number/folding.h). Only their lists
-     * are used. */
+    /* If constant folding lost digits: the same image, folded in other ways (host/number/folding.h). Only the lists
+     * of these variants are used. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
-    bool unbounded;         /* in a variant: a number of the file is not finite */
+    bool unbounded;         /* in a variant, a number of the file is not finite */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */
@@ -324,12 +330,13 @@ typedef struct image {
     int64_t *start_turns; /* [angles] the start in units of 2^-32 turn; 0 if not representable */
     double *start_real;   /* [reals] */
 
-    image_range *range;       /* [reals + inputs] components, then inputs */
-    image_range *angle_range; /* [angles] always empty: angles have no range */
+    image_range *range; /* [reals + inputs] components, then inputs */
+    /* [angles] declared ranges of turn angles, which fixed point does not use */
+    image_range *angle_range;
     const struct fixed_plan
         *fixed; /* the run in fixed point (host/fixed), which the image does not own; or NULL */
 
-    bool has_energies; /* the scene is no system given by equations, so it has energies */
+    bool has_energies; /* the scene is given by energies, not by equations */
     bool has_integral; /* the energy in the balance is not T + V (host/derive/equations.h) */
 
     image_contact *contact; /* [contacts] crossings come last */
@@ -347,49 +354,50 @@ typedef struct image {
     op_list *list[IMAGE_ROLES]; /* NULL for a missing list */
 } image;
 
-void image_free(image *im); /* NULL is allowed */
+void image_free(image *im); /* `im` may be NULL */
 
-/* Component i of the state: angles first. */
+/* Returns component i of the state; angles come first. */
 component image_component(const image *im, int i);
-/* The index of the component that is this derivative of this unknown, or -1. */
+/* Returns the index of the component that is this derivative of this unknown, or -1. */
 int image_find_component(const image *im, int unknown, int primes);
 
-/* The stepper in words: the method's title, or the matrix. */
+/* Returns the name of the stepper: the method's title, or the kind of matrix. */
 const char *image_stepper(const image *im);
-/* The words after the stepper's: " compensated", " stabilized", both, or "". */
+/* Returns the words after the stepper's name: " compensated", " stabilized", both, or "". */
 const char *image_sums(const image *im);
 
-/* The displayed number of an SI value, and whether both are equal. */
+/* image_shown() converts an SI value to the displayed number. image_shows_si() returns true if the two are equal. */
 double image_shown(const image_unit *unit, double si);
 bool image_shows_si(const image_unit *unit);
 
-/* The inputs at the start, input[inputs]; and the start of component i: angles, in radians, then reals. */
+/* image_inputs() writes the inputs at the start to input[inputs]. image_start() returns the start of component i:
+ * angles (rad) come first, then reals. */
 void image_inputs(const image *im, double *input);
 double image_start(const image *im, int i);
 
 /* Does generated code call functions of core/function.h? */
 bool image_calls(const image *im);
 
-/* The first constant of the equations, or the first input, that is neither zero nor within float's normal numbers. 0
- * if there is none. */
+/* Returns the first constant of the equations, or the first input, that is neither zero nor a normal number of float;
+ * 0 if there is none. */
 double image_out_of_float(const image *im);
 
 /* === memory =================================================================================== */
-/* The memory of a scene for each number type, in bytes of this machine: WH_MEMORY_BYTES(). It equals that of
- * any board with eight-byte alignment of 64-bit integers if pointers do not matter. */
+/* The memory of a scene for each number type, in bytes of this machine: WH_MEMORY_BYTES(). On a board that aligns
+ * 64-bit integers to eight bytes it is the same, unless pointers matter. */
 
 size_t memory_float_bytes(const image *im);
 size_t memory_double_bytes(const image *im);
 
 /* === turned or looked up ====================================================================== */
-/* The choice between turning a scene's sines (core/step/stage_turn.h) and looking them up at each stage (core/step.h). */
 
-/* Most phases whose sines a step turns. */
+/* Largest number of phases whose sines a step turns. */
 #define TURNED_WAVES_MAX 256
 
-/* Depends only on the image's step and settings, so the interpreter and generated code agree. False with --angles
- * lookup, with a matrix, with tables in place of sines, with contacts, without a turn angle, and if the method or the
- * list does not support it. */
+/* Returns true if a step turns its sines instead of looking them up at each stage. This depends only on the image's
+ * step and settings, so that the interpreter and generated code agree. It is false with --angles lookup, with a
+ * matrix, with tables in place of sines, with contacts, without a turn angle, and if the method or the list does not
+ * support it. */
 bool image_turns(const image *im);
 
 #endif

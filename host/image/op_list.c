@@ -57,7 +57,7 @@ static const op_code operation_of[FUNCTIONS] = {
 #undef ROW
 };
 
-/* The function of the language with this operation, or FUNCTION_NONE. */
+/* Returns the language's function that this operation computes, or FUNCTION_NONE. */
 static function_id function_of(op_code code) {
     int f = 0;
     while (f < FUNCTIONS && operation_of[f] != code) {
@@ -91,7 +91,7 @@ uint64_t op_list_op_hash(const op_list *t, const op *o) {
     return hash ^ (hash >> 31);
 }
 
-/* Compare two arrays [t->angles], either of which may be NULL. */
+/* Compares two arrays [t->angles], either of which may be NULL. */
 static bool same_array(const op_list *t, const void *x, const void *y, size_t size) {
     return x == y || (x != NULL && y != NULL && memcmp(x, y, (size_t)t->angles * size) == 0);
 }
@@ -170,7 +170,7 @@ int op_list_constant(op_list *t, double value) {
                          .function = FUNCTION_NONE,
                          .a = -1,
                          .b = -1,
-                         .value = value == 0.0 ? 0.0 : value}); /* only one zero */
+                         .value = value == 0.0 ? 0.0 : value}); /* no negative zero */
 }
 
 int op_list_leaf(op_list *t, op_code code, int which) { return enter_op(t, code, which, -1); }
@@ -184,7 +184,7 @@ bool op_list_is_whole(double multiple) {
     return multiple == number_floor(multiple) && fabs(multiple) <= 2147483647.0;
 }
 
-/* A multiple that is not whole is stored in `parts`, not truncated. */
+/* A multiple that is not a whole number is stored in `parts`. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians) {
     int *turns = NULL;
     double *parts = NULL;

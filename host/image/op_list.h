@@ -16,17 +16,16 @@
  *
  * X(id, kind, cost, C, Octave, meaning)
  *
- *   id      OP_id of op_list.h. Model hashes depend on the order: add a new one at the end.
- *   kind    OP_IS_... of op_list.h: the meaning of a and b.
- *   cost    OP_COSTS_... of op_list.h.
- *   C, Octave  its right-hand side in generated code; NULL: not written. A dollar sign marks these:
+ *   id      its constant is OP_id. Hashes of models depend on the order: add a new row at the end.
+ *   kind    OP_IS_kind gives the meaning of a and b.
+ *   cost    OP_COSTS_cost.
+ *   C, Octave  its right-hand side in generated code, or NULL if it is not written. A dollar sign marks a placeholder:
  *           a, b   the operands.
- *           f      the called function.
- *           o      its operands, separated by commas.
+ *           f, o   the called function, and its operands, separated by commas.
  *           n      a test for b being NaN: " || b != b", or nothing if b is a constant.
  *           i      the number in a.
  *           v      the value, a whole number.
- *           l, r, u   in Octave: the linear component, rate, input with the number a.
+ *           l, r, u   in Octave: the linear component, rate or input with the number a.
  *
  * Four more files evaluate each operation: host/engine/evaluate.inc, host/engine/rounding.c, host/derive/solve.c,
  * host/image/op_list_scaling.c, which also multiplies it. */
@@ -70,7 +69,6 @@
     X(CUBIC, LOOKUP, CUBIC, "wh_table_cubic(&row$i[$v], y$i)", NULL, "likewise, cubic")
 /* clang-format on */
 
-/* OP_CONSTANT, OP_LINEAR, ... */
 #define OP_ID(id, ...) OP_##id,
 typedef enum op_code { OP_ROWS(OP_ID) } op_code;
 #undef OP_ID
@@ -105,7 +103,8 @@ typedef enum op_cost {
 typedef struct op_row {
     op_kind kind;
     op_cost cost;
-    int values; /* how many earlier values it uses at most: 1 (a), 2 (a and b), 0 for a leaf or a phase */
+    /* largest number of earlier values that it uses: 1 (a), 2 (a and b), 0 for a leaf or a phase */
+    int values;
     const char *c;      /* NULL: not written in C */
     const char *octave; /* NULL: not written in Octave */
 } op_row;
@@ -119,11 +118,12 @@ typedef struct op {
     int b;
     double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
     const int *turns; /* OP_PHASE, OP_CELL: [angles] whole factors, or NULL */
-    /* OP_PHASE: [angles] fractional factors, which need the whole angle and not only its phase; or NULL. Only in records. */
+    /* OP_PHASE in records only: [angles] fractional factors, which need the whole angle and not only its phase; or
+     * NULL */
     const double *parts;
 } op;
 
-/* The tables of a list in the form of core/step/table.h, except for the scale of float: y counts cells. */
+/* The tables of a list as in core/step/table.h, but without the scale of float: the position y is in cells. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */
@@ -139,7 +139,7 @@ typedef struct op_list {
     op *ops;
     int count;
     int room;
-    int angles; /* length of each array `turns` */
+    int angles; /* number of turn angles, and length of each array `turns` */
     int *index; /* hash index of ops */
     int index_size;
     int *result; /* operation numbers of the list's results */
@@ -154,13 +154,13 @@ void op_list_free(op_list *t);
 int op_list_constant(op_list *t, double value);
 int op_list_leaf(op_list *t, op_code code, int which);
 int op_list_noise(op_list *t, uint32_t seed);
-/* The phase of turn angles times multiple[t->angles] (may be NULL), plus the offset and `radians` (an operation or
- * -1). Whole multiples apply to phases, others to the whole angles. */
+/* Enters a phase: the sum of turn angles times multiple[t->angles] (may be NULL), the offset, and the operation
+ * `radians` (-1: none). Whole multiples apply to phases, others to the whole angles. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians);
-/* Can a phase be multiplied by this number? It must be a whole number within bounds. */
+/* Returns true if a phase can be multiplied by this number: it must be a whole number within bounds. */
 bool op_list_is_whole(double multiple);
-/* Allocate zeroed tables. Enter the cell of the phase with these multiples of the turn angles, [t->angles], and the
- * look-up in table `which` there. */
+/* op_list_tables_new() allocates zeroed tables. op_list_cell() enters the cell of the phase with these multiples of
+ * the turn angles, turns[t->angles]. op_list_look_up() enters the value of table `which` in that cell. */
 void op_list_tables_new(op_list *t, int count, int bits, int terms);
 int op_list_cell(op_list *t, const int *turns);
 int op_list_look_up(op_list *t, int cell, int which);
@@ -172,35 +172,36 @@ int op_list_div(op_list *t, int a, int b);
 /* Enters a function of operations a and b (or -1), as its own operation or as a call. */
 int op_list_call(op_list *t, function_id function, int a, int b);
 int op_list_pow(op_list *t, int base, int exponent);
-/* base to a fixed power, by products and square roots if possible. */
+/* Enters base to a fixed power, by products and square roots if possible. */
 int op_list_power(op_list *t, int base, double exponent);
 bool op_list_is_constant(const op_list *t, int a, double *value);
 
-/* The operation with this code and operands a and b, or -1 if there is no such operation yet. */
+/* Returns the operation with this code and operands a and b, or -1 if there is no such operation yet. */
 int op_list_find_binary(const op_list *t, op_code code, int a, int b);
 
-/* Rebuild the index of equal operations, after operations were moved. */
+/* Rebuilds the index of equal operations after operations were moved. */
 void op_list_reindex(op_list *t);
 uint64_t op_list_op_hash(const op_list *t, const op *o);
 
-/* The earlier operations that o uses, a phase's radians too; returns their number. */
+/* Writes the earlier operations that `o` uses to operand[]; a phase may use its radians. Returns their number. */
 int op_list_operands(const op *o, int operand[static 2]);
-/* Sets needed[i] for operation `number` and for all operations i on which it depends; the others must be false. */
+/* Sets needed[i] to true for operation `number` and for all operations i on which it depends. All entries must be
+ * false before. */
 void op_list_mark_needed(const op_list *t, int number, bool *needed);
 /* Has the list an operation with this code? False for a NULL list. */
 bool op_list_has(const op_list *t, op_code code);
-/* Has it an operation with a kink or a jump? */
+/* Has the list an operation with a kink or a jump? */
 bool op_list_has_kinks(const op_list *t);
 
-/* Remove operations that no result uses, and renumber. */
+/* Removes operations that no result uses, and renumbers the others. */
 void op_list_prune(op_list *t);
-/* Replace a sum that differs from another one in a single part by a sum of that sum and the part, if this saves a
- * product. Removes operations that are then unused. */
+/* Writes a + 2 b as (a + b) + b if the list has a + b, which saves a product. Removes operations that are then
+ * unused. */
 void op_list_share_sums(op_list *t);
-/* Reorder a finished list so that few values are live at a time, if the estimate of memory traffic falls (op_list_use.c).
- * The results do not change by a bit; phases stay in their order. */
+/* Reorders a finished list so that few values are needed at a time, if op_list_carried() falls. The results do not
+ * change by a bit; phases stay in their order. */
 void op_list_order(op_list *t);
-/* Estimate of the least number of loads and stores of the list in its order, with some twenty registers. */
+/* Estimates the least number of loads and stores of the list in its order, with some twenty registers. */
 int op_list_carried(const op_list *t);
 
 /* Does the list use whole angles, turns included, and not only their phases? A step has no whole angles. */
@@ -213,12 +214,12 @@ int op_list_waves(const op_list *t);
  * of its operations. */
 bool op_list_takes_waves(const op_list *t);
 
-/* The first result that depends on a constant that is not finite, or -1. */
+/* Returns the number of the first result that depends on a constant that is not finite, or -1. */
 int op_list_not_finite(const op_list *t);
 
-/* Is a number zero, or within float's normal numbers? */
+/* Is the number zero, or a normal number of float? */
 bool fits_float(double value);
-/* The first constant that is neither zero nor within float's normal numbers; 0 if there is none. */
+/* Returns the first constant that is neither zero nor a normal number of float; 0 if there is none. */
 double op_list_out_of_float(const op_list *t);
 
 typedef struct op_list_cost {
@@ -231,9 +232,9 @@ typedef struct op_list_cost {
 } op_list_cost;
 
 op_list_cost op_list_count(const op_list *t);
-/* A number for comparing lists: rough instructions on a Cortex-M4F. */
+/* Estimated instructions on a Cortex-M4F, for comparing lists. */
 int op_list_weight(const op_list *t);
-/* Operations in the sense of flop counts: every operation except leaves, phases and constants. A sine and a cosine
+/* Number of operations as flops are counted: all operations except leaves, phases and constants. A sine and a cosine
  * count one each. */
 int op_list_operations(const op_list *t);
 uint64_t op_list_hash(const op_list *t);

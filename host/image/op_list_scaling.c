@@ -15,10 +15,9 @@ static bool op_list_is_raw(const op *o);
  * own. A sum needs equal exponents of its parts; a product adds them. Constants, and products with constants, accept
  * any exponent; results have exponent zero. These are linear equations; their solutions are the possible scalings. */
 
-/* Exponents and all entries are small whole numbers or halves, so values below this are zero. */
+/* Exponents and all entries are small whole numbers or halves, so a smaller value is zero. */
 #define NOTHING 1e-9
 
-/* Rows of `columns` numbers. */
 typedef struct matrix {
     double *at;
     int rows;
@@ -31,7 +30,7 @@ static matrix matrix_new(int rows, int columns) {
 
 static double *row_of(const matrix *m, int row) { return m->at + (size_t)row * (size_t)m->columns; }
 
-/* The vectors that m turns into zero, as rows; m is destroyed. */
+/* Returns the vectors v with m v = 0, as rows. m is destroyed. */
 static matrix kernel_of(const matrix *m) {
     int *lead = alloc((int64_t)m->rows + 1, sizeof *lead);
     bool *leads = alloc((int64_t)m->columns + 1, sizeof *leads);
@@ -58,12 +57,13 @@ static matrix kernel_of(const matrix *m) {
 
 /* --- the equations of a list -----------------------------------------------------------------------------------*/
 
-/* The unknowns: an exponent for each operation, and one for each use of a raw value (op_list_is_raw()) by an
- * operation. The value may be used as it is or multiplied by a factor. */
+/* The unknowns: an exponent for each operation, and one for each operand that is a raw value (op_list_is_raw()). A
+ * raw value may be used as it is or multiplied by a factor. */
 typedef struct unknowns {
     const op_list *of;
-    int *column; /* [2 * count] column of each place: by operation, operand a before b; 0: none */
-    int *place;  /* [columns] place of each column: 2 * operation for operand a, 1 more for b */
+    /* [2 * count] column of operand a (at 2 i) and b (at 2 i + 1) of operation i; 0: none */
+    int *column;
+    int *place; /* [columns] place in column[] of each column */
     int columns;
 } unknowns;
 
@@ -71,7 +71,7 @@ static bool is_constant(const op_list *t, int i) { return t->ops[i].code == OP_C
 
 static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
 
-/* Is an operand a constant, which can absorb any factor? Then there is no equation. */
+/* Returns true if an operand is a constant, which can absorb any factor. Then there is no equation. */
 static bool absorbs(const op_list *t, const op *o) {
     return (o->code == OP_MUL || o->code == OP_DIV) &&
            (is_constant(t, o->a) || is_constant(t, o->b));
@@ -98,8 +98,8 @@ static int column_of(const unknowns *u, int i, int which) {
     return column != 0 ? column : operand_of(&u->of->ops[i], which);
 }
 
-/* Add an equation: `own` times the exponent of i equals `a` times that of operand a, and `b` times that of operand b.
- * Constants accept any exponent. */
+/* Adds an equation: `own` times the exponent of i equals `a` times that of operand a, plus `b` times that of operand
+ * b. Constants accept any exponent. */
 static void equation(const unknowns *u, matrix *m, double own, int i, double a, double b) {
     const op *o = &u->of->ops[i];
     double *row = row_of(m, m->rows++);
@@ -155,7 +155,7 @@ static void equations_of(const unknowns *u, int i, matrix *m) {
     }
 }
 
-/* All solutions, with raw values multiplied at any place. */
+/* Returns all solutions, with raw values multiplied at any use. */
 static matrix all_freedoms(const unknowns *u) {
     const op_list *t = u->of;
     matrix m = matrix_new(2 * t->count + t->results, u->columns);
@@ -178,7 +178,7 @@ enum { PLACES = 64, SUBSETS_OF = 5 };
 /* The uses of raw values that are multiplied. Uses of the same value have a common factor. */
 typedef struct chosen {
     int column[PLACES];
-    int like[PLACES]; /* an earlier column of the same value, or itself */
+    int like[PLACES]; /* column of an earlier use of the same value, or this column */
     int count;
 } chosen;
 
@@ -195,7 +195,7 @@ static bool tells(const op_list *t, const double *e, const chosen *c) {
     return all && changes;
 }
 
-/* Scale the smallest exponent to one. */
+/* Scales the exponents so that the smallest becomes one. */
 static void normalise(double *e, int length) {
     double least = 0.0;
     for (int i = 0; i < length; i++) {
@@ -220,7 +220,8 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* Conditions on sums of rows of `all`: raw values are multiplied only at the chosen places, equal values equally. */
+/* Returns the conditions on sums of rows of `all`: raw values are multiplied only at the chosen uses, and a value has
+ * the same factor at each of these. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;
@@ -320,7 +321,7 @@ typedef struct multiplied {
     const op_list *from;
     const double *times; /* [3 * from->count] */
     op_list *to;
-    int *made; /* [from->count] operations of `to`: multiplied, except raw values */
+    int *made; /* [from->count] operations of `to`: all multiplied except raw values */
 } multiplied;
 
 /* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
@@ -345,7 +346,7 @@ static int constant(op_list *t, double value) {
     return op_list_constant(t, fabs(value - nearest) <= 1e-15 * fabs(value) ? nearest : value);
 }
 
-/* Operation i multiplied by `times`, as an operand of other operations. */
+/* Returns operation i multiplied by `times`, for use as an operand. */
 static int taken(const multiplied *m, int i, double times) {
     const op *o = &m->from->ops[i];
     double number;
@@ -378,7 +379,8 @@ static double times_of(const multiplied *m, int i, int which) {
                                                   : m->times[operand];
 }
 
-/* A product or quotient of multiplied operands, and the remaining factor. The calls have a fixed order. */
+/* Enters a product or quotient of multiplied operands, and the remaining factor. Each call is a statement, because C
+ * does not fix the order in which arguments are evaluated. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);
@@ -395,7 +397,7 @@ static int make_product(const multiplied *m, int i) {
     return op_list_mul(m->to, constant(m->to, divides ? wanted * b / a : wanted / (a * b)), made);
 }
 
-/* Enters operation i. The second operand always comes first: C leaves the order in which arguments are evaluated open. */
+/* Enters operation i. The second operand is always entered first. */
 static int make(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double times = m->times[i];
@@ -465,7 +467,7 @@ enum { SIZES = 3, STATES = 6 };
 /* Sizes of rates and other leaves that are no positions: at rest forces and torques matter, at high speed only the rates. */
 static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
 
-/* A number between -1 and 1 for this leaf in this state. */
+/* Returns an artificial value, from -1 to 1, of this leaf in this state. */
 static double drawn(op_code code, int which, int state) {
     uint64_t x = (uint64_t)code * 7919U + (uint64_t)which * 131U + (uint64_t)state * 1000003U + 1U;
     for (int i = 0; i < 3; i++) {
@@ -520,7 +522,7 @@ static double value_at(const op_list *t, const op *o, int state, double rates, b
     abort();
 }
 
-/* The results of a list in a state: result[t->results]. */
+/* Computes the results of a list in a state: result[t->results]. */
 static void results_at(const op_list *t, int state, double rates, bool as_float, double *v,
                        double *result) {
     for (int i = 0; i < t->count; i++) {
@@ -531,8 +533,8 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
     }
 }
 
-/* The weight of an error in a result that the list does not use again, such as the acceleration of a carriage that
- * nothing depends on. The error of such a result does not grow; that of other results grows with the motion. */
+/* The weight of an error in a result on which no other result depends, such as the acceleration of a free carriage.
+ * The error of such a result does not grow; that of other results grows with the motion. */
 #define UNREAD (1.0 / 64.0)
 
 /* For each result: does the list depend on the component that it changes? Results and components have the same
@@ -574,7 +576,7 @@ double op_list_bias(const op_list *t, const op_list *like) {
             results_at(t, state, size_of_rates[s], true, v, now);
             results_at(like, state, size_of_rates[s], false, v, meant);
             for (int i = 0; i < n; i++) {
-                /* a state does not count if a result is not finite there, such as the root of a negative number */
+                /* only states with a finite result count; a root of a negative number is not finite */
                 const bool told = isfinite(now[i]) && isfinite(meant[i]);
                 off[i] += told ? fabs(now[i] - meant[i]) : 0.0;
                 size[i] += told ? fabs(meant[i]) : 0.0;
@@ -593,7 +595,7 @@ double op_list_bias(const op_list *t, const op_list *like) {
     return entries > 0.0 ? number_root(squares / entries) : (double)NAN;
 }
 
-/* === the numbers that leave float its constants =============================================== */
+/* === the search for numbers that suit float =================================================== */
 
 enum {
     LONGEST = 250, /* most operations of an examined list */
@@ -637,7 +639,7 @@ static double power(double x, double e) {
     return number_power(x, e);
 }
 
-/* A clearly lower bias may take more operations, a lower one as many at most; an equal one must take fewer. */
+/* A clearly lower bias may take more operations. A lower bias must not take more. An equal bias must take fewer. */
 static bool is_better(const scaling_search *s, double bias, int operations) {
     return bias < CLEARLY * s->bias || (bias < LESS * s->bias && operations <= s->operations) ||
            (bias <= s->bias && operations < s->operations);
@@ -668,8 +670,8 @@ static void try_number(scaling_search *s, const double *exponent, double x) {
 
 /* --- candidate numbers ------------------------------------------------------------------------------------------ */
 
-/* Products of small primes, the simplest first. A decimal times enough fives is a whole number over a power of two; a
- * third times three is whole. Factors of two change nothing. */
+/* Tries products of small primes, the simplest first. A decimal times enough fives is a whole number over a power of
+ * two, and a third times three is whole. Factors of two change nothing. */
 static void try_primes(scaling_search *s, const double *exponent) {
     for (int all = 1; all <= FIVES + THREES + SEVENS; all++) {
         for (int fives = -FIVES; fives <= FIVES; fives++) {
@@ -686,7 +688,7 @@ static void try_primes(scaling_search *s, const double *exponent) {
     }
 }
 
-/* Numbers that turn the constant of a product into one. */
+/* Tries numbers that turn the constant of a product into one. */
 static void try_vanishing(scaling_search *s, const double *exponent) {
     int tried = 0;
     double number;
@@ -710,7 +712,7 @@ static void try_reals(scaling_search *s, const double *exponent) {
     }
 }
 
-/* Is the number of operations acceptable for a generic number, which turns no constant into one? */
+/* Is the number of operations acceptable for an arbitrary number, which turns no constant into one? */
 static bool affordable(const scaling_search *s, const double *exponent) {
     for (int i = 0; i < 3 * s->from->count; i++) {
         s->times[i] = power(1.2345678901, exponent[i]);

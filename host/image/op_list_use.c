@@ -15,18 +15,19 @@ static void op_list_renumber(op_list *t, const int *order, const int *number);
 /* Single-precision registers of an Arm or RISC-V FPU for a list: 32, less those of the surrounding step. */
 enum { OP_LIST_REGISTERS = 20 };
 
-/* Dependencies. A phase follows the previous phase: a list numbers its waves in order. */
+/* The dependencies of operations. A phase depends on the previous phase, because a list numbers its waves in
+ * order. */
 typedef struct op_list_needs {
     const op_list *t;
     int *before; /* [t->count]: for a phase the previous one; else -1 */
     bool *given; /* [t->count]: needs no computation */
-    int *first;  /* [t->count + 1]: start of its users in user[], in order */
+    int *first;  /* [t->count + 1]: index in user[] of the first user; users are in order */
     int *user;
 } op_list_needs;
 
 enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
 
-/* The operations that must come before operation i; returns their number. */
+/* Finds the operations that must come before operation i, and returns their number. */
 static int op_list_needed(const op_list_needs *n, int i, int found[static NEEDED_MOST]) {
     int count = op_list_operands(&n->t->ops[i], found);
     if (n->before[i] >= 0) {
@@ -35,7 +36,8 @@ static int op_list_needed(const op_list_needs *n, int i, int found[static NEEDED
     return count;
 }
 
-/* The values that operation i reads from registers, each once; returns their number. Constants and phases need no register. */
+/* Finds the values that operation i reads from registers, each once, and returns their number. Constants and phases
+ * need no register. */
 static int op_list_taken(const op_list *t, int i, int found[static TAKEN_MOST]) {
     int operand[TAKEN_MOST];
     const int operands = op_list_operands(&t->ops[i], operand);
@@ -92,7 +94,7 @@ static void op_list_needs_free(op_list_needs *n) {
 
 /* --- loads and stores of values ------------------------------------------------------------------ */
 
-/* The times of use of each value of a list in a given sequence. */
+/* The times at which a sequence of operations uses each value of the list. */
 typedef struct wanted {
     int *first; /* [ops + 1]: start of a value's times in time[] */
     int *time;  /* positions in the sequence; for results after its end */
@@ -136,7 +138,7 @@ static void wanted_free(wanted *w) {
     free(w->next);
 }
 
-/* The next use of value v, or INT_MAX. */
+/* Returns the time of the next use of value v, or INT_MAX. */
 static int next_time(const wanted *w, int v) {
     return w->next[v] < w->first[v + 1] ? w->time[w->next[v]] : INT_MAX;
 }
@@ -149,8 +151,8 @@ typedef struct registers {
     int carried;
 } registers;
 
-/* Gives value v a register. If none is free, the value with the latest next use loses its register. Operands of the
- * current operation are in use. */
+/* Gives value v a register. If none is free, the value whose next use is latest loses its register. An operand of the
+ * current operation is used now, so it keeps its own. */
 static void hold(const wanted *w, registers *r, int v) {
     if (r->count == OP_LIST_REGISTERS) {
         int last = 0;
@@ -175,8 +177,8 @@ static bool is_held(const registers *r, int v) {
     return k < r->count;
 }
 
-/* Loads and stores of values in this sequence with the best replacement: that of the value with the latest next use
- * (Belady, 1966). */
+/* Counts the loads and stores of values in this sequence if the value whose next use is latest is always replaced,
+ * which is the best choice (Belady, 1966). */
 static int op_list_carried_by(const op_list_needs *n, const int *sequence, int count) {
     wanted w = wanted_of(n->t, sequence, count);
     registers r = {.stored = alloc(n->t->count, sizeof *r.stored)};
@@ -212,7 +214,7 @@ static int op_list_carried_by(const op_list_needs *n, const int *sequence, int c
     return carried;
 }
 
-/* The operations to compute, in the order of the list; to be freed. */
+/* Returns the operations to compute, in the order of the list. The caller frees the array. */
 static int *op_list_computed(const op_list_needs *n, int *count) {
     int *sequence = alloc_more(NULL, n->t->count, sizeof *sequence);
     *count = 0;
@@ -249,7 +251,7 @@ typedef struct schedule {
     int *waits; /* [ops]: dependencies not yet computed */
     int *uses;  /* [ops]: remaining users; a result counts as two more */
     int *ends;  /* [ops]: number of values whose last use it is */
-    int *until; /* [ops]: last user of its value */
+    int *until; /* [ops]: last user of the operation's value */
     int *ready; /* operations without pending dependencies, unordered */
     int count;  /* number of ready operations */
     bool *done; /* [ops] */
@@ -317,7 +319,8 @@ static void schedule_free(schedule *s) {
     free(s->done);
 }
 
-/* The rule for ready operations that are the last use of equally many values: the order of entry, or the earliest last use. */
+/* The rule for ready operations that are the last use of equally many values: the first in order of entry, or the one
+ * whose value is used up first. */
 typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
 
 /* Does operation i come before operation j? */
@@ -329,7 +332,7 @@ static bool leads(const schedule *s, first_of way, int i, int j) {
     return soonest ? s->until[i] < s->until[j] : i < j;
 }
 
-/* Remove and return the next ready operation. */
+/* Removes and returns the next ready operation. */
 static int take_best(schedule *s, first_of way) {
     int best = 0;
     for (int k = 1; k < s->count; k++) {
@@ -340,7 +343,7 @@ static int take_best(schedule *s, first_of way) {
     return i;
 }
 
-/* A sequence of the operations to compute. */
+/* Returns a sequence of the operations to compute. */
 static int *ending_lives(const op_list_needs *n, int count, first_of way) {
     schedule s = schedule_of(n);
     int *sequence = alloc_more(NULL, count, sizeof *sequence);
@@ -433,10 +436,10 @@ void op_list_order(op_list *t) {
 }
 
 /* === existing sums ============================================================================ */
-/* Replaces a + 2 b by (a + b) + b if the list already has a + b: this saves a product. Kinetic energies produce such pairs: a chain of
- * two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
+/* Replaces a + 2 b by (a + b) + b if the list already has a + b, which saves a product. Kinetic energies produce such
+ * pairs: a chain of two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
 
-/* b if operation i is 2 b with a single user; else -1. */
+/* Returns b if operation i is 2 b with a single user; else -1. */
 static int doubled(const op_list *t, const int *uses, int i) {
     const op *o = &t->ops[i];
     double two;
@@ -710,7 +713,7 @@ int op_list_operations(const op_list *t) {
     return operations;
 }
 
-/* Reorder the operations: order[t->count] is the operation at each position, number[t->count] its new position. No
+/* Reorders the operations: order[t->count] is the operation at each position, number[t->count] its new position. No
  * operation may precede its operands. */
 static void op_list_renumber(op_list *t, const int *order, const int *number) {
     op *ops = alloc_more(NULL, t->room, sizeof *ops);
