@@ -3,7 +3,7 @@
 
 #include "number/sincos_small.h"
 
-/* sin(2 pi i/128) to 17 digits; the nearest number of either build (tests/core/test_angle.c). */
+/* sin(2 pi i/128) to 17 digits, for the float and the double build (tests/core/test_angle.c). */
 const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH = {
     /* clang-format off */
     WH_R(0.0), WH_R(0.049067674327418015), WH_R(0.098017140329560604),
@@ -75,14 +75,14 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) { return angle * facto
 
 wh_angle wh_angle_from_rad(wh_real rad) { return wh_angle_of_rad(rad); }
 
-/* Computed in integers until the one rounding to float. A float has fewer bits than an angle, and a product of two
- * rounded factors would err by more than one unit in the last place. */
+/* Computed in integers up to the one rounding to float. A float has fewer bits than an angle, and a product of two
+ * rounded factors would have an error of more than one unit in the last place. */
 wh_real wh_angle_to_rad(wh_angle angle) {
     if (angle == 0) {
         return 0.0f;
     }
     uint64_t size = angle < 0 ? 0U - (uint64_t)angle : (uint64_t)angle;
-    float scale = 8.0f; /* radians a unit of `bits` below, once size has its top bit set */
+    float scale = 8.0f; /* radians per unit of `bits` below, when the top bit of size is set */
     while (size >> 63 == 0) {
         size <<= 1;
         scale *= 0.5f;
@@ -95,8 +95,8 @@ wh_real wh_angle_to_rad(wh_angle angle) {
     return angle < 0 ? -magnitude : magnitude;
 }
 
-/* The low 32 bits before the point of a 64 by 64 bit product, rounded. factor.part has 64 bits after the point. A
- * negative angle, read as unsigned, is 2^64 too large. */
+/* Returns the low 32 bits, before the point, of a rounded product of 64 by 64 bits. factor.part has 64 bits after the
+ * point. A negative angle, read as unsigned, is too large by 2^64. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
     const uint64_t size = (uint64_t)angle;
     const uint64_t size_low = size & UINT32_MAX;

@@ -66,7 +66,7 @@ unsigned wh_cobs_short(uint8_t *bytes, unsigned count) {
     return count + 2U;
 }
 
-/* All eight bits at once: bits that leave at the top return at the places of the polynomial's ones. */
+/* Processes all eight bits at once: a bit that leaves at the top comes back at the places of the polynomial's ones. */
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
         unsigned out = (crc >> 8 ^ bytes[i]) & 0xFFU;

@@ -1,4 +1,4 @@
-/* exchange.c: payloads, field by field. Each `put` is followed by its `get`. */
+/* exchange.c: writes and reads the payloads, field by field. Each `put` function is followed by its `get` function. */
 #include "exchange.h"
 
 static unsigned written(const wh_bytes *out) { return out->over ? 0 : out->at; }

@@ -48,7 +48,7 @@ const uint16_t wh_fixed_seed_table[128] WH_FLASH = {
 /* clang-format on */
 
 #if WH_FIXED_AVR
-/* Adds sixteen products of bytes column by column, then corrects for the signs. */
+/* Adds the sixteen products of bytes column by column, then corrects for the signs. */
 int32_t wh_fixed_high_called(int32_t a, int32_t b) {
     int32_t high;
     uint8_t one;

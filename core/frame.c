@@ -14,8 +14,8 @@ static uint32_t crc_step(uint32_t crc, uint8_t byte) {
     return crc;
 }
 #else
-/* Four bits at a time: the reflected polynomial 0xEDB88320 times each number of four bits. An 8-bit processor must
- * finish a record's CRC within a control step. */
+/* Processes four bits at a time: the table has the reflected polynomial 0xEDB88320 times each number of four bits. An
+ * 8-bit processor must finish a record's CRC within a control step. */
 static uint32_t crc_step(uint32_t crc, uint8_t byte) {
     static const uint32_t of_nibble[16] = {0x00000000U, 0x1DB71064U, 0x3B6E20C8U, 0x26D930ACU,
                                            0x76DC4190U, 0x6B6B51F4U, 0x4DB26158U, 0x5005713CU,
@@ -33,8 +33,6 @@ uint32_t wh_frame_crc(uint32_t crc, const uint8_t *bytes, unsigned count) {
     }
     return crc ^ CRC_START;
 }
-
-/* --- writing -----------------------------------------------------------------------------------------*/
 
 typedef struct coder {
     wh_cobs cobs;
@@ -62,8 +60,6 @@ unsigned wh_frame_write(const wh_frame *frame, uint8_t *bytes, unsigned room) {
     put(&c, c.crc ^ CRC_START, 4);
     return wh_cobs_end(&c.cobs);
 }
-
-/* --- reading -----------------------------------------------------------------------------------------*/
 
 void wh_frame_reader_start(wh_frame_reader *reader, uint8_t *bytes, unsigned room) {
     *reader = (wh_frame_reader){.bytes = bytes, .room = room};
@@ -94,7 +90,8 @@ bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame) {
         return false;
     }
     const unsigned length = reader->length;
-    const bool nothing = length == 0; /* two successive zeros: a sender may begin with one */
+    /* two zeros in succession, because a sender may begin with one */
+    const bool nothing = length == 0;
     const bool good =
         !reader->too_long && parse(reader->bytes, wh_cobs_decode(reader->bytes, length), frame);
     reader->dropped += !good && !nothing;
@@ -102,8 +99,6 @@ bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame) {
     reader->too_long = false;
     return good;
 }
-
-/* --- numbers -----------------------------------------------------------------------------------------*/
 
 void wh_bytes_put(wh_bytes *bytes, uint32_t number, unsigned size) {
     if (size > bytes->room - bytes->at) {

@@ -1,15 +1,14 @@
-/* function_angle_float.c: the inverse circular functions in float.
- * Minimax polynomials in the argument's square, with the first coefficient fixed at one, so that a small argument is
- * returned unchanged. */
+/* function_angle_float.c: the inverse circular functions in float. The polynomials are minimax in the argument's
+ * square, with the first coefficient fixed at one, so that the result for a small argument is the argument. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
 
-/* Angles in Q30, except the smallest. */
+/* Angles in Q30; the smallest angles have an exponent of their own. */
 #define QUARTER_TURN UINT32_C(1686629713)
 #define HALF_TURN UINT32_C(3373259425)
 
-/* base + angle or base - angle (`minus`), with this sign; for base 0 the angle itself. base is in Q30. */
+/* Returns base + angle, or base - angle if `minus`, with this sign. If base is 0, returns the angle. base is in Q30. */
 static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle) {
     if (base == 0U) {
         return wh_float_round(sign, angle.size, angle.exponent);
@@ -19,7 +18,7 @@ static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle
     return wh_float_round(sign, minus ? base - part : base + part, 1);
 }
 
-/* The arc whose tangent is t, for 0 < t <= 1: relative error at most 5e-10. */
+/* Returns the arc whose tangent is t, for 0 < t <= 1. The relative error is at most 5e-10. */
 static wh_digits arc_of_tangent(wh_digits t) {
     static const uint32_t series[] WH_FLASH = {4758830U,   31312263U,  96570224U,  191677941U,
                                                289373305U, 378361278U, 474929245U, 613311670U,
@@ -66,8 +65,8 @@ float wh_atan2(float y, float x) {
 
 float wh_atan(float x) { return wh_atan2(x, 1.0f); }
 
-/* The root of size * 2^32, for size of 2^30 or more: Newton's method from a straight line, the last step with all
- * digits. Relative error at most 2^-30. */
+/* Returns the root of size * 2^32, for size of 2^30 or more: Newton's method from a straight line, the last step with
+ * all digits. The relative error is at most 2^-30. */
 static uint32_t root_of(uint32_t size) {
     const uint32_t line = wh_high(size, 43691U) + 23156U; /* (size/2^30 + 2.12)/3, times 2^15 */
     const uint32_t near = (line + size / line) >> 1;
@@ -77,8 +76,9 @@ static uint32_t root_of(uint32_t size) {
     return ((root + ratio) << 15) + (behind >> 1);
 }
 
-/* The arc whose sine is the magnitude, up to one half. For one half to one: half of the arc's complement to a quarter
- * turn, from that half's sine sqrt((1 - x)/2). Relative error at most 5e-10. A magnitude of 0 or one gives size 0. */
+/* Returns the arc whose sine is the magnitude x, if x is at most one half. For larger x, returns half of the arc that
+ * remains to a quarter turn, whose sine is sqrt((1 - x)/2). The relative error is at most 5e-10. A magnitude of 0 or
+ * one gives size 0. */
 static wh_digits arc_of_sine(uint32_t magnitude) {
     static const uint32_t series[] WH_FLASH = {161131133U, 62013972U,  136612917U,
                                                191198894U, 322144200U, 715827596U}; /* Q32 */
@@ -91,7 +91,8 @@ static wh_digits arc_of_sine(uint32_t magnitude) {
         const uint32_t missing =
             UINT32_C(0x1000000) - ((magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000));
         const uint32_t shift =
-            (wh_leading_zeros(missing) - 1U) | 1U; /* odd, so that the root's shift is whole */
+            /* odd, so that the root's shift is a whole number */
+            (wh_leading_zeros(missing) - 1U) | 1U;
         s = (wh_digits){root_of(missing << shift), 2 - (int32_t)((shift - 1U) / 2U)};
     }
     const uint32_t square = wh_square(s);

@@ -1,18 +1,18 @@
-/* function_atan_double.c: angles from ratios in double.
- * For a point (x, y) with 0 <= y <= x, a table of pairs has the angle of the next ray whose slope c is a multiple of 1/64.
- * The remaining angle has the tangent (y - c x)/(x + c y), at most 1/128, so a short series suffices. The other functions
- * are such angles: the arc sine of s is that of (root(1 - s^2), s). */
+/* function_atan_double.c: angles from ratios in double. For a point (x, y) with 0 <= y <= x, a table of pairs has the
+ * angles of rays whose slope c is a multiple of 1/64. From the nearest ray, the remaining angle has the tangent (y - c
+ * x)/(x + c y), at most 1/128, so a short series suffices. The other functions use such angles: the arc sine of s is
+ * the angle of the point (root(1 - s^2), s). */
 #include "function_double.h"
 #include "root.h"
 
 #if WH_DOUBLE
 
-#define SMALL 0x1p-28 /* up to here the angle equals its tangent and sine, rounded */
+#define SMALL 0x1p-28 /* up to this size an angle rounds to its tangent and sine */
 
 static const wh_pair pi = {0x1.921fb54442d18p1, 0x1.1a62633145c07p-53};
 static const wh_pair half_pi = {0x1.921fb54442d18p0, 0x1.1a62633145c07p-54};
 
-/* atan(i/64). */
+/* Entry i is atan(i/64). */
 static const wh_pair ray[65] = {
     /* clang-format off */
     {0.0, 0.0}, {0x1.fff555bbb729bp-7, -0x1.220c39d4dff5p-61},
@@ -51,14 +51,14 @@ static const wh_pair ray[65] = {
     /* clang-format on */
 };
 
-/* a + c b, for c of seven bits. */
+/* Returns a + c b; c has seven bits. */
 static wh_pair with_part(wh_pair a, double c, wh_pair b) {
     const wh_pair part = wh_product(c, b.high);
     const wh_pair sum = wh_pair_sum(a.high, part.high);
     return (wh_pair){sum.high, sum.low + (a.low + part.low + c * b.low)};
 }
 
-/* The angle of (x, y) for 0 <= y <= x, x > 0, to about 65 bits. */
+/* Returns the angle of (x, y) for 0 <= y <= x, x > 0, to about 65 bits. */
 static wh_pair eighth(wh_pair x, wh_pair y) {
     const int i = (int)(y.high / x.high * 64.0 + 0.5);
     const double c = i / 64.0;
@@ -69,12 +69,12 @@ static wh_pair eighth(wh_pair x, wh_pair y) {
     return wh_pair_of(sum.high, sum.low + (ray[i].low + u.low + series));
 }
 
-/* The angle of (x, y) for x >= 0, y >= 0, not both zero. */
+/* Returns the angle of (x, y) for x >= 0, y >= 0, not both zero. */
 static wh_pair quarter(wh_pair x, wh_pair y) {
     return y.high > x.high ? wh_difference(half_pi, eighth(y, x)) : eighth(x, y);
 }
 
-/* The root of 1 - s^2, 0 <= s < 1. */
+/* Returns the root of 1 - s^2 for 0 <= s < 1. */
 static wh_pair other_leg(double s) {
     const wh_pair square = wh_product(s, s);
     const wh_pair sum = wh_pair_sum(1.0, -square.high);
@@ -121,10 +121,10 @@ double wh_acos(double x) {
     return x < 0.0 ? wh_difference(pi, angle).high : angle.high;
 }
 
-/* The exponent's field: 0 for zero and subnormals, 2047 for infinity. */
+/* Returns the biased exponent: 0 for zero and subnormals, 2047 for infinity. */
 static int field_of(double size) { return (int)(wh_bits(size) >> 52); }
 
-/* The angle of (x, y) in the first quarter, both finite and not zero; `behind`: of (-x, y). */
+/* Returns the angle of (x, y), or of (-x, y) if `behind`. x and y are positive and finite. */
 static double finite_angle(double x, double y, bool behind) {
     const int rise = field_of(y) - field_of(x);
     if (rise < -64) {

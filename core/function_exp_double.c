@@ -1,15 +1,14 @@
-/* function_exp_double.c: e^x in double.
- * x = k ln(2)/64 + r with |r| < 2^-7.5, e^x = 2^(k/64) e^r. The fractions of k are from a table of pairs, e^r from its
- * series. */
+/* function_exp_double.c: e^x in double. With x = k ln(2)/64 + r and |r| < 2^-7.5, e^x is 2^(k/64) e^r. A table of pairs
+ * has 2^(i/64), and e^r comes from its series. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define STEPS_PER_LN2 0x1.71547652b82fep6
-#define STEP_HIGH 0x1.62e42fefcp-7 /* 35 bits: its product with k is exact */
+#define STEP_HIGH 0x1.62e42fefcp-7 /* has 35 bits, so that the product with k is exact */
 #define STEP_LOW (-0x1.c610ca86c3899p-43)
 
-/* 2^(i/64). */
+/* Entry i is 2^(i/64). */
 static const wh_pair fraction[64] = {
     /* clang-format off */
     {0x1p0, 0.0}, {0x1.02c9a3e778061p0, -0x1.19083535b085dp-56},
@@ -47,8 +46,8 @@ static const wh_pair fraction[64] = {
     /* clang-format on */
 };
 
-/* A pair times 2^exponent. If the result is subnormal, adding a large number rounds off the excess bits once, and the
- * remainder is counted in units of 2^-1074. */
+/* Returns a pair times 2^exponent. If the result is subnormal, adding a large number rounds off the excess bits once,
+ * and the remainder is counted in units of 2^-1074. */
 WH_INLINE double scaled(wh_pair x, int exponent) {
     if (exponent > 1023) {
         return exponent > 1024 ? WH_INFINITY : x.high * 2.0 * 0x1p1023;

@@ -1,13 +1,13 @@
-/* function_exp_float.c: exp, log and power in float, by 2^x and the logarithm to base 2.
- * The logarithm has 55 digits after the point, of which at least 39 are right. So a power's error is little more than its
- * one rounding: an exact result that is a float is returned exactly. Polynomials are minimax, with integer coefficients. */
+/* function_exp_float.c: exp, log and power in float, by 2^x and the logarithm to base 2. The logarithm has 55 digits
+ * after the point, of which at least 39 are right. So a power's error is little more than that of its one rounding, and
+ * if a float equals the true power, the result is that float. Polynomials are minimax, with integer coefficients. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
 
-#define POINT 55 /* digits after the point of a logarithm */
+#define POINT 55 /* number of binary digits after the point of a logarithm */
 
-/* 2^fraction in Q31, for a fraction in Q32: relative error at most 1.2e-10, monotonic in the fraction. */
+/* Returns 2^fraction in Q31, for a fraction in Q32. The relative error is at most 1.2e-10; the result is monotonic. */
 static uint32_t exp2_of(uint32_t fraction) {
     static const uint32_t slope[] WH_FLASH = {89165U,     627085U,     5751038U,   41300811U,
                                               238389830U, 1031764893U, 2977044473U};
@@ -19,22 +19,22 @@ wh_digits wh_float_exp2(uint64_t power) {
     return (wh_digits){exp2_of((uint32_t)power), (int32_t)(uint32_t)(power >> 32)};
 }
 
-/* 2^(size/2^32) with a sign, size/2^32 below 2^10. */
+/* Returns 2^(size/2^32), or its inverse if below_one, with a sign. size/2^32 is below 2^10. */
 static float exp2_signed(uint32_t sign, uint64_t size, bool below_one) {
     const wh_digits power = wh_float_exp2(below_one ? 0U - size : size);
     return wh_float_round(sign, power.size, power.exponent);
 }
 
-/* size/2^shift, rounded. */
 static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift - 1)) + 1U) >> 1; }
 
-/* The logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
+/* Returns the logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
  *
- * A 7-bit number near 1/size brings size to within 1/16 of one, without rounding. The remainder z has the polynomial
- * log2(e) z - z^2 (...). Between 31/32 and 17/16 no other term is added, so that small logarithms have the same
- * relative precision as large ones. */
+ * Multiplied by a 7-bit number near 1/size, the size is within 1/16 of one, without rounding. The logarithm of the
+ * remainder 1 + z is the polynomial log2(e) z - z^2 (...). Between 31/32 and 17/16 no other term is added, so that
+ * small logarithms have the same relative precision as large ones. */
 static int64_t log2_of(uint32_t magnitude) {
-    /* A sector's number in Q7 in the upper 8 bits; -log2 of it in Q55 in the others. */
+    /* In the upper 8 bits: the number near 1/size of each sector, in Q7. In the other bits: minus its logarithm, in
+     * Q55. */
     static const uint32_t inverses[] WH_FLASH = {
         UINT32_C(0x80000000), UINT32_C(0x00000000), UINT32_C(0x751097e3), UINT32_C(0x8ce60649),
         UINT32_C(0x6f1a5094), UINT32_C(0xb54d2828), UINT32_C(0x6924939a), UINT32_C(0x56279ad9),
@@ -44,7 +44,7 @@ static int64_t log2_of(uint32_t magnitude) {
         UINT32_C(0x4d5dd9f0), UINT32_C(0x4a59e914), UINT32_C(0x4a6530a1), UINT32_C(0xd24b136c),
         UINT32_C(0x486a3fe5), UINT32_C(0xc6042978), UINT32_C(0x45721bde), UINT32_C(0xdfa92a23),
         UINT32_C(0x43778a63), UINT32_C(0xb02eb033), UINT32_C(0x40800000), UINT32_C(0x00000000)};
-    /* Q31; their signs alternate. */
+    /* Q31; the signs of the terms alternate. */
     static const uint32_t bend[] WH_FLASH = {422085684U, 517401452U,  619679893U,
                                              774539989U, 1032721315U, 1549082005U};
     const int64_t log2_e = INT64_C(99141248300); /* Q36 */
@@ -106,7 +106,7 @@ float wh_log(float x) {
                           (int32_t)(63 - POINT) - (int32_t)zeros);
 }
 
-/* 0: not whole, 1: odd, 2: even. Infinity is even. */
+/* Returns 0 if the number is not whole, 1 if it is odd, 2 if it is even. Infinity is even. */
 static uint32_t wholeness(uint32_t magnitude) {
     const uint32_t exponent = magnitude >> 23;
     if (exponent < 127U) {
@@ -117,7 +117,8 @@ static uint32_t wholeness(uint32_t magnitude) {
     }
     const uint32_t digits = (magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000);
     const uint32_t behind = digits
-                            << (exponent - 119U); /* from the last digit before the point on */
+                            /* beginning with the last digit before the point */
+                            << (exponent - 119U);
     return (behind & ~WH_TOP_BIT) != 0U ? 0U : (behind != 0U ? 1U : 2U);
 }
 
@@ -155,9 +156,9 @@ float wh_pow(float base, float exponent) {
     const uint32_t zeros = wh_leading_zeros_64(size);
     const wh_digits d = wh_digits_of(y);
     const uint64_t product = ((size << zeros) >> 24) * (d.size >> 8);
-    /* product 2^(exponent - 23 + 24 - zeros - POINT) is the logarithm of the result */
+    /* The logarithm of the result is product 2^(exponent - 23 + 24 - zeros - POINT). */
     const int32_t shift = POINT - 33 + (int32_t)zeros - d.exponent;
-    if (shift < 23) { /* the logarithm is beyond 2^8 */
+    if (shift < 23) { /* the logarithm is above 2^8 */
         return wh_float_of_bits(below_one ? least : most);
     }
     return shift > 63 ? wh_float_of_bits(sign | WH_BITS_ONE)

@@ -10,7 +10,7 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
     if (exponent > 127) {
         return wh_float_of_bits(sign | WH_BITS_INFINITE);
     }
-    uint32_t drop = 8U; /* digits beyond a float's precision */
+    uint32_t drop = 8U; /* number of digits beyond a float's precision */
     uint32_t start = 0U;
     if (exponent >= -126) {
         /* the leading digit, added below, increments the exponent by one */
@@ -26,7 +26,7 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
     return wh_float_of_bits(sign | (start + kept + up)); /* a carry increments the exponent */
 }
 
-/* Long division, eight digits at a time, so that 32-bit divisions suffice. */
+/* Long division, eight digits at a time, because 32-bit divisions then suffice. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     const uint32_t by = den >> 8;
     uint32_t rest = num < den ? num : num >> 1;
@@ -39,13 +39,13 @@ uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     return ratio;
 }
 
-/* wh_float_ratio() takes 24 digits; a first-order correction adds the effect of the lower ones. */
+/* wh_float_ratio() uses 24 digits. A first-order correction adds the effect of the lower ones. */
 wh_digits wh_float_inverse(wh_digits x) {
     const uint32_t zeros = wh_leading_zeros(x.size);
     const uint32_t size = x.size << zeros;
     const uint32_t first = size & ~UINT32_C(255);
     const bool power_of_two = first == WH_TOP_BIT;
-    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q31, or Q32 below one */
+    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q31; Q32 if below one */
     const uint32_t others = (size - first) << (power_of_two ? 2 : 1);
     return (wh_digits){inverse - wh_high(inverse, wh_high(inverse, others)),
                        (int32_t)zeros - x.exponent - (power_of_two ? 0 : 1)};

@@ -1,21 +1,21 @@
 /* function_hyperbolic_double.c: the hyperbolic functions in double, from e^x and e^-x as pairs. Near zero, where e^x -
- * e^-x cancels, from series. */
+ * e^-x cancels, they come from series. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
-#define SMALL 0x1p-28  /* up to here sinh and tanh equal the argument, and cosh is one */
-#define BY_SERIES 0.25 /* the largest |x| for the series */
+#define SMALL 0x1p-28  /* up to this size sinh x and tanh x round to x, and cosh x to one */
+#define BY_SERIES 0.25 /* largest |x| for the series */
 #define TANH_IS_ONE 22.0
-#define BEYOND 711.0 /* sinh and cosh are infinite */
+#define BEYOND 711.0 /* above it sinh and cosh are infinite */
 
-/* sinh x - x, |x| <= 1/4, to 51 bits; z is x^2. */
+/* Returns sinh x - x for |x| <= 1/4, to 51 bits; z is x^2. */
 static double sine_less_x(double x, double z) {
     const double upper = 1.0 / 362880.0 + z * (1.0 / 39916800.0 + z / 6227020800.0);
     return x * (z * (1.0 / 6.0 + z * (1.0 / 120.0 + z * (1.0 / 5040.0 + z * upper))));
 }
 
-/* cosh x, |x| <= 1/4. */
+/* Returns cosh x for |x| <= 1/4. */
 static wh_pair near_cosine(double x) {
     const wh_pair square = wh_product(x, x);
     const double z = square.high;
@@ -25,7 +25,7 @@ static wh_pair near_cosine(double x) {
     return wh_pair_of(sum.high, sum.low + (0.5 * square.low + more));
 }
 
-/* e^x unscaled: |x| < 700. */
+/* Returns e^x as a pair, for |x| < 700. */
 static wh_pair exp_of(double x) {
     int power;
     const wh_pair parts = wh_exp_parts((wh_pair){x, 0.0}, &power);
@@ -33,11 +33,11 @@ static wh_pair exp_of(double x) {
     return (wh_pair){parts.high * scale, parts.low * scale};
 }
 
-/* (e^size + sign e^-size)/2, size > 0. */
+/* Returns (e^size + sign e^-size)/2 for size > 0. */
 static double half_sum(double size, double sign) {
     int power;
     wh_pair sum = wh_exp_parts((wh_pair){size, 0.0}, &power);
-    if (power < 64) { /* above it e^-size is negligible */
+    if (power < 64) { /* for larger powers e^-size is negligible */
         const wh_pair left = exp_of(-size);
         const double scale = wh_power_of_two(-power) * -sign;
         sum = wh_difference(sum, (wh_pair){left.high * scale, left.low * scale});

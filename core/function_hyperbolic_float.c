@@ -1,6 +1,6 @@
-/* function_hyperbolic_float.c: the hyperbolic functions in float.
- * Below one: minimax polynomials in the argument's square, so that a small argument is returned unchanged, and the tangent
- * as their quotient. From one on: by e^x and e^-x. */
+/* function_hyperbolic_float.c: the hyperbolic functions in float. Below one: minimax polynomials in the argument's
+ * square, so that the result for a small argument is the argument; tanh is the quotient of sinh and cosh. From one on:
+ * e^x and e^-x. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
@@ -8,7 +8,7 @@
 #define EXP_BEYOND UINT32_C(0x42d00000)  /* 104: e^x is far beyond the largest float */
 #define TANH_IS_ONE UINT32_C(0x41200000) /* 10 */
 
-/* sinh x for 0 < |x| < 1: relative error at most 5e-10. */
+/* Returns sinh x for 0 < |x| < 1. The relative error is at most 5e-10. */
 static wh_digits small_sinh(wh_digits x) {
     static const uint32_t series[] WH_FLASH = {12051U, 852043U, 35791420U, 715827882U}; /* Q32 */
     const uint32_t square = wh_square(x);
@@ -16,7 +16,7 @@ static wh_digits small_sinh(wh_digits x) {
                      wh_high(wh_series(series, sizeof series / sizeof series[0], square), square));
 }
 
-/* cosh x for |x| < 1: relative error at most 5e-10. */
+/* Returns cosh x for |x| < 1. The relative error is at most 5e-10. */
 static wh_digits small_cosh(wh_digits x) {
     static const uint32_t series[] WH_FLASH = {1215U, 106488U, 5965246U, 178956969U,
                                                UINT32_C(2147483648)}; /* Q32 */
@@ -25,7 +25,7 @@ static wh_digits small_cosh(wh_digits x) {
                      wh_high(wh_series(series, sizeof series / sizeof series[0], square), square));
 }
 
-/* (e^x - e^-x)/2 or (e^x + e^-x)/2, for 1 <= x < 104. */
+/* Returns (e^x + e^-x)/2, or (e^x - e^-x)/2 if `minus`, for 1 <= x < 104. */
 static float large(uint32_t sign, wh_digits x, bool minus) {
     const uint64_t octaves = wh_float_octaves(x);
     const wh_digits grown = wh_float_exp2(octaves);
@@ -74,7 +74,7 @@ float wh_cosh(float x) {
     return wh_float_round(0U, c.size, c.exponent);
 }
 
-/* 1 - tanh x in units of 2^-32, for 1 <= x < 10: 2 e^-2x / (1 + e^-2x). */
+/* Returns 1 - tanh x in units of 2^-32, for 1 <= x < 10: 2 e^-2x / (1 + e^-2x). */
 static uint32_t short_of_one(wh_digits x) {
     x.exponent++;
     const wh_digits left = wh_float_exp2(0U - wh_float_octaves(x)); /* below 1/7 */

@@ -1,15 +1,15 @@
-/* function_log_double.c: the natural logarithm in double.
- * x = 2^e m with m about 1, and m = (1 + r)/c with c from a table and |r| <= 2^-8. Then log x = e log 2 - log c + log(1 +
- * r). c has 15 bits, so r is exact; about 1, c is 1. The result is a pair, since pow() needs more than 53 bits of it. */
+/* function_log_double.c: the natural logarithm in double. x = 2^e m with m about 1, and m = (1 + r)/c with c from a
+ * table and |r| <= 2^-8. Then log x = e log 2 - log c + log(1 + r). c has 15 bits, so r is exact. If m is about 1, c is
+ * 1. The result is a pair, because pow() needs more than 53 bits. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define LN2_HIGH \
-    0x1.62e42fefa4p-1 /* a multiple of 2^-40, as the table's entries: e LN2_HIGH + .high is exact */
+    0x1.62e42fefa4p-1 /* a multiple of 2^-40, like .high below: e LN2_HIGH + .high is exact */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
-/* The least m: m lies between this number and twice this number. It is half a step of the table below 0.7109. */
+/* The least m: m lies between this number and twice this number. It is 0.7109 less half a step of the table. */
 #define LEAST_BITS UINT64_C(0x3fe6900000000000)
 
 typedef struct entry {
@@ -151,7 +151,7 @@ static const entry table[128] = {
     /* clang-format on */
 };
 
-/* log(1 + r) - r + r^2/2. */
+/* Returns log(1 + r) - r + r^2/2. */
 static double from_cube(double r) {
     const double upper = 1.0 / 7.0 + r * (-1.0 / 8.0 + r / 9.0);
     return r * r * r *

@@ -1,5 +1,5 @@
-/* function_pow_double.c: powers in double, as e^(y log x) with both in pairs: about sixty bits of the result, so that
- * an exact result that is a double is returned exactly. */
+/* function_pow_double.c: powers in double, as e^(y log x) with both factors as pairs. The result has about sixty bits
+ * before its rounding, so if a double equals the true power, the result is that double. */
 #include "function_double.h"
 
 #if WH_DOUBLE
@@ -18,7 +18,7 @@ static parity parity_of(double y) {
     return whole % 2 != 0 ? ODD : EVEN;
 }
 
-/* size^y for a positive finite size and a finite y. */
+/* Returns size^y for a positive finite size and a finite y. */
 static double positive_power(double size, double y) {
     const wh_pair logarithm = wh_log_pair(size);
     const double rough = logarithm.high * y;
@@ -35,7 +35,7 @@ static double positive_power(double size, double y) {
     return wh_exp_pair(wh_pair_of(product.high, product.low + logarithm.low * y));
 }
 
-/* For a base or exponent of zero or infinity; neither is NaN. */
+/* Returns a power if the base or the exponent is zero or infinity; neither is NaN. */
 static double edge_power(double base, double y) {
     if (y == WH_INFINITY || y == -WH_INFINITY) {
         const double size = WH_ABS(base);

@@ -1,15 +1,15 @@
-/* function_sine_double.c: sine, cosine and tangent in double, for angles of any size.
- * The angle is counted in quarter turns with as many bits of 2/pi as its size requires (Payne and Hanek, ACM SIGNUM
- * Newsletter 18 (1983) 1): in integers, 190 bits after the point. No double comes nearer to a multiple of a quarter turn
- * than 2^-62 of one, so the remainder has at least 70 right bits. */
+/* function_sine_double.c: sine, cosine and tangent in double, for angles of any size. The angle is converted to quarter
+ * turns with as many bits of 2/pi as its size requires (Payne and Hanek, ACM SIGNUM Newsletter 18 (1983) 1), in
+ * integers with 190 bits after the point. No double is nearer to a multiple of a quarter turn than 2^-62 quarter turns,
+ * so the remainder has at least 70 right bits. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define QUARTER_OF_PI 0x1.921fb54442d18p-1
-#define SMALL 0x1p-28 /* up to here an angle equals its sine and tangent, rounded */
+#define SMALL 0x1p-28 /* up to this size an angle rounds to its sine and tangent */
 
-/* 2/pi, 64 bits a word, after a word of zeros. */
+/* 2/pi, in words of 64 bits, after a word of zeros. */
 static const uint64_t two_by_pi[20] = {
     /* clang-format off */
     UINT64_C(0x0), UINT64_C(0xa2f9836e4e441529), UINT64_C(0xfc2757d1f534ddc0),
@@ -23,8 +23,8 @@ static const uint64_t two_by_pi[20] = {
 };
 
 typedef struct turned {
-    wh_pair rest;      /* radians, within an eighth of a turn */
-    unsigned quarters; /* mod 4 */
+    wh_pair rest;      /* remaining angle in radians, at most an eighth of a turn */
+    unsigned quarters; /* modulo 4 */
 } turned;
 
 typedef struct wave {
@@ -32,7 +32,7 @@ typedef struct wave {
     wh_pair cosine;
 } wave;
 
-/* a b + carry, as upper and lower 64 bits. */
+/* Returns the lower 64 bits of a b + *carry; *carry gets the upper 64 bits. */
 static uint64_t product_lower(uint64_t a, uint64_t b, uint64_t *carry) {
     const uint64_t low = UINT64_C(0xffffffff);
     const uint64_t ll = (a & low) * (b & low) + (*carry & low);
@@ -42,14 +42,14 @@ static uint64_t product_lower(uint64_t a, uint64_t b, uint64_t *carry) {
     return (hl << 32) | (ll & low);
 }
 
-/* 64 bits of 2/pi from bit `first` of the table on. */
+/* Returns 64 bits of 2/pi, beginning with bit `first` of the table. */
 static uint64_t bits_from(unsigned first) {
     const uint64_t *word = &two_by_pi[first / 64U];
     const unsigned shift = first % 64U;
     return shift == 0 ? word[0] : (word[0] << shift) | (word[1] >> (64U - shift));
 }
 
-/* The fraction 0.word[0] word[1] word[2] of at most a half, in quarter turns, as radians. */
+/* Converts the fraction 0.word[0] word[1] word[2] of a quarter turn, at most a half, to radians. */
 static wh_pair in_radians(uint64_t *word) {
     int exponent = 0;
     while (word[0] >> 63 == 0 && exponent > -128) {
@@ -67,12 +67,12 @@ static wh_pair in_radians(uint64_t *word) {
     return wh_pair_of(product.high, product.low + (high * half_pi.low + low * half_pi.high));
 }
 
-/* A finite angle, not negative. */
+/* Reduces a finite angle that is not negative. */
 static turned reduced(double rad) {
     if (rad <= QUARTER_OF_PI) {
         return (turned){{rad, 0.0}, 0};
     }
-    /* rad = mantissa 2^(field - 1075); bits of 2/pi that contribute only whole turns are left out. */
+    /* rad = mantissa 2^(field - 1075). Bits of 2/pi that contribute only whole turns are skipped. */
     const uint64_t bits = wh_bits(rad);
     const uint64_t mantissa = (bits & (UINT64_MAX >> 12)) | (UINT64_C(1) << 52);
     const unsigned field = (unsigned)(bits >> 52) & 2047U;
@@ -82,13 +82,13 @@ static turned reduced(double rad) {
     for (unsigned i = 3; i-- > 0;) {
         word[i] = product_lower(mantissa, bits_from(first + 64U * i), &carry);
     }
-    /* Two bits before the point: quarters, rounded to the nearest. */
+    /* The two bits before the point are the number of quarter turns. It is rounded to nearest. */
     unsigned quarters = (unsigned)(word[0] >> 62);
     word[0] = (word[0] << 2) | (word[1] >> 62);
     word[1] = (word[1] << 2) | (word[2] >> 62);
     word[2] <<= 2;
     const bool over = word[0] >> 63 != 0;
-    if (over) { /* negated except for a unit of the lowest bit, which is negligible */
+    if (over) { /* negation without the unit of the lowest bit, which is negligible */
         quarters++;
         word[0] = ~word[0];
         word[1] = ~word[1];
@@ -98,7 +98,7 @@ static turned reduced(double rad) {
     return (turned){{wh_signed(rest.high, over), wh_signed(rest.low, over)}, quarters & 3U};
 }
 
-/* sin x - x + x^3/6 and cos x - 1 + x^2/2 over x^5 and x^4; z = x^2. */
+/* Return (sin x - x + x^3/6)/x^5 and (cos x - 1 + x^2/2)/x^4, with z = x^2. */
 static double sine_series(double z) {
     const double upper =
         -1.0 / 39916800.0 +
@@ -133,7 +133,7 @@ static wave wave_of(wh_pair rest) {
     return (wave){wh_pair_of(sine.high, sine_low), wh_pair_of(cosine.high, cosine_low)};
 }
 
-/* The sine of the angle plus `quarters` quarter turns. */
+/* Returns the sine of the angle plus `quarters` quarter turns. */
 static double sine_after(double rad, unsigned quarters) {
     const turned at = reduced(rad);
     const wave w = wave_of(at.rest);

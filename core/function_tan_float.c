@@ -1,22 +1,23 @@
-/* function_tan_float.c: the tangent in float, of radians of any size.
- * Quarter turns are subtracted in integers, with as many digits of 2/pi as needed. No float is nearer to one than 2^-30 of
- * a quarter turn, and about 60 digits after the point are used (M. Payne and R. Hanek, "Radian reduction for trigonometric
- * functions", SIGNUM Newsletter 18 (1983) 1). */
+/* function_tan_float.c: the tangent in float, of an angle of any size. Quarter turns are subtracted in integers, with
+ * as many digits of 2/pi as needed. No float is nearer to a multiple of a quarter turn than 2^-30 quarter turns, and
+ * about 60 digits after the point are used (M. Payne and R. Hanek, "Radian reduction for trigonometric functions",
+ * SIGNUM Newsletter 18 (1983) 1). */
 #include "function_float.h"
 
 #if !WH_DOUBLE
 
 #define EIGHTH_TURN UINT32_C(0x3f490fda) /* the largest float below pi/4 */
 
-/* 2/pi; 32 binary digits a word, the first word before the point. */
+/* 2/pi, in words of 32 binary digits; the first word is before the point. */
 static const uint32_t two_over_pi[] WH_FLASH = {
     UINT32_C(0x00000000), UINT32_C(0xa2f9836e), UINT32_C(0x4e441529), UINT32_C(0xfc2757d1),
     UINT32_C(0xf534ddc0), UINT32_C(0xdb629599), UINT32_C(0x3c439041), UINT32_C(0xfe5163ab)};
 
-/* Subtracts the nearest whole number of quarter turns from a magnitude. Returns the remainder in radians; *odd: that
- * number is odd, *below: the remainder is negative. */
+/* Subtracts the nearest whole number of quarter turns from a magnitude. Returns the size of the remainder in radians.
+ * *odd: the number is odd; *below: the remainder is negative. */
 static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
-    /* A float is digits 2^(exponent - 150): digits of 2/pi that contribute only multiples of two are skipped. */
+    /* A float is `digits` times 2^(exponent - 150). Digits of 2/pi that contribute only multiples of two are
+     * skipped. */
     const uint32_t skip = (magnitude >> 23) - (150U - 31U);
     const uint32_t *word = &two_over_pi[skip >> 5];
     const uint32_t shift = skip & 31U;
@@ -38,11 +39,11 @@ static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
     const uint32_t half_pi = UINT32_C(3373259426); /* Q31 */
     const uint32_t rad = wh_high((uint32_t)((size << zeros) >> 32), half_pi);
     const int32_t exponent =
-        -(int32_t)zeros; /* rad is Q31 2^exponent, its top bit possibly clear */
+        -(int32_t)zeros; /* rad is Q31 times 2^exponent; its top bit may be clear */
     return rad < WH_TOP_BIT ? (wh_digits){rad << 1, exponent - 1} : (wh_digits){rad, exponent};
 }
 
-/* The tangent of up to an eighth of a turn: relative error at most 1.5e-9. */
+/* Returns the tangent of an angle up to an eighth of a turn. The relative error is at most 1.5e-9. */
 static wh_digits tangent_of(wh_digits rad) {
     static const uint32_t series[] WH_FLASH = {18797842U,  380841U,    46542290U,  91405258U,
                                                232185762U, 572633515U, 1431656471U}; /* Q32 */

@@ -1,6 +1,6 @@
-/* root.c: the square root in integers.
- * The number is x * 4^k, 1 <= x < 4, and the root's bits are those of sqrt(x) with exponent k. No root lies halfway
- * between two numbers (its square would have more bits than x can), so rounding to the nearest never meets a tie. */
+/* root.c: the square root in integers. The number is x * 4^k with 1 <= x < 4, and its root is sqrt(x) * 2^k. No root
+ * lies halfway between two numbers (its square would have more bits than x can have), so rounding to nearest never
+ * meets a tie. */
 #include "root.h"
 
 #if WH_DOUBLE
@@ -22,18 +22,19 @@ typedef union real_bits {
     word bits;
 } real_bits;
 
-/* 1: also compute a float's root bit by bit, for processors on which a 64-bit product takes longer than 25 comparisons.
- * The result has the same bits. */
+/* If 1, a float's root is computed bit by bit, for processors on which a 64-bit product takes longer than 25
+ * comparisons. The result has the same bits. */
 #ifndef WH_ROOT_BY_BITS
 #define WH_ROOT_BY_BITS 0
 #endif
 
 #if WH_DOUBLE || WH_ROOT_BY_BITS
 
-/* sqrt(x) * 2^52 (float: 2^23) to the nearest, from x with the same factor: bit by bit, the highest first. */
+/* Returns sqrt(x) * 2^52 (float: 2^23), rounded to nearest, from x with the same factor. It finds the bits one by one,
+ * beginning with the highest. */
 static word root_of(word x) {
     word rest = x << 1;
-    word twice = 0; /* twice the root so far, at the place of the next bit */
+    word twice = 0; /* twice the root so far, shifted to the next bit's place */
     word root = 0;
     for (word bit = ONE << 1; bit != 0; bit >>= 1) {
         if (twice + bit <= rest) {
@@ -43,12 +44,12 @@ static word root_of(word x) {
         }
         rest <<= 1;
     }
-    return (root + 1U) >> 1; /* the last bit is half a unit */
+    return (root + 1U) >> 1; /* the last bit is half a unit: round */
 }
 
 #else
 
-/* 2^8/sqrt(x) for 16 parts of the interval from 1 to 2, then for 16 parts of that from 2 to 4. */
+/* 2^8/sqrt(x): 16 values for x from 1 to 2, then 16 values for x from 2 to 4. */
 static const uint8_t reciprocal_root[32] = {
     252, 245, 238, 232, 226, 221, 216, 211, 207, 203, 199, 195, 192, 189, 185, 182,
     178, 173, 168, 164, 160, 156, 153, 149, 146, 143, 141, 138, 136, 133, 131, 129,
@@ -56,7 +57,8 @@ static const uint8_t reciprocal_root[32] = {
 
 static uint32_t high_half(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
 
-/* sqrt(x) * 2^23 to the nearest, from x * 2^23: two Newton steps for the reciprocal root, one for the root. */
+/* Returns sqrt(x) * 2^23, rounded to nearest, from x * 2^23: two Newton steps for the reciprocal root, one for the
+ * root. */
 static word root_of(word x) {
     const bool two = x >= ONE << 1; /* 2 <= x < 4 */
     const unsigned stretch = (unsigned)(two ? 16U + (x >> 20 & 15U) : x >> 19 & 15U);
@@ -67,7 +69,7 @@ static word root_of(word x) {
         r = high_half(r, ((UINT32_C(3) << 28) - x_r_r) << 2) << 1;
     }
     uint32_t root = high_half(scaled, r) >> 6;
-    /* x * 2^46 less the root's square: small, so that its low half suffices */
+    /* x * 2^46 minus the root's square. The difference is small, so its low half suffices. */
     const int32_t rest = (int32_t)((x << 23) - root * root);
     root += (uint32_t)(((int64_t)rest * r + (INT64_C(1) << 54)) >> 55);
     return root;
@@ -77,7 +79,7 @@ static word root_of(word x) {
 
 wh_real wh_sqrt(wh_real x) {
     real_bits as = {.real = x};
-    if (as.bits - ONE >= INFINITE - ONE) { /* not a normal positive number */
+    if (as.bits - ONE >= INFINITE - ONE) { /* x is not a normal positive number */
         if ((as.bits & ~SIGN) == 0 || as.bits == INFINITE) {
             return x;
         }

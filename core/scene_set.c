@@ -1,15 +1,15 @@
-/* scene_set.c: correcting a state from a measurement: one component gets a new value, and the next step determines the
+/* scene_set.c: corrects a state from a measurement: one component gets a new value, and the next step finds the
  * contacts' modes again. */
 #include "step/driven.h"
 
-/* Limit on an angle's radians: as in contact_crossing.h. */
+/* Limit on an angle in radians, the same as in contact_crossing.h. */
 #define ANGLE_MOST WH_R(1e9)
 
 static bool has_books(const wh_scene *scene, const wh_state *state) {
-    return scene->ledger != NULL && state->steps > 0; /* the first step takes its levels itself */
+    return scene->ledger != NULL && state->steps > 0; /* the first step stores the levels itself */
 }
 
-/* Component `at`, angles first, becomes *angle or *real; the other pointer is NULL. */
+/* Sets component number `at` (angles first) to *angle or *real. The other pointer is NULL. */
 static void replace(const wh_scene *scene, wh_state *state, unsigned at, const wh_angle *angle,
                     const wh_real *real) {
     wh_real before[WH_ACCOUNTS_MAX];
@@ -39,7 +39,7 @@ static bool is_started(const wh_scene *scene, const wh_state *state) {
     return scene != NULL && state != NULL && state->real != NULL;
 }
 
-/* Does this real follow an input with a rate? Then the next step would set it back. */
+/* True if this real follows an input with a rate: the next step would overwrite a new value. */
 static bool is_driven(const wh_scene *scene, unsigned real) {
     const unsigned linears = ((unsigned)scene->reals - scene->angles) / 2U;
     const unsigned behind = real < linears ? linears : scene->reals;

@@ -1,11 +1,11 @@
 /* text.c: numbers as text, exactly and without the C library. */
 #include "text.h"
 
-/* A number is bytes, low byte first, with the point between two of them. Sums, products and quotients by ten then need
- * only 16 bits, which are cheap on every machine. */
+/* A number is an array of bytes, low byte first, with the point between two of them. Then sums, products and quotients
+ * by ten need only 16 bits, which are cheap on every machine. */
 #define FRACTION_BYTES 20U /* 2^-160: below every float's last bit (2^-149) */
 #define WHOLE_BYTES 16U    /* 2^128: above every float */
-#define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* room for a factor of 10^18 */
+#define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* 8 bytes are room for a factor of 10^18 */
 #define DIGITS (39U + WH_TEXT_DECIMALS_MAX)       /* digits of 2^128, and decimals */
 
 void wh_text_start(wh_text *text, char *bytes, unsigned size) {
@@ -31,7 +31,7 @@ void wh_text_add(wh_text *text, const char *string) {
     }
 }
 
-/* byte[count] / 10 in place; returns the remainder. */
+/* Divides byte[count] by 10 in place, and returns the remainder. */
 static unsigned divide_by_ten(uint8_t *byte, unsigned count) {
     unsigned rest = 0;
     while (count-- > 0) {
@@ -42,10 +42,10 @@ static unsigned divide_by_ten(uint8_t *byte, unsigned count) {
     return rest;
 }
 
-/* Adds the whole number byte[count] divided by 10^decimals; destroys byte[]. */
+/* Adds the whole number in byte[count], divided by 10^decimals, to the text. Destroys byte[]. */
 static void add_digits(wh_text *text, uint8_t *byte, unsigned count, unsigned decimals,
                        bool negative) {
-    char digit[DIGITS]; /* lowest digit first */
+    char digit[DIGITS]; /* the lowest digit comes first */
     unsigned digits = 0;
     bool any = false;
     for (;;) {
@@ -113,12 +113,12 @@ enum { MANTISSA_BITS = 23, EXPONENT_MAX = 0xff, BIAS = 127 + MANTISSA_BITS };
 typedef uint32_t real_bits;
 #endif
 
-/* A float or double taken apart: magnitude = mantissa * 2^exponent. */
+/* The parts of a float or double: its magnitude is mantissa * 2^exponent. */
 typedef struct parts {
     real_bits mantissa;
     int exponent;
     bool negative;
-    bool special; /* infinity (mantissa 0) or not-a-number */
+    bool special; /* infinity (mantissa 0) or NaN */
 } parts;
 
 static parts parts_of(wh_real value) {
@@ -149,7 +149,7 @@ static void multiply_by_ten(uint8_t *byte) {
     }
 }
 
-/* Rounds to the nearest whole number, ties to even: adds one half, or a little less than half if the number is even. */
+/* Rounds to the nearest whole number, ties to even: adds one half, or a little less if the whole part is even. */
 static void round_to_whole(uint8_t *byte) {
     unsigned carry = byte[FRACTION_BYTES] & 1U;
     for (unsigned i = 0; i < BYTES; i++) {
@@ -160,8 +160,8 @@ static void round_to_whole(uint8_t *byte) {
 }
 
 /* Copies the mantissa's bits into byte[BYTES], which is initially zero. Returns false if the number exceeds
- * WHOLE_BYTES, as doubles may. Bits below 2^-160 are dropped: only doubles below 2^-107 have them, and those are far
- * from any tie at 18 decimals. */
+ * WHOLE_BYTES, as a double may. Bits below 2^-160 are dropped: only doubles below 2^-107 have such bits, and these are
+ * far from any tie at 18 decimals. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
     const int odd = place & 7;

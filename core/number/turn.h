@@ -43,8 +43,7 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
  * rounded `steps`. The instructions of x86 and Arm's VFP use the rounding mode that arithmetic.h tests. */
 #if defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP) && (__ARM_FP & 4)
 #define WH_ROUND(result, steps) \
-    float \
-        whole; /* holds the integer's bits, because the instruction's result is in a float register */ \
+    float whole; /* holds the integer's bits: the result is in a float register */ \
     __asm__("vcvtr.s32.f32 %0, %1" : "=t"(whole) : "t"(steps)); \
     __builtin_memcpy(&(result), &whole, sizeof(result))
 #elif defined(__GNUC__) && defined(__SSE2__)

@@ -1,6 +1,5 @@
-/* cell.h: the load cell's counts as newtons, for the controller.
- * For any hardware the controller sees a time, a force and a status. Gain, offset and the delay of filter and converter
- * are applied only here. */
+/* cell.h: converts the load cell's counts to newtons, for the controller. For any hardware the controller sees a time,
+ * a force and a status. Only this file applies gain and offset, and the delay of filter and converter. */
 #ifndef WH_RIG_CELL_H
 #define WH_RIG_CELL_H
 
@@ -10,14 +9,14 @@
 extern "C" {
 #endif
 
-/* The converter's status of a sample: X(name, words). hal/loadcell.h has the same, in this order. */
+/* The converter's status of a sample: X(name, words). hal/loadcell.h has the same list in the same order. */
 #define WH_LOAD_ROWS(X) \
     X(WH_LOAD_OK, "ok") \
     X(WH_LOAD_SATURATED, "saturated") \
     X(WH_LOAD_DISCONNECTED, "disconnected") \
     /* converted at another time than its time stamp */ \
     X(WH_LOAD_LATE, "late") \
-    /* no new value: the converter repeats the last one */ \
+    /* there is no new value: the converter repeats the last one */ \
     X(WH_LOAD_REPEATED, "repeated")
 
 #define WH_LOAD_NAME(name, words) name,
@@ -27,10 +26,10 @@ typedef enum wh_load_status { WH_LOAD_ROWS(WH_LOAD_NAME) WH_LOAD_STATUSES } wh_l
 typedef struct wh_cell_config {
     wh_real newton_per_count; /* negative for a cell mounted in reverse */
     wh_real offset_N;         /* reading without force */
-    /* delay of filter and converter: from the force to the time stamp */
+    /* Time from the force to the time stamp: the delay of filter and converter. */
     uint32_t delay_ticks;
     uint32_t period_ticks; /* ticks between two samples */
-    int32_t raw_max;       /* counts at full scale, either sign: the sample is saturated */
+    int32_t raw_max;       /* magnitude of the counts at full scale: such a sample is saturated */
 } wh_cell_config;
 
 typedef struct wh_load {
@@ -41,8 +40,8 @@ typedef struct wh_load {
 
 #define wh_load_text WH_NAME(wh_load_text)
 
-/* The force of a sample of `raw` counts with the time stamp `ticks` and the hardware's `status`. A sample at full scale
- * is saturated, even if the hardware's status is ok. */
+/* Returns the force of a sample of `raw` counts with the time stamp `ticks` and the hardware's `status`. A sample at
+ * full scale is saturated, even if the hardware's status is ok. */
 WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int32_t raw,
                                wh_load_status status) {
     wh_load load;
@@ -55,7 +54,6 @@ WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int
     return load;
 }
 
-/* The status in words, for consoles. */
 const char *wh_load_text(wh_load_status status);
 
 #ifdef __cplusplus

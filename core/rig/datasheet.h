@@ -1,6 +1,6 @@
-/* datasheet.h: the eccentric-mass rig's data for its controller.
- * Weights and radii: Almesallmy (2006), the force formula of I.3.2.1. The rig's physics is in
- * core/models/eccentric.whirl; tests/core/test_virtual_rig.c compares the two. */
+/* datasheet.h: the eccentric-mass rig's data for its controller. Weights and radii are those of the force formula in
+ * Almesallmy (2006), I.3.2.1. The rig's physics is in core/models/eccentric.whirl; tests/core/test_virtual_rig.c
+ * compares the two. */
 #ifndef WH_RIG_DATASHEET_H
 #define WH_RIG_DATASHEET_H
 
@@ -9,17 +9,17 @@
 /* Time stamps of the rig are counts of a 1 MHz timer, 32 bits, wrapping. */
 #define WH_RIG_TICKS_PER_S 1000000U
 
-/* Seconds from a time stamp to a later one; less than 71.6 minutes. */
+/* Returns the seconds from a time stamp to a later one, for less than 71.6 minutes. */
 WH_SHARED wh_real wh_rig_since_s(uint32_t then_ticks, uint32_t now_ticks) {
     return (wh_real)(now_ticks - then_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Seconds from one time stamp to another, negative if `to` is earlier; less than 35.8 minutes. */
+/* Returns the seconds from one time stamp to another, negative if `to` is earlier, for less than 35.8 minutes. */
 WH_SHARED wh_real wh_rig_way_s(uint32_t from_ticks, uint32_t to_ticks) {
     return (wh_real)(int32_t)(to_ticks - from_ticks) / (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Is now_ticks more than most_s after the earlier stamp then_ticks? */
+/* True if now_ticks is more than most_s after the earlier time stamp then_ticks. */
 WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real most_s) {
     return wh_rig_since_s(then_ticks, now_ticks) > most_s;
 }
@@ -29,8 +29,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_DEG_PER_RAD WH_R(57.29577951308232)
 #define WH_RIG_LBF_PER_N WH_R(0.22480894309971047)
 
-/* Both sets of arm and disc: arm 0.152 lb, 7.25 in long; disc 0.15 lb. The discs' centres are 6.5 in from the shaft, or
- * disc_m metres if they are moved. */
+/* Mass of both sets of arm and disc: an arm has 0.152 lb and is 7.25 in long, a disc has 0.15 lb. The discs' centres
+ * are 6.5 in from the shaft, or disc_m metres in the macros that take disc_m. */
 #define WH_RIG_ECCENTRIC_KG (WH_R(2.0) * (WH_R(0.152) + WH_R(0.15)) * WH_R(0.45359237))
 #define WH_RIG_DISC_RADIUS_M (WH_R(6.5) * WH_R(0.0254))
 
@@ -41,7 +41,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_UNBALANCE_KGM WH_RIG_UNBALANCE_AT_KGM(WH_RIG_DISC_RADIUS_M)
 
 /* Inertia of all rotating parts: two sets with the arm as a slender rod and the disc as a point, and an assumed 5e-4 kg
- * m^2 of motor, couplings and shafts. */
+ * m^2 for motor, couplings and shafts. */
 #define WH_RIG_INERTIA_AT_KGM2(disc_m) \
     (WH_R(2.0) * \
          (WH_R(0.152) * (WH_R(17.520833333333332) * WH_R(0.0254) * WH_R(0.0254)) + \
@@ -54,7 +54,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_STALL_NM WH_R(1.5)
 #define WH_RIG_NO_LOAD_RADPS (WH_R(600.0) * WH_RIG_RADPS_PER_RPM)
 
-/* Damping of the mean speed over a turn: the slope of the torque line, and 0.001 N m s of the bearings. */
+/* Damping of the mean speed over a turn: the slope of the torque line plus 0.001 N m s for the bearings. */
 #define WH_RIG_DAMPING_NMS (WH_RIG_STALL_NM / WH_RIG_NO_LOAD_RADPS + WH_R(0.001))
 
 /* Supply voltage of the torque line above. */
@@ -70,19 +70,19 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_SHAFT_LIMIT_RPM WH_R(400.0)
 #define WH_RIG_TARGET_MAX_RPM WH_R(360.0)
 
-/* Below about 145 rpm, gravity can stop the rotor before the top, and the next pulse would come too late for the
- * control loop (docs/rig.md). Set-points stay a sixth above that, because the speed dips below its set-point. */
+/* Smallest set-point. Below about 145 rpm, gravity can stop the rotor before the top, and the next pulse would come too
+ * late for the control loop (docs/rig.md). The set-point is a sixth above that, because the speed dips below it. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
-/* The same limit with gravity compensation (gravity_compensation.h). */
+/* Smallest set-point with gravity compensation (gravity_compensation.h). */
 #define WH_RIG_TARGET_MIN_FED_RPM WH_R(100.0)
 
 /* Range of the motor's supply, as multiples of the rated voltage. */
 #define WH_RIG_SUPPLY_LEAST WH_R(0.45)
 #define WH_RIG_SUPPLY_MOST WH_R(1.55)
 
-/* Largest possible speed: that without load at the highest supply voltage. A pulse that needs a higher speed is
- * rejected. */
+/* Largest possible speed: the speed without load at the highest supply voltage. A pulse that would need a higher speed
+ * is rejected. */
 #define WH_RIG_IMPOSSIBLE_RADPS (WH_RIG_SUPPLY_MOST * WH_RIG_NO_LOAD_RADPS)
 
 #endif

@@ -1,5 +1,5 @@
-/* drive.h: speed drive: a ramp for the set-point and a PI controller with anti-windup. The command is a voltage, so the
- * supply limits it but does not change the loop's gain. */
+/* drive.h: speed control: a ramp for the set-point and a PI controller with anti-windup. The output is a voltage. So
+ * the supply voltage limits the output and does not change the loop's gain. */
 #ifndef WH_RIG_DRIVE_H
 #define WH_RIG_DRIVE_H
 
@@ -13,7 +13,7 @@ typedef struct wh_drive_config {
     wh_real proportional_V_per_radps; /* volts per rad/s of error */
     wh_real integral_V_per_rad;       /* volts per second, per rad/s of error */
     wh_real ramp_radps2;              /* fastest change of the set-point, > 0 */
-    /* below this speed the ramp is a quarter as steep, so that the rotor does not stop at the top */
+    /* Below this speed the ramp is a quarter as steep: otherwise gravity could stop the rotor at the top. */
     wh_real gentle_radps;
 } wh_drive_config;
 
@@ -28,17 +28,17 @@ typedef struct wh_drive {
 #define wh_drive_at_target WH_NAME(wh_drive_at_target)
 
 /* Start at the present speed and voltage without a step in the voltage: the set-point starts at the speed, the integral
- * at the voltage. */
+ * part at the voltage. */
 void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts);
 
-/* One control step of step_s seconds: move the set-point towards the target, return the new voltage, 0 to most_V >= 0.
+/* Does one control step of step_s seconds: moves the set-point towards the target and returns the new voltage, 0 to
+ * most_V; most_V >= 0.
  *
- * The integral is constant while the voltage is at a limit and the error would drive it further (conditional
+ * The integral stays constant while the voltage is at a limit and the error would drive it further (conditional
  * integration: Astrom & Hagglund, Advanced PID Control, section 3.5). */
 wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real speed_radps,
                       wh_real most_V, wh_real step_s);
 
-/* True when the set-point has reached the target. */
 bool wh_drive_at_target(const wh_drive *drive);
 
 #ifdef __cplusplus

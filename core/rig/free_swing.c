@@ -7,8 +7,6 @@
 
 static wh_real square_of(wh_real x) { return x * x; }
 
-/* --- stored pulses ---------------------------------------------------------------------------------- */
-
 static void begin(wh_swing *swing) {
     swing->result = (wh_swung){.why = WH_SWING_SWINGS};
     swing->any = false;
@@ -36,10 +34,10 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_SWING_SENSORS) {
         return;
     }
-    /* if a sensor fires twice in succession, the rotor has passed it in the opposite direction the second time */
+    /* If a sensor fires twice in succession, the rotor passes it the second time in the opposite direction. */
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
-        /* a rotor that swings backwards cannot get over the top, so a pulse was lost and the rotor turns */
+        /* A rotor that swings backwards cannot get over the top. So a pulse was lost and the rotor turns. */
         swing->forward = true;
         swing->swings = false;
         swing->kept = 0;
@@ -65,7 +63,7 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
 
 #define STEP_TICKS 8000
 
-/* Integrates one step towards the next pulse. Returns false when the pulse is reached. */
+/* Integrates one step towards the next pulse. Returns false if the pulse is reached. */
 static bool advance(wh_swing *swing) {
     const int32_t left = (int32_t)(swing->kept_ticks[swing->at] - swing->ticks);
     if (left == 0) {
@@ -80,20 +78,18 @@ static bool advance(wh_swing *swing) {
 
 #define PASSES 12U
 #define SOFT_PASSES 6U
-/* from this pass on, pulses with a large residual are left out */
+/* From this pass on, pulses with a large residual are not used. */
 #define SURE_PASSES SOFT_PASSES
 
-/* --- passes -------------------------------------------------------------------------------------------- */
-
-/* The angle of the rotor, from the hanging position, when it is exactly at a sensor. Its pulse comes `lead` earlier, at
- * the slot's leading edge. */
+/* Returns the rotor's angle from the hanging position when it is exactly at a sensor. The sensor's pulse comes at the
+ * slot's leading edge, earlier by `lead`. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
     return rotor->pulse_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
-/* Returns to the first passage of the bottom: the integration over the later pulses begins there, and so does that over
- * the earlier ones. */
+/* Returns to the first passage of the bottom. From there the later pulses are integrated forwards, and then the earlier
+ * ones backwards. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     swing->ticks = swing->kept_ticks[swing->first];
     wh_free_rotor_start(
@@ -103,12 +99,12 @@ static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor,
 
 static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rotor,
                        wh_swing *swing) {
-    wh_real left[WH_NORMAL_UNKNOWNS]; /* differences of the unknowns from the guess */
+    wh_real left[WH_NORMAL_UNKNOWNS]; /* unknowns minus the guess */
     for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
     }
     wh_normal_start(&swing->normal, left);
-    /* at first the residuals are large and depend on the unknowns nonlinearly */
+    /* At first the residuals are large and nonlinear functions of the unknowns. */
     swing->soft_rad2 = swing->pass == 0            ? WH_R(0.0025)
                        : swing->pass < SOFT_PASSES ? WH_R(0.3) * swing->soft_rad2
                                                    : WH_R(0.0);
@@ -135,8 +131,8 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* Least amplitude, rad, and least ratio of the amplitude to friction / gravity: below either, the rotor comes to rest
- * within a swing or two, by a friction that is unknown. */
+/* Least amplitude, rad, and least ratio of the amplitude to friction / gravity. Below either, an unknown friction stops
+ * the rotor within a swing or two. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
@@ -155,7 +151,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     const wh_real lead = way->rate_radps > WH_R(0.0) ? WH_R(0.0) : WH_R(2.0) * config->lead_rad;
     const wh_real off = wh_free_angle(stands(rotor, swing, sensor, lead) - way->q_rad);
     if (!(WH_ABS(off) < FAR_RAD)) {
-        if (swing->at < swing->first) { /* has the rotor not got over the top? */
+        if (swing->at < swing->first) { /* true if the rotor has not got over the top */
             return false;
         }
         swing->strays++;
@@ -178,7 +174,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 
 static void conclude(const wh_swing_config *config, wh_swing *swing) {
     wh_swung *result = &swing->result;
-    /* without more pulses than unknowns, the misfit is meaningless */
+    /* The misfit is meaningless unless there are more pulses than unknowns. */
     const wh_real freedom =
         swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
     const wh_real rough = swing->normal.misfit / freedom;
@@ -198,14 +194,14 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
     } else if (swing->fits_of[1] == 0) {
         result->why = WH_SWING_SIDES;
     } else {
-        /* NaN is too wide */
+        /* a NaN half-width counts as too wide */
         result->why = result->half_rad[0] <= config->wide_rad ? WH_SWING_FOUND : WH_SWING_WIDE;
     }
 }
 
 #define FOREIGN WH_R(9.0)
 
-/* The Gauss-Newton step. Each unknown moves at most by the uncertainty of its guess. Returns the next part of the
+/* Does the Gauss-Newton step: each unknown moves by at most the uncertainty of its guess. Returns the next piece of the
  * work. */
 static wh_swing_piece move(wh_swing *swing) {
     const wh_real *y = swing->normal.right;
@@ -246,7 +242,7 @@ static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, w
     }
 }
 
-#define STEPS 3U /* integration steps per part of the work */
+#define STEPS 3U /* integration steps per control step */
 
 static WH_CALLED void work(const wh_swing_config *config, const wh_rotor_config *rotor,
                            wh_swing *swing) {
@@ -327,7 +323,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
     const wh_real sign = rate < WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
     const wh_real pulled = -cause[WH_FREE_GRAVITY] * wave.sine;
     const wh_real slowed = pulled - sign * cause[WH_FREE_FRICTION] - cause[WH_FREE_DRAG] * rate;
-    wh_real before = h; /* the rotor reverses within the step */
+    wh_real before = h; /* the time until the rotor reverses, if that is within the step */
     wh_real after = WH_R(0.0);
     wh_real ratio = WH_R(1.0);
     rotor->rate_radps = rate + h * slowed;
@@ -380,7 +376,7 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
     normal->misfit += weight * off * off;
 }
 
-/* Least pivot. The prior's 1 on the diagonal may be lost in round-off when the rows have made the entry large. */
+/* Least pivot. When the rows have made an entry large, round-off may lose the prior's 1 on the diagonal. */
 #define PIVOT_LEAST WH_R(1e-3)
 
 void wh_normal_factor(wh_normal *normal) {
@@ -396,7 +392,7 @@ void wh_normal_factor(wh_normal *normal) {
     }
 }
 
-/* Replaces y by L^-1 y; the entries of y before `from` are zero. */
+/* Replaces y by L^-1 y. The entries y[0] to y[from - 1] are zero. */
 static WH_CALLED void forward(const wh_normal *normal, wh_real y[N], unsigned from) {
     for (unsigned i = from; i < N; i++) {
         for (unsigned k = from; k < i; k++) {
@@ -417,7 +413,7 @@ void wh_normal_solve(wh_normal *normal) {
     }
 }
 
-/* The diagonal entry of the inverse: the squared length of L^-1 times the unit vector. */
+/* The variance is the diagonal entry of the inverse matrix: the squared length of L^-1 times the unit vector. */
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which) {
     wh_real y[N] = {WH_R(0.0)};
     wh_real sum = WH_R(0.0);

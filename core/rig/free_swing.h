@@ -1,27 +1,27 @@
-/* free_swing.h: the sensors' positions, from the free swing of a rotor that comes to rest.
+/* free_swing.h: the sensors' positions, found from the free swing of a rotor that comes to rest.
  *
  * A driven run cannot distinguish a misplaced sensor from a force out of line with the masses: both shift the phase
- * equally. A rotor that swings freely shows where the arms hang, and so where the sensors are. With the motor's leads
- * open, only gravity and friction move the rotor (see "the rotor" below). If q(t) is a motion, -q(t) is one, too. So
- * between two passages of q = 0 it takes as long on the right as on the left, with or without friction, except for the
- * loss from swing to swing. Pulses come at the slot's leading edge: a sensor at p is passed at p - lead to the right
- * and at p + lead to the left. So the lead cancels, and half a swing on the right is shorter than one on the left by 4
- * p/v, with v the speed at the bottom. The difference is largest for a slow rotor.
+ * equally. A rotor that swings freely shows the direction in which the arms hang, and so the positions of the sensors.
+ * With the motor's leads open, only gravity and friction move the rotor (see "the rotor" below). If q(t) is a motion,
+ * -q(t) is one, too. So a half swing on the right takes as long as one on the left, except for the loss from swing to
+ * swing. A pulse comes at the slot's leading edge. For a sensor at the angle p, the arms are then at p - lead on the
+ * way to the right, and at p + lead on the way to the left. So the lead cancels, and a half swing on the right seems
+ * shorter than one on the left by 4 p/v, with v the speed at the bottom. The difference is largest for a slow rotor.
  *
- * This needs v, and thus an amplitude A. By the pendulum's first integral v^2 = 4 g sin^2(A/2). Half a swing takes 2
- * K(sin(A/2))/sqrt(g), with K the complete elliptic integral of the first kind. The last swings are small: their period
- * gives g = S g0/I. The first swing's time then gives its amplitude, and the number of swings the friction. This first
- * guess, from pulses alone, is within some 10 %.
+ * The method needs v, and thus an amplitude A. By the pendulum's first integral v^2 = 4 g sin^2(A/2). A half swing
+ * takes 2 K(sin(A/2))/sqrt(g), with K the complete elliptic integral of the first kind. The last swings are small:
+ * their period gives g = S g0/I. The duration of the first swing then gives its amplitude, and the number of swings
+ * gives the friction. This first guess, from pulses alone, has an error of some 10 %.
  *
- * Gauss's regression refines it. The unknowns are q and q' at the first backward passage of the bottom, g, Coulomb and
- * viscous friction over I, and both sensors' positions. The data are the times of all pulses. The equation of motion is
- * integrated forwards over the swings and backwards over the last turns. In those turns, and at amplitudes above 90
- * deg, the rotor passes sensor 2, which gives a second known angle. Pulses with a large residual end a pass. In the
- * first pass all pulses have an uncertainty of some degrees; each later pass lowers it. A single pass would not always
- * converge.
+ * Gauss's regression refines the guess. The unknowns are q and q' at the first backward passage of the bottom, g,
+ * Coulomb and viscous friction over I, and both sensors' positions. The data are the times of all pulses. The equation
+ * of motion is integrated forwards over the swings and backwards over the last turns. In those turns, and at amplitudes
+ * above 90 deg, the rotor passes sensor 2, which gives a second known angle. Pulses with a large residual end a pass.
+ * In the first pass all pulses have an uncertainty of some degrees; each later pass lowers it. A single pass would not
+ * always converge.
  *
- * The confidence interval is that of the regression. It is widened if residuals of the pulses are larger than expected,
- * and by floor_rad.
+ * The confidence interval is that of the regression. It is widened by floor_rad, and if the residuals of the pulses are
+ * larger than expected.
  *
  * Pulses are stored while the rotor swings. After the rotor has come to rest, each control step does a part of a pass:
  * three steps of the equation, or one pulse, or part of the solution of the normal equations. The whole takes some
@@ -47,9 +47,10 @@ extern "C" {
 
 typedef struct wh_normal {
     wh_real matrix[WH_NORMAL_UNKNOWNS]
-                  [WH_NORMAL_UNKNOWNS]; /* lower triangle of the matrix; then of its factor */
-    wh_real right[WH_NORMAL_UNKNOWNS];  /* right side; then the solution */
-    /* sum of squared residuals over their variances at the guess; the solution reduces it */
+                  /* first the lower triangle of the matrix, then of its factor */
+                  [WH_NORMAL_UNKNOWNS];
+    wh_real right[WH_NORMAL_UNKNOWNS]; /* first the right side, then the solution */
+    /* Sum of the squared residuals over their variances, at the guess. The solution makes it smaller. */
     wh_real misfit;
 } wh_normal;
 
@@ -59,29 +60,30 @@ typedef struct wh_normal {
 #define wh_normal_solve WH_NAME(wh_normal_solve)
 #define wh_normal_deviation WH_NAME(wh_normal_deviation)
 
-/* Begin with the prior alone: each unknown is `guess`, with a standard deviation of 1. */
+/* Begin with the prior alone: each unknown equals its `guess`, with a standard deviation of 1. */
 void wh_normal_start(wh_normal *normal, const wh_real guess[WH_NORMAL_UNKNOWNS]);
 
-/* Add a measurement: the sum of row times unknowns shall be `off`, with this weight (the inverse of its variance). */
+/* Add a measurement: the scalar product of `row` and the unknowns shall be `off`, with this weight (the inverse of its
+ * variance). */
 void wh_normal_add(wh_normal *normal, const wh_real row[WH_NORMAL_UNKNOWNS], wh_real off,
                    wh_real weight);
 
-/* Factor the matrix (some 1,000 instructions), then solve: the unknowns are in normal->right. */
+/* Factor the matrix (some 1,000 instructions), and then solve: normal->right gets the unknowns. */
 void wh_normal_factor(wh_normal *normal);
 void wh_normal_solve(wh_normal *normal);
 
-/* Standard deviation of an unknown, after the factorization. */
+/* Returns the standard deviation of an unknown, after the factorization. */
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
 
 /* === the rotor =============================================================================== */
 /* A rotor under gravity and friction alone, and the derivatives of its motion with respect to its parameters: the
  * initial state, g, f and c.
  *
- *     q'' = -g sin q - f sign q' - c q'          q its angle from hanging; g = S g/I, f and c friction over I
+ *      q'' = -g sin q - f sign q' - c q'          q: angle from hanging; g = S g0/I; f and c: friction over I
  *
- * Steps of Stoermer's method (drift, kick, drift), forwards in time or backwards. If the motion reverses within the
- * step, friction changes its sign. The rate then has a kink, and the derivatives are multiplied by the acceleration
- * after it, divided by that before it. */
+ * A step uses Stoermer's method (drift, kick, drift), forwards or backwards in time. If the motion reverses within the
+ * step, friction changes its sign. The rate then has a kink. The derivatives are multiplied by the acceleration after
+ * the kink, divided by the acceleration before it. */
 
 /* The parameters of the motion: initial q and q', g, f, c. */
 enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
@@ -89,7 +91,7 @@ enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG,
 typedef struct wh_free_rotor {
     wh_real q_rad; /* -pi ... pi */
     wh_real rate_radps;
-    wh_real q_by[WH_FREE_CAUSES]; /* derivatives of q_rad */
+    wh_real q_by[WH_FREE_CAUSES]; /* derivatives of q_rad with respect to the parameters */
     wh_real rate_by[WH_FREE_CAUSES];
 } wh_free_rotor;
 
@@ -98,11 +100,12 @@ typedef struct wh_free_rotor {
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
-/* A step of h seconds, forwards or (h < 0) backwards, much shorter than a swing. `cause` is indexed by the enum above;
- * only g, f and c are read. */
+/* Does a step of h seconds, forwards or (h < 0) backwards, much shorter than a swing. `cause` is indexed by the enum
+ * above; only g, f and c are read. */
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
-/* Wrap an angle to -pi ... pi, from less than a turn outside; 0 for larger angles and NaN. */
+/* Wraps an angle that is less than a turn outside of -pi ... pi into this range; returns 0 for larger angles and
+ * NaN. */
 WH_SHARED wh_real wh_free_angle(wh_real rad) {
     const wh_real half = WH_R(0.5) * WH_RIG_TWO_PI;
     const wh_real near = rad > half ? rad - WH_RIG_TWO_PI : rad < -half ? rad + WH_RIG_TWO_PI : rad;
@@ -121,11 +124,11 @@ enum wh_swing_unknown {
 };
 
 #define WH_SWING_SENSORS 2U
-#define WH_SWING_TURNING 6U /* most pulses stored from the turns before the swings */
-#define WH_SWING_PULSES 36U /* most pulses stored altogether */
-#define WH_SWING_LAST 10U   /* sensor 1's last pulses whose times are stored */
+#define WH_SWING_TURNING 6U /* maximum number of pulses stored from the turns before the swings */
+#define WH_SWING_PULSES 36U /* maximum number of pulses stored altogether */
+#define WH_SWING_LAST 10U   /* number of sensor 1's last pulses whose times are stored */
 
-/* Parts of the work, one per control step: integrate up to a pulse, use the pulse, solve the equations (two parts),
+/* Pieces of the work, one per control step: integrate up to a pulse, use the pulse, solve the equations (two pieces),
  * begin another pass or another guess, finish. */
 typedef enum wh_swing_piece {
     WH_SWING_GOES,
@@ -136,7 +139,7 @@ typedef enum wh_swing_piece {
     WH_SWING_ENDS
 } wh_swing_piece;
 
-/* The outcome: X(name, words). */
+/* The outcome of an evaluation: X(name, words). */
 #define WH_SWING_ROWS(X) \
     X(WH_SWING_NONE, "no run has ended in a free swing") \
     X(WH_SWING_SWINGS, "the rotor is not at rest yet") \
@@ -153,15 +156,17 @@ typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swin
 #undef WH_SWING_NAME
 
 typedef struct wh_swing_config {
-    wh_real lead_rad; /* a pulse comes this angle before its sensor, from either side */
-    wh_real most_rad; /* a sensor is within this of its nominal position, at 95 % */
+    /* a pulse comes when the arms are this angle before its sensor, on either side */
+    wh_real lead_rad;
+    wh_real most_rad; /* distance of a sensor from its nominal position, at most, at 95 % */
     wh_real jitter_s; /* standard deviation of the pulse times, s */
-    /* further error of a pulse's angle, standard deviation: twist of a coupling */
+    /* Further error of a pulse's angle, as a standard deviation, for example from a coupling's twist. */
     wh_real rough_rad;
-    /* part of the interval from calibration, 95 %: slot, lead, friction that differs with the direction */
+    /* Part of the interval that comes from calibration, at 95 %: errors of slot and lead, and friction that differs
+     * with the direction. */
     wh_real floor_rad;
     wh_real wide_rad; /* a wider interval is useless */
-    /* limit of sensor 1's error and of its interval: beyond it, the run's results are doubtful */
+    /* If sensor 1's error or its interval exceeds this limit, the run's results are doubtful. */
     wh_real off_rad;
     unsigned swings_least; /* least number of half swings */
 } wh_swing_config;
@@ -175,24 +180,25 @@ typedef struct wh_swung {
 
 typedef struct wh_swing {
     wh_swung result;
-    bool free;    /* the motor has been off with open leads since the last step */
+    bool free;    /* the motor has been off, with open leads, since the last step */
     bool any;     /* there was a pulse already */
     bool forward; /* at the last pulse the rotor turned forwards */
     uint8_t sensor;
-    bool swings;          /* the rotor has passed sensor 1 backwards, first at kept[first] */
+    /* the rotor has passed sensor 1 backwards; kept[first] is the first such pulse */
+    bool swings;
     wh_swing_piece piece; /* the next part of the work */
     unsigned first;
     unsigned passed; /* number of later passages of sensor 1, stored or not */
     unsigned kept;
-    unsigned start; /* number of earlier guesses that failed */
+    unsigned start; /* number of guesses before this one: they failed */
     unsigned pass;
     unsigned at;     /* index of the next pulse */
     unsigned fits;   /* pulses used in this pass */
     unsigned strays; /* impossible pulses in this pass */
-    /* pulses used of each sensor: pulses of sensor 1 alone would also fit the mirror image of the swing */
+    /* Number of used pulses of each sensor. Pulses of sensor 1 alone would also fit the mirror image of the swing. */
     unsigned fits_of[WH_SWING_SENSORS];
     uint32_t ticks;                     /* time of the motion in `way` */
-    wh_real soft_rad2;                  /* variance added to the pulses' own */
+    wh_real soft_rad2;                  /* variance that is added to each pulse's own variance */
     wh_free_rotor way;                  /* the rotor's motion during a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
     wh_real x[WH_NORMAL_UNKNOWNS];      /* q - place, q', g, f, c, sensor positions */
@@ -205,21 +211,21 @@ typedef struct wh_swing {
 
 /* === the first guess ========================================================================= */
 
-#define WH_SWING_STARTS 3U /* guesses that are tried, one after the other */
+#define WH_SWING_STARTS 3U /* number of guesses that are tried, one after the other */
 
 #define wh_swing_leave_top WH_NAME(wh_swing_leave_top)
 #define wh_swing_guess WH_NAME(wh_swing_guess)
 
-/* Near the top, guesses of the amplitude are useless, because it depends steeply on times. So a pass begins after the
- * swings near the top. */
+/* Drops the swings that come near the top, so that a pass begins after them: their amplitude depends so steeply on
+ * their duration that guesses would be useless. */
 void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing);
 
-/* Sets x and its uncertainty, from which the regression begins; swing->start counts the guesses. */
+/* Sets x and its uncertainty, with which the regression begins; swing->start is the number of the guess. */
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 
 /* === the evaluation ========================================================================== */
 
-/* A small chip's build may set 0: swings are then not evaluated. */
+/* A small chip's build may set 0: then swings are not evaluated. */
 #ifndef WH_RIG_SWINGS
 #define WH_RIG_SWINGS 1
 #endif
@@ -232,19 +238,20 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 /* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
-/* Call it every control step. `swings`: the motor's leads have been open since the rotor turned forwards in a run.
- * `rests`, at the moment when the leads are closed: the rotor is at rest; otherwise the motor stopped it and the swing
- * was not free. While wh_swing_works(), each step at rest does a bounded part of the work. */
+/* Call this in every control step. `swings` is true if the motor's leads have been open since the rotor last turned
+ * forwards in a run. `rests` matters in the step in which the leads are closed: true if the rotor is at rest; if false,
+ * the motor stopped it and the swing was not free. While wh_swing_works(), each step at rest does a bounded part of the
+ * work. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 
-/* Are there pulses left to evaluate? */
+/* True while pulses remain to be evaluated. */
 WH_INLINE bool wh_swing_works(const wh_swing *swing) { return swing->result.why == WH_SWING_WORKS; }
 
-/* If sensor 1 was found off its position, a good result becomes doubtful: its phase has the same error. */
+/* If sensor 1 was found out of place, this makes a good result doubtful, because the result's phase has the same
+ * error. */
 void wh_swing_doubt(const wh_swing_config *config, const wh_swing *swing, wh_measured *measured);
 
-/* The outcome in words, for consoles. */
 const char *wh_swing_text(wh_swing_why why);
 
 #ifdef __cplusplus

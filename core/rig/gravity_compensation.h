@@ -1,8 +1,10 @@
-/* gravity_compensation.h: feed-forward of gravity's torque to the motor. Gravity pulls arms in a vertical plane back
- * with S g sin(theta - gamma). S is the sum of mass times radius, gamma the direction of gravity. The rotor's speed
- * would vary by E = S g/(I omega^2) about its mean. If the motor adds the same torque in the opposite direction, the
- * speed stays at its mean. theta is the observer's angle, predicted for the middle of the time in which the voltage
- * acts: half a control step of zero-order hold later, plus the delays of computing and of the motor's inductance. */
+/* gravity_compensation.h: feed-forward of gravity's torque to the motor.
+ *
+ * Gravity pulls arms in a vertical plane back with S g sin(theta - gamma). S is the sum of mass times radius, gamma the
+ * direction of gravity. The rotor's speed would vary by E = S g/(I omega^2) about its mean. If the motor adds the
+ * opposite torque, the speed stays at its mean. theta is the observer's angle, predicted for the middle of the time in
+ * which the voltage acts: half a control step later (zero-order hold), plus the delays of computing and of the motor's
+ * inductance. */
 #ifndef WH_RIG_GRAVITY_COMPENSATION_H
 #define WH_RIG_GRAVITY_COMPENSATION_H
 
@@ -16,9 +18,9 @@ typedef struct wh_compensation_config {
     wh_real weight_Nm;   /* S g: the largest torque of gravity */
     wh_real gravity_rad; /* gamma: the angle at which the arms hang */
     wh_real stall_Nm;    /* motor torque at standstill and rated voltage, > 0 */
-    uint32_t lead_ticks; /* from now to the middle of the time in which the voltage acts */
-    wh_real fade_s;      /* fade-in time; 0: at once */
-    wh_real most;        /* limit, as a multiple of the rated voltage, >= 0 */
+    uint32_t lead_ticks; /* time from now to the middle of the time in which the voltage acts */
+    wh_real fade_s;      /* duration of the fade-in; 0: no fade-in */
+    wh_real most;        /* limit of the result, a multiple of the rated voltage, >= 0 */
 } wh_compensation_config;
 
 typedef struct wh_compensation {
@@ -36,9 +38,9 @@ extern const wh_compensation_config wh_compensation_standard;
 
 #define wh_compensation_step WH_NAME(wh_compensation_step)
 
-/* One control step of step_s seconds; call it after the observer's step. Returns the voltage to add to the drive's, as a
- * multiple of the rated voltage. It is 0 while the observer is not valid or a number is NaN; then the voltage fades in
- * again. */
+/* Does one control step of step_s seconds; call it after the observer's step. Returns the voltage to add to the drive's
+ * voltage, as a multiple of the rated voltage. It is 0 while the observer is not valid or a number is NaN; after that
+ * it fades in again. */
 wh_real wh_compensation_step(const wh_compensation_config *config, wh_compensation *compensation,
                              const wh_observer *observer, uint32_t now_ticks, wh_real step_s);
 

@@ -19,7 +19,7 @@ wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps,
     const wh_real fall = falls * config->fall_radps;
     const wh_real bound = WH_SQRT(led * led + fall * fall);
     const wh_real most = config->limit_radps * (WH_R(1.0) + config->ripple);
-    return bound < most ? bound : most; /* a NaN bound gives `most` */
+    return bound < most ? bound : most; /* if bound is NaN, the result is `most` */
 }
 
 WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
@@ -32,16 +32,16 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 
 /* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
-#define LONGER \
-    WH_R(1.02) /* slowing of a coasting turn; in a swing only the last two intervals slow that
-                  much */
+/* A coasting turn is longer than the one before by this factor. In a swing only the last two intervals are. */
+#define LONGER WH_R(1.02)
 #define FASTER WH_R(1.01) /* speed gain over all successive faster turns */
 #define ALTERNATE_PAIR 4U /* alternating pulses that show two turns of a sensor */
 #define ALTERNATE_RISE 6U /* alternating pulses that show three turns of a sensor */
-#define ALONE_PAIR 2U     /* pulses of a sensor that fires alone, and that show two turns */
+#define ALONE_PAIR 2U     /* successive pulses of one sensor that show two of its turns */
 #define ALONE_RISE 3U
 #define ALONE_COASTS 4U
-#define ALONE_SURE 6U /* more pulses than jitter makes while the rotor hangs at a sensor */
+/* more pulses than jitter makes while the slot of a hanging rotor is at a sensor */
+#define ALONE_SURE 6U
 
 static uint8_t one_more(uint8_t count) {
     return (uint8_t)(count < ALONE_SURE ? count + 1U : count);
@@ -51,7 +51,7 @@ static WH_CALLED wh_real radps_of(uint32_t turn_ticks) {
     return WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)turn_ticks;
 }
 
-/* Compares a turn with the previous one; neither contains an extra pulse. */
+/* Compares a turn with the previous turn of the same sensor. No other pulse of this sensor came within these turns. */
 static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes, unsigned sensor,
                      uint32_t before_ticks) {
     wh_off *off = &guard->off;
@@ -92,7 +92,7 @@ static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes
 WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
                                   unsigned sensor, uint32_t ticks) {
     wh_off *off = &guard->off;
-    if (guard->quiet) { /* the times of old pulses have wrapped */
+    if (guard->quiet) { /* the times of old pulses may have wrapped */
         *off = (wh_off){.released = off->released};
     }
     if (sensor >= WH_SPEED_SENSORS) {
@@ -139,8 +139,6 @@ const char *wh_trip_text(wh_trip reason) {
     }
     return wh_words_item(words, row);
 }
-
-/* === a load sample's status in words ========================================================= */
 
 const char *wh_load_text(wh_load_status status) {
 #define WH_LOAD_CASE(name, words) \

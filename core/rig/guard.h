@@ -10,8 +10,8 @@
 extern "C" {
 #endif
 
-/* Reasons to stop: X(name, number, words). Numbers are for consoles and records, and never change; 1 was a refused
- * set-point, now a refusal (state_machine.h). The words fit a line of the report: 95 characters. */
+/* Reasons to stop: X(name, number, words). Consoles and records use the numbers, so they never change. (Number 1 was a
+ * refused set-point, which is now a refusal of state_machine.h.) The words fit a line of the report: 95 characters. */
 #define WH_TRIP_ROWS(X) \
     X(WH_TRIP_NONE, 0, "no fault") \
     X(WH_TRIP_OVERSPEED, 2, "over-speed") \
@@ -40,81 +40,86 @@ typedef struct wh_guard_config {
     wh_real target_min_radps; /* smallest set-point (docs/rig.md) */
     wh_real target_min_fed_radps;
     wh_real target_max_radps; /* largest set-point */
-    wh_real limit_radps;      /* largest speed, mean of a turn */
-    /* a turn's largest speed, less its mean speed, as a fraction of the mean, at the speed limit */
+    wh_real limit_radps;      /* largest mean speed of a turn */
+    /* Ripple at the speed limit: the largest speed within a turn minus its mean, as a fraction of the mean. */
     wh_real ripple;
-    wh_real over; /* excess over the commanded speed, as a fraction */
-    /* largest rise of the mean speed of a turn, measured at two successive slot pulses */
+    wh_real over; /* allowed excess over the commanded speed, as a fraction */
+    /* Largest sum of wh_pulses.climb_radps at two successive pulses, as a fraction of the turn's speed. */
     wh_real climb;
-    wh_real climb_start_radps2;  /* largest rise while the control loop takes over the rotor */
+    /* largest rise (rad/s per s) while the control loop takes over the rotor */
+    wh_real climb_start_radps2;
     wh_real climb_behind_radps2; /* largest rise while slower than the set-point by behind_radps */
-    wh_real behind_radps;        /* speed below the set-point from which climb_behind_radps2
-                                  * applies */
-    wh_real climb_there_radps2;  /* largest rise otherwise */
+    /* difference to the set-point from which climb_behind_radps2 applies */
+    wh_real behind_radps;
+    wh_real climb_there_radps2; /* largest rise otherwise */
     /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
     wh_real fall_radps;
-    uint32_t lost_max;          /* pulses that may be lost in a run */
+    uint32_t lost_max;          /* number of pulses that may be lost in a run */
     unsigned doubt_max;         /* largest wh_pulses.doubt */
-    uint32_t rejected_max;      /* pulses that may be rejected in a run */
+    uint32_t rejected_max;      /* number of pulses that may be rejected in a run */
     wh_real silence_max_s;      /* longest time without a pulse in closed loop */
     wh_real slow_silence_max_s; /* longest time without a pulse while the rotor starts */
     wh_real load_silence_max_s; /* longest time without a load sample */
-    /* below this times the speed's square, a change of the load counts as none */
+    /* A change of the load counts as none if it is below this number times the square of the speed. */
     wh_real load_still_kgm;
-    uint32_t stuck_pulses; /* slot pulses under constant load that show a stuck load cell */
+    /* number of slot pulses under constant load that show a stuck load cell */
+    uint32_t stuck_pulses;
     wh_real supply_min_V;
     wh_real supply_max_V;
     wh_real rest_s; /* a rotor without a pulse for this long is at rest */
-    /* each turn of a braked rotor must be slower than the previous one by at least this */
+    /* Each turn of a braked rotor must be slower than the turn before by at least this difference. */
     wh_real braked_radps;
     wh_real hand_radps; /* fastest rotor that a hand can turn */
 } wh_guard_config;
 
-/* Checks of the pulses while the motor is off, or brakes, independent of the commands. A turn is the time between two
- * pulses of one sensor. Over a turn gravity cancels:
+/* Checks of the pulses while the motor is off or brakes; the commands play no part in them. A turn is the time between
+ * two pulses of one sensor. Over a turn gravity cancels:
  *
- * - A braked rotor loses 2 pi c/I of its mean speed in a turn. c is the damping of the torque line, I at most six times the
- *   configured inertia. If a turn loses less than half of that, the enable goes off until the next run (`released`).
+ * - A braked rotor loses 2 pi c/I of its mean speed in a turn. c is the damping of the torque line, I at most six times
+ * the configured inertia. If a turn loses less than half of that, the enable goes off until the next run (`released`).
  * - With the enable off only friction acts, and turns only get slower.
  *
  * A rotor that swings about its hanging position fires a sensor twice in each swing. The times between these pulses get
  * shorter as the swing decays: they are not turns. Pulses show turns
  *
  * - while both sensors fire alternately. But a swing that reverses between the two edges of sensor 2's slot also gives
- *   the pulses 1, 2, 1, the last one on the way back. So an interval between two pulses of sensor 2 is a turn. An
- *   interval between two pulses of sensor 1 is a turn only if a pulse of sensor 2 follows.
- * - if one sensor fires alone (the other is dead) faster than any swing. Two intervals of a swing last a period, at least 2
- *   pi sqrt(I/S g), so they cannot both appear faster than 2 sqrt(S g/I). The bound allows for half the inertia.
+ * the pulses 1, 2, 1, the last one on the way back. So an interval between two pulses of sensor 2 is a turn. An
+ * interval between two pulses of sensor 1 is a turn only if a pulse of sensor 2 follows.
+ * - if one sensor fires alone (the other is dead) faster than in any swing. Two intervals of a swing last a period, at
+ * least 2 pi sqrt(I/S g), so they cannot both show a speed above 2 sqrt(S g/I). The bound allows for half the inertia.
  * - after `released`, if the intervals of such a sensor get longer three times in succession, by at least 2 % each. At
- *   the end of a swing that friction stops, this happens at most twice. */
+ * the end of a swing that friction stops, this happens at most twice. */
 typedef struct wh_off {
     bool released;
-    bool doubted; /* the brake was released on pulses of one sensor alone */
-    bool asks; /* released after alternating pulses: trips if the next one is the other sensor's */
+    bool doubted; /* the brake was released because of one sensor's pulses alone */
+    bool asks;    /* released because of alternating pulses: trips if the other sensor fires next */
     uint8_t sensor;    /* sensor of the last pulse, 1 or 2; 0: no pulse yet */
-    uint8_t alternate; /* successive pulses of alternating sensors */
-    uint8_t alone;     /* successive pulses of the same sensor */
+    uint8_t alternate; /* number of successive pulses of alternating sensors */
+    uint8_t alone;     /* number of successive pulses of the same sensor */
     struct wh_off_turns {
-        uint32_t ticks;       /* time of the last pulse, ticks */
-        uint32_t turn_ticks;  /* time from the previous pulse to the last one; 0: no such pulse */
+        uint32_t ticks; /* time of the last pulse, ticks */
+        /* time from the previous pulse to the last one; 0: no previous pulse */
+        uint32_t turn_ticks;
         uint32_t first_ticks; /* duration of the last turn before the turns got faster */
-        uint8_t faster;       /* successive turns that were faster than the previous one */
-        uint8_t longer;       /* successive turns that were clearly slower */
+        uint8_t faster;       /* number of successive turns that were faster than the one before */
+        uint8_t longer;       /* number of successive turns that were clearly slower */
         bool seen;
     } of[WH_SPEED_SENSORS];
 } wh_off;
 
 typedef struct wh_guard {
     wh_trip trip;
-    bool quiet;     /* no pulse for rest_s: latched, since times wrap */
-    bool load_good; /* the last load sample was ok and is recent: latched, since times wrap */
+    bool quiet;     /* no pulse for rest_s; latched, because times wrap */
+    bool load_good; /* the last load sample was ok and is recent; latched, because times wrap */
     uint32_t pulses_seen;
-    uint32_t pulse_ticks;     /* time of the last pulse, accepted or not; at first, the start */
+    /* time of the last pulse, accepted or not; before the first pulse, of the start */
+    uint32_t pulse_ticks;
     uint32_t lost_before;     /* number of lost pulses when the motor began to drive */
     uint32_t rejected_before; /* number of rejected pulses when the motor began to drive */
-    uint32_t load_ticks;      /* time of the last load sample; at first, the start */
-    uint32_t load_pulses;     /* number of pulses until that sample */
-    /* number of samples with a new pulse since the last change of the load */
+    /* time of the last load sample; before the first sample, of the start */
+    uint32_t load_ticks;
+    uint32_t load_pulses; /* number of pulses before that sample */
+    /* Number of load samples, since the last change of the load, before which a new pulse came. */
     uint32_t still_pulses;
     wh_real still_N; /* the load after that change */
     wh_off off;
@@ -130,19 +135,19 @@ typedef struct wh_guard {
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True for set-points that are safe for the control loop and the shaft, with gravity compensation if `fed`; false for
- * NaN. */
+/* True if a set-point is safe for the control loop and the shaft. `fed` is true with gravity compensation. NaN is not
+ * safe. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* Largest mean speed between two pulses, rad/s, if the drive keeps the rotor at limit_radps at most. It exceeds
- * limit_radps by the share `over`, and by `falls` times the gain of a fall from the top. From rest at the bottom gravity
- * adds nothing. */
+/* wh_guard_bound_radps() returns the largest mean speed between two pulses, rad/s, of a rotor whose turns the drive
+ * keeps at limit_radps or below. The result exceeds limit_radps by the share `over`, and by `falls` times the gain of a
+ * fall from the top. */
 #define WH_GUARD_LIGHTER \
-    WH_R(1.5) /* the gain of a rotor with half the configured inertia, with a margin */
+    WH_R(1.5) /* gain of a rotor with half the configured inertia, with a margin */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
-/* Limit on the rise of a turn's speed, rad/s^2; behind_radps is the commanded speed minus the speed. The limit is
- * negative, so the speed must fall, if the speed is too high by config->behind_radps or more. */
+/* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. If the
+ * speed is too high by config->behind_radps or more, the limit is negative: the speed must fall. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
                                         bool is_led) {
     if (is_led && behind_radps > config->behind_radps) {
@@ -155,15 +160,15 @@ WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real b
 /* Stop for this reason, unless the rig already has one. */
 void wh_guard_trip(wh_guard *guard, wh_trip reason);
 
-/* The motor begins to drive: forget the checks of pulses with the motor off. */
+/* Call this when the motor begins to drive: it resets the checks of the pulses with the motor off. */
 void wh_guard_drives(wh_guard *guard);
 
-/* A pulse of sensor 0 or 1 while the motor is off. `brakes`: the enable is on. The pulse may trip the rig, or release
- * the brake. */
+/* Checks a pulse of sensor 0 or 1 while the motor is off. `brakes` is true if the enable is on. The pulse may trip the
+ * rig, or release the brake. */
 void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
                         unsigned sensor, uint32_t ticks);
 
-/* Checks for rest, in each step and every state. pulses_ever is the total number of pulses. */
+/* Checks whether the rotor is at rest, in each step and every state. pulses_ever is the total number of pulses. */
 WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
                               uint32_t now_ticks) {
     if (pulses_ever != guard->pulses_seen) {
@@ -177,12 +182,13 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
 }
 
 /* Checks for over-speed, in each step and every state. Over-speed is one of: a turn above the limit; two successive
- * pulse intervals above the bound; a speed of a turn that rises, at two successive pulses, faster than the drive can
- * accelerate the rotor. `reason` is the trip: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off. With the motor
- * off, a sensor that fires repeatedly may be in the slot of a rotor that swings. Then only alternating pulses show
- * turns, if at least `alternate` of them came in succession (0 while the motor drives). */
+ * pulse intervals above the bound; a turn's speed that rises, at two successive pulses, faster than the drive can
+ * accelerate the rotor. `reason` is the trip: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off.
+ *
+ * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. Then only alternating
+ * pulses show turns, if at least `alternate` of them came in succession (0 while the motor drives). */
 #define WH_GUARD_BRAKES 1U /* with the enable on: react at once */
-/* with the enable off: one false pulse corrupts several turns, so wait until they are past */
+/* With the enable off, the guard waits for more pulses, because one false pulse corrupts several turns. */
 #define WH_GUARD_COASTS 6U
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
                               const wh_pulses *pulses, wh_trip reason, unsigned alternate) {
@@ -190,9 +196,10 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     if (pulses->alternate < alternate) {
         return;
     }
-    /* one early pulse may be a disturbance; two show a speed */
-    const bool sure = !pulses->waits || pulses->fast > 0; /* no later pulse can reject it */
-    /* One early pulse may be a disturbance. A vanishing load makes the speed rise. Both at once are a trip. */
+    /* One early pulse may be a disturbance. Two early pulses show that the rotor is that fast. */
+    /* no later pulse can reject the last one */
+    const bool sure = !pulses->waits || pulses->fast > 0;
+    /* One early pulse may be a disturbance. If the load vanishes, the speed rises. Both at once are a trip. */
     const bool climbs =
         pulses->fast > 0 && pulses->climb_before_radps > WH_R(0.0) &&
         pulses->climb_radps > WH_R(0.0) &&
@@ -203,8 +210,8 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* Checks while the motor drives: the numbers of lost, rejected and doubtful pulses, and a time without a pulse longer
- * than silence_max_s. */
+/* Checks while the motor drives: the numbers of lost, rejected and doubtful pulses, and the time without a pulse, at
+ * most silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
                                const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
     if (pulses->speed.lost - guard->lost_before > config->lost_max ||
@@ -220,8 +227,8 @@ WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) 
     return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
 }
 
-/* Check a load sample, tare included, in every state. `turning`: the rotor turns, so the load must change. `needed`: a
- * bad sample stops the rig. A repeated sample is ignored. */
+/* Checks a load sample, tare included, in every state. `turning` is true if the rotor turns, so that the load must
+ * change. If `needed`, a bad sample stops the rig. A repeated sample is ignored. */
 WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                              const wh_load *load, bool turning, bool needed) {
     if (load->status == WH_LOAD_REPEATED) {
@@ -232,8 +239,8 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* The time with a constant load is counted in pulses, because the load of a jammed rotor is also constant. At most
-     * one pulse per sample counts: if a controller is late, the waiting pulses are older than the samples. */
+    /* The time with a constant load is counted in pulses, because the load of a jammed rotor is also constant. Each
+     * sample counts at most one pulse: if a controller is late, the waiting pulses are older than the samples. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;
@@ -248,12 +255,12 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
 /* True if load samples still arrive. */
 WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
                                    uint32_t now_ticks) {
-    /* signed: a time stamp may be later than the step's own reading of the timer */
+    /* signed: a time stamp may be later than the time at which the step read the timer */
     return (wh_real)(int32_t)(now_ticks - guard->load_ticks) <=
            config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* The reason in words, for consoles, by wh_text_add(). */
+/* Returns the reason in words, for consoles, by wh_text_add(). */
 const char *wh_trip_text(wh_trip reason);
 
 #ifdef __cplusplus

@@ -7,20 +7,22 @@
 
 #define PI WH_R(3.141592653589793)
 
-/* A turn does not count if two nodes are farther apart than 3.5 sample periods, or if more than 1/10 are outliers. */
+/* A turn does not count if the gap between two nodes is longer than 3.5 sample periods, or if more than a tenth of the
+ * samples are outliers. */
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 
-/* If this many successive samples are equal, the load does not change: even without noise, the peak at 100 rpm gives
- * fewer. */
+/* If this many successive samples are equal, the load does not change. Even without noise, fewer samples are equal at
+ * the load's peak at 100 rpm. */
 #define FROZEN_SAMPLES 8U
 
-/* An outlier differs by more than six standard deviations of the residual, and by more than the effect of a speed
- * change of 1 %. */
+/* An outlier differs from the prediction by more than six standard deviations of the residual, and by more than the
+ * effect of a speed change of 1 %. */
 #define OUTLIER_DEVIATIONS WH_R(6.0)
 #define OUTLIER_PART WH_R(0.02)
 
-/* A turn does not count if its time changed by more than 1/64. It does not correct the inertia if by more than 1/256. */
+/* If a turn's duration changed by more than 1/64, the turn does not count. If it changed by more than 1/256, the turn
+ * does not correct the inertia. */
 #define STEADY_PART 64U
 #define STILL_PART 256U
 
@@ -41,8 +43,6 @@ void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
     lockin->expects = false;
     wh_turn_angle_start(rotor, &lockin->angle);
 }
-
-/* --- pulses -------------------------------------------------------------------------------------- */
 
 static WH_CALLED void close_turn(wh_lockin *lockin, uint32_t ticks) {
     if (lockin->stage != WH_LOCKIN_WAITS) { /* the load cell stopped in the middle of a turn */
@@ -90,9 +90,6 @@ void wh_lockin_gap(wh_lockin *lockin) {
     lockin->open = false;
 }
 
-/* --- samples ------------------------------------------------------------------------------------ */
-
-/* Remove the oldest sample. */
 static void pop(wh_lockin *lockin) {
     lockin->taken = true;
     lockin->taken_ticks = lockin->ticks[lockin->first];
@@ -101,7 +98,8 @@ static void pop(wh_lockin *lockin) {
     lockin->count--;
 }
 
-/* Drops the samples older than the turn, except for the newest of these; at most WH_LOCKIN_STALE_AT_ONCE. */
+/* Drops the samples that are older than the turn, except for the newest of them. Drops at most
+ * WH_LOCKIN_STALE_AT_ONCE. */
 static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
     for (unsigned i = 0; i < WH_LOCKIN_STALE_AT_ONCE && lockin->count > 0; i++) {
         if ((int32_t)(lockin->ticks[lockin->first] - begin_ticks) > 0) {
@@ -134,7 +132,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     lockin->any = true;
     lockin->newest_ticks = load->ticks;
     lockin->newest_N = load->force_N;
-    /* either the samples belong to no turn, or the turn is slower than any that can be measured */
+    /* The queue is full: the samples belong to no turn, or the turn is too slow to be measured. */
     if (lockin->count == WH_LOCKIN_SAMPLES) {
         pop(lockin);
     }
@@ -148,9 +146,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     }
 }
 
-/* --- one turn ----------------------------------------------------------------------------------- */
-
-/* Sets the last node's weight: half the distance between its neighbours. */
+/* Sets the last node's weight: half of the distance between its two neighbours. */
 WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     const wh_lockin_node *node = &lockin->last;
     const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->rest_N;
@@ -162,7 +158,7 @@ WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
 
-/* First half of a node's work: its angle and load. force_N is the load at the time `ticks`. */
+/* Does the first half of a node's work: its angle and load. force_N is the load at the time `ticks`. */
 static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lockin_place place) {
     wh_lockin_node *node = &lockin->placed;
     node->force_N = force_N;
@@ -175,7 +171,7 @@ static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lo
     lockin->place = place;
 }
 
-/* Second half of a node's work: its weight. A pulse is between two samples. */
+/* Does the second half of a node's work: its weight. The load at a pulse is interpolated between two samples. */
 static void weigh_node(wh_lockin *lockin) {
     wh_lockin_node *node = &lockin->placed;
     const wh_lockin_place place = lockin->place;
@@ -189,7 +185,7 @@ static void weigh_node(wh_lockin *lockin) {
             lockin->next.outliers++;
             return;
         }
-        node->force_N -= rest_N; /* the predicted load at the pulse */
+        node->force_N -= rest_N; /* node->force_N is now the predicted load at the pulse */
         rest_N = WH_R(0.0);
     }
     node->rest_N = rest_N;
@@ -211,7 +207,7 @@ static void weigh_node(wh_lockin *lockin) {
     lockin->last = *node;
 }
 
-/* The load at a time between the last processed sample and the oldest waiting one. */
+/* Returns the load at a time between the last processed sample and the oldest waiting one. */
 static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
     const wh_real later_N = lockin->force_N[lockin->first];
     if (!lockin->taken) {
@@ -222,7 +218,7 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
     return lockin->taken_N + part * (later_N - lockin->taken_N);
 }
 
-/* Begins the work on the next node of the turn, if its sample has come. */
+/* Begins the work on the next node of the turn, if the node's sample has come. */
 static void place_next(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
@@ -252,7 +248,7 @@ static void place_next(wh_lockin *lockin) {
     place_node(lockin, ticks, force_N, place);
 }
 
-/* Does `halves` half nodes; returns true when the turn is finished. */
+/* Does `halves` half nodes. Returns true when the turn is finished. */
 static bool take_samples(wh_lockin *lockin, unsigned halves) {
     if (lockin->stage == WH_LOCKIN_BEGINS) {
         drop_stale(lockin, lockin->next.begin_ticks);
@@ -296,7 +292,6 @@ static wh_turn_fault fault_of(const wh_cell_config *cell, const wh_lockin *locki
     return lockin->expects ? WH_TURN_OK : WH_TURN_FIRST;
 }
 
-/* Ends a turn: computes its orders from the sums, and its result. */
 static void end_sums(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     weigh_last(lockin, lockin->last.theta_rad, lockin->last.part);
@@ -319,8 +314,8 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* A gap does not invalidate the prediction. But if outliers caused it, they may be the new values of the load: then
-     * they become the prediction */
+    /* A gap does not invalidate the prediction. But if outliers caused it, the load may have changed: then the outliers
+     * become the prediction. */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;
@@ -344,10 +339,8 @@ static void begin_turn(wh_lockin *lockin) {
     lockin->place = WH_LOCKIN_NOWHERE;
 }
 
-/* --- pieces ------------------------------------------------------------------------------------- */
-
 #if WH_RIG_SMALL_PIECES
-/* Does one piece, or all of them at once; returns true after the last. */
+/* Does one piece, or all pieces at once. Returns true after the last piece. */
 static bool last_piece(wh_lockin *lockin, unsigned pieces) {
     lockin->piece++;
     if (lockin->piece < pieces) {
@@ -358,7 +351,7 @@ static bool last_piece(wh_lockin *lockin, unsigned pieces) {
 }
 #endif
 
-/* Computes the shape of the turn's angle. Returns true when it is finished. */
+/* Computes the shape of the turn's angle. Returns true when the shape is finished. */
 static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_real speed_radps =
         WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)lockin->next.turn_ticks;
@@ -371,7 +364,7 @@ static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
 #endif
 }
 
-/* Evaluates sensor 2's pulse. Returns true when it is finished. */
+/* Evaluates sensor 2's pulse. Returns true when this is finished. */
 static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_lockin_turn *turn = &lockin->next;
     if (!turn->second_seen || !is_steady(lockin, STILL_PART)) {
@@ -392,7 +385,7 @@ static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
 #endif
 }
 
-/* Computes the result of the turn. Returns true when it is finished. */
+/* Computes the result of the turn. Returns true when the result is finished. */
 static bool end(const wh_cell_config *cell, wh_lockin *lockin) {
     if (lockin->piece == 0) {
         end_sums(lockin);

@@ -4,7 +4,7 @@
 #include "core/root.h"
 #include "datasheet.h"
 
-/* A turn's samples are processed within a fraction of the next turn. */
+/* The work for a turn's samples takes at most this time after the turn. */
 #define LAST_TURN_MAX_S WH_R(0.5)
 
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
@@ -51,11 +51,11 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     }
 }
 
-/* Number of pieces of work that merge the turns to a result: the last decides on its quality. */
+/* Number of pieces of work that merge the turns into a result. The last piece decides on the result's quality. */
 #define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
-/* Number of pieces before the merging. For a turn it is its repeating residual; at the record's end, one harmonic per
- * piece. */
+/* Number of pieces of a turn: one for its repeating residual, then the merging. At the record's end each harmonic is
+ * one more piece. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
@@ -117,7 +117,7 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
     if (!wh_lockin_work(&config->rotor, &config->cell, &measure->lockin, halves)) {
         return;
     }
-    /* only turns that lie entirely within the record count */
+    /* Only turns that lie entirely within the record count. */
     const wh_lockin_turn *turn = &measure->lockin.turn;
     const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
     if (begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks)) {
@@ -163,11 +163,11 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
 
 /* === the tare ================================================================================ */
 
-/* Four times the variance of a mean with triangular weights, which is 2/3 of the samples' variance divided by a block's
- * number of samples. */
+/* Four times the variance of a triangular mean, as a factor of the samples' variance. The variance of such a mean is
+ * 2/3 of the samples' variance divided by the length of a block. */
 #define SLOW_NOISE (WH_R(8.0) / (WH_R(3.0) * (wh_real)WH_TARE_BLOCK))
 
-/* A block is full: takes the mean of this block and the previous one, with triangular weights. */
+/* Ends a full block: takes the mean of this block and the previous one, with triangular weights. */
 static void end_block(wh_tare *tare) {
     if (tare->count > WH_TARE_BLOCK) {
         const wh_real mean = (tare->before_N + tare->falls_N) / (wh_real)WH_TARE_BLOCK;

@@ -1,5 +1,5 @@
-/* measure.h: the measurement of a run: the lock-in's turns within the record, merged to one result. The work for a turn
- * is divided into pieces, one per control step. Only turns that lie entirely within the record count. */
+/* measure.h: the measurement of a run: the lock-in's turns within the record, merged into one result. The work for a
+ * turn is divided into pieces, one per control step. Only turns that lie entirely within the record count. */
 #ifndef WH_RIG_MEASURE_H
 #define WH_RIG_MEASURE_H
 
@@ -16,14 +16,14 @@ extern "C" {
 /* The load cell's reading at rest, from noisy samples, and a check that the rig was at rest.
  *
  * Motion is slow: drift, a rotor that swings (1 to 3 Hz), a vibrating frame (up to some 10 Hz). Hum is fast, and its
- * mean vanishes. So the check uses means of 40 samples with triangular weights, one every 20 samples. With 2 ms a
- * sample they span 80 ms. They pass at most 1.6 % of hum from 45 to 65 Hz, nothing of 50 Hz, and 87 % of 5 Hz. White
- * noise of variance s^2 gives these means the variance s^2/30, and s^2 is half the mean square of successive
- * differences (von Neumann, Annals of Mathematical Statistics 12 (1941) 367). Four times that variance is allowed:
- * noise alone exceeds it, with eleven means, in less than one of 10,000 tares. */
+ * mean vanishes. So the check uses means of 40 samples with triangular weights, a new mean every 20 samples. At 2 ms
+ * per sample a mean spans 80 ms. It passes at most 1.6 % of hum from 45 to 65 Hz, nothing of 50 Hz, and 87 % of 5 Hz.
+ * White noise of variance s^2 gives these means the variance s^2/30, and s^2 is half the mean square of successive
+ * differences (von Neumann, Annals of Mathematical Statistics 12 (1941) 367). The check allows four times that
+ * variance: with eleven means, noise alone exceeds it in less than one of 10,000 tares. */
 
 typedef struct wh_tare_config {
-    uint32_t samples; /* at least 4 WH_TARE_BLOCK, for three means */
+    uint32_t samples; /* number of samples of a tare: at least 4 WH_TARE_BLOCK, for three means */
     wh_real still_N;  /* slow motion with a smaller standard deviation counts as rest */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
@@ -36,7 +36,7 @@ typedef struct wh_tare {
     wh_real square_N2;  /* sum of squared deviations from the mean */
     wh_real changes_N2; /* sum of squared differences of successive samples */
     wh_real last_N;
-    /* this block's sum with rising and with falling weights; the last block's sum with rising weights */
+    /* This block's sum with rising and with falling weights, and the last block's sum with rising weights. */
     wh_real rises_N;
     wh_real falls_N;
     wh_real before_N;
@@ -49,13 +49,13 @@ typedef struct wh_tare {
 #define wh_tare_error_N WH_NAME(wh_tare_error_N)
 #define wh_tare_is_still WH_NAME(wh_tare_is_still)
 
-/* Add a sample; a zeroed tare has no samples. */
+/* Add a sample to the tare. A new tare is all zeros. */
 void wh_tare_add(wh_tare *tare, wh_real force_N);
 
-/* Standard error of the mean; 0 with fewer than two samples. */
+/* Returns the standard error of the mean; 0 with fewer than two samples. */
 wh_real wh_tare_error_N(const wh_tare *tare);
 
-/* True if the samples are noise and hum about one force, and small enough. */
+/* True if the samples show only noise and hum about one force, and the mean's standard error is at most most_N. */
 bool wh_tare_is_still(const wh_tare_config *config, const wh_tare *tare);
 
 /* === the measurement ========================================================================= */
@@ -66,7 +66,7 @@ typedef struct wh_measure_config {
     wh_tare_config tare;
     wh_result_config result;
     wh_real record_s;     /* whole turns within this time are measured */
-    wh_real record_turns; /* or within the time of this many turns, if that is longer */
+    wh_real record_turns; /* if this many turns take longer than record_s, their time is used */
 } wh_measure_config;
 
 typedef struct wh_rig_result {
@@ -82,18 +82,18 @@ typedef struct wh_rig_result {
 
 typedef struct wh_measure {
     bool records;
-    bool adds;  /* the turn itself must be added before the pieces of work in `due` */
+    bool adds;  /* the turn itself must be added before the work in `due` */
     bool peaks; /* low_N and high_N are valid */
     bool ends;  /* the record's last turn is finished */
-    /* number of pieces of work that remain, for the last turn or the record's end */
+    /* Number of remaining pieces of work, for the last turn or for the record's end. */
     uint8_t due;
     uint32_t begin_ticks;    /* time of the record's begin */
     wh_real record_s;        /* record's duration */
-    uint32_t skipped_before; /* skipped turns when the record began */
+    uint32_t skipped_before; /* number of skipped turns before the record began */
     wh_tare tare;
     wh_merge merge;       /* the turns of the record so far */
-    wh_rig_result result; /* updated with each turn of the record */
-    wh_lockin lockin;     /* lockin.turn: the last turn's load */
+    wh_rig_result result; /* renewed after each turn of the record */
+    wh_lockin lockin;     /* lockin.turn is the last turn's load */
 } wh_measure;
 
 #define wh_measure_begin WH_NAME(wh_measure_begin)
@@ -104,28 +104,28 @@ typedef struct wh_measure {
 #define wh_measure_lasts WH_NAME(wh_measure_lasts)
 #define wh_measure_end WH_NAME(wh_measure_end)
 
-/* A run begins, with the tare. For the first run, *measure is zero. */
+/* Begin a run, with the tare. Before the first run, *measure is all zeros. */
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 
-/* A confirmed pulse, in order of time. */
+/* Process a confirmed pulse, in the order of time. */
 void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *mark);
 
-/* Take a load sample: of the tare, or of a turning rotor. */
+/* Take a load sample: for the tare if at_rest, otherwise of a turning rotor. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* Does a bounded piece of the work, once a control step, with `halves` half nodes of a turn's sums. Work that cannot be
- * split is done if `halves` is WH_LOCKIN_HALVES_AT_ONCE or more. */
+/* Call this once per control step. It does a bounded piece of the work, with `halves` half nodes of a turn's sums. It
+ * does work that cannot be split only if `halves` is WH_LOCKIN_HALVES_AT_ONCE or more. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
 
-/* The record begins now, at a speed > 0; an earlier record's turns are dropped. */
+/* Begin a record now, at a speed > 0. The turns of an earlier record are dropped. */
 void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,
                        uint32_t now_ticks);
 
-/* True during the record, at `ticks`. */
+/* True if `ticks` is within the record. */
 bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks);
 
-/* Call it in each control step after the record's time until it returns true. The record's last turn is then finished,
- * and all turns are merged. If no turn was usable, result.force.turns is 0. */
+/* Call this in each control step after the record's time until it returns true. Then the record's last turn is
+ * finished, and all turns are merged. If no turn was usable, result.force.turns is 0. */
 bool wh_measure_end(wh_measure *measure, uint32_t now_ticks);
 
 #ifdef __cplusplus

@@ -4,12 +4,12 @@
 #include "datasheet.h"
 #include "polar.h"
 
-/* More than a turn without a pulse: both sensors have missed one. */
+/* After more than a turn without a pulse, both sensors have missed one. */
 #define MISSED_RAD (WH_R(1.06) * WH_RIG_TWO_PI)
 
 const wh_observer_config wh_observer_standard = WH_OBSERVER_STANDARD;
 
-/* The difference of two phases, -pi ... pi. */
+/* Returns the difference of two phases, -pi ... pi. */
 static wh_real signed_rad(wh_phase difference) {
 #if WH_DOUBLE
     const double turns = difference / WH_RIG_TWO_PI;
@@ -90,7 +90,7 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
     const uint32_t way_ticks = steps * observer->step_ticks;
     const wh_real before_radps = state->real[0];
     wh_status status = WH_OK;
-    for (uint32_t i = 0; i < steps && status == WH_OK; i++) { /* the loop usually does one step */
+    for (uint32_t i = 0; i < steps && status == WH_OK; i++) { /* usually one step */
         status = wh_scene_step(config->scene, state);
     }
     if (status != WH_OK) { /* the drive is NaN */
@@ -121,17 +121,17 @@ wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks) {
     return signed_rad(wh_observer_phase(observer, ticks));
 }
 
-/* Start at this pulse, with the mean speed since the previous one. */
+/* Starts the observer at this pulse, with the mean speed since the previous one. */
 static void set_out(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                     uint32_t ticks) {
     const wh_real time_s = wh_rig_way_s(observer->mark_ticks, ticks);
     wh_real turned_rad = signed_rad(wh_phase_from_rad(config->pulse_rad[sensor]) -
                                     wh_phase_from_rad(config->pulse_rad[observer->mark_sensor]));
-    if (!(turned_rad > WH_R(0.0))) { /* two pulses of one sensor: a whole turn */
+    if (!(turned_rad > WH_R(0.0))) { /* two pulses of one sensor are a whole turn apart */
         turned_rad += WH_RIG_TWO_PI;
     }
     const wh_real speed_radps = turned_rad / time_s;
-    observer->valid = false; /* the torque stays valid */
+    observer->valid = false; /* the disturbance torque is kept */
     observer->good_marks = 0;
     observer->runs = time_s > WH_R(0.0) && speed_radps > config->slowest_radps &&
                      speed_radps < config->fastest_radps;

@@ -1,14 +1,15 @@
 /* observer.h: the rotor's angle and speed at any time, from a generated scene that runs beside the rig.
  *
- * Two slot pulses per turn measure the rotor's position; between them the model predicts it from gravity, motor and
+ * Two slot pulses per turn measure the rotor's position; between pulses the model predicts it from gravity, motor and
  * inertia. The model, a scene (eccentric.whirl, rig_fixed), gets the same drive as the rig. At each pulse the
- * innovation corrects the scene's angle, its speed, and a disturbance torque that is added to the drive (for bearings,
- * or an error of the supply). This is a Luenberger observer; its gains are fixed if speed and torque are counted in
- * units of the time of a turn (Luenberger, IEEE Transactions on Automatic Control 16 (1971) 596).
+ * innovation corrects the scene's angle, its speed, and a disturbance torque that is added to the drive (for the
+ * bearings' torque, or an error of the supply). This is a Luenberger observer. If speed and torque are expressed in
+ * units of a turn's duration, its gains are constants (Luenberger, IEEE Transactions on Automatic Control 16 (1971)
+ * 596).
  *
  *     every control step, in this order:
  *         wh_observer_step(..., now_ticks, drive)      the drive since the last control step
- *         wh_observer_pulse(..., sensor, ticks)         for each slot pulse taken since
+ *         wh_observer_pulse(..., sensor, ticks)        for each slot pulse since then
  *         if (observer.valid) wh_observer_phase(..., now_ticks + lead) is the arms' angle at that time */
 #ifndef WH_RIG_OBSERVER_H
 #define WH_RIG_OBSERVER_H
@@ -23,14 +24,15 @@ extern "C" {
 #define WH_OBSERVER_SENSORS 2U
 
 typedef struct wh_observer_config {
-    const wh_scene *scene; /* one angle, its rate, one input: motor voltage / rated voltage */
-    wh_real stall_Nm;      /* the scene's motor torque at standstill and input 1, > 0 */
+    /* has one angle, its rate, and one input: motor voltage / rated voltage */
+    const wh_scene *scene;
+    wh_real stall_Nm; /* the scene's motor torque at standstill and input 1, > 0 */
     /* the motor's speed without load at the rated voltage, > 0 */
     wh_real no_load_radps;
-    /* input for this motor's torque: per_drive * drive + per_radps * speed */
+    /* The scene's input that gives this motor's torque is per_drive * drive + per_radps * speed. */
     wh_real per_drive;
     wh_real per_radps;
-    /* true for a motor stage that cannot brake: a voltage below the back-EMF then makes no torque */
+    /* True if the motor stage cannot brake: a voltage below the back-EMF then makes no torque. */
     bool freewheels;
     wh_real pulse_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor, rad */
     /* Corrections at a pulse of each sensor. e is the innovation (rad), n the speed in turns per second: */
@@ -38,38 +40,38 @@ typedef struct wh_observer_config {
     wh_real speed_gain[WH_OBSERVER_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_OBSERVER_SENSORS]; /* torque += gain e n^2, N m */
     wh_real torque_most_Nm;                        /* largest magnitude of the torque */
-    /* trusted_marks successive innovations up to this, rad, make the observer valid */
+    /* The observer becomes valid after trusted_marks successive innovations of at most trusted_rad. */
     wh_real trusted_rad;
-    uint32_t trusted_marks; /* see trusted_rad; one larger innovation makes the observer invalid */
-    wh_real lost_rad;       /* above this the observer restarts; < pi */
-    wh_real slowest_radps;  /* slowest speed at which the observer starts, > 0 */
+    uint32_t trusted_marks; /* one innovation above trusted_rad makes the observer invalid */
+    wh_real lost_rad;       /* a larger innovation restarts the observer; < pi */
+    wh_real slowest_radps;  /* lowest speed at which the observer starts, > 0 */
     wh_real fastest_radps;
-    uint32_t silence_ticks; /* the state is unknown after this time without a pulse */
+    uint32_t silence_ticks; /* after this time without a pulse the state is unknown */
 } wh_observer_config;
 
 typedef struct wh_observer {
     bool valid;       /* angle and speed are reliable */
     bool runs;        /* the observer has started: the scene follows the rotor */
     bool marked;      /* there was a pulse since the restart */
-    wh_status status; /* result of wh_observer_start(); if not WH_OK, the observer is never valid */
-    wh_state state;   /* state of the scene at the time `ticks` */
+    wh_status status; /* result of wh_observer_start(); unless WH_OK, the observer is never valid */
+    wh_state state;   /* the scene's state at the time `ticks` */
     uint64_t memory[(WH_MEMORY_BYTES(1, 2, 0) + 7U) / 8U];
     uint32_t ticks;
-    uint32_t step_ticks;    /* one step of the scene */
+    uint32_t step_ticks;    /* duration of one step of the scene */
     wh_real torque_Nm;      /* the disturbance: torque on the rotor that the scene does not model */
-    wh_real innovation_rad; /* rotor's angle minus the scene's, at the last pulse */
+    wh_real innovation_rad; /* the rotor's angle minus the scene's, at the last pulse */
     wh_real since_mark_rad; /* angle turned since the last pulse */
     uint32_t mark_ticks;    /* time of the last pulse, if marked */
     unsigned mark_sensor;
     uint32_t good_marks; /* number of successive pulses with a trusted innovation */
 } wh_observer;
 
-/* For the rig of eccentric.whirl; the caller fills in the scene and pulse_rad. The gains were chosen for rotors of half
- * to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400 rpm. The errors of
- * angle, speed and torque are multiplied by a matrix each turn. Its spectral radius at a steady speed is 0.72 at 80
- * rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. While the arms are near the top, gravity increases
- * errors, most at low speed. That part belongs to the three quarters of a turn before sensor 1's pulse; the other
- * quarter ends with sensor 2's pulse. */
+/* The configuration for the rig of eccentric.whirl; the caller fills in the scene and pulse_rad. The gains were chosen
+ * for rotors of half to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400
+ * rpm. Each turn multiplies the errors of angle, speed and torque by a matrix. Its spectral radius at a steady speed is
+ * 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. While the arms are near the top, gravity
+ * increases errors, mainly at low speed. The arms pass the top in the three quarters of a turn before sensor 1's pulse;
+ * the other quarter ends with sensor 2's pulse. */
 #define WH_OBSERVER_STANDARD \
     { \
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
@@ -91,37 +93,38 @@ extern const wh_observer_config wh_observer_standard;
 #define wh_observer_speed_radps WH_NAME(wh_observer_speed_radps)
 #define wh_observer_coasting WH_NAME(wh_observer_coasting)
 
-/* Begin with unknown state. The observer must not be moved in memory afterwards. Returns WH_OK; an error of
+/* Begin with an unknown state. Do not move *observer in memory after this call. Returns WH_OK; an error of
  * wh_scene_start(); or WH_E_ARGUMENT for a scene of another kind. The scene must have one angle of second order, one
  * input, no contacts, no compensated sums, and a step of whole microseconds. */
 wh_status wh_observer_start(const wh_observer_config *config, wh_observer *observer,
                             uint32_t now_ticks);
 
-/* Advance to now_ticks, in whole steps of the scene: wh_observer_phase() covers the remaining part of a step. `drive` is
- * the motor's drive since the last call, as a fraction of the rated voltage. A call that is more than
- * WH_OBSERVER_STEPS_MOST steps late restarts the observer. */
+/* Advance to now_ticks, in whole steps of the scene. (wh_observer_phase() adds the remaining part of a step.) `drive`
+ * is the motor's drive since the last call, as a fraction of the rated voltage. If a call is more than
+ * WH_OBSERVER_STEPS_MOST steps late, the observer restarts. */
 #define WH_OBSERVER_STEPS_MOST 8U
-/* most steps in one call: after a delay, several calls catch up */
+/* Maximum number of steps in one call. After a delay, several calls catch up. */
 #define WH_OBSERVER_STEPS_AT_ONCE 2U
 void wh_observer_step(const wh_observer_config *config, wh_observer *observer, uint32_t now_ticks,
                       wh_real drive);
 
-/* The rotor passed sensor 0 or 1 forwards at `ticks`, at most two control steps ago. */
+/* Process a pulse: the rotor passed sensor 0 or 1 forwards at `ticks`, at most two control steps ago. */
 void wh_observer_pulse(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                        uint32_t ticks);
 
-/* Restart the observer, for a caller that knows that pulses were wrong. */
+/* Restart the observer. For a caller that knows that pulses were wrong. */
 void wh_observer_forget(wh_observer *observer);
 
-/* The angle at a time some milliseconds after the last step, extrapolated linearly. The error is within 3e-5 rad for 1
- * ms at 60 rad/s^2. As a phase (angle.h), or between -pi and pi. Valid if observer->valid. */
+/* Returns the angle at a time some milliseconds after the last step, extrapolated linearly: wh_observer_phase() as a
+ * phase (angle.h), the other function between -pi and pi rad. The error is within 3e-5 rad for 1 ms at 60 rad/s^2.
+ * Valid if observer->valid. */
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks);
 wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks);
 
-/* Speed at the last step. */
+/* Returns the speed at the last step. */
 wh_real wh_observer_speed_radps(const wh_observer *observer);
 
-/* The drive at which this motor makes no torque: the argument of wh_observer_step() while the motor coasts. */
+/* Returns the drive at which this motor makes no torque: the argument for wh_observer_step() while the motor coasts. */
 wh_real wh_observer_coasting(const wh_observer_config *config, const wh_observer *observer);
 
 #ifdef __cplusplus

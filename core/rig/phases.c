@@ -29,15 +29,15 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-/* time in which the measured speed may jump, because its first turn is old */
+/* For this time after the loop has closed, the measured speed may jump, because its first turn is old. */
 #define JUMP_S WH_R(0.5)
 
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
     if (!wh_run_drives(run)) {
         return (wh_setpoint){.setpoint_radps = run->off_radps, .limit_radps = run->off_radps};
     }
-    /* without load the motor's speed follows the voltage; after the control loop has closed, it follows the
-     * set-point */
+    /* Without load the motor's speed follows the voltage. After the control loop has closed, it follows the
+     * set-point. */
     const wh_real unloaded = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
@@ -64,8 +64,8 @@ static bool ramp(wh_run *run, const wh_run_scene *scene) {
     return allowed && wh_drive_at_target(&run->drive);
 }
 
-/* Most pulses during the tare. A hanging rotor's slot is at sensor 1, where jitter makes pulses. If sensor 2 fires, or
- * sensor 1 fires more often, the rotor is not hanging. */
+/* Maximum number of pulses during the tare. A hanging rotor's slot is at sensor 1, where jitter makes pulses. If sensor
+ * 2 fires, or sensor 1 fires more often, the rotor is not hanging. */
 #define TARE_PULSES_MOST 2U
 
 static void tare(wh_run *run, const wh_run_scene *scene) {
@@ -79,7 +79,7 @@ static void tare(wh_run *run, const wh_run_scene *scene) {
         return;
     }
     run->volts = scene->config->spin_up_V;
-    /* the pulses so far come from that jitter, or are old */
+    /* These pulses come from jitter at the slot of the hanging rotor, or are old. */
     wh_pulses_forget(scene->pulses);
     wh_guard_drives(scene->guard);
     wh_lockin_gap(&scene->measure->lockin);
@@ -97,7 +97,7 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
     if (speed->known && speed->turn_radps >= config->take_over_radps) {
         wh_drive_start(&run->drive, speed->turn_radps, run->volts);
         run->closed_ticks = scene->now_ticks;
-        /* the speed varies so much in the first turns that the count of lost pulses is meaningless */
+        /* In the first turns the speed varies so much that the count of lost pulses is meaningless. */
         scene->guard->lost_before = speed->lost;
         scene->guard->rejected_before = scene->pulses->rejected;
         enter(run, WH_PHASE_RAMP, scene->now_ticks);
@@ -124,7 +124,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
     see_turn(run, &scene->pulses->speed);
-    /* compares a turn of a rotor with steady speed, or the mean of several turns if they jitter */
+    /* Either one turn is close to the target, or, if the pulses jitter, the mean of several turns. */
     const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
     const wh_real mean_off = WH_ABS(run->mean_radps - run->target_radps);
     if (turn_off > config->settle_band_radps &&
@@ -139,8 +139,8 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     }
 }
 
-/* One turn outside the band trips the rig: a mean over turns would come too late against a runaway drive. The band of 2
- * rpm is six times the error of a turn at 330 rpm with 120 us of jitter. */
+/* One turn outside the band trips the rig: a mean over several turns would react too late to a runaway drive. The band
+ * of 2 rpm is six times the error of a turn at 330 rpm with 120 us of jitter. */
 static bool record(wh_run *run, const wh_run_scene *scene) {
     see_turn(run, &scene->pulses->speed);
     const wh_real off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
@@ -170,7 +170,7 @@ static bool record(wh_run *run, const wh_run_scene *scene) {
 static void close_loop(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const wh_speed *speed = &scene->pulses->speed;
-    /* the motor must not be driven by a speed that pulses no longer confirm */
+    /* If the pulses no longer confirm the speed, it must not control the motor. */
     if (speed->known && !wh_speed_is_overdue(speed, scene->now_ticks)) {
         run->volts = wh_drive_step(&config->drive, &run->drive, speed->turn_radps, scene->supply_V,
                                    config->step_s);

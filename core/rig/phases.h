@@ -1,6 +1,6 @@
-/* phases.h: a test run of the eccentric-mass rig, phase by phase.
- * Repeats Almesallmy (2006), I.3.2.1 and I.3.3: tare, spin up, hold 330 rpm, record the load cell for 2 s at 500
- * samples a second together with the slot pulses, slow down, stop. */
+/* phases.h: a test run of the eccentric-mass rig, phase by phase. It repeats Almesallmy (2006), I.3.2.1 and I.3.3:
+ * tare, spin up, hold 330 rpm, record the load cell at 500 samples per second and the slot pulses for 2 s, slow down,
+ * stop. */
 #ifndef WH_RIG_PHASES_H
 #define WH_RIG_PHASES_H
 
@@ -15,12 +15,12 @@ extern "C" {
 /* The phases of a run, in order: X(name, words) */
 #define WH_PHASE_ROWS(X) \
     X(WH_PHASE_NONE, "none")           /* no run: motor off */ \
-    X(WH_PHASE_TARE, "tare")           /* motor off; the load cell's reading at rest */ \
-    X(WH_PHASE_SPIN_UP, "spin up")     /* open loop, until the pulses give a speed */ \
-    X(WH_PHASE_RAMP, "ramp")           /* closed loop, set-point ramping */ \
-    X(WH_PHASE_SETTLE, "settle")       /* closed loop, speed must stay near the target */ \
-    X(WH_PHASE_RECORD, "record")       /* closed loop, measuring */ \
-    X(WH_PHASE_RAMP_DOWN, "ramp down") /* closed loop, slowing; the result is available */ \
+    X(WH_PHASE_TARE, "tare")           /* motor off; the load cell is read at rest */ \
+    X(WH_PHASE_SPIN_UP, "spin up")     /* open loop, until the pulses show a speed */ \
+    X(WH_PHASE_RAMP, "ramp")           /* closed loop; the set-point ramps */ \
+    X(WH_PHASE_SETTLE, "settle")       /* closed loop; the speed must stay near the target */ \
+    X(WH_PHASE_RECORD, "record")       /* closed loop; the load is measured */ \
+    X(WH_PHASE_RAMP_DOWN, "ramp down") /* closed loop; the rotor slows; there is a result */ \
     X(WH_PHASE_OFF, "coast")           /* motor off, until the rotor rests */
 
 #define WH_PHASE_NAME(name, words) name,
@@ -28,7 +28,7 @@ typedef enum wh_rig_phase { WH_PHASE_ROWS(WH_PHASE_NAME) WH_PHASES } wh_rig_phas
 #undef WH_PHASE_NAME
 
 typedef struct wh_run_config {
-    wh_real step_s; /* time between control steps */
+    wh_real step_s; /* duration of a control step */
     wh_drive_config drive;
     wh_real rated_V;         /* rated supply voltage of the rig */
     wh_real no_load_radps;   /* the motor's speed without load at the rated supply */
@@ -38,36 +38,40 @@ typedef struct wh_run_config {
     wh_real take_over_radps; /* the control loop closes at this speed */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    /* band of the speed of a turn, or of the mean of WH_RUN_TURNS turns, about the target */
+    /* Half-width of the band about the target in which the speed of a turn, or the mean of WH_RUN_TURNS turns, must
+     * stay. */
     wh_real settle_band_radps;
     wh_real settle_s;          /* time within the band */
     wh_real settle_max_s;      /* longest time until the speed stays in the band */
     wh_real short_max_s;       /* longest time with a supply too low for the set-point */
-    wh_real record_band_radps; /* band of each turn's speed during the record */
-    wh_real slow_radps;        /* at this speed the ramp down ends; a slower set-point is kept */
+    wh_real record_band_radps; /* half-width of the band for each turn's speed during the record */
+    /* the ramp down ends at this speed, or at the set-point if that is lower */
+    wh_real slow_radps;
 } wh_run_config;
 
 /* While the rig settles, the mean of this many whole-turn speeds is compared with the set-point. Two sensors give two
- * new speeds a turn, so four span 2.25 or 2.75 turns. A jitter s of the pulses changes the mean duration of a turn by s/2: 0.11 rpm for 120 us at 330 rpm (single
- * turns scatter by 0.31 rpm). A drift, or an oscillation slower than a second, changes the mean too. */
+ * new speeds per turn, so four speeds span 2.25 or 2.75 turns. A jitter s of the pulses changes the mean duration of a
+ * turn by s/2: 0.11 rpm for 120 us at 330 rpm (single turns scatter by 0.31 rpm). A drift, or an oscillation slower
+ * than 1 Hz, changes the mean, too. */
 #define WH_RUN_TURNS 4U
 
 typedef struct wh_run {
     wh_rig_phase phase;
     uint32_t since_ticks;  /* time at which the phase began */
-    uint32_t band_ticks;   /* time since which the speed has been in the band */
+    uint32_t band_ticks;   /* time at which the speed entered the band */
     uint32_t closed_ticks; /* time at which the loop was closed */
-    uint32_t ample_ticks;  /* time since which the supply has been sufficient */
+    uint32_t ample_ticks;  /* time at which the supply became sufficient */
     wh_real target_radps;
     wh_real volts;     /* commanded mean voltage of the motor */
     wh_real off_radps; /* upper bound on the speed while the motor is off, rad/s */
-    /* motor on: upper bound on the speed that remains from an earlier, higher set-point, at the last pulse. A motor
-     * stage that cannot brake slows the rotor less quickly than the set-point falls */
+    /* Motor on: upper bound, at the last pulse, on the speed that remains from an earlier, higher set-point. A motor
+     * stage that cannot brake slows the rotor less quickly than the set-point falls. */
     wh_real left_radps;
     uint32_t tare_pulses[WH_SPEED_SENSORS];
-    /* number of turns counted while the run settles and records */
+    /* Number of turns counted while the run settles and records. */
     uint32_t turns;
-    uint32_t turns_taken;             /* number of accepted pulses at the last of these turns */
+    /* number of accepted pulses when the last of these turns ended */
+    uint32_t turns_taken;
     wh_real turn_radps[WH_RUN_TURNS]; /* speeds of the last turns */
     wh_real mean_radps;               /* mean of turn_radps */
     wh_drive drive;
@@ -82,8 +86,8 @@ typedef struct wh_run_scene {
     wh_pulses *pulses;
     wh_measure *measure;
     wh_real supply_V;
-    bool fed;  /* gravity compensation is active: slower set-points are possible */
-    bool busy; /* a pulse came in this step: begin or end of a record waits for the next step */
+    bool fed;  /* gravity compensation is active, so lower set-points are possible */
+    bool busy; /* this step has a pulse, so a record does not begin or end before the next step */
     uint32_t now_ticks;
 } wh_run_scene;
 
@@ -95,20 +99,20 @@ typedef struct wh_run_scene {
 #define wh_run_needs_V WH_NAME(wh_run_needs_V)
 #define wh_phase_text WH_NAME(wh_phase_text)
 
-/* Begin a run to target_radps > 0; it begins with the tare. */
+/* Begin a run to target_radps > 0. It begins with the tare. */
 void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
-/* Change the target, in any phase before WH_PHASE_RAMP_DOWN: the record so far is dropped. */
+/* Change the target, in any phase before WH_PHASE_RAMP_DOWN. A record in progress is dropped. */
 void wh_run_set(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
 /* Switch the motor off, from any phase: the phase becomes WH_PHASE_OFF. */
 void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks);
 
-/* One control step. Trips if a phase takes too long or meets an invalid condition. Returns true in the step in which
- * the record is finished and measured. */
+/* Does one control step. Trips if a phase takes too long or meets an invalid condition. Returns true in the step in
+ * which the record is finished and measured. */
 bool wh_run_step(wh_run *run, const wh_run_scene *scene);
 
-/* Does the motor drive? Is the loop closed? */
+/* True if the motor drives; the next function: true if the loop is closed. */
 WH_INLINE bool wh_run_drives(const wh_run *run) {
     return run->phase >= WH_PHASE_SPIN_UP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
@@ -116,23 +120,23 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
     return run->phase >= WH_PHASE_RAMP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
 
-/* The time for which the rotor accelerates after the loop has closed. */
+/* The rotor still accelerates for this time after the loop has closed. */
 #define WH_RUN_START_S WH_R(1.5)
 
-/* The set-point at a pulse's time, for the guard. */
+/* The set-point at the time of a pulse, for the guard. */
 typedef struct wh_setpoint {
     wh_real setpoint_radps;
-    wh_real limit_radps; /* upper bound on the actual speed, which may lag behind the set-point */
-    /* the set-point has just changed so much that the speeds of successive turns differ widely */
+    wh_real limit_radps; /* upper bound on the actual speed, which may be above the set-point */
+    /* True if the set-point has just changed so much that the speeds of successive turns differ widely. */
     bool jumps;
 } wh_setpoint;
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 
-/* The motor voltage for a steady speed. */
+/* Returns the motor voltage for a steady speed. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
-/* The phase in words, for consoles, by wh_text_add(). The number WH_PHASES stands for a motor that brakes while it
- * is off (wh_rig_shown_stage()). */
+/* Returns the phase in words, for consoles, by wh_text_add(). The number WH_PHASES stands for a motor that is off and
+ * brakes (wh_rig_shown_stage()). */
 const char *wh_phase_text(wh_rig_phase phase);
 
 #ifdef __cplusplus

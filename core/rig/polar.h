@@ -25,12 +25,13 @@ WH_SHARED wh_wave wh_wave_of(wh_real rad) { return wh_wave_at(wh_phase_from_rad(
 #define wh_polar_begin WH_NAME(wh_polar_begin)
 #define wh_polar_rounds WH_NAME(wh_polar_rounds)
 
-/* x = radius cos(angle), y = radius sin(angle) without square root and arc tangent: each iteration rotates the point by
- * an angle from the core's sine, until y vanishes. angle_rad: -pi ... pi. (0, 0) gives 0 and 0. */
+/* Finds radius and angle (-pi ... pi) with x = radius cos(angle), y = radius sin(angle), without square root and arc
+ * tangent. Each iteration rotates the point by an angle, with the core's sine, until y vanishes. (0, 0) gives 0 and
+ * 0. */
 void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
 
-/* wh_polar() in pieces: the initial angle, then WH_POLAR_ROUNDS rounds. The error t is at most 1 initially, and each
- * round reduces it to about t^5: four rounds are more than enough. */
+/* wh_polar() in pieces: the first sets the initial angle, then come WH_POLAR_ROUNDS rounds. The error t is at most 1
+ * initially, and each round reduces it to about t^5: four rounds are more than enough. */
 #define WH_POLAR_ROUNDS 4U
 wh_real wh_polar_begin(wh_real x, wh_real y);
 void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad);

@@ -5,10 +5,10 @@
 
 #define SETTLE_WINDOW WH_R(0.03)
 #define RAMP_WINDOW WH_R(0.12) /* window until the first confirmed pulse */
-#define RECORD_PART WH_R(0.8)  /* share of the speed error that the record allows */
-/* bound for the first pulses from rest, as a part of the commanded speed: the rotor lags behind it */
+#define RECORD_PART WH_R(0.8)  /* share of the speed error that a record allows */
+/* The bound for the first pulses from rest is this part of the commanded speed, because the rotor lags behind. */
 #define FIRST_PART WH_R(0.8)
-/* a braked rotor gives its last one or two pulses at less than this speed */
+/* The last one or two pulses of a braked rotor come at less than this speed. */
 #define SLOW_RADPS WH_R(16.0)
 
 void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
@@ -24,8 +24,8 @@ void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *runn
         setpoint.jumps ? guard->climb_start_radps2
                        : wh_guard_climb_radps2(guard, setpoint.setpoint_radps - speed->turn_radps,
                                                wh_run_is_closed(run));
-    /* this bound falls with the rotor's speed, and rises only with the commanded speed: a runaway drive does not raise
-     * it */
+    /* This bound falls with the rotor's speed and rises only with the commanded speed, so a runaway drive does not
+     * raise it. */
     run->left_radps = speed->known && speed->turn_radps < setpoint.limit_radps
                           ? speed->turn_radps
                           : setpoint.limit_radps;
@@ -40,12 +40,12 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
         return;
     }
-    /* true even if a suspect came between them */
+    /* This is also true if a suspect came between the two pulses. */
     const bool same = sensor == pulses->last.pulse.sensor;
     const bool again = same && !pulses->suspects;
     const wh_real moved = same ? WH_RIG_TWO_PI : moved_rad[sensor];
     const wh_real passed_s = wh_rig_since_s(pulses->speed.ticks, ticks);
-    /* the motor must have been off for the whole interval, because a driven rotor may have gained speed */
+    /* The motor must have been off for the whole interval, because a driven rotor may have gained speed. */
     const bool coasted = (int32_t)(pulses->speed.ticks - run->since_ticks) >= 0;
     if (coasted && moved < run->off_radps * passed_s) {
         run->off_radps = moved / passed_s;
@@ -54,8 +54,8 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
         wh_pulses_forget(pulses);
     }
     /* Only while the motor brakes: a rotor that swings freely passes the sensors to and fro, and its intervals are no
-     * speeds. And only at sensor 1: a rotor that did not get over the top falls a quarter turn back to sensor 0, which
-     * looks like three quarters forward. */
+     * speeds. Only at the second sensor (1): a rotor that did not get over the top falls a quarter turn back to sensor
+     * 0, which looks like three quarters forward. */
     pulses->slow =
         run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;
 }

@@ -12,15 +12,15 @@ extern "C" {
 #define wh_pulse_window_set WH_NAME(wh_pulse_window_set)
 #define wh_pulse_window_off WH_NAME(wh_pulse_window_off)
 
-/* With the motor on: call it before wh_pulses_take() for the pulse captured at `ticks`. Sets the pulse's bounds and
- * window, and the upper bound on the speed that remains from an earlier set-point. `open`: the enable is off; a light
- * rotor then slows faster than one that a motor brakes. */
+/* Call this, with the motor on, before wh_pulses_take() for the pulse captured at `ticks`. It sets the pulse's bounds
+ * and window, and the upper bound on the speed that remains from an earlier set-point. `open` is true if the enable is
+ * off: a light rotor then slows faster than one that a motor brakes. */
 void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                          wh_pulses *pulses, bool open, uint32_t ticks);
 
-/* With the motor off: call it before wh_pulses_take(). Only gravity can make the rotor faster than between its last two
- * pulses. If a sensor fires twice in succession, the rotor swings in the slot or a pulse was missed: the speed is then
- * unknown. `brakes`: the motor brakes, so a rotor that is almost at rest stays slow. */
+/* Call this, with the motor off, before wh_pulses_take(). Since the last two pulses, only gravity can have made the
+ * rotor faster. If a sensor fires twice in succession, the rotor swings in the slot or a pulse was missed: the speed is
+ * then unknown. `brakes` is true if the motor brakes: a rotor that is almost at rest then stays slow. */
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks);
 

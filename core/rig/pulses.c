@@ -3,14 +3,14 @@
 
 #include "datasheet.h"
 
-#define TWICE_PART WH_R(0.5) /* share of a turn within which a sensor sees the slot only once */
+#define TWICE_PART WH_R(0.5) /* within this share of a turn, a sensor sees the slot only once */
 #define ALERT_PART WH_R(0.005)
 #define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
-#define DOUBT 2U /* added to `doubt` by a false pulse */
-/* with `slow`: one interval above this multiple of bound_radps counts as two */
+#define DOUBT 2U /* each false pulse adds this to `doubt` */
+/* If `slow`, one interval whose speed is above this multiple of bound_radps counts as two. */
 #define SUDDEN WH_R(1.6)
-#define SURE_PART WH_R(0.125) /* share of a turn after which no pulse can reject the last one */
+#define SURE_PART WH_R(0.125) /* after this share of a turn no pulse can reject the last one */
 
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     *pulses = (wh_pulses){.window = WH_R(1.0)};
@@ -26,8 +26,8 @@ static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* How many ticks a pulse comes before the time predicted from its sensor's last pulse and the duration of a turn; 0 if
- * unknown. */
+/* Returns the ticks from a pulse to its predicted time: its sensor's last pulse plus the duration of a turn. Returns 0
+ * if the prediction is unknown. */
 static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real turn) {
     if (!speed->known || !speed->seen[pulse->sensor] ||
         speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
@@ -35,8 +35,6 @@ static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real
     }
     return turn - (wh_real)(pulse->ticks - speed->seen_ticks[pulse->sensor]);
 }
-
-/* --- confirmed pulses ---------------------------------------------------------------------------- */
 
 static void release(wh_pulses *pulses) {
     if (pulses->waits && pulses->marks < WH_PULSES_CONFIRMED) {
@@ -62,8 +60,6 @@ bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *mark)
     return true;
 }
 
-/* --- true and false pulses ----------------------------------------------------------------------- */
-
 static bool is_fast(const wh_pulses *pulses, const wh_speed *speed) {
     return pulses->bound_radps > WH_R(0.0) && speed->interval_radps > pulses->bound_radps;
 }
@@ -72,8 +68,8 @@ static WH_CALLED bool is_sudden(const wh_pulses *pulses, const wh_speed *speed) 
     return pulses->slow && speed->interval_radps > SUDDEN * pulses->bound_radps;
 }
 
-/* Excess of a turn's speed over the permitted rise. A disturbance causes such an excess at only one of two successive
- * pulses. */
+/* Returns the excess of a turn's speed over the permitted rise. A disturbance causes such an excess at only one of two
+ * successive pulses. */
 static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const wh_real may = pulses->climb_radps2 * wh_rig_since_s(before->ticks, after->ticks);
@@ -81,8 +77,8 @@ static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     return before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
 }
 
-/* Accepts a pulse that gives the speed `after`. pulses->before was set to the speed without this pulse or, if the last
- * pulse was rejected, without that one. */
+/* Accepts a pulse that gives the speed `after`. pulses->before must be the speed without this pulse. If the last pulse
+ * was rejected, it must be the speed without that one, too. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;
@@ -96,7 +92,7 @@ static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *aft
     pulses->speed = *after;
 }
 
-/* Computes the speed with one more pulse. Returns false if the pulse is impossible. */
+/* Computes the speed after one more pulse. Returns false if the pulse is impossible. */
 static bool with(const wh_speed *speed, const wh_pulse *pulse, wh_speed *after) {
     *after = *speed;
     return wh_speed_pulse(after, pulse->sensor, pulse->ticks);
@@ -113,14 +109,14 @@ static void take_next(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *
     accept(pulses, pulse, after);
 }
 
-/* Counts a false pulse. Apart from bounces, disturbances are rare: if they are frequent, the speed is wrong. */
+/* Counts a false pulse. Apart from bounces, disturbances are rare: if there are many, the measured speed is wrong. */
 static WH_CALLED void reject(wh_pulses *pulses, unsigned doubt) {
     pulses->rejected++;
     pulses->doubt += doubt;
 }
 
 /* Decides about a suspect when the next pulse comes. The suspect is rejected if a false pulse is likely, and likelier
- * than two true ones. */
+ * than two true pulses. */
 static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     const wh_pulse suspect = pulses->suspect;
     wh_speed without;
@@ -129,7 +125,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     const bool both_are = with(&pulses->suspected, pulse, &both);
-    /* one false pulse together with one lost true pulse is less likely than two true ones, at any speed */
+    /* At any speed, one false pulse together with one lost true pulse is less likely than two true pulses. */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
     if (alone_likely && (pulse->sensor == suspect.sensor || !fits)) {
@@ -145,7 +141,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     }
 }
 
-/* True if the last pulse's sensor fires again within this part of a turn of `turn` ticks. */
+/* True if the last pulse's sensor fires again within `part` of a turn of `turn` ticks. */
 static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part,
                                  wh_real turn) {
     const wh_pulse *last = &pulses->last.pulse;
@@ -153,7 +149,7 @@ static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse,
            (wh_real)(pulse->ticks - last->ticks) < part * turn;
 }
 
-/* Handles a pulse that comes impossibly soon after the last one: one of the two is false. */
+/* Handles a pulse that comes impossibly soon after the last one. One of the two is false. */
 static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
     wh_speed instead;
     reject(pulses, soon_after(pulses, pulse, BOUNCE_PART, turn) ? 0U : DOUBT);
@@ -187,7 +183,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     const wh_real early =
         pulses->speed.known ? early_ticks(&pulses->speed, &pulse, turn) / turn : WH_R(0.0);
-    /* after a short interval, or if the last pulse was early, the next pulse decides about the speed */
+    /* After a short interval, or if the last pulse was early, the next pulse decides about the speed. */
     const bool trusted =
         !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);
     pulses->alert = early > ALERT_PART;
@@ -199,7 +195,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     pulses->doubt -= pulses->doubt > 0 ? 1U : 0U;
     take_next(pulses, &pulse, &after);
-    /* a pulse also counts as early if the rotor should slow down but does not */
+    /* A pulse also counts as early if the rotor should slow down but does not. */
     if (pulses->climb_radps > CLIMB_PART * after.turn_radps) {
         pulses->alert = true;
     }

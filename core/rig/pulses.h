@@ -1,13 +1,13 @@
 /* pulses.h: separates true slot pulses from disturbances.
  *
- * Noise must neither count as a pulse nor cause the next true pulse to be rejected. So
+ * Noise must neither count as a pulse nor cause the next true pulse to be rejected. Therefore:
  *
- * - a pulse is a suspect if it is early (before the window around the time predicted from the last turn) or would need
- *   a speed above bound_radps. The next pulse decides: two successive short intervals show that the rotor is that fast.
- * - if a pulse comes impossibly soon after the last one, one of the two is false: the one closer to its predicted time
- *   stays, the other is rejected.
- * - a pulse is confirmed and goes to the measurement when no later pulse can reject it: an eighth of a turn later, or
- *   at the next pulse. */
+ * - A pulse is a suspect if it is early (before the window around the time predicted from the last turn) or would need
+ * a speed above bound_radps. The next pulse decides: two successive short intervals show that the rotor is that fast.
+ * - If a pulse comes impossibly soon after the last one, one of the two is false: the one closer to its predicted time
+ * stays, the other is rejected.
+ * - A pulse is confirmed and goes to the measurement when no later pulse can reject it: an eighth of a turn later, or
+ * at the next pulse. */
 #ifndef WH_RIG_PULSES_H
 #define WH_RIG_PULSES_H
 
@@ -32,24 +32,25 @@ typedef struct wh_index_pulse {
 } wh_index_pulse;
 
 typedef struct wh_pulses {
-    bool suspects; /* `suspect` waits for the next pulse */
-    bool waits;    /* the last pulse is unconfirmed */
-    /* the last pulse was a little early: if the next one is early too, neither is a disturbance */
+    bool suspects; /* `suspect` is set: the next pulse decides about it */
+    bool waits;    /* the last pulse is not yet confirmed */
+    /* True if the last pulse was a little early. If the next one is early, too, neither is a disturbance. */
     bool alert;
-    /* the rotor almost rests, with the motor off: one interval far beyond the bound counts as two. Set by the caller */
+    /* Set by the caller: the motor is off and the rotor almost rests, so one interval far beyond the bound counts as
+     * two. */
     bool slow;
-    /* limit on the speed between two pulses; 0: no limit. Set by the caller */
+    /* Set by the caller: limit on the speed between two pulses; 0: no limit. */
     wh_real bound_radps;
-    wh_real window; /* share of a turn by which a pulse may be early. Set by the caller */
-    /* limit on the rise of the speed from turn to turn, rad/s per s. Set by the caller */
+    wh_real window; /* set by the caller: share of a turn by which a pulse may be early */
+    /* Set by the caller: limit on the rise of the speed from turn to turn, rad/s per s. */
     wh_real climb_radps2;
-    /* excess of the turn's speed over the speed that this limit allows, or 0: */
+    /* Excess of the turn's speed over the speed that climb_radps2 allows, or 0: */
     wh_real climb_radps;        /* at the last pulse */
     wh_real climb_before_radps; /* at the previous pulse */
-    unsigned fast;              /* successive intervals shorter than bound_radps allows */
-    /* number of successive pulses of alternating sensors: 0 for a rotor that swings */
+    unsigned fast;              /* number of successive intervals shorter than bound_radps allows */
+    /* Number of successive pulses of alternating sensors. It is 0 if the rotor swings. */
     unsigned alternate;
-    /* grows by two with each doubtful pulse and shrinks by one with each expected one */
+    /* Each doubtful pulse adds two, each expected one subtracts one. */
     unsigned doubt;
     uint32_t rejected; /* number of rejected pulses */
     wh_pulse suspect;
@@ -67,16 +68,16 @@ typedef struct wh_pulses {
 #define wh_pulses_take WH_NAME(wh_pulses_take)
 #define wh_pulses_sure WH_NAME(wh_pulses_sure)
 
-/* Begin with unknown state. impossible_radps as for wh_speed_start(). */
+/* Begin with an unknown state. impossible_radps is that of wh_speed_start(). */
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps);
 
-/* Restart with unknown state; the counters stay. */
+/* Restart with an unknown state; the counters stay. */
 void wh_pulses_forget(wh_pulses *pulses);
 
-/* A pulse of sensor 0 or 1 captured at `ticks`, in order of time. */
+/* Process a pulse of sensor 0 or 1 captured at `ticks`, in the order of time. */
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 
-/* The part of wh_pulses_confirmed() after its quick check. */
+/* The slow part of wh_pulses_confirmed(), after its quick check. */
 bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *mark);
 
 /* Take the next pulse that is confirmed by now. Returns false if there is none. Call it in each control step until it

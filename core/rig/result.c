@@ -7,24 +7,24 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
-/* Largest remaining part of gravity with compensation. If it is larger, the compensation acts at a wrong angle or size,
- * and the torque on the arms is unknown. */
+/* Largest remaining part of gravity with compensation. If the part is larger, the compensation has a wrong angle or
+ * size, and the torque on the arms is unknown. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* Tolerance of the speed ripple, in addition to the phase's error. If the rotor's damping is not the configured one,
- * 1/sqrt(2) of this error of the ripple appears as an error of the phase, by the quadrature ratio. */
+/* Tolerance of the speed ripple, in addition to the phase's error. If the rotor's damping differs from the configured
+ * one, the ripple has an error. By the quadrature ratio, 1/sqrt(2) of this error appears in the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
 /* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared). The first is for the sum
- * of squares of the eight coefficients of four harmonics, the second for the two of the third harmonic. The effects of
- * a nonlinearity, or of a torque twice a turn, are all in the third harmonic. */
+ * of squares of the eight coefficients of four harmonics, the second for the two of the third harmonic. The third
+ * harmonic contains the whole effect of a nonlinearity, or of a torque twice per turn. */
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Repeating residual of a healthy rig in harmonics 3 to 6, as parts of the force (tests/host/test_repeats_truth.c).
- * The causes, in this order, are damping, in proportion to tan(psi) E^2; an error of the speed ripple, in proportion
- * to E times this error; and a motor that cannot brake enough. Further causes are the ripple of a carriage; the
- * nonlinearity of the cell; and few samples per turn, in proportion to the square of the angle between two. */
+/* Repeating residual of a healthy rig in harmonics 3 to 6, as parts of the force (tests/host/test_repeats_truth.c). The
+ * causes are in this order. Damping: in proportion to tan(psi) E^2. An error of the speed ripple: in proportion to E
+ * times this error. A motor that cannot brake enough. The ripple of a carriage. The nonlinearity of the cell. Few
+ * samples per turn: in proportion to the square of the angle between two samples. */
 #define REPEATS_LAG WH_R(0.4)
 #define REPEATS_ARROW WH_R(1.6)
 #define REPEATS_CUT WH_R(0.29)
@@ -32,7 +32,7 @@
 #define REPEATS_CELL WH_R(1e-4)
 #define REPEATS_STEP WH_R(0.012)
 
-/* Effect of the pulses' angular jitter on the force of one turn, as a multiple of that angle. */
+/* Effect of the pulses' jitter on the force of one turn: this factor times the jitter's angle. */
 #define REPEATS_JITTER WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
@@ -52,15 +52,13 @@ wh_real wh_student(uint32_t freedom) {
     return WH_R(1.95996) + per * (WH_R(2.3723) + per * (WH_R(2.8225) + per * WH_R(2.5556)));
 }
 
-/* --- turns -------------------------------------------------------------------------------------- */
-
 static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_ticks) {
     const wh_real off_s = wh_rig_way_s(before_ticks, now_ticks);
     merge->jitter_s2 += off_s * off_s;
     merge->jitters++;
 }
 
-/* Adds the second differences of the times of each sensor's pulses, if two used turns are successive. They are the
+/* If two used turns are successive, adds the second differences of the times of each sensor's pulses. They are the
  * differences between the turns' durations. */
 static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     const bool adjoins =
@@ -82,7 +80,7 @@ static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     merge->follows = true;
 }
 
-/* Update a mean by a value with this weight. */
+/* Moves a mean towards a value; `part` is the value's weight. */
 static WH_CALLED void go_on(wh_real *mean, wh_real value, wh_real part) {
     *mean += part * (value - *mean);
 }
@@ -115,8 +113,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->ripple_rad * angle->ripple_rad;
-    /* S <w^2>, the mean over the angle. This is the mean of w^3 over time divided by the mean speed, and so contains
-     * 3/2 of the square of the ripple. A term of twice the angle makes the speed vary by twice its amplitude */
+    /* S <w^2> with the mean over the angle: the mean of w^3 over time divided by the mean speed. It contains 3/2 of the
+     * square of the ripple. A term of twice the angle makes the speed vary by twice its amplitude. */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -144,21 +142,19 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
     }
 }
 
-/* --- their mean --------------------------------------------------------------------------------- */
-
-/* Square of the phase's half-width due to the pulses' jitter, without the part that is visible in the scatter of the
- * turns. */
+/* Returns the square of the phase's half-width because of the pulses' jitter, without the part that the scatter of the
+ * turns shows. */
 static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
-    /* a turn's phase has the mean error of its two pulses, so its variance is one half; that of the mean of n turns is
-     * one n-th of this */
+    /* A turn's phase has the mean error of its two pulses, so its variance is one half. The mean of n turns has one
+     * n-th of this variance. */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
     if (angle->ratios == 0) {
         return shared;
     }
-    /* with sensor 2 at a quarter turn: variances of 1, 9/16 and 1/16. On average half of the turns in the estimate of
-     * the ratio are also among the merged ones, and have the same pulses */
+    /* If sensor 2 is at a quarter turn, the variances are 1, 9/16 and 1/16. On average half of the turns in the
+     * estimate of the ratio are also among the merged turns, and have the same pulses. */
     const wh_real averaged =
         (wh_real)(angle->ratios < WH_TURN_ANGLE_PATIENCE ? angle->ratios : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_ratio);
@@ -205,7 +201,7 @@ WH_INLINE void jitter_of_marks(const wh_merge *merge, wh_measured *measured) {
     }
 }
 
-/* Scatter along the mean and across it, stored temporarily in the fields for the half-widths. */
+/* Computes the scatter along the mean and across it, and stores it temporarily in the fields for the half-widths. */
 WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
                                wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
@@ -223,7 +219,7 @@ typedef struct parts_off {
     wh_real third;
     wh_real lag;
     wh_real quadrature;
-    wh_real cut; /* effect of a motor that cannot brake enough (tests/host/test_lockin_truth.c) */
+    wh_real cut; /* effect of a motor that cannot brake enough */
 } parts_off;
 
 WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
@@ -232,8 +228,8 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
-        /* gravity compensated at a wrong angle leaves a ripple, which the quadrature ratio shows as one a quarter turn
-         * later */
+        /* If gravity is compensated at a wrong angle, a ripple remains a quarter turn after that of E. The quadrature
+         * ratio takes it for a change of E. */
         .quadrature = angle->fed ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
 }
@@ -333,13 +329,11 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     }
 }
 
-/* --- verdict ------------------------------------------------------------------------------------ */
-
-/* Difference between the speed ripple found from the load and the ripple of the angle model. The ripple is a vector of
- * size E in the direction psi - gamma. Over the rotor's angle, the second order of the force is 3/2 E/(1 + 3/2 E^2)
- * times its first order, in that direction. An error of the model's ripple enters again with the weight 1/2, together
- * 2. Twice the phase of the first order is subtracted. So the result hardly depends on a delay, and not on the cell's
- * gain. */
+/* Returns the difference between the speed ripple found from the load and the ripple of the angle model, as a vector's
+ * length. A ripple is a vector of size E in the direction psi - gamma. Over the rotor's angle, the second order of the
+ * force is 3/2 E/(1 + 3/2 E^2) times its first order, in that direction. An error of the model's ripple also changes
+ * the model's angle, which adds the weight 1/2: together 2. Twice the phase of the first order is subtracted. So the
+ * result hardly depends on a delay, and not on the cell's gain. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
     if (!(angle->whole_rad > WH_R(0.0)) || !(measured->amplitude_N > WH_R(0.0))) {
@@ -363,15 +357,16 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
                          REPEATS_ARROW * swing * measured->ripple_off_rad +
                          REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad +
                          REPEATS_CELL + REPEATS_STEP * square_of(WH_RIG_TWO_PI * turns / samples);
-    /* a coefficient over N samples of variance s^2 has variance 2 s^2/N, and s^2 is half the mean squared difference */
+    /* A coefficient over N samples of variance s^2 has variance 2 s^2/N, and s^2 is half of the mean squared
+     * difference. */
     const wh_real noise_N2 = merge->repeats.changes_N2 / (samples * samples);
     const wh_real jitter = REPEATS_JITTER * measured->jitter_s * measured->speed_radps;
     return WH_SQRT(REPEATS_NOISE * noise_N2 +
                    square_of(measured->expected_N) * (square_of(part) + square_of(jitter) / turns));
 }
 
-/* If the motor cannot brake enough, the residual does not show errors of the cell. Force and phase must then agree with
- * the expected values within their intervals plus this part: the expected values may be wrong by 0.5 %. */
+/* If the motor cannot brake enough, the residual does not show errors of the cell. Then force and phase must agree with
+ * the expected values within their intervals plus this part, because the expected values may be wrong by 0.5 %. */
 #define CUT_OFF WH_R(0.005)
 #define CUT_TURNED_RAD WH_R(0.01)
 
@@ -398,7 +393,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (phase > WH_R(0.5) * PI) {
         return WH_WHY_POLARITY;
     }
-    /* this form refuses NaN */
+    /* the negated comparison also refuses NaN */
     if (!(off <= config->amplitude_wrong * expected)) {
         return WH_WHY_AMPLITUDE;
     }
@@ -437,7 +432,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (half > WH_R(0.05) * measured->amplitude_N) {
         return WH_WHY_WIDE;
     }
-    /* the calibration uncertainty does not matter here */
+    /* The configured calibration uncertainty does not matter here. */
     const wh_real floor_rad = floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD);
     const wh_real seen_rad2 = square_of(measured->phase_half_rad) - square_of(floor_rad);
     const wh_real seen_rad = seen_rad2 > WH_R(0.0) ? WH_SQRT(seen_rad2) : WH_R(0.0);

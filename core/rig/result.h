@@ -1,18 +1,17 @@
-/* result.h: turns merged to a measurement with its uncertainty and its quality.
+/* result.h: turns merged into a measurement with its uncertainty and its quality.
  *
- * The half-widths are for 95 %: roots of the sum of squares of
+ * The half-widths of the intervals are for 95 %. A half-width is the root of the sum of squares of these parts:
  *
  * - scatter: Student's factor times the standard error of the mean over the turns.
  * - pulses (phase): the scatter shows only half of the effect of the pulses' jitter, because successive turns share a
- *   pulse. The jitter follows from the second differences of the pulses' times.
+ * pulse. The jitter follows from the second differences of the pulses' times.
  * - quadrature ratio (phase): the rotor's inertia, or the uncompensated part of gravity, is estimated from pulses with
- *   the same jitter.
+ * the same jitter.
  * - angle: the error of the angle within the turn, if the rotor's damping is wrong by its tolerance, and the neglected
- *   third order. With gravity compensation, also the effect of an error of the compensation's angle, and of a motor
- *   that cannot brake as much as commanded. On a carriage (amplitude), also an error of the moving mass by its
- *   tolerance.
+ * third order. With gravity compensation, also the effect of an error of the compensation's angle, and of a motor that
+ * cannot brake as much as commanded. On a carriage (amplitude), also an error of the moving mass by its tolerance.
  * - drift (phase): the angle is computed for a constant mean speed within a turn.
- * - floors: calibration, as configured; 0.5 % and 0.5 degrees before calibration.
+ * - floors: the configured calibration uncertainties; 0.5 % and 0.5 degrees before calibration.
  *
  * A result is good, or it is doubtful or refused for one of the reasons below. */
 #ifndef WH_RIG_RESULT_H
@@ -26,7 +25,7 @@ extern "C" {
 
 typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
 
-/* Reasons, the strongest first: X(name, quality, words). */
+/* Reasons, beginning with the strongest: X(name, quality, words). */
 #define WH_WHY_ROWS(X) \
     X(WH_WHY_NONE, WH_GOOD, "no reason to doubt it") \
     X(WH_WHY_FEW_TURNS, WH_REFUSED, "less than three turns could be used") \
@@ -58,31 +57,32 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    wh_real mount_factor; /* force relative to that on a fixed mount: 1; carriage: 1/(1 + ratio) */
-    /* calibration uncertainty of the amplitude, 95 %, as a part of the force; 0: none */
+    /* force divided by that on a fixed mount: 1, or 1/(1 + ratio) on a carriage */
+    wh_real mount_factor;
+    /* Calibration uncertainty of the amplitude, at 95 %, as a fraction of the force; 0: uncalibrated. */
     wh_real amplitude_floor;
-    /* calibration uncertainty of sensor positions and delays, 95 %, rad; 0: uncalibrated */
+    /* Calibration uncertainty of sensor positions and delays, at 95 %, in rad; 0: uncalibrated. */
     wh_real phase_floor_rad;
-    /* a force that differs from the expected one by more than this part is doubtful */
+    /* A force is doubtful if it differs from the expected one by more than this fraction. */
     wh_real amplitude_off;
-    wh_real amplitude_wrong; /* a force that differs by more than this part is refused */
+    wh_real amplitude_wrong; /* a force that differs by more than this fraction is refused */
     wh_real phase_off_rad;   /* a phase that differs by more than this is doubtful */
     wh_real phase_wrong_rad;
-    wh_real residual_large; /* a larger residual is doubtful, as a part of the expected force */
-    wh_real mean_off;       /* a larger mean is doubtful, as a part of the expected force */
-    /* a larger error of the inertia is doubtful, as a part of the configured one */
+    wh_real residual_large; /* a larger residual is doubtful; a fraction of the expected force */
+    wh_real mean_off;       /* a larger mean is doubtful; a fraction of the expected force */
+    /* A larger error of the inertia is doubtful; a fraction of the configured inertia. */
     wh_real inertia_off;
 } wh_result_config;
 
-/* Turns merged so far; zeros: no turns. */
+/* The turns merged so far. All zeros: no turns. */
 typedef struct wh_merge {
-    bool follows; /* the last turn was used, so differences to the next turn count */
+    bool follows; /* the last turn was used, so its differences to the next turn count */
     bool second_follows;
     uint32_t turns;
     uint32_t left_out;
     uint32_t samples;
     uint32_t outliers;
-    uint32_t second_turns; /* number of turns averaged in at_pulse_N[1] */
+    uint32_t second_turns; /* number of turns in the mean at_pulse_N[1] */
     wh_real jitter_s2;     /* sum of squares of the second differences of the pulse times */
     uint32_t jitters;      /* number of these second differences */
     uint32_t first_ticks;  /* times of the first and of the last used turn */
@@ -95,14 +95,15 @@ typedef struct wh_merge {
     wh_repeats repeats;
     wh_real in_phase_N; /* means over the turns */
     wh_real quadrature_N;
-    wh_real second_N[2];   /* components of twice the angle: cosine, sine */
-    wh_real scatter_N2[3]; /* sums about the means: in phase squared, product, quadrature squared */
+    wh_real second_N[2]; /* components of twice the angle: cosine, sine */
+    /* sums of deviations from the means: in phase squared, product, quadrature squared */
+    wh_real scatter_N2[3];
     wh_real mean_N;
     wh_real residual_N2;
     wh_real expected_N;
     wh_real ripple_rad;
     wh_real turn_s;
-    wh_real turn_s2; /* sum of squares about the mean */
+    wh_real turn_s2; /* sum of squared deviations from the mean */
     wh_real at_pulse_N[2];
 } wh_merge;
 
@@ -126,14 +127,14 @@ typedef struct wh_measured {
     wh_real repeats_limit_N; /* limit from noise and a healthy rig */
     wh_real jitter_s;        /* jitter of the pulses, standard deviation */
     wh_real inertia_kgm2;
-    /* error of the speed ripple, found from the load's second order, as a vector */
+    /* Error of the speed ripple, as a vector, found from the load's second order. */
     wh_real ripple_off_rad;
-    /* with gravity compensation: the uncompensated part of gravity, in either direction; else 0 */
+    /* With gravity compensation: the uncompensated part of gravity, positive or negative; otherwise 0. */
     wh_real uncompensated_part;
     wh_real at_pulse_N[2]; /* load at each sensor's pulse, minus the tare */
 } wh_measured;
 
-/* Half-widths for 95 % before calibration, for a commercial load cell and sensors as mounted. */
+/* Half-widths for 95 % before calibration, for a commercial load cell and sensors in their mounted positions. */
 #define WH_UNCALIBRATED_PART WH_R(0.005)
 #define WH_UNCALIBRATED_RAD (WH_R(0.5) / WH_RIG_DEG_PER_RAD)
 
@@ -152,23 +153,23 @@ WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
 #define wh_why_text WH_NAME(wh_why_text)
 #define wh_quality_text WH_NAME(wh_quality_text)
 
-/* Add a turn; `angle` is the angle model with which it was evaluated. An unusable turn ends a series of successive
- * turns. */
+/* Add a turn. `angle` is the angle model with which the turn was evaluated. After an unusable turn, a new series of
+ * successive turns begins. */
 void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
                   const wh_lockin_turn *turn, const wh_turn_angle *angle);
 
-/* Evaluate one harmonic of the repeating residual. Call it after the last turn, once for each from WH_REPEATS_FIRST to
- * WH_REPEATS_LAST. */
+/* Evaluate one harmonic of the repeating residual. Call it after the last turn, once for each harmonic from
+ * WH_REPEATS_FIRST to WH_REPEATS_LAST. */
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
-/* Means and half-widths; the half-widths are 0 with fewer than two turns. `tare_N` is subtracted. */
+/* Compute means and half-widths; the half-widths are 0 with fewer than two turns. `tare_N` is subtracted. */
 void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                    wh_measured *measured);
 
 #define WH_MERGE_MEAN_PIECES (WH_RIG_SMALL_PIECES ? 6U : 2U)
-/* wh_merge_mean() in pieces. Call each once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the
- * last. */
+/* wh_merge_mean() in pieces. Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete
+ * until the last piece. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);
@@ -182,10 +183,11 @@ void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
                     const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured);
 
-/* Student's factor, two-sided, 95 %. Within 0.3 % for 2 and more degrees of freedom, 0 for none. */
+/* Returns Student's factor, two-sided, for 95 %. The error is within 0.3 % for 2 or more degrees of freedom. Returns 0
+ * for none. */
 wh_real wh_student(uint32_t freedom);
 
-/* The reason in words, for consoles, by wh_text_add(). */
+/* Returns the reason in words, for consoles, by wh_text_add(). */
 const char *wh_why_text(wh_why why);
 const char *wh_quality_text(wh_quality quality);
 

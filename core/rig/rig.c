@@ -28,7 +28,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
     (void)wh_observer_start(&config->observer, &rig->observer,
-                            now_ticks); /* after an error the observer is never valid */
+                            now_ticks); /* if this fails, the observer is never valid */
     enter(rig, WH_RIG_IDLE, now_ticks);
     /* the rotor's earlier speed is unknown */
     rig->run.off_radps = config->guard.limit_radps;
@@ -40,8 +40,6 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     }
 }
 
-/* --- inputs -------------------------------------------------------------------------------------- */
-
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     if (rig->orders == WH_RIG_ORDERS_MOST) {
         return false;
@@ -50,8 +48,8 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     return true;
 }
 
-/* True if the motor brakes. The enable stays on at 0 V until the pulses show that the rotor does not slow down, or the
- * stop input is pressed. */
+/* True if the motor brakes. The enable stays on at 0 V until the pulses show that the rotor does not slow down, or
+ * until the stop input is pressed. */
 static bool brakes(const wh_rig *rig) {
     return rig->brakes && rig->run.phase == WH_PHASE_OFF && !rig->guard.off.released;
 }
@@ -92,8 +90,6 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
     }
 }
 
-/* --- effects of an event ------------------------------------------------------------------------- */
-
 static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
     rig->record = (wh_trip_record){.trip = rig->guard.trip,
                                    .phase = rig->run.phase,
@@ -129,8 +125,8 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
-/* Upper bound on the present speed. The measured speed is that of the last turn, which is too old if the rotor
- * accelerates. */
+/* Returns an upper bound on the present speed. The measured speed is that of the last turn, which is too old if the
+ * rotor accelerates. */
 static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_real turn_radps = rig->pulses.speed.turn_radps;
     const wh_real limit_radps =
@@ -154,7 +150,7 @@ static wh_rig_end stopped_by(const wh_rig_inputs *inputs, wh_rig_event event) {
     return WH_END_STOP_OR_FAULT;
 }
 
-/* Go to state `next`, or restart the present one. */
+/* Enters the state `next`, or enters the present state again. */
 static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
                    const wh_rig_order *order, wh_rig_state next) {
     const uint32_t now = inputs->now_ticks;
@@ -167,7 +163,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
-        /* a stop never switches on an enable that is off */
+        /* A stop never switches the enable on if it is off. */
         rig->brakes = config->stop_brakes && (wh_run_drives(&rig->run) || brakes(rig));
         if (moves && rig->run.phase != WH_PHASE_OFF) {
             rig->ended = stopped_by(inputs, order->event);
@@ -187,7 +183,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
     case WH_EVENT_CLEAR:
         rig->guard.trip = WH_TRIP_NONE;
-        /* after a reset there is no record of this trip */
+        /* If a reset follows, no record shall restore this trip. */
         rig->record = (wh_trip_record){.trip = WH_TRIP_NONE};
         break;
     case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
@@ -218,7 +214,7 @@ static void finds(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     (void)happens(config, rig, inputs, &order);
 }
 
-/* Only orders from outside: the rig's own events are handled elsewhere. */
+/* Handles the orders from outside only. */
 static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     for (unsigned i = 0; i < rig->orders; i++) {
         const wh_rig_order *order = &rig->order[i];
@@ -230,10 +226,8 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
     rig->orders = 0;
 }
 
-/* --- the guard, in every state ------------------------------------------------------------------- */
-
-/* At a slow speed, the time without a pulse is limited as an angle: after two lost pulses the rotor has made nearly two
- * turns. */
+/* At a slow speed, the time without a pulse is limited by this angle: after two lost pulses the rotor has made nearly
+ * two turns. */
 #define SILENT_RAD WH_R(12.0)
 
 static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
@@ -245,12 +239,12 @@ static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
                                : SILENT_RAD / rig->run.drive.setpoint_radps;
 }
 
-/* With the motor off: clear the data that are no longer valid for a rotor at rest. */
+/* With the motor off: clears the data that are no longer valid when the rotor is at rest. */
 static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
     if (rig->guard.quiet) {
         rig->run.off_radps = WH_R(0.0);
-        if (rig->pulses.speed.running) { /* the times of old pulses would wrap */
+        if (rig->pulses.speed.running) { /* old times would wrap */
             wh_pulses_forget(&rig->pulses);
         }
     }
@@ -265,7 +259,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     if (!drives) {
         rest(config, rig, inputs->now_ticks);
     }
-    /* with the motor off, a rotor of known speed cannot gain speed */
+    /* With the motor off, a rotor of known speed cannot gain speed. */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses,
                    !slows        ? WH_TRIP_OVERSPEED
@@ -276,7 +270,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                                  : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
-        /* or the rotor turns and the pulses are missing: it must not become fast */
+        /* The rotor is stalled, or it turns without pulses: then it must not become fast. */
         wh_guard_trip(guard, WH_TRIP_STALLED);
     }
     if (drives) {
@@ -295,9 +289,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     }
 }
 
-/* --- where the rotor is --------------------------------------------------------------------------- */
-
-/* The pulse after a suspect needs as much computing time as two pulses: the observer's work is postponed to the next
+/* The pulse after a suspect takes as much computing time as two pulses. So the observer's work is postponed to the next
  * step. */
 static bool postpones(const wh_rig *rig, uint32_t now_ticks) {
     return rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks;
@@ -321,7 +313,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     }
 }
 
-/* The part of the voltage that compensates gravity, V. */
+/* Returns the part of the voltage that compensates gravity, V. */
 static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     if (!rig->fed || !wh_run_is_closed(&rig->run)) {
         rig->compensation.part = WH_R(0.0);
@@ -337,9 +329,7 @@ static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_tic
                                                       config->run.step_s);
 }
 
-/* --- states -------------------------------------------------------------------------------------- */
-
-/* Motor off: waits until no pulses come, so that the rotor is at rest. */
+/* With the motor off: waits until no pulses come, which shows that the rotor is at rest. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool tripped = rig->state == WH_RIG_TRIPPED;
     const wh_real passed_s =
@@ -362,7 +352,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     }
 }
 
-/* Most pulses that jitter makes while the rig is armed: more pulses mean that a person turns the rotor. */
+/* Maximum number of pulses that jitter makes while the rig is armed. If there are more, a person turns the rotor. */
 #define ARMED_PULSES_MOST 2U
 
 static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
@@ -394,9 +384,9 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
     }
 }
 
-/* The number of half nodes of a turn's sums for which this step has time. A controller that is late finds the samples
- * and observer steps of several steps in one, and none in the next. If a pulse may be confirmed while the observer
- * runs, there is less time. */
+/* Returns the number of half nodes of a turn's sums for which this step has time. If a controller is late, one step
+ * gets the samples and observer steps of several, and the next step gets none. If a pulse may be confirmed while the
+ * observer runs, there is less time. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE : rig->loads == 1U ? 1U : 0U;
@@ -407,7 +397,7 @@ static unsigned halves(const wh_rig *rig) {
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->fed && rig->pulses.waits ? 1U : 0U);
 }
 
-/* A step that has processed a pulse confirms none, unless more confirmed pulses than this wait. */
+/* A step that has processed a pulse confirms no pulse, unless more than this number of confirmed pulses wait. */
 #define MARKS_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
@@ -433,7 +423,7 @@ static void age(wh_rig *rig, uint32_t now_ticks) {
     }
 }
 
-/* With the motor off after a run: the rotor swings freely, or has come to rest and its swing is evaluated. */
+/* With the motor off after a run: follows the free swing of the rotor, or evaluates it if the rotor is at rest. */
 static void swing(const wh_rig_config *config, wh_rig *rig) {
     const bool swings = config->swings && rig->run.phase == WH_PHASE_OFF && !rig->brakes;
     wh_swing_step(&config->swing, &config->measure.rotor, &rig->swing, swings,
@@ -451,7 +441,6 @@ static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
     return (wh_rig_command){brakes(rig) ? WH_MOTOR_BRAKES : WH_MOTOR_COASTS, WH_R(0.0)};
 }
 
-/* Brings the rig into the state `tripped` if the guard has tripped. */
 static void follow_trip(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     if (rig->guard.trip != WH_TRIP_NONE && rig->state != WH_RIG_TRIPPED) {
         finds(config, rig, inputs, WH_EVENT_TRIP);
@@ -465,14 +454,13 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     watch(config, rig, inputs);
     if (inputs->stop_pressed) {
         finds(config, rig, inputs, WH_EVENT_STOP);
-        rig->guard.off.released =
-            true; /* a trip releases the brake: the enable is off in any case */
+        rig->guard.off.released = true; /* the stop input releases the brake */
     }
     take_orders(config, rig, inputs);
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     live(config, rig, inputs);
-    /* before the measurement's work, which a trip makes useless */
+    /* A trip makes the measurement's work useless, so the trip is handled first. */
     follow_trip(config, rig, inputs);
     if (rig->run.phase != phase) {
         rig->busy = true;
@@ -488,7 +476,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     return rig->command;
 }
 
-/* === further conditions of an order: supply, rig at rest, cause of a trip removed ===== */
+/* === the conditions of orders that do not depend on the state: supply, rest, cause of a trip removed === */
 
 static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
                                    const wh_rig_inputs *inputs) {
@@ -518,7 +506,7 @@ static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
 
 static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                            const wh_rig_inputs *inputs, wh_real target_radps) {
-    /* slower set-points are possible with gravity compensation */
+    /* Gravity compensation allows lower set-points. */
     const bool can_feed = config->feeds != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
     const bool feeds = can_feed && (config->feeds == WH_COMPENSATION_ALWAYS ||
                                     target_radps < config->guard.target_min_radps);
@@ -529,7 +517,7 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                                                                           : WH_REFUSED_VOLTAGE;
 }
 
-/* A trip can be cleared if no pulses come, the rotor rests and the cause is removed. After a trip for unreliable
+/* A trip can be cleared if no pulses come, the rotor rests and the trip's cause is gone. After a trip for unreliable
  * pulses, the rotor counts as at rest only after tripped_max_s. */
 static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs) {
@@ -600,12 +588,10 @@ uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks) {
     return rig->result_s + (now_ticks - rig->result_ticks) / WH_RIG_TICKS_PER_S;
 }
 
-/* --- the last pulses ------------------------------------------------------------------------------ */
-
 #define HEARD_TICKS (8U * WH_RIG_TICKS_PER_S)
 
-/* Finds the last four pulses, if their sensors alternate: the ticks between them, the newest first, and the sensor of
- * the last. */
+/* Finds the last four pulses, if their sensors alternate. way[] gets the ticks between the pulses, beginning with the
+ * newest pair; *last gets the sensor of the newest pulse. */
 static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsigned *last) {
     *last = (int32_t)(rig->heard_ticks[1][0] - rig->heard_ticks[0][0]) > 0 ? 1U : 0U;
     const uint32_t *newest = rig->heard_ticks[*last];
@@ -629,7 +615,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     if (!drives && rig->guard.quiet) {
         return true;
     }
-    /* speed.h cannot distinguish a rotor that slows down over the top from a gap, and keeps the old speed */
+    /* speed.h cannot distinguish a rotor that slows down over the top from a gap: it keeps the old speed. */
     if (!drives && last_ways(rig, now_ticks, way, &last)) {
         *speed_radps = WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)(way[0] + way[1]);
         return true;
@@ -637,14 +623,13 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     return rig->pulses.speed.known;
 }
 
-/* --- the likely cause of a trip ------------------------------------------------------------------- */
-
-/* A whole turn at 3,200 rpm: the fastest motor of the settings (2,000 rpm) at the highest supply turns slower. */
+/* Duration of a turn at 3,200 rpm. Even the fastest motor of the settings (2,000 rpm) turns slower at the highest
+ * supply voltage. */
 #define STORM_TICKS 18750U
 
-/* Do the sensors' pulses come in the wrong order? Forwards, the rotor takes a quarter turn from sensor 1 to sensor 2,
- * backwards three quarters. That time must exceed the times before and after it, because a starting rotor changes its
- * speed. Pulses that are faster than any rotor show no direction. */
+/* True if the sensors' pulses come in the wrong order. Forwards, the rotor takes a quarter turn from sensor 1 to sensor
+ * 2, backwards three quarters. That time must exceed the times before and after it, because a starting rotor changes
+ * its speed. Pulses that are faster than any rotor show no direction. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -658,7 +643,7 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
 }
 
 /* While the rotor starts, or shortly after the loop has closed, the commanded voltage determines its speed. A fall of
- * the bound is then visible only after two further pulses. */
+ * the bound then shows only after two more pulses. */
 #define TWO_PULSES_S WH_R(0.5)
 
 static bool starts(const wh_rig *rig, uint32_t now_ticks) {

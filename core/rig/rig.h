@@ -1,10 +1,11 @@
 /* rig.h: the eccentric-mass rig's controller, without hardware: life cycle, guard, test run, measurement.
  *
- * The caller moves data in and the motor's command out, at a steady rate; nothing here waits or touches hardware:
+ * At a steady rate, the caller gives data to the controller and gets the motor's command. Nothing here waits or touches
+ * hardware:
  *
  *     wh_rig_start(&config, &rig, now_ticks, NULL);
  *     every control step:
- *         wh_rig_pulse(&config, &rig, ...) for each slot pulse, in order of time
+ *         wh_rig_pulse(&config, &rig, ...) for each slot pulse, in the order of time
  *         wh_rig_load(&config, &rig, ...) for each load sample
  *         wh_rig_post(&rig, ...) for each order from outside: nothing moves without `arm` and then `start`
  *         command = wh_rig_step(&config, &rig, &inputs)
@@ -23,11 +24,11 @@ extern "C" {
 
 /* === the record of a trip, in bytes with the same layout on every processor =========== */
 
-/* The record of a trip. wh_rig_start() after a reset restores the trip from it. */
+/* The record of a trip. After a reset, wh_rig_start() restores the trip from it. */
 typedef struct wh_trip_record {
     wh_trip trip;
     wh_rig_phase phase;
-    uint32_t ticks; /* time of the trip, on a timer that a reset may have cleared */
+    uint32_t ticks; /* time of the trip, on a timer that may have restarted in a reset */
     wh_real speed_radps;
     wh_real volts;
     wh_real supply_V;
@@ -40,12 +41,13 @@ typedef struct wh_trip_record {
 
 void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes);
 
-/* Read a record. Returns false if the bytes are no record: another length, or an unknown trip or phase. */
+/* Read a record. Returns false if the bytes are no record: their number is wrong, or the trip or the phase is
+ * unknown. */
 bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned length);
 
 /* === a control step's inputs ================================================================= */
 
-/* The source of a stop request: the drive stage's fault may share the stop input's line. */
+/* The source of a stop request. EITHER: the drive stage's fault and the stop contacts share a line. */
 typedef enum wh_stop_by { WH_STOP_BY_EITHER, WH_STOP_BY_INPUT, WH_STOP_BY_DRIVE } wh_stop_by;
 
 /* A control step's inputs other than pulses, samples and orders. */
@@ -53,7 +55,7 @@ typedef struct wh_rig_inputs {
     uint32_t now_ticks;
     wh_real supply_V;
     bool stop_pressed;
-    wh_stop_by stop_by;     /* source of the stop, if pressed */
+    wh_stop_by stop_by;     /* source of the stop, if there is one */
     bool clock_is_fallback; /* the clock is too inaccurate to measure a speed */
     bool watchdog_has_cut;
 } wh_rig_inputs;
@@ -65,17 +67,16 @@ typedef struct wh_rig_order {
 
 /* === the controller ========================================================================== */
 
-#define WH_RIG_ORDERS_MOST 4U /* orders that can be posted between two control steps */
+#define WH_RIG_ORDERS_MOST 4U /* maximum number of orders between two control steps */
 
-/* When gravity compensation is on. It removes the ripple of the speed, and with it gravity's part of the load's
- * peaks. */
+/* When gravity compensation is on. It removes the speed's ripple, and with it gravity's part of the load's peaks. */
 typedef enum wh_compensation_when {
     WH_COMPENSATION_NEVER,
     WH_COMPENSATION_SLOW, /* only for set-points that are too slow without compensation */
     WH_COMPENSATION_ALWAYS
 } wh_compensation_when;
 
-/* A small chip's build may set 0: observer.scene is NULL, and gravity is never compensated. */
+/* A small chip's build may set 0: observer.scene is then NULL, and gravity is never compensated. */
 #ifndef WH_RIG_FEEDS
 #define WH_RIG_FEEDS 1
 #endif
@@ -92,13 +93,14 @@ typedef struct wh_rig_config {
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest time to come to rest after a trip */
     wh_real rest_max_s;    /* longest time to come to rest with the motor off */
-    /* the motor brakes at a run's end and after `stop`; otherwise it coasts, as after a trip and the stop input */
+    /* The motor brakes at a run's end and after `stop`. If false, it coasts, as it always does after a trip or the stop
+     * input. */
     bool stop_brakes;
-    /* a completed run always coasts, and the rotor's free swing gives the sensors' positions; `stop` may brake */
+    /* A completed run always coasts, and the rotor's free swing gives the sensors' positions; `stop` may brake. */
     bool swings;
-    /* a run ends if the host that gives the orders is lost; otherwise it goes on */
+    /* A run ends if the host that gives the orders is lost. If false, the run goes on. */
     bool host_loss_stops;
-    uint32_t host_max_s; /* time without an order after which the host counts as lost; 0: never */
+    uint32_t host_max_s; /* the host counts as lost after this time without an order; 0: never */
     uint32_t settings;   /* hash of the settings (core/station/conf.h); 0: no settings */
 } wh_rig_config;
 
@@ -112,33 +114,33 @@ typedef struct wh_rig_command {
 /* Small members come first, because a processor's short instructions reach only them. */
 typedef struct wh_rig {
     wh_rig_state state;
-    bool brakes; /* the motor brakes when it is switched off */
-    /* in this run the observer follows the rotor; as soon as it is valid, gravity is compensated */
+    bool brakes; /* the motor brakes while it is off */
+    /* In this run the observer follows the rotor, and gravity is compensated as soon as the observer is valid. */
     bool fed;
-    /* this step has a pulse to process, which is work enough: other work waits for the next step */
+    /* This step has a pulse to process, which is work enough: other work waits for the next step. */
     bool busy;
     bool decides; /* this step has a pulse that came after a suspect */
-    /* samples since the last step: with more than one, the step has less time for other work */
+    /* Number of samples since the last step. If more than one, the step has less time for other work. */
     uint8_t loads;
-    bool rested; /* motor off, and the rotor is at rest or the longest wait is over */
-    /* no pulses come; or, if pulses are unreliable, the longest wait is over */
+    bool rested; /* the motor is off, and the rotor is at rest or the longest wait is over */
+    /* No pulses come; or, if pulses are unreliable, the longest wait is over. */
     bool at_rest;
-    bool has_result;    /* run `runs` has a result: false from `start` to the record's end */
+    bool has_result;    /* a result of run `runs` exists: false from `start` to the record's end */
     wh_rig_end ended;   /* how the last run ended */
-    wh_rig_event asked; /* last processed order */
-    wh_refusal answer;  /* answer to the last processed order */
+    wh_rig_event asked; /* the order that was processed last */
+    wh_refusal answer;  /* the answer to that order */
     wh_run run;
     wh_guard guard;
     uint32_t answers;     /* number of processed orders */
     uint32_t since_ticks; /* time at which the state began */
     uint32_t observed;    /* number of pulses processed by the observer */
     uint32_t pulses_ever;
-    uint32_t pulses_before; /* number of pulses at `arm` */
-    uint32_t runs;          /* starts since the reset */
+    uint32_t pulses_before; /* number of pulses before `arm` */
+    uint32_t runs;          /* number of starts since the reset */
     uint32_t settings;      /* config->settings when the result was measured */
-    uint32_t result_s;      /* age of the result at the time result_ticks, whole seconds */
+    uint32_t result_s;      /* age of the result at the time result_ticks, in whole seconds */
     uint32_t result_ticks;  /* time at which the age was result_s */
-    /* times of each sensor's last two pulses, accepted or not */
+    /* Times of each sensor's last two pulses, accepted or not. */
     uint32_t heard_ticks[WH_SPEED_SENSORS][2];
     wh_compensation compensation;
     wh_rig_command command; /* command of the last step */
@@ -147,13 +149,14 @@ typedef struct wh_rig {
     unsigned orders;
     wh_rig_order order[WH_RIG_ORDERS_MOST];
     wh_observer observer;
-    wh_rig_result result; /* the last result, if has_result; stays until the next start */
+    wh_rig_result result; /* the last result, valid if has_result; stays until the next start */
     wh_swing swing;       /* the last evaluated free swing: swing.result */
     wh_measure measure;
 } wh_rig;
 
-/* The rig of eccentric.whirl. measure.cell and the sensors' angles depend on the hardware: wh_rig_slots() and the
- * caller fill them in. observer.scene is rig_fixed, or NULL: then gravity is never compensated. */
+/* The configuration for the rig of eccentric.whirl. measure.cell and the sensors' angles depend on the hardware: the
+ * caller fills them in (wh_rig_slots() for the angles). observer.scene is rig_fixed, or NULL: then gravity is never
+ * compensated. */
 #define wh_rig_standard WH_NAME(wh_rig_standard)
 extern const wh_rig_config wh_rig_standard;
 
@@ -174,30 +177,30 @@ extern const wh_rig_config wh_rig_standard;
 #define wh_rig_speed WH_NAME(wh_rig_speed)
 #define wh_rig_cause WH_NAME(wh_rig_cause)
 
-/* The rig's stage as one number for consoles and records: in a run WH_RIG_STAGE_OF_PHASE + its phase, otherwise the
- * state. */
+/* Returns the rig's stage as one number, for consoles and records: in a run WH_RIG_STAGE_OF_PHASE plus its phase,
+ * otherwise the state. */
 #define WH_RIG_STAGE_OF_PHASE 8U
 unsigned wh_rig_stage(const wh_rig *rig);
 
-/* wh_rig_stage() for consoles and telemetry, with a number of its own for a motor that brakes. */
+/* Returns wh_rig_stage(), or WH_RIG_STAGE_BRAKES while the motor is off and brakes. For consoles and telemetry. */
 #define WH_RIG_STAGE_BRAKES (WH_RIG_STAGE_OF_PHASE + (unsigned)WH_PHASES)
 #define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
 unsigned wh_rig_shown_stage(const wh_rig *rig);
 
-/* The words for a stage of either function. */
+/* Returns the words for a stage of either function. */
 const char *wh_rig_stage_text(unsigned stage);
 
-/* The mean speed of the last whole turn, or 0 at rest. Returns false if the speed is unknown: before the first turn, or
- * if the rotor swings (its pulses do not alternate). */
+/* Sets *speed_radps to the mean speed of the last whole turn, or 0 at rest. Returns false if the speed is unknown:
+ * before the first turn, or if the rotor swings (its pulses do not alternate). */
 bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
-/* Seconds since the result was finished. */
+/* Returns the seconds since the result was finished. */
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* The guard's trip, or its likely cause if that is known; for the step that trips. Part of wh_rig_step(). */
+/* Returns the guard's trip, or its likely cause if that is known, in the step that trips. Part of wh_rig_step(). */
 wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks);
 
-/* Configure sensors on the loading-train axis and a quarter turn later. Each pulse comes when the arms are lead_rad
+/* Set sensor 1 on the loading-train axis and sensor 2 a quarter turn later. A pulse comes when the arms are lead_rad
  * before the sensor. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
@@ -208,34 +211,35 @@ typedef struct wh_rig_motor {
     wh_real rated_V;
 } wh_rig_motor;
 
-/* The motor that the configuration is for. */
+/* Sets *motor to the motor for which the configuration is made. */
 void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
 
-/* Scale everything that depends on the motor from the configuration's motor to this one: gains, spin-up, supply, bounds
- * of the guard, damping, gravity compensation. The observer's scene keeps the original motor, so call this once. */
+/* Scale everything that depends on the motor from the configuration's motor to this one: gains, spin-up, supply,
+ * bounds of the guard, damping, gravity compensation. The observer's scene keeps the original motor, so call this
+ * only once. */
 void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 
-/* Limit the speed between pulses to that without load at the highest supply. Call it again after a change of
- * guard.supply_max_V. */
+/* Limit the speed between pulses to the speed without load at the highest supply voltage. Call it again after a change
+ * of guard.supply_max_V. */
 void wh_rig_bound_pulses(wh_rig_config *config);
 
-/* Start in the idle state, motor off, for any motion of the rotor. If `before` is the record of a trip (it may be NULL),
- * start tripped. */
+/* Start in the idle state, motor off; the rotor may be moving. If `before` is the record of a trip, start tripped.
+ * `before` may be NULL. */
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
                   const wh_trip_record *before);
 
-/* Post an order for the next control step. Returns false if WH_RIG_ORDERS_MOST orders are waiting. rig->answer gives the
- * result. */
+/* Post an order for the next control step. Returns false if WH_RIG_ORDERS_MOST orders are waiting. After that step
+ * rig->answer is the answer. */
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value);
 
 /* Take a slot pulse of sensor 0 or 1, captured at `ticks`. */
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks);
 
-/* Take a load sample as the hardware gives it: counts, their time stamp `ticks`, and their status. */
+/* Take a load sample from the hardware: its counts, their time stamp `ticks`, and their status. */
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status);
 
-/* The reason to refuse an order that the state allows, or WH_ALLOWED. Part of wh_rig_step(). */
+/* Returns the reason to refuse an order that the state allows, or WH_ALLOWED. Part of wh_rig_step(). */
 wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs, const wh_rig_order *order);
 
@@ -244,9 +248,9 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
 /* === the rig on a carriage =================================================================== */
 /* The rig on a carriage that moves freely along a level rail, with arms in a level plane.
  *
- * Almesallmy (2006), I.3.2.2 and I.3.5: the load cell sits between the shaft's pin and the carriage. It measures M/(M +
+ * Almesallmy (2006), I.3.2.2 and I.3.5: the load cell is between the shaft's pin and the carriage. It measures M/(M +
  * m) of the force on a fixed mount, with M the carriage's mass and m the eccentric mass. The carriage moves to and fro
- * by X = S/(M + m) at any speed. */
+ * with the amplitude X = S/(M + m) at any speed. */
 
 typedef struct wh_carriage {
     wh_real disc_m; /* distance of the discs' centres from the shaft */
@@ -260,8 +264,8 @@ typedef struct wh_carriage {
  * has no effect, so observer and gravity compensation are off. */
 void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage);
 
-/* Displacement amplitude of the carriage, m: F/(M <w^2>), with the cell's force F and the squared speed's mean over the
- * angle. 0 for a fixed mount. */
+/* Returns the displacement amplitude of the carriage, m: F/(M <w^2>), with the cell's force F and the mean <w^2> of the
+ * squared speed over the angle. 0 for a fixed mount. */
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
                                    const wh_measured *force);
 

@@ -9,7 +9,7 @@ static wh_real seconds(uint32_t ticks) {
     return (wh_real)ticks * (WH_R(1.0) / (wh_real)WH_RIG_TICKS_PER_S);
 }
 
-/* Mean speed over `quarters` quarter turns in `ticks` > 0. */
+/* Returns the mean speed over `quarters` quarter turns in `ticks` > 0. */
 static wh_real radps(uint32_t quarters, uint32_t ticks) {
     return (wh_real)quarters * (WH_RIG_TWO_PI / (wh_real)QUARTERS) / seconds(ticks);
 }
@@ -18,7 +18,7 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps) {
     *speed = (wh_speed){.impossible_radps = impossible_radps};
 }
 
-/* Restarts the count of quarter turns at this sensor. */
+/* Restarts the count of quarter turns at this sensor's position. */
 static void begin(wh_speed *speed, unsigned sensor) {
     speed->running = true;
     speed->quarter = sensor;
@@ -26,7 +26,8 @@ static void begin(wh_speed *speed, unsigned sensor) {
     speed->seen[1] = false;
 }
 
-/* Moves to the next position of this sensor: 1 or 3 quarters on, or a whole turn. Returns false if that would be too fast. */
+/* Moves to the next position of this sensor: 1 or 3 quarters on, or a whole turn. Returns false if that would be too
+ * fast. */
 static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     const uint32_t ahead = (sensor - speed->quarter) % QUARTERS;
     const uint32_t moved = ahead == 0 ? QUARTERS : ahead;
@@ -35,13 +36,13 @@ static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     if (interval == 0 || interval_radps > speed->impossible_radps) {
         return false;
     }
-    /* the alternative is that the pulse came a whole turn later: by four quarters, or by two if the order is
-     * reversed */
+    /* The alternative is that the pulse came a whole turn later: four more quarters, or two if the order is
+     * reversed. */
     const wh_real due_quarters = (wh_real)moved * speed->turn_radps / interval_radps;
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;
         speed->restarts++;
-        /* after one gap the speed stays; a second gap in succession shows that the speed was wrong */
+        /* After one gap the speed stays. A second gap in succession shows that the speed was wrong. */
         speed->known = speed->interval_radps > WH_R(0.0);
         speed->interval_radps = WH_R(0.0);
         begin(speed, sensor);

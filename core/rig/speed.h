@@ -1,7 +1,7 @@
-/* speed.h: speed of the rotor from the pulses of the two slot sensors. Sensor 0 is at 0, sensor 1 a quarter turn later.
- * So the pulses of a turning rotor alternate and the rotor advances by 1, 3, 1, 3, ... quarters. If a sensor fires
- * twice in succession, a pulse of the other sensor was lost in between. Speed is measured from a sensor's pulse to its
- * next one. Over this whole turn gravity's ripple cancels, and two new values come each turn. */
+/* speed.h: speed of the rotor from the pulses of the two slot sensors. Sensor 0 is at angle 0, sensor 1 a quarter turn
+ * later. So the pulses of a turning rotor alternate, and the rotor advances by 1, 3, 1, 3, ... quarters. If a sensor
+ * fires twice in succession, a pulse of the other sensor was lost in between. Speed is measured from a sensor's pulse
+ * to its next one. Over this whole turn gravity's ripple cancels; each turn gives two new values. */
 #ifndef WH_RIG_SPEED_H
 #define WH_RIG_SPEED_H
 
@@ -19,13 +19,13 @@ typedef struct wh_speed {
     bool running;                /* at least one pulse has been taken since the last gap */
     bool seen[WH_SPEED_SENSORS]; /* seen_ticks and seen_quarter of the sensor are valid */
     wh_real impossible_radps;    /* a pulse that would need a higher speed is rejected */
-    wh_real turn_radps;          /* mean over the last whole turn; valid when known */
-    wh_real interval_radps;      /* mean of the last interval, 0 after a gap; valid when known */
+    wh_real turn_radps;          /* mean over the last whole turn; valid if `known` */
+    wh_real interval_radps;      /* mean over the last interval, 0 after a gap; valid if `known` */
     uint32_t ticks;              /* time of the last pulse taken */
     uint32_t quarter;            /* rotor's position at the last pulse, quarter turns, wrapping */
-    uint32_t taken;              /* pulses taken */
+    uint32_t taken;              /* number of pulses taken */
     uint32_t lost;               /* number of missing pulses */
-    uint32_t restarts;           /* gaps after which `quarter` restarted */
+    uint32_t restarts;           /* number of gaps after which `quarter` restarted */
     uint32_t rejected;           /* number of impossible pulses */
     uint32_t seen_ticks[WH_SPEED_SENSORS];
     uint32_t seen_quarter[WH_SPEED_SENSORS];
@@ -34,11 +34,11 @@ typedef struct wh_speed {
 #define wh_speed_start WH_NAME(wh_speed_start)
 #define wh_speed_pulse WH_NAME(wh_speed_pulse)
 
-/* Forget everything. impossible_radps > 0: no pulse can come faster than this. */
+/* Begin with an unknown speed. impossible_radps > 0: a pulse that would need a higher speed is rejected. */
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
 
-/* Process a pulse of `sensor` (0 or 1) captured at `ticks`, in order of time. Returns false if it is rejected: closer
- * to the last one than impossible_radps allows, or no such sensor.
+/* Process a pulse of `sensor` (0 or 1) captured at `ticks`, in the order of time. Returns false if the pulse is
+ * rejected: it is closer to the last one than impossible_radps allows, or there is no such sensor.
  *
  * One lost pulse is bridged. A pulse that is more than a quarter turn later than the speed predicts comes after a gap:
  * at least two pulses were lost. They are counted as two, and the measurement restarts. The last speed stays valid
@@ -46,17 +46,17 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
  * wrong, too.) Sensors in the wrong order, or a rotor turning backwards, cause such a gap each turn. */
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
 
-/* Seconds since the last accepted pulse; 0 without one. */
+/* Returns the seconds since the last accepted pulse; 0 without one. */
 WH_INLINE wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) {
-    /* signed: a pulse may have a later time stamp than the step's own reading of the timer */
+    /* signed: a pulse's time stamp may be later than the time at which the step read the timer */
     const int32_t age_ticks = (int32_t)(now_ticks - speed->ticks);
     return speed->running && age_ticks > 0
                ? (wh_real)age_ticks * (WH_R(1.0) / (wh_real)WH_RIG_TICKS_PER_S)
                : WH_R(0.0);
 }
 
-/* True if no pulse has come for more than a whole turn at the known speed. Then at least one was lost, because regular
- * intervals are at most three quarters of a turn. */
+/* True if no pulse has come for more than a whole turn at the known speed. At least one pulse was then lost, because
+ * regular intervals are at most three quarters of a turn. */
 WH_INLINE bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks) {
     return speed->known && wh_speed_silence_s(speed, now_ticks) * speed->turn_radps > WH_RIG_TWO_PI;
 }

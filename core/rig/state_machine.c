@@ -8,7 +8,8 @@
 #define NO(state, why) \
     { WH_RIG_##state, WH_REFUSED_##why }
 
-/* Columns as in WH_RIG_STATE_ROWS. Every state accepts `stop` and a trip; an event for the present state changes nothing. */
+/* The columns are those of WH_RIG_STATE_ROWS. Every state accepts `stop` and a trip. If an event leads to the present
+ * state, nothing changes. */
 /* clang-format off */
 static const wh_rig_transition rules[WH_EVENTS][WH_RIG_STATES] = {
     /*                       idle                   armed                   running               stopping                tripped */

@@ -1,7 +1,7 @@
-/* state_machine.h: the rig's life cycle: its states, the events allowed in each, and the refusals by name.
+/* state_machine.h: the rig's life cycle: its states, the events that each state allows, and the refusals.
  *
- *     IDLE --arm--> ARMED --start--> RUNNING --done, stop--> STOPPING --rested--> IDLE
- *       \_____________\________________\_______trip___________/--> TRIPPED --clear--> IDLE
+ *      IDLE --arm--> ARMED --start--> RUNNING --done, stop--> STOPPING --rested--> IDLE
+ *        \_____________\________________\_______trip___________/--> TRIPPED --clear--> IDLE
  *
  * The motor moves only after `arm` and then `start`. One table has every pair of state and event. Further conditions of
  * an event (supply in range, rig at rest) are tested in rig.c; their refusals are listed here. */
@@ -16,20 +16,20 @@ extern "C" {
 
 /* The states: X(name, words) */
 #define WH_RIG_STATE_ROWS(X) \
-    X(WH_RIG_IDLE, "idle")         /* motor off; the rotor is watched */ \
-    X(WH_RIG_ARMED, "armed")       /* motor off; `start` is allowed, for a minute */ \
+    X(WH_RIG_IDLE, "idle")         /* motor off; the guard checks the rotor */ \
+    X(WH_RIG_ARMED, "armed")       /* motor off; `start` is allowed for a minute */ \
     X(WH_RIG_RUNNING, "running")   /* a test run: phases.h has its phases */ \
-    X(WH_RIG_STOPPING, "stopping") /* slowing down, or motor off, until the rotor rests */ \
+    X(WH_RIG_STOPPING, "stopping") /* slowing down, or motor off and the rotor not yet at rest */ \
     X(WH_RIG_TRIPPED, "tripped")   /* motor off; latched until `clear` */
 
-/* X(name, words): first the orders from outside, then the rig's own events. */
+/* X(name, words). The orders from outside come first, then the rig's own events. */
 #define WH_EVENT_ROWS(X) \
     X(WH_EVENT_ARM, "arm") \
     X(WH_EVENT_START, "start")         /* value: set-point, rad/s */ \
     X(WH_EVENT_SET, "set")             /* value: another set-point, rad/s */ \
     X(WH_EVENT_STOP, "stop")           /* motor off at once */ \
-    X(WH_EVENT_CLEAR, "clear")         /* the trip is understood and its cause removed */ \
-    X(WH_EVENT_HOST_LOST, "host lost") /* the giver of orders is gone: handled as configured */ \
+    X(WH_EVENT_CLEAR, "clear")         /* the user has removed the trip's cause */ \
+    X(WH_EVENT_HOST_LOST, "host lost") /* the sender of orders is gone: stop if so configured */ \
     X(WH_EVENT_DONE, "done")           /* the run is complete */ \
     X(WH_EVENT_RESTED, "rested")       /* the rotor rests */ \
     X(WH_EVENT_EXPIRED, "expired")     /* armed for too long */ \
@@ -57,13 +57,13 @@ extern "C" {
     X(WH_REFUSED_QUEUE, 16, "too many orders at once") \
     X(WH_REFUSED_EVENT, 17, "there is no such order")
 
-/* How the last run ended: X(name, words). Reset at the next start. */
+/* The way in which the last run ended: X(name, words). Reset at the next start. */
 #define WH_END_ROWS(X) \
     X(WH_END_NONE, "none") /* no run since the reset, or it is in progress */ \
     X(WH_END_DONE, "done") /* the record is measured */ \
     X(WH_END_STOP_INPUT, "stop input") \
     X(WH_END_DRIVE_FAULT, "drive fault") \
-    X(WH_END_STOP_OR_FAULT, "stop input or drive fault") /* they share a line */ \
+    X(WH_END_STOP_OR_FAULT, "stop input or drive fault") /* both share a line */ \
     X(WH_END_STOP, "stop command") \
     X(WH_END_HOST_LOST, "host lost") \
     X(WH_END_TRIP, "trip")
@@ -89,10 +89,10 @@ typedef struct wh_rig_transition {
 #define wh_refusal_text WH_NAME(wh_refusal_text)
 #define wh_rig_end_text WH_NAME(wh_rig_end_text)
 
-/* Look up the table. An unknown event or state is refused. */
+/* Look up the table. An unknown event or state gives a refusal. */
 wh_rig_transition wh_rig_transition_of(wh_rig_state state, wh_rig_event event);
 
-/* The words for consoles, for wh_text_add(). */
+/* Return the words for consoles, by wh_text_add(). */
 const char *wh_rig_state_text(wh_rig_state state);
 const char *wh_rig_event_text(wh_rig_event event);
 const char *wh_refusal_text(wh_refusal refusal);

@@ -8,13 +8,13 @@
 /* Largest E for which the series is valid: above it the rotor hardly gets over the top. */
 #define SWING_MOST WH_R(0.35)
 
-/* Least derivative of the quadrature ratio with respect to E for an estimate. */
+/* Least derivative of the quadrature ratio with respect to E at which E is estimated. */
 #define SLOPE_LEAST WH_R(0.15)
 
-/* The first quadrature ratios correct an inertia with a large error, by Newton's method; later ones are averaged. */
+/* The first quadrature ratios correct a large error of the inertia by Newton's method. Later ratios are averaged. */
 #define RATIOS_TO_FIND 3U
 
-/* Limits value to -most ... most; NaN gives most. */
+/* Limits value to -most ... most. If value is NaN, returns most. */
 static wh_real within(wh_real value, wh_real most) {
     return value < most ? value > -most ? value : -most : most;
 }
@@ -23,7 +23,7 @@ static wh_real small_arc(wh_real sine) {
     return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
 }
 
-/* The ripple's addition to base + phi at the angle u, given the sine and cosine of u. */
+/* Returns the ripple's addition to base + phi at the angle u, from the sine and cosine of u. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
     return angle->ripple_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
            angle->second_cosine * (WH_R(2.0) * u.cosine * u.cosine - WH_R(1.0));
@@ -44,7 +44,7 @@ void wh_turn_angle_compensate(wh_turn_angle *angle, bool fed, wh_real stall_Nm_p
     }
 }
 
-/* The term of twice the angle, for a carriage that moves. */
+/* Adds the term of twice the angle, for a carriage that moves. */
 static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real yields = config->yields_kgm2;
     const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;
@@ -63,9 +63,9 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
-/* If a motor cannot brake as much as commanded, a part of gravity's torque remains: S g (-sin(theta - gamma) - k) where
- * that is positive. Its Fourier series has a term of twice the angle. k is the standstill torque at the drive's own
- * voltage, divided by S g. */
+/* Adds the effect of a motor that cannot brake as much as commanded. A part of gravity's torque then remains: S g
+ * (-sin(theta - gamma) - k), if that is positive. k is the standstill torque at the drive's own voltage, divided by S
+ * g. The Fourier series of the remaining part has a term of twice the angle. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->drive_V * angle->stall_Nm_per_V;
@@ -95,7 +95,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
     angle->ripple_rad = within(angle->part * angle->whole_rad, SWING_MOST);
     const wh_real sine = config->damping_Nms / sum;
     const wh_real square = sine * sine;
-    /* the arc sine: error up to 1e-4 below 0.5 */
+    /* The arc sine by a series; below 0.5 its error is at most 1e-4. */
     angle->lag_rad =
         sine *
         (WH_R(1.0) + square * (WH_R(0.16666667) + square * (WH_R(0.075) + square * WH_R(0.0446))));
@@ -108,7 +108,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
 }
 
 WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
-    /* base plus the ripple's addition at the begin of the turn is the pulse's angle; u is then base + psi - gamma */
+    /* At the begin of the turn, base plus the ripple's addition is the pulse's angle; u is then base + psi - gamma. */
     const wh_real begins = config->pulse_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
         const wh_wave u = wh_wave_of(angle->begin_rad);
@@ -140,7 +140,7 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
 }
 #endif
 
-/* Computes the quadrature ratio from the sines and cosines of u at the begin of the turn and at sensor 2's pulse. */
+/* Returns the quadrature ratio, from the sines and cosines of u at the begin of the turn and at sensor 2's pulse. */
 WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
                            wh_wave from, wh_wave to) {
     const wh_real off = config->pulse_rad[1] - (angle->base_rad + passed + added(angle, to));
@@ -152,14 +152,14 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real cosine2 = WH_R(1.0) - sine * sine;
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
-    /* derivative with respect to E, including that of psi, which depends on the inertia: d psi = tan psi dE / E */
+    /* The derivative with respect to E includes that of psi, which depends on the inertia: d psi = tan psi dE / E. */
     const wh_real lag_per_swing = angle->fed ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real ratio_per_ripple = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(ratio_per_ripple) > SLOPE_LEAST)) {
-        /* For a rotor that is too light, psi reverses the ratio's dependence on the inertia: Newton's method converges
-         * if it starts from a heavier rotor. With gravity along a diagonal, the ratio does not depend on the rotor. */
+        /* If the rotor is light, psi reverses the ratio's dependence on the inertia. Newton's method then converges if
+         * it starts from a heavier rotor. If gravity acts along a diagonal, the ratio does not depend on the rotor. */
         if (!angle->fed && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }
@@ -178,7 +178,7 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
             WH_R(1.0));
         return off;
     }
-    /* d ln E / d ln I = -cos^2 psi; the change is limited to a factor of two, whatever the pulse */
+    /* d ln E / d ln I = -cos^2 psi. One pulse changes the inertia by at most a factor of two. */
     const wh_real change = within(-off / (ratio_per_ripple * swing * cosine2), WH_R(0.5));
     angle->inertia_kgm2 *= WH_R(1.0) + change / (wh_real)turns_averaged;
     return off;

@@ -38,7 +38,7 @@ extern "C" {
 #endif
 
 /* 1 on a chip whose float product takes 200 cycles. A control step then does one half node of a turn's sums, and work
- * that is one piece elsewhere is spread over several steps without a sample. The results are the same. */
+ * that other chips do in one piece is spread over several steps without a sample. The results are the same. */
 #ifndef WH_RIG_SMALL_PIECES
 #define WH_RIG_SMALL_PIECES 0
 #endif
@@ -49,7 +49,7 @@ typedef struct wh_rotor_config {
     wh_real gravity_rad;       /* gamma: the angle theta at which the arms hang */
     wh_real damping_Nms;       /* c */
     wh_real damping_tolerance; /* relative error of c, at 95 % */
-    /* error of the angle that the gravity compensation uses, rad, at 95 % */
+    /* Error of the angle that the gravity compensation uses, rad, at 95 %. */
     wh_real compensation_tolerance_rad;
     wh_real inertia_kgm2;     /* inertia before the first estimate */
     wh_real pulse_rad[2];     /* angle theta of the arms at a pulse of each sensor */
@@ -57,19 +57,19 @@ typedef struct wh_rotor_config {
     wh_real yields_tolerance; /* relative error of D or I, at 95 % */
 } wh_rotor_config;
 
-#define WH_TURN_ANGLE_PATIENCE 32U /* turns over which the inertia is averaged */
+#define WH_TURN_ANGLE_PATIENCE 32U /* number of turns over which the inertia is averaged */
 
 typedef struct wh_turn_angle {
     wh_real inertia_kgm2; /* present estimate of the inertia */
     bool fed;
-    /* with gravity compensation: the motor's torque per volt at standstill */
+    /* With gravity compensation: the motor's torque at standstill per volt. */
     wh_real stall_Nm_per_V;
-    /* the drive's voltage without the compensation; the caller updates it */
+    /* The drive's voltage without the compensation; the caller updates it. */
     wh_real drive_V;
     wh_real part;      /* estimated part of gravity that remains: 1 without compensation */
-    uint32_t ratios;   /* number of turns in the estimate of inertia or part */
-    wh_real whole_rad; /* E of the whole gravity, without compensation */
-    /* part of S g that the compensation cannot remove, because the motor's voltage cannot go below 0 */
+    uint32_t ratios;   /* number of turns in the estimate of the inertia or of `part` */
+    wh_real whole_rad; /* E if gravity is not compensated */
+    /* Part of S g that the compensation cannot remove, because the motor's voltage cannot go below 0. */
     wh_real cut;
     wh_real ripple_rad; /* E: ripple of the angle, rad */
     wh_real lag_rad;    /* psi */
@@ -78,11 +78,12 @@ typedef struct wh_turn_angle {
     wh_real twice_rad;   /* A, rad */
     wh_real second_sine; /* coefficients of sin 2u and cos 2u */
     wh_real second_cosine;
-    /* derivative of base_rad with respect to the quadrature ratio, psi included */
+    /* Derivative of base_rad with respect to the quadrature ratio, including its effect on psi. */
     wh_real base_per_ratio;
-    /* derivative of base_rad with respect to psi at a fixed quadrature ratio */
+    /* Derivative of base_rad with respect to psi, at a fixed quadrature ratio. */
     wh_real base_per_lag;
-    /* derivative with respect to a ripple a quarter turn after E, which the estimate from the ratio takes for E */
+    /* Derivative of base_rad with respect to a ripple that comes a quarter turn after that of E. The estimate from the
+     * quadrature ratio cannot distinguish it from E. */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
     wh_wave at_begin; /* sine and cosine of u at the begin of the turn and at sensor 2's pulse */
@@ -99,11 +100,10 @@ typedef struct wh_turn_angle {
 #define wh_turn_angle_ratio_rest WH_NAME(wh_turn_angle_ratio_rest)
 #define wh_turn_angle_at WH_NAME(wh_turn_angle_at)
 
-/* Forget the estimates. */
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
 /* Switches gravity compensation on or off in the model. After a change, gravity's remaining part is estimated again,
- * and the inertia stays. stall_Nm_per_V > 0: the motor's torque at standstill per volt. */
+ * and the inertia stays. stall_Nm_per_V > 0 is the motor's torque at standstill per volt. */
 void wh_turn_angle_compensate(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V);
 
 /* Computes the angle's shape at a mean speed > 0, with the present estimate of the inertia. The work is bounded: each
@@ -111,25 +111,25 @@ void wh_turn_angle_compensate(wh_turn_angle *angle, bool fed, wh_real stall_Nm_p
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps);
 
 #if WH_RIG_SMALL_PIECES
-/* wh_turn_angle_shape() in pieces. Call each once, in order: 0 to WH_TURN_ANGLE_SHAPES - 1. */
+/* wh_turn_angle_shape() in pieces. Call each piece once, in order: 0 to WH_TURN_ANGLE_SHAPES - 1. */
 #define WH_TURN_ANGLE_SHAPES 3U
 void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *angle,
                                wh_real speed_radps, unsigned piece);
 #endif
 
-/* Corrects the inertia, or the remaining part of gravity, from the quadrature ratio `ratio` (0 to 1): sensor 2's pulse
- * came after this part of the turn's time. The shape must be that of this turn's speed. Returns the error of the angle
- * at that pulse, rad. */
+/* Corrects the inertia, or the remaining part of gravity, from the quadrature ratio `ratio` (0 to 1): the part of the
+ * turn's time before sensor 2's pulse. The shape must be that of this turn's speed. Returns the error of the angle at
+ * that pulse, rad. */
 wh_real wh_turn_angle_by_ratio(const wh_rotor_config *config, wh_turn_angle *angle, wh_real ratio);
 
 #if WH_RIG_SMALL_PIECES
-/* wh_turn_angle_by_ratio() in two pieces: first the sines, then the correction. */
+/* wh_turn_angle_by_ratio() in two pieces: the first computes the sines, the second corrects. */
 void wh_turn_angle_ratio_waves(wh_turn_angle *angle, wh_real ratio);
 wh_real wh_turn_angle_ratio_rest(const wh_rotor_config *config, wh_turn_angle *angle,
                                  wh_real ratio);
 #endif
 
-/* theta after the part `part` (0 to 1) of the turn's time. */
+/* Returns theta at the share `part` (0 to 1) of the turn's time. */
 wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part);
 
 #ifdef __cplusplus

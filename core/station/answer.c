@@ -3,9 +3,7 @@
 
 #include <stddef.h>
 
-/* --- answers ----------------------------------------------------------------------------------------- */
-
-/* Adds words with `blank` in place of blanks, so that a list item of several words is one word. */
+/* Adds words with the character `blank` in place of blanks, so that a list item of several words becomes one word. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {
@@ -15,7 +13,7 @@ static void add_words(wh_text *text, const char *words, char blank) {
     }
 }
 
-/* Adds a number with seven significant digits: a float has no more. The text can be typed (line.h reads nine
+/* Adds a number with seven significant digits, because a float has no more. A user can type the text (line.h reads nine
  * digits). */
 static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
@@ -59,8 +57,6 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value) {
         }
     }
 }
-
-/* --- lists ------------------------------------------------------------------------------------------- */
 
 unsigned wh_list_find(const char *list, const char *word) {
     const char part = wh_word_at(list);

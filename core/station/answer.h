@@ -19,20 +19,19 @@ typedef union wh_value {
     uint32_t count;
 } wh_value;
 
-/* All these texts may stay in flash (core/number/flash.h), except the word to search for. */
-
-/* Add a form to the text. An @ and a letter or digit stand for the next value:
+/* Adds a form to the text. All texts here may stay in flash (core/number/flash.h), except the word to search for. An @
+ * and a letter or digit stand for the next value:
  *
- *     @w           a word, to the end of its list item, with _ for blanks
+ *     @w           a word: a list item, with _ in place of blanks
  *     @s           words
  *     @c           a count
  *     @x           a count in eight hexadecimal digits
  *     @g           the word good or bad, for a count of 1 or 0
  *     @0 ... @9    a number with this many decimals
- *     @e           a number to the seventh digit, as it can be typed, without trailing zeros */
+ *     @e           a number with seven digits, without trailing zeros; a user can type it */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
-/* A list begins with the character that separates its items and that no item contains: "|" "off" "|" "on". */
+/* A list begins with its separator, a character that no item contains: "|" "off" "|" "on". */
 
 #define WH_LIST_OFF_ON \
     "|" \
@@ -40,10 +39,10 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value);
     "|" \
     "on"
 
-/* The word's index in the list, from 0; the number of items if it is not there. */
+/* Returns the word's index in the list, from 0; or the number of items if the word is not in the list. */
 unsigned wh_list_find(const char *list, const char *word);
 
-/* The item with this index, which the list must have. */
+/* Returns the item with this index. The index must be below the number of items. */
 const char *wh_list_item(const char *list, unsigned number);
 
 #ifdef __cplusplus

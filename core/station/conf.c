@@ -14,7 +14,7 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 #undef UNIT
 #define DEG per_unit[WH_CONF_DEG]
 
-/* Constants are in flash with the strings, if those stay there. */
+/* If constant strings stay in flash, so do these tables. */
 #if defined(WH_WORDS_FROM)
 #define ROWS_KEPT WH_FLASH
 #else
@@ -27,7 +27,8 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
-/* Least damping, as a share of the slope of the motor's torque line: a measured damping may be too small. */
+/* Least damping, as a share of the slope of the motor's torque line. It is below 1, because a measured damping may be
+ * too small. */
 #define LINE_PART WH_R(0.9)
 
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
@@ -66,7 +67,7 @@ const char *wh_conf_unit_text(wh_conf_id id) {
 #undef WORD
 }
 
-/* The words of a setting, as a list: a choice's values, or one word. */
+/* Returns the words of a setting as a list: the values of a choice, or one word. */
 static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
@@ -80,12 +81,13 @@ const char *wh_conf_kind_text(wh_conf_id id) { return choices(id) + 1; }
 
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
-/* The number of the setting's units in one unit of the configuration. */
+/* Returns the number of the setting's units in one unit of the configuration. */
 static wh_real units(const wh_conf_row *row) {
     return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
 
-/* The type of a row's member follows from its kind; all except reals are whole numbers. */
+/* The type of a setting's member in the configuration follows from the setting's kind; all members except reals are
+ * whole numbers. */
 static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     const wh_conf_row *row = ROW(id);
     const void *member = (const uint8_t *)c + row->place;
@@ -115,7 +117,7 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
 
 /* --- range of a setting ---------------------------------------------------------------------------------------- */
 
-/* The value as memory stores it. */
+/* Returns the value as permanent memory stores it. */
 static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
 
 /* True if the value selects a feature that this build omits. */
@@ -124,7 +126,7 @@ static bool is_absent(wh_conf_id id, wh_real value) {
            ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
 }
 
-/* Is this value possible for this setting? */
+/* Returns the error of this value for this setting, or 0. */
 static wh_station_error fits(wh_conf_id id, wh_real value) {
     const wh_conf_row *row = ROW(id);
     const wh_real kept = as_kept(value);
@@ -137,7 +139,7 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
 
 /* --- into the rig's configuration --------------------------------------------------------------------- */
 
-/* Scales the settings that depend on gravity and on the masses' force: docs/rig.md has the reasons. */
+/* Scales the settings that depend on gravity and on the masses' force (docs/dev/rig.md). */
 static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     const wh_real moment = conf->value[WH_CONF_mass_moment];
     const wh_real moments = moment / conf->standard[WH_CONF_mass_moment];
@@ -164,8 +166,6 @@ static void put_cell(const wh_conf *conf, wh_rig_config *c) {
     const wh_real scale = conf->value[WH_CONF_cell_scale] / per_unit[WH_CONF_MILLINEWTON];
     c->measure.cell.newton_per_count = is_on(conf->value[WH_CONF_cell_reversed]) ? -scale : scale;
 }
-
-/* --- the motor ------------------------------------------------------------------------------------------- */
 
 static bool has_motor(const wh_conf *conf) {
     return conf->given[WH_CONF_no_load_speed] || conf->given[WH_CONF_rated_voltage] ||
@@ -204,8 +204,8 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* True if the motor can lift the arms and reaches the largest set-point at its rated voltage. That voltage must be in
- * the supply's range, and the damping at least LINE_PART of the slope of the motor's torque line. */
+/* True if the motor can lift the arms and reaches the largest set-point at its rated voltage. This voltage must be in
+ * the supply's range, and the damping must be at least LINE_PART of the slope of the motor's torque line. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;
@@ -224,7 +224,7 @@ static bool motor_goes(const wh_conf *conf) {
            value[WH_CONF_damping] >= LINE_PART * line_Nms;
 }
 
-/* A hash of the settings. A change of one setting always changes the hash. */
+/* Returns a hash of the settings. A change of one setting always changes the hash. */
 static uint32_t hash(const wh_conf *conf) {
     uint32_t crc = 0;
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
@@ -245,7 +245,7 @@ static bool go_together(const wh_conf *conf) {
 }
 
 /* Computes the configuration from the settings. Returns false if the settings contradict each other: the caller must
- * then restore consistent ones and call this again. */
+ * then restore consistent settings and call this function again. */
 static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
@@ -346,7 +346,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-/* Gives each setting that changes several members the value of the program's own configuration. */
+/* For settings that change several members: sets value[] to the values of the program's own configuration. */
 static void see_several(wh_real *value) {
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];
@@ -393,10 +393,10 @@ wh_station_error wh_conf_save(wh_conf *conf) {
 
 /* === the console's command `conf` ============================================================ */
 
-/* Space in an answer for the text that `conf list` adds after the settings. */
+/* Space that `conf list` needs in an answer after the settings. */
 #define LIST_TAIL 12U
 
-/* Adds " name=value", with a choice's value in words. */
+/* Adds " name=value"; the value of a choice is a word. */
 static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real number) {
     const char *choice = wh_conf_text(id, number);
     wh_value value[] = {{.word = name}, {.number = number}};

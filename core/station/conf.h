@@ -1,9 +1,9 @@
 /* conf.h: the rig's settings as named numbers. One table (conf_rows.h) gives their ranges, their places in the rig's
  * configuration and their numbers in permanent memory.
  *
- * A setting that the user has not set has the value of the program's own configuration, with the same bits. Only the
- * settings that were set are stored, with their numbers. So another version of the program reads the settings that it
- * knows, and takes its own values for the others. */
+ * A setting that the user has not set has exactly the value of the program's own configuration. Only the settings that
+ * the user has set are stored, with their numbers. So another version of the program reads the settings that it knows,
+ * and takes its own values for the others. */
 #ifndef WH_STATION_CONF_H
 #define WH_STATION_CONF_H
 
@@ -27,7 +27,7 @@ typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_c
 typedef enum wh_conf_kind { WH_CONF_KIND_ROWS(WH_CONF_NAME) WH_CONF_KINDS } wh_conf_kind;
 #undef WH_CONF_NAME
 
-/* Which part of the configuration a setting changes, alone or together with others. */
+/* The part of the configuration that a setting changes, alone or together with other settings. */
 typedef enum wh_conf_goes {
     WH_CONF_ALONE,
     WH_CONF_ROTOR,
@@ -46,14 +46,15 @@ typedef struct wh_conf_row {
 } wh_conf_row;
 
 typedef struct wh_conf {
-    /* Fills in the program's own configuration, whose settings are consistent. */
+    /* Fills in the program's own configuration. Its settings are consistent. */
     void (*own)(wh_rig_config *config);
     const wh_store_memory *memory; /* NULL: settings are not saved */
     wh_rig_config *config;         /* the rig's configuration, updated with each change */
     wh_real value[WH_CONF_COUNT];
     wh_real standard[WH_CONF_COUNT]; /* values of settings that are not set */
-    bool given[WH_CONF_COUNT];       /* set by the user, even to its default */
-    uint32_t sequence;               /* sequence of the record last loaded or saved; 0: none */
+    bool given[WH_CONF_COUNT];       /* true if the user has set it, even to its default */
+    /* sequence number of the record that was loaded or saved last; 0: none */
+    uint32_t sequence;
 } wh_conf;
 
 #define wh_conf_start WH_NAME(wh_conf_start)
@@ -70,34 +71,36 @@ typedef struct wh_conf {
 #define wh_conf_text WH_NAME(wh_conf_text)
 
 /* Set *config to the program's own configuration, with the saved settings. Saved settings that do not fit this program
- * are left out: an unknown number, a value outside its range, settings that contradict each other. */
+ * are ignored: an unknown number, a value outside its range, settings that contradict each other. */
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config);
 
-/* The row of a setting. *room is memory for the row if constants stay in flash (core/number/flash.h). */
+/* Returns the row of a setting. If constants stay in flash (core/number/flash.h), the row is copied to *room. */
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
-/* The setting with this name, or WH_CONF_COUNT. */
+/* Returns the setting with this name, or WH_CONF_COUNT. */
 wh_conf_id wh_conf_find(const char *name);
 
-/* The setting's name; its values and its unit in words, as items of lists (answer.h); and its description. */
+/* Return the setting's name; the words for its values, and its unit, as items of lists (answer.h); and its
+ * description. */
 const char *wh_conf_name(wh_conf_id id);
 const char *wh_conf_kind_text(wh_conf_id id);
 const char *wh_conf_unit_text(wh_conf_id id);
 const char *wh_conf_words(wh_conf_id id);
 
-/* Set a setting: to a value in its unit (for a choice its number), or from typed text. Updates the configuration,
- * unless the value is refused. Call it only while the rig is idle. */
+/* Set a setting to a value in its unit (for a choice: the value's number); the next function sets it from typed text.
+ * Updates the configuration, unless the value is refused. Call it only while the rig is idle. */
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
 wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 
-/* Reset all settings to their defaults. The settings in memory stay. */
+/* Reset all settings to their defaults. The settings in permanent memory stay. */
 void wh_conf_default(wh_conf *conf);
 
-/* Save to memory. Takes as long as the memory needs (hal/settings.h). */
+/* Save to permanent memory. The call takes as long as the memory needs (hal/settings.h). */
 wh_station_error wh_conf_save(wh_conf *conf);
 
-/* The word for a value of a choice, from a list (answer.h); NULL for a number. */
+/* Returns the word for a value of a choice, as an item of a list (answer.h). Returns NULL for a setting that is a
+ * number. */
 const char *wh_conf_text(wh_conf_id id, wh_real value);
 
 /* === the console's command `conf` ============================================================ */
@@ -105,7 +108,7 @@ const char *wh_conf_text(wh_conf_id id, wh_real value);
 #define wh_conf_answer WH_NAME(wh_conf_answer)
 
 /* Executes `conf` with the words after it. Writes the answer into *answer, which must be empty, or returns the error.
- * `idle`: settings may change. */
+ * `idle` is true if settings may change. */
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer);
 
 #ifdef __cplusplus

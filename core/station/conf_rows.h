@@ -1,11 +1,10 @@
-/* conf_rows.h: the settings of a rig, one row each.
- * X(name, number, kind, unit, least, most, goes, member, words). The name is typed, and never changes. The number is
- * stored, never changes, and is never given to another setting. The range is in the unit. `goes` is the setting's effect on the
- * configuration (conf.c), `member` its place in wh_rig_config. */
+/* conf_rows.h: the settings of a rig, one row each: X(name, number, kind, unit, least, most, goes, member, words). The
+ * user types the name; the number is stored. Both never change, and no other setting ever gets the number. The range is
+ * in the unit. `goes` is the setting's effect on the configuration (conf.c), `member` its place in wh_rig_config. */
 #ifndef WH_STATION_CONF_ROWS_H
 #define WH_STATION_CONF_ROWS_H
 
-/* X(kind, words): the values of a choice are numbered from 0. */
+/* X(kind, words). The values of a choice are numbered from 0, in the order of the words. */
 #define WH_CONF_KIND_ROWS(X) \
     X(WH_CONF_REAL, "|" \
                     "real") \
@@ -19,8 +18,8 @@
                      "|" \
                      "always")
 
-/* X(unit, word, number). First the units that need a conversion: `number` of them are one unit of the configuration.
- * Then the units of the configuration itself. */
+/* X(unit, word, number). First come the units that need a conversion: one unit of the configuration has `number` of
+ * them. Then come the units of the configuration itself. */
 #define WH_CONF_SCALED_ROWS(X) \
     X(DEG, "deg", 57.29577951308232) \
     X(RPM, "rpm", 9.549296585513721) \

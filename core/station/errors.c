@@ -4,7 +4,7 @@
 #include "answer.h"
 #include "core/rig/state_machine.h"
 
-/* The indices of the rows, so that the words are found by row. */
+/* Indices of the rows: a reason's words are the item with this index. */
 #define WH_STATION_ROW(name, number, words) ROW_##name,
 enum { WH_STATION_ERROR_ROWS(WH_STATION_ROW) ROWS };
 #undef WH_STATION_ROW

@@ -8,7 +8,8 @@
 extern "C" {
 #endif
 
-/* Reasons other than the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). Numbers never change. */
+/* Reasons other than the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). The numbers never
+ * change. */
 #define WH_STATION_ERROR_ROWS(X) \
     X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
     X(WH_STATION_LINE, 101, "the line is too long, or has an invalid character") \
@@ -43,7 +44,7 @@ typedef enum wh_station_error {
 
 #define wh_answer_refused WH_NAME(wh_answer_refused)
 
-/* Replace the answer by "ERR why words", from a wh_station_error or a wh_refusal. */
+/* Replace the answer by "ERR why words". `why` is a wh_station_error or a wh_refusal. */
 void wh_answer_refused(wh_text *answer, unsigned why);
 
 #ifdef __cplusplus

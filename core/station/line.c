@@ -11,7 +11,7 @@ static void forget(wh_line *line) {
     line->ended = false;
 }
 
-/* An arrow key sends Escape, [ or O, and more up to a letter: these bytes must not begin the next line. */
+/* An arrow key sends Escape, [ or O, and more bytes up to a letter. These bytes must not begin the next line. */
 static bool belongs_to_key(wh_line *line, unsigned char byte) {
     const unsigned key = line->key;
     line->key = NO_KEY;
@@ -67,7 +67,7 @@ wh_line_event wh_line_take(wh_line *line, char character) {
 static bool is_blank(char character) { return character == ' ' || character == TAB; }
 
 void wh_line_split(wh_words *words, char *text) {
-    static const char none[] = ""; /* in RAM, as the typed words are */
+    static const char none[] = ""; /* in RAM, because the typed words are, too */
     bool within = false;
     for (unsigned i = 0; i < WH_LINE_WORDS; i++) {
         words->word[i] = none;

@@ -8,22 +8,22 @@
 extern "C" {
 #endif
 
-#define WH_LINE_MOST 79U /* characters of a line */
-#define WH_LINE_WORDS 4U /* most words that are stored; further words are only counted */
+#define WH_LINE_MOST 79U /* maximum number of characters in a line */
+#define WH_LINE_WORDS 4U /* maximum number of stored words; further words are only counted */
 
 typedef enum wh_line_event {
     WH_LINE_NOTHING,
     WH_LINE_WHOLE, /* in line->text until the next line begins */
     WH_LINE_BAD,   /* too long, or with an invalid character: dropped */
-    WH_LINE_ESCAPE /* the Escape key; typed characters are dropped */
+    WH_LINE_ESCAPE /* the Escape key: the characters typed so far are dropped */
 } wh_line_event;
 
-/* The state of the line editor. All zeros: nothing typed. */
+/* The state of the line editor. Initially all zeros. */
 typedef struct wh_line {
     bool ended;    /* the next byte begins a line */
-    bool returned; /* the last byte was a carriage return: a line feed then does not count */
+    bool returned; /* the last byte was a carriage return: ignore a line feed */
     bool bad;
-    uint8_t key; /* position in the byte sequence of a special key, which begins with Escape */
+    uint8_t key; /* number of bytes so far of a special key, which begins with Escape */
     unsigned length;
     char text[WH_LINE_MOST + 1U];
 } wh_line;
@@ -37,13 +37,15 @@ typedef struct wh_words {
 #define wh_line_split WH_NAME(wh_line_split)
 #define wh_line_number WH_NAME(wh_line_number)
 
-/* Process a byte. Lines end with carriage return, line feed or both; backspace and delete remove the last character. */
+/* Process a byte. A line ends with carriage return, line feed or both. Backspace and delete remove the last
+ * character. */
 wh_line_event wh_line_take(wh_line *line, char byte);
 
-/* Split a line at blanks and tabulators. Writes a NUL after each word into the text. */
+/* Split a line at blanks and tabs. Writes a NUL after each word into the text. */
 void wh_line_split(wh_words *words, char *text);
 
-/* Convert "330", "-3.5", ".5": a sign, digits, a point, digits; at most nine digits. Returns false for other text. */
+/* Convert a number such as "330", "-3.5" or ".5": a sign, digits, a point, digits; at most nine digits. Returns false
+ * for other text. */
 bool wh_line_number(const char *word, wh_real *number);
 
 #ifdef __cplusplus

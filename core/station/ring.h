@@ -1,5 +1,5 @@
-/* ring.h: a FIFO of bytes between a console, which sends them one by one, and a program that must not wait for the
- * console. One writer, one reader, in one context. */
+/* ring.h: a FIFO of bytes between a console, which sends bytes one by one, and a program that must not wait for the
+ * console. It has one writer and one reader, both in the same context. */
 #ifndef WH_STATION_RING_H
 #define WH_STATION_RING_H
 
@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 typedef struct wh_ring {
-    uint32_t put; /* number of bytes put and taken so far, wrapping; put - taken bytes wait */
+    uint32_t put; /* numbers of bytes put and taken so far; put - taken bytes wait */
     uint32_t taken;
     uint32_t size; /* a power of two */
     char *bytes;   /* memory of the caller */
@@ -25,10 +25,10 @@ static inline uint32_t wh_ring_room(const wh_ring *ring) {
 #define wh_ring_peek WH_NAME(wh_ring_peek)
 #define wh_ring_drop WH_NAME(wh_ring_drop)
 
-/* Put all bytes, or, without room for all, none: half a line is useless. */
+/* Put all bytes, or none if there is no room for all: half a line is useless. Returns true if they were put. */
 bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count);
 
-/* Read the oldest bytes, at most `room`; returns their number. They stay until wh_ring_drop(). */
+/* Copy the oldest bytes, at most `room`, and return their number. The bytes stay until wh_ring_drop(). */
 uint32_t wh_ring_peek(const wh_ring *ring, char *bytes, uint32_t room);
 void wh_ring_drop(wh_ring *ring, uint32_t count);
 

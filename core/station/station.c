@@ -12,7 +12,7 @@
 #define END_BYTES 2U /* "\r\n" */
 #define ESCAPE_KEY '\x1b'
 #define HOST_MOST_S WH_R(3600.0)
-/* version of the protocol, in the answer to `id`: a program at the other end recognizes the console by it */
+/* Version of the protocol, in the answer to `id`. A program at the other end recognizes the console by it. */
 #define DIALOGUE 1U
 
 typedef struct request {
@@ -20,13 +20,11 @@ typedef struct request {
     wh_rig *rig;
     unsigned stage; /* the rig's stage */
     wh_words words;
-    wh_text answer; /* "OK" at first */
+    wh_text answer; /* initially "OK" */
     char bytes[ANSWER_BYTES];
 } request;
 
-/* --- lines out ------------------------------------------------------------------------------------ */
-
-/* Sends the answer and clears it. An answer that is too long is cut, so that its line has an end. */
+/* Sends the answer and clears it. An answer that is too long is cut, but its line still has an end. */
 static void send(request *r) {
     wh_text *text = &r->answer;
     text->size += END_BYTES;
@@ -39,7 +37,7 @@ static void send(request *r) {
     text->truncated = false;
 }
 
-/* Sends the answer, or the refusal `why`: 0, a wh_refusal or a wh_station_error. */
+/* Sends the answer if `why` is 0; otherwise the refusal `why`, a wh_refusal or a wh_station_error. */
 static void send_answer(request *r, unsigned why) {
     if (why != 0) {
         wh_answer_refused(&r->answer, why);
@@ -51,11 +49,8 @@ static void send_answer(request *r, unsigned why) {
     send(r);
 }
 
-/* --- commands -------------------------------------------------------------------------------------- */
-
-/* Each function of a command returns the reason for its refusal, or 0. */
-
-/* Posts an order. The answer follows when the rig has one. */
+/* Posts an order; the console answers later, when the rig has answered. Like the function of every command, it returns
+ * the reason for a refusal, or 0. */
 static unsigned order(request *r, wh_rig_event event, wh_real value) {
     r->station->answers = r->rig->answers;
     r->station->waits = wh_rig_post(r->rig, event, value);
@@ -83,8 +78,8 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* The time of the last step. Without wh_station_see() it is unknown: the ages in answers then end at the last step with
- * the motor off. */
+/* Returns the time of the last step. Without wh_station_see() the time is unknown: the ages in answers then end at the
+ * last step with the motor off. */
 static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
@@ -94,7 +89,8 @@ static bool is_outdated(const request *r) {
     return r->station->conf != NULL && r->rig->settings != r->station->conf->config->settings;
 }
 
-/* The quality and reason of the result, which are valid for the settings at its measurement. */
+/* Returns the result's quality and reason in words. They are valid for the settings with which the result was
+ * measured. */
 static const char *verdict(const request *r) {
     return !r->rig->has_result ? "none"
            : is_outdated(r)    ? "outdated"
@@ -245,8 +241,8 @@ typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
 #undef COMMAND
 
-/* A switch instead of function pointers: the stack analysis would report recursion, because some functions call through
- * pointers themselves (settings). */
+/* Executes a command. A switch replaces function pointers: some commands call through pointers themselves (settings),
+ * and the stack analysis would report recursion. */
 static unsigned run(request *r) {
 #define COMMAND(name, most, follows, words) 1U + (most),
     static const uint8_t words_most[] = {WH_COMMAND_ROWS(COMMAND)};
@@ -284,11 +280,9 @@ static unsigned do_help(request *r) {
     return 0;
 }
 
-/* --- lines in ------------------------------------------------------------------------------------- */
-
 static unsigned typed(const wh_line *line) { return line->ended ? 0 : line->length; }
 
-/* The next line of the received bytes, if it is complete. */
+/* Takes the next line from the received bytes, if it is complete. */
 static wh_line_event next_line(wh_station *station) {
     char byte;
     while (wh_ring_peek(&station->in, &byte, 1) == 1U) {
@@ -317,7 +311,7 @@ static void tell_stage(request *r) {
     send(r);
 }
 
-/* True in the step in which the host has been silent for too long: the rig is informed only once. */
+/* True in the step in which the host has been silent for too long. The rig is informed only once. */
 static bool host_is_lost(wh_station *station, wh_rig *rig) {
     const uint32_t host_steps = station->host_told ? station->host_steps
                                 : station->config != NULL
@@ -350,7 +344,8 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
     }
 }
 
-/* A lost byte could change "start 330" to "start 30". So a line with a lost byte is replaced by one that is refused. */
+/* Takes a byte. A lost byte could change "start 330" to "start 30". So a line with a lost byte is replaced by a line
+ * that is refused. */
 static void take_byte(wh_station *station, char byte) {
     static const char spoilt[] = {'\1', '\n'};
     if (byte == ESCAPE_KEY) {
@@ -368,7 +363,7 @@ static void take_byte(wh_station *station, char byte) {
 
 void wh_station_take(wh_station *station, const char *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
-        /* a zero is noise, not a byte from a host */
+        /* A zero byte is noise and does not come from a host. */
         station->silent_steps = bytes[i] != 0 ? 0 : station->silent_steps;
         take_byte(station, bytes[i]);
     }
@@ -395,7 +390,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
-        return; /* the next answer belongs to the order: at most one order waits */
+        return; /* the rig's next answer belongs to the order: at most one order waits */
     }
     wh_text_add(&r.answer, "OK");
     if (station->escaped) {

@@ -1,19 +1,19 @@
-/* station.h: the rig's console: a line in, a line out.
+/* station.h: the rig's console: one line in, one line out.
  *
  *     OK name=value name=value: words         ERR number words
  *
- * For a person at any terminal, and for a program at the other end of a serial line. It never waits: bytes go through
+ * It serves a person at any terminal, or a program at the other end of a serial line. It never waits: bytes go through
  * rings. If the reader is slow and the ring has no room for an answer, the whole answer is dropped and counted.
  *
  *     every control step, after wh_rig_step() and the motor's command:
  *         wh_station_see(&station, &config, &rig, &seen)  for telemetry, if compiled in
  *         wh_station_take(&station, bytes, count)         the received bytes
  *         wh_station_step(&station, &rig)                 at most the work of one line
- *         count = wh_station_peek(&station, bytes, room)  bytes to send: the console takes some,
- *         wh_station_drop(&station, taken)                and those are removed
+ *         count = wh_station_peek(&station, bytes, room)  bytes to send: the console takes some of them
+ *         wh_station_drop(&station, taken)                removes the bytes that the console took
  *
- * wh_rig_post() passes orders to the rig; their outcome is the answer. The Escape key acts as `stop`, before all
- * waiting input. */
+ * wh_rig_post() passes orders to the rig, and the console answers with the rig's answer. The Escape key acts as `stop`,
+ * before all waiting input. */
 #ifndef WH_STATION_STATION_H
 #define WH_STATION_STATION_H
 
@@ -32,7 +32,7 @@ extern "C" {
 /* The argument texts of commands, for their rows below. */
 #define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 
-/* The commands: X(name, most words after it, arguments, words) */
+/* The commands: X(name, maximum number of words after it, arguments, words) */
 #define WH_COMMAND_ROWS(X) \
     X(help, 1, " [COMMAND]", "list the commands, or explain one") \
     X(id, 0, "", "program, board, version of this dialogue") \
@@ -52,12 +52,12 @@ extern "C" {
       "the setting host, until a reset: a run ends after this time without a byte") \
     X(talk, 1, " on|off", "echo typed characters, report each new state")
 
-/* 0 (possible in a small chip's build): station->tel stays NULL, and no telemetry is linked. */
+/* A small chip's build may set 0: then station->tel stays NULL, and no telemetry is linked. */
 #ifndef WH_STATION_TELEMETRY
 #define WH_STATION_TELEMETRY 1
 #endif
 
-/* Sizes of the rings for received bytes and for bytes to send. Half of the latter is the console's own. */
+/* Sizes of the rings for received bytes and for bytes to send. Telemetry may fill half of the second ring. */
 #ifndef WH_STATION_IN_BYTES
 #define WH_STATION_IN_BYTES 256U
 #endif
@@ -65,13 +65,13 @@ extern "C" {
 #define WH_STATION_OUT_BYTES 1024U
 #endif
 
-/* Must not be moved in memory once started. Large members come last, because instructions for members near the begin
- * are shorter. */
+/* Do not move a started station in memory. Large members come last, because instructions for members near the begin are
+ * shorter. */
 typedef struct wh_station {
     bool talks;
-    bool escaped;        /* Escape was received: stop, before anything else */
-    bool spoils;         /* bytes were lost: the line is invalid to its end */
-    bool waits;          /* the console waits for the outcome of an order */
+    bool escaped;        /* Escape was received: it acts before all waiting bytes */
+    bool spoils;         /* bytes were lost: the rest of the line is invalid, too */
+    bool waits;          /* the console waits for the rig's answer to an order */
     uint32_t answers;    /* rig->answers when the order was given */
     const char *program; /* string of the caller */
     const char *board;
@@ -80,11 +80,12 @@ typedef struct wh_station {
     const wh_rig_config *config; /* configuration of the last step */
     const wh_step_inputs *seen;  /* observations of the last step */
     uint32_t steps_per_s;        /* calls of wh_station_step() per second */
-    unsigned stage;              /* the stage as last reported */
-    uint32_t lost_bytes;         /* received bytes lost for lack of room */
-    uint32_t lost_answers;       /* answers lost for lack of room */
+    unsigned stage;              /* the stage that was reported last */
+    uint32_t lost_bytes;         /* number of received bytes that were lost for lack of room */
+    uint32_t lost_answers;       /* number of answers that were lost for lack of room */
     bool host_told;              /* the command `host` was given: it overrides the setting */
-    uint32_t host_steps;         /* steps without a byte after which the host is lost; 0: never */
+    /* the host is lost after this many steps without a byte; 0: never */
+    uint32_t host_steps;
     uint32_t silent_steps;
     uint32_t host_losses;
     wh_ring in;
@@ -99,16 +100,16 @@ typedef struct wh_station {
 #define wh_station_see WH_NAME(wh_station_see)
 #define wh_station_step WH_NAME(wh_station_step)
 
-/* `steps_per_s`: the rate of wh_station_step(). At first no host is expected, so none can be lost. The caller sets conf
- * and tel afterwards. */
+/* Start. `steps_per_s` is the rate of wh_station_step(). At first no host is expected, so none can be lost. Afterwards
+ * the caller sets conf and tel. */
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 
-/* Take received bytes. Looks for Escape at once. */
+/* Take received bytes. An Escape among them is noticed at once. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
-/* Give telemetry and self-test the last control step's observations, which must stay unchanged until the next step.
- * Telemetry takes none of the console's room. */
+/* Give the last control step's observations to telemetry and self-test. They must stay unchanged until the next
+ * step. */
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_step_inputs *seen);
 
@@ -116,7 +117,7 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
  * the rig gets WH_EVENT_HOST_LOST, once; the rig's configuration decides about the run. */
 void wh_station_step(wh_station *station, wh_rig *rig);
 
-/* Copy the oldest bytes to send, at most `room`. Returns their number. */
+/* Copy the oldest bytes to send, at most `room`, and return their number. */
 static inline unsigned wh_station_peek(const wh_station *station, char *bytes, unsigned room) {
     return (unsigned)wh_ring_peek(&station->out, bytes, room);
 }

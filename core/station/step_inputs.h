@@ -1,4 +1,4 @@
-/* step_inputs.h: a control step's observations, for telemetry and self-test. */
+/* step_inputs.h: the observations of a control step, for telemetry and self-test. */
 #ifndef WH_STATION_STEP_INPUTS_H
 #define WH_STATION_STEP_INPUTS_H
 

@@ -5,7 +5,7 @@
 
 #define FORMAT 0x5701U
 #define HEAD_BYTES WH_STORE_HEAD_BYTES
-#define WITH_ITS_CRC 0x2144DF1CU /* the CRC-32 of any bytes that end in their own CRC */
+#define WITH_ITS_CRC 0x2144DF1CU /* the CRC-32 of any record that ends in its own CRC */
 
 /* Reads a number of four bytes. */
 static uint32_t get(const uint8_t *bytes) {
@@ -19,8 +19,8 @@ static void put(uint8_t *bytes, uint32_t number) {
     bytes[3] = (uint8_t)(number >> 24);
 }
 
-/* Returns the sequence of a slot's record, or 0 if the record is not good; *length gets its length with head and CRC.
- * The slot is read in pieces, because there is no memory for a second record. */
+/* Returns the sequence number of a slot's record, or 0 if the record is not valid. *length gets the record's length
+ * with head and CRC. The slot is read in pieces, because there is no memory for a second record. */
 static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned *length) {
     uint8_t bytes[HEAD_BYTES];
     uint32_t sequence = 0;
@@ -45,7 +45,7 @@ static uint32_t read_slot(const wh_store_memory *memory, unsigned slot, unsigned
     return crc == WITH_ITS_CRC ? sequence : 0;
 }
 
-/* The slot of the newest record; 1 if there is none. */
+/* Returns the slot with the newest record, or 1 if there is none. */
 static unsigned newest(const wh_store_memory *memory, uint32_t *sequence, unsigned *length) {
     unsigned first_length;
     const uint32_t first = read_slot(memory, 0, &first_length);

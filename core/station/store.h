@@ -1,7 +1,7 @@
-/* store.h: bytes that survive a power loss, in two slots, one of which always has the last complete record.
+/* store.h: bytes that survive a power loss, in two slots. One of them always has the last complete record.
  *
- * A record goes into the slot without the newest one, so that a power failure during a write leaves the previous record
- * intact. In a slot, multi-byte numbers are low byte first:
+ * A record goes into the slot that does not have the newest record. So a power failure during a write leaves the
+ * previous record intact. In a slot, multi-byte numbers are low byte first:
  *
  *     format 2 | bytes of the payload 2 | sequence 4 | payload | CRC-32 4
  *
@@ -22,8 +22,8 @@ extern "C" {
 #define WH_STORE_PAYLOAD_MOST 240U
 #define WH_STORE_SLOT_BYTES (WH_STORE_FIXED_BYTES + WH_STORE_PAYLOAD_MOST)
 
-/* Functions that a board supplies (hal/settings.h). Each acts on slot 0 or 1 and returns false if the memory reported a
- * failure. */
+/* Functions that a board supplies (hal/settings.h). Each works on slot 0 or 1. It returns false if the memory reported
+ * a failure. */
 typedef struct wh_store_memory {
     bool (*erase)(unsigned slot);
     bool (*write)(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count);
@@ -33,14 +33,13 @@ typedef struct wh_store_memory {
 #define wh_store_load WH_NAME(wh_store_load)
 #define wh_store_save WH_NAME(wh_store_save)
 
-/* Records are in bytes[WH_STORE_SLOT_BYTES], their payload from WH_STORE_HEAD_BYTES on. */
-
-/* Load the newest record. Returns the length of its payload, or -1 if there is none. *sequence gets the record's
- * sequence, or 0. */
+/* Load the newest record into bytes[WH_STORE_SLOT_BYTES]; its payload begins at WH_STORE_HEAD_BYTES. Returns the length
+ * of the payload, or -1 if there is no record. *sequence gets the record's sequence number, or 0. */
 int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *sequence);
 
-/* Write a record with a payload of `count` bytes, at most WH_STORE_PAYLOAD_MOST; this function adds the other fields.
- * It reads the record back. Returns its sequence number, or 0 if the write failed and the previous record is intact. */
+/* Write a record with a payload of `count` bytes, at most WH_STORE_PAYLOAD_MOST, at bytes[WH_STORE_HEAD_BYTES]. This
+ * function adds the other fields and reads the record back. Returns the sequence number; or 0 if the write failed, and
+ * then the previous record is intact. */
 uint32_t wh_store_save(const wh_store_memory *memory, uint8_t *bytes, unsigned count);
 
 #ifdef __cplusplus

@@ -9,13 +9,14 @@
 #define RUN_BYTES (5U + 2U * WH_TEL_SAMPLES)
 #define EVENT_BYTES 2U
 #define LINE_BYTES_OF(count) (WH_TEL_FIXED_BYTES + (count))
-#define BEFORE 2U /* bytes before a frame on the line: a zero, and the first byte of the code */
+/* number of bytes before a frame on the line: a zero, and the first byte of the code */
+#define BEFORE 2U
 #define TEXT_BYTES 96U
 
 _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "frames are short");
 #define NONE_16 0xFFFFU
 
-/* Where the bytes go, and the rig they describe. */
+/* The ring that gets the bytes, and the rig that they describe. */
 typedef struct sight {
     wh_tel *tel;
     const wh_rig_config *config;
@@ -25,12 +26,10 @@ typedef struct sight {
     unsigned stage;
     uint16_t speed; /* in 1/50 rpm */
     wh_bytes frame; /* the frame in progress */
-    unsigned spare; /* room that stays free for other data */
+    unsigned spare; /* number of bytes in the ring that must stay free for other data */
 } sight;
 
-/* --- numbers ------------------------------------------------------------------------------------------ */
-
-/* The number rounded to 16 bits; NONE_16 for NaN. */
+/* Returns the number rounded to 16 bits, or NONE_16 for NaN. */
 static uint16_t in_16(wh_real number) {
     if (!(number >= WH_R(0.0))) {
         return number < WH_R(0.0) ? 0 : NONE_16;
@@ -64,14 +63,12 @@ static uint16_t speed_50(const wh_rig *rig, uint32_t now_ticks) {
                : NONE_16;
 }
 
-/* --- frames ------------------------------------------------------------------------------------------- */
-
-/* Half of the buffer is the console's own. */
+/* True if telemetry's half of the ring has room. The other half is for the console's answers. */
 static bool fits(const wh_ring *out, unsigned count) {
     return wh_ring_room(out) >= out->size / 2U + count;
 }
 
-/* Send the whole frame, or nothing. */
+/* Puts the whole frame into the ring, or nothing. */
 static bool put_out(const sight *s, wh_tel_channel channel, const char *bytes, unsigned count) {
     if (fits(s->out, count + s->spare) && wh_ring_put(s->out, bytes, count)) {
         return true;
@@ -124,7 +121,7 @@ static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t tic
     (void)send_frame(s, WH_TEL_EVENT);
 }
 
-/* Sends the ring's frames. They are never dropped: they wait for room. */
+/* Sends the ring's frames. They wait for room, so they are never dropped. */
 static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
@@ -146,8 +143,6 @@ static void send_ring(sight *s) {
     (void)send_frame(s, WH_TEL_RING);
     tel->reads = tel->read_at < capture->count;
 }
-
-/* --- lines -------------------------------------------------------------------------------------------- */
 
 static void send_text(sight *s, wh_real force_N) {
     const bool plots = s->tel->format == WH_TEL_TELEPLOT;
@@ -174,8 +169,6 @@ static void send_text(sight *s, wh_real force_N) {
     }
 }
 
-/* --- a control step ------------------------------------------------------------------------------------- */
-
 static void take_sample(sight *s, const wh_step_sample *sample) {
     wh_tel *tel = s->tel;
     const wh_cell_config *cell = &s->config->measure.cell;
@@ -194,7 +187,7 @@ static void take_sample(sight *s, const wh_step_sample *sample) {
     const uint32_t period = cell->period_ticks * tel->every;
     const uint32_t due = tel->first_ticks + tel->samples * period;
     if (load.ticks - due + period / 8U > period / 4U) {
-        /* sends the samples so far, because the next one does not follow them in time */
+        /* Sends the samples so far, because the next sample is not one period after the last one. */
         send_run(s);
     }
     if (tel->samples == 0) {
@@ -210,7 +203,7 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_step_inputs *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
-    if (seen->ended) { /* the end of a pulse is dropped first if many pulses fill the line */
+    if (seen->ended) { /* If many pulses fill the line, the ends of pulses are dropped first */
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
                    2U * LINE_BYTES_OF(EVENT_BYTES); /* room for later data of this step */
         send_event(s, WH_TEL_END, seen->end_sensor, seen->end_ticks);
@@ -251,7 +244,7 @@ void wh_tel_rate(wh_tel *tel, uint32_t every) {
     tel->every = every;
     tel->passed = 0;
     tel->samples = 0;
-    tel->stage = NONE_16; /* an impossible stage, so that the stage is reported again */
+    tel->stage = NONE_16; /* no stage has this number, so the stage is reported again */
     tel->trip = NONE_16;
 }
 
@@ -342,7 +335,7 @@ const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i) {
 
 /* === the console's command `tel` ============================================================= */
 
-/* Two parts of the schema of the channel `run`. */
+/* Parts of the schema of the channel `run`. */
 #define SPEED "speed[rpm]:u2:0.02"
 #define DRIVE ",drive[V]:u2:0.001"
 #define SCALE_DECIMALS 12U
@@ -384,7 +377,7 @@ static void ring_told(const wh_tel *tel, wh_text *answer) {
 
 /* --- contents of a frame --------------------------------------------------------------------------------- */
 
-/* The load's part of the schema: "load[N]:i2:scale:offset". */
+/* Adds the load's part of the schema, "load[N]:i2:scale:offset". */
 static void add_load(const wh_cell_config *cell, wh_text *answer) {
     const wh_value offset[] = {{.number = -cell->offset_N}};
     wh_answer(answer, "load[N]:i2:", NULL);
@@ -479,7 +472,7 @@ static wh_station_error set_format(wh_tel *tel, const wh_cell_config *cell, cons
     return WH_STATION_FINE;
 }
 
-/* Sets the ring's trigger, or starts `read`. */
+/* Sets the ring's trigger, or begins to send the ring (`read`). */
 static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer) {
     const unsigned what = wh_list_find(TRIGGERS "|"
                                                 "read",
@@ -497,7 +490,7 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     return WH_STATION_FINE;
 }
 
-/* X(what, word): the requests, first those of one word, then those with an argument. */
+/* X(what, word): the requests of one word; the second list has those with an argument. */
 #define ALONE_ROWS(X) X(ALONE_LIST, "list") X(ALONE_OFF, "off") X(ALONE_RING, "ring")
 #define WITH_ROWS(X) \
     X(WITH_SCHEMA, "schema") \

@@ -7,14 +7,14 @@
  * On the line each frame is between two zeros. Text has no zeros, and its second byte is below 0x80. So the second byte
  * between two zeros distinguishes frames from text, and a terminal can show the text directly. `sequence` counts the
  * channel's frames, including those dropped here for lack of room; `dropped` counts the dropped ones. Other frames
- * missing in the sequence were lost on the line. Both wrap.
+ * missing in the sequence were lost on the line. Both numbers wrap.
  *
- * Channels describe themselves: WH_TEL_CHANNEL_ROWS, and `tel schema` at the console.
+ * The channels are in WH_TEL_CHANNEL_ROWS; the console's `tel schema` describes them:
  *
- *   run    ten samples of the load, and speed, drive, state at the last of them. A frame has fewer if samples are late,
- *          bad or missing: their times are ticks + i periods within an eighth of a period
- *   event  one event, at `ticks`: a slot pulse, another state, a trip
- *   ring   the stored control steps around a trigger (below), ten a frame
+ *     run    ten samples of the load, one period apart within an eighth of a period (fewer if samples are late, bad or
+ *            missing); speed, drive and state at the last of these samples
+ *     event  one event, at `ticks`: a slot pulse, another state, a trip
+ *     ring   the stored control steps around a trigger (below), ten in a frame
  *
  * Telemetry never waits, and takes none of the console's room: frames that do not fit its own part of the ring are
  * dropped. It is off at first. */
@@ -50,7 +50,7 @@ typedef enum wh_capture_trigger {
 #undef WH_CAPTURE_NAME
 
 typedef struct wh_captured {
-    uint16_t ticks; /* low half of the step's time */
+    uint16_t ticks; /* low half of the step's time in ticks */
     int16_t load;   /* load in the units of telemetry */
     uint16_t drive_mV;
     uint8_t flags; /* 1, 2: a pulse of sensor 0, 1; 4: this step is the trigger; 8: tripped */
@@ -70,7 +70,7 @@ typedef enum wh_capture_state {
 } wh_capture_state;
 #undef WH_CAPTURE_NAME
 
-/* All zeros: off. */
+/* A capture in progress. All zeros: off. */
 typedef struct wh_capture {
     wh_capture_trigger trigger;
     wh_capture_state state;
@@ -85,28 +85,27 @@ typedef struct wh_capture {
 #define wh_capture_step WH_NAME(wh_capture_step)
 #define wh_capture_at WH_NAME(wh_capture_at)
 
-/* Restart with this trigger. Triggers are ignored until half of the ring is filled. */
+/* Restart with this trigger. The trigger is ignored until half of the ring is filled. */
 void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger);
 
-/* True if the capture records steps. */
 WH_INLINE bool wh_capture_runs(const wh_capture *capture) {
     return capture->state == WH_CAPTURE_WAITS || capture->state == WH_CAPTURE_TRIGGERED;
 }
 
-/* Record a step, if wh_capture_runs(). The step is less than 65 ms after the last one. The caller leaves bit 4 of its
- * flags clear. `now_ticks` has all 32 bits. */
+/* Record a step; call it only if wh_capture_runs(). The step must be less than 65 ms after the last one. Bit 4 of its
+ * flags must be clear. `now_ticks` is the step's time with all 32 bits. */
 void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks);
 
-/* Stored step i, from the oldest. */
+/* Returns stored step i; step 0 is the oldest. */
 const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i);
 
 #define WH_TEL_SAMPLES 10U
 #define WH_TEL_HEAD_BYTES 9U
-/* bytes on the line besides the payload: zeros, code, CRC */
+/* Number of bytes on the line besides the payload: zeros, code, CRC. */
 #define WH_TEL_FIXED_BYTES (WH_TEL_HEAD_BYTES + 5U)
 #define WH_TEL_PAYLOAD_MOST (WH_TEL_SAMPLES * WH_CAPTURE_BYTES)
 #define WH_TEL_NO_LOAD (-32768) /* no good sample */
-/* Limit on samples per second as text, which takes more room. */
+/* Maximum number of samples per second in a text format, which takes more room. */
 #define WH_TEL_TEXT_PER_S_MOST 100U
 
 /* X(channel, number, name) */
@@ -120,10 +119,10 @@ typedef enum wh_tel_channel { WH_TEL_CHANNEL_ROWS(WH_TEL_NAME) WH_TEL_CHANNELS }
 #undef WH_TEL_NAME
 
 typedef enum wh_tel_event {
-    WH_TEL_PULSE, /* value: the sensor, 0 or 1 */
+    WH_TEL_PULSE, /* value: the sensor, 0 or 1; begin of a pulse */
     WH_TEL_STATE, /* value: wh_rig_shown_stage() */
     WH_TEL_TRIP,  /* value: a wh_trip */
-    WH_TEL_END    /* the end of a pulse; WH_TEL_PULSE is its beginning */
+    WH_TEL_END    /* value: the sensor, 0 or 1; end of a pulse */
 } wh_tel_event;
 
 /* X(format, word) */
@@ -139,18 +138,18 @@ typedef enum wh_tel_format { WH_TEL_FORMAT_ROWS(WH_TEL_NAME) WH_TEL_FORMATS } wh
 /* The state of telemetry. All zeros: off. Large members come last, because instructions for members near the begin are
  * shorter. */
 typedef struct wh_tel {
-    bool reads; /* the ring is being sent, from step read_at on */
+    bool reads; /* the ring is being sent, beginning with step read_at */
     uint16_t sequence[WH_TEL_CHANNELS];
-    uint16_t dropped[WH_TEL_CHANNELS]; /* lost lines of text count for WH_TEL_RUN */
+    uint16_t dropped[WH_TEL_CHANNELS]; /* lost lines of text count as frames of WH_TEL_RUN */
     unsigned read_at;
     uint32_t read_ticks;
-    uint32_t every; /* every `every`-th sample of the cell is sent; 0: off */
+    uint32_t every; /* one of this many samples of the cell is sent; 0: telemetry is off */
     uint32_t passed;
     wh_tel_format format;
     unsigned samples; /* number of samples in the frame in progress */
     uint32_t first_ticks;
     int16_t load[WH_TEL_SAMPLES];
-    unsigned stage; /* the stage as last reported */
+    unsigned stage; /* the stage that was reported last */
     unsigned trip;
     uint8_t line[WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST]; /* a frame, as sent */
     wh_capture capture;
@@ -161,17 +160,17 @@ typedef struct wh_tel {
 #define wh_tel_read WH_NAME(wh_tel_read)
 #define wh_tel_step WH_NAME(wh_tel_step)
 
-/* The shift that makes the cell's counts fit 16 bits. */
+/* Returns the shift that makes the cell's counts fit into 16 bits. */
 unsigned wh_tel_shift(const wh_cell_config *cell);
 
-/* From now on send every `every`-th sample of the cell; 0: off. */
+/* From now on send one of `every` samples of the cell; 0: none. */
 void wh_tel_rate(wh_tel *tel, uint32_t every);
 
 /* Send the ring's frames from the beginning. Returns false if the ring is not full yet. */
 bool wh_tel_read(wh_tel *tel);
 
-/* After each control step: at most the work of its pulse and two samples, or of one frame of the ring. Bytes to send go
- * into `out`; telemetry uses at most half of its room. */
+/* Call this after each control step. It does at most the work of the step's pulse and two samples, or of one frame of
+ * the ring. Bytes to send go into `out`; telemetry uses at most half of its room. */
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
                  const wh_step_inputs *seen, wh_ring *out);
 

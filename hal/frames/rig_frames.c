@@ -1,6 +1,7 @@
-/* rig_frames.c: the rig's hal_ functions, with a plant at the other end of a line.
- * Names are those of docs/plants/rig.whirl, with its dials or those of docs/plants/carriage.whirl. Simulated time stops
- * while the controller computes. The computing time is sent with the outputs, and the plant delays them by it. */
+/* rig_frames.c: the rig's hal_ functions, with a plant at the other end of a line. Signals have the names of
+ * docs/plants/rig.whirl; dials have the names there or in docs/plants/carriage.whirl. Simulated time stops while the
+ * controller computes. The controller sends its computing time with the outputs, and the plant delays the outputs by
+ * this time. */
 #include "rig_frames.h"
 
 #include <stddef.h>
@@ -26,9 +27,9 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV
                "the measurement ends too near to its limit");
 #define SUPPLY_RATED_V 24.0f /* supply until the first measurement */
 
-#define WRAP_AFTER_S 5U /* as in hal/virtual: every run crosses the timer's wrap */
+#define WRAP_AFTER_S 5U /* the timer wraps this early, so that every run crosses the wrap */
 
-/* A slot sensor gives a pulse while the slot, 2 * HAL_SLOT_LEAD_DEG wide, covers it. */
+/* A slot sensor gives a pulse while the slot, 2 * HAL_SLOT_LEAD_DEG wide, is in front of it. */
 #define SLOT_AT(deg) \
     { \
         .kind = WH_SIGNAL_EDGE, .name = "theta", .unit = "rad", \
@@ -39,7 +40,7 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV
 enum { DUTY, ENABLE };                    /* outputs */
 enum { CELL_FORCE, SUPPLY, STOP, DIALS }; /* samples, then the first dial */
 
-/* A dial's converter has 20 bits: its rounding is below every test's bound. */
+/* A dial's converter has 20 bits: its rounding error is below the bound of every test. */
 #define DIAL_PER_COUNT (1.0f / 1048576.0f)
 
 static const wh_signal signals[] = {
@@ -61,7 +62,7 @@ static const wh_signal signals[] = {
      .high = (float)(SUPPLY_COUNTS - 1) * SUPPLY_V_PER_COUNT,
      .per_count = SUPPLY_V_PER_COUNT,
      .period_ticks = HAL_LOADCELL_PERIOD_TICKS},
-    {.kind = WH_SIGNAL_SAMPLE, /* a pin: 0 or 1 */
+    {.kind = WH_SIGNAL_SAMPLE, /* a digital pin: 0 or 1 */
      .name = "stop_input",
      .unit = "1",
      .low = -1.0f,
@@ -95,15 +96,16 @@ enum {
 _Static_assert(SIGNALS + CARRIAGE_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 _Static_assert(SIGNALS + BENCH_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 
-/* The board's one plant: hardware is global. */
+/* The board has one plant, because hardware is global. */
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
 static bool stop_pressed;
-static bool stop_heard;        /* false before the first reading and after a long silence */
-static uint32_t stop_ticks;    /* time of the last reading; without one, stop counts as pressed */
+static bool stop_heard; /* false before the first reading and after a long silence */
+/* time of the last reading; before the first, stop counts as pressed */
+static uint32_t stop_ticks;
 static uint32_t load_ticks;    /* time stamp of the last load sample */
 static bool load_seen;         /* there was a load sample */
-static const wh_signal *dials; /* signals of the dials and their notes; NULL: no dials */
+static const wh_signal *dials; /* signals of the dials and their notes; NULL: there are no dials */
 static unsigned dial_signals;
 static float dial[HAL_DIALS];
 static bool dial_heard[HAL_DIALS];
@@ -117,7 +119,8 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* This is longer than the guard waits for the load cell: if all readings fail, the load cell's trip is the one reported. */
+/* This is longer than the guard waits for the load cell. If all readings fail, the reported trip is that of the load
+ * cell. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 static void see_stop(const wh_sample *sample) {
@@ -126,10 +129,10 @@ static void see_stop(const wh_sample *sample) {
     stop_ticks = plant.ticks;
 }
 
-/* Takes the newest readings of the levels. */
+/* Takes the newest readings of the supply and of stop. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
-        stop_heard = false; /* stays false, because these times wrap */
+        stop_heard = false; /* stays false until the next reading, because times wrap */
     }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
@@ -188,7 +191,7 @@ uint32_t hal_clock_late_ticks(void) {
     return most;
 }
 
-/* NaN gives 0. */
+/* Sets the chopper's duty, limited to 0 ... 1. NaN gives 0. */
 static void drive(float duty) {
     hal_turns_set(&plant, DUTY, duty > 1.0f ? 1.0f : duty > 0.0f ? duty : 0.0f);
     hal_turns_set(&plant, ENABLE, 1.0f);
@@ -206,7 +209,7 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* Without a supply the motor has no drive, and the division would fail. */
+/* If no supply voltage is measured, the duty is 0: the division would fail. */
 void hal_motor_set_voltage(float volts) {
     if (motor_started) {
         drive(supply_V > SUPPLY_V_PER_COUNT ? volts / supply_V : 0.0f);
@@ -259,7 +262,7 @@ bool hal_slots_take(hal_slot_edge *edge) {
     return true;
 }
 
-/* The line counts lost edges and samples together. */
+/* The line counts lost edges and lost samples together. */
 uint32_t hal_slots_overruns(void) { return plant.lost; }
 
 static uint8_t load_status(uint8_t status) {
@@ -313,7 +316,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* the plant's side learns it from notes */ }
+void hal_reset_mark(uint32_t state) { (void)state; /* the plant gets the stage by notes */ }
 
 void hal_remember(const void *bytes, unsigned count) { hal_turns_remember(&plant, bytes, count); }
 

@@ -1,5 +1,5 @@
-/* rig_frames.h: notes from the rig's controller to the other end of the line, which judges the run by the
- * controller's own findings. The plant does not use the notes. */
+/* rig_frames.h: notes from the rig's controller to the program at the other end of the line. That program judges the
+ * run by the controller's own results. The plant does not use the notes. */
 #ifndef HAL_FRAMES_RIG_FRAMES_H
 #define HAL_FRAMES_RIG_FRAMES_H
 
@@ -9,9 +9,9 @@
 extern "C" {
 #endif
 
-/* Notes, in the order of their channels: X(name, word, unit). The state is wh_rig_stage(). The numbers of states,
- * trips and qualities are those of core/rig; `reset` is hal_reset_cause(). The other notes are values of the result,
- * which exists only after complete turns. */
+/* Notes, in the order of their channels: X(name, word, unit). `state` is wh_rig_stage(), `reset` is hal_reset_cause().
+ * core/rig has the numbers of states, trips and qualities. The other notes are values of the result, which exists only
+ * after complete turns. */
 #define HAL_NOTE_ROWS(X) \
     X(HAL_NOTE_STATE, "state", "1") \
     X(HAL_NOTE_TRIP, "trip", "1") \
@@ -29,28 +29,29 @@ enum {
 #undef ROW
 };
 
-/* Set a note; the controller's next wait sends it with the outputs. */
+/* Set a note. The controller's next wait sends it with the outputs. */
 void hal_frames_note(unsigned channel, float value);
 
-/* Call these at the beginning and end of each control step. Exclude the time to read sensors, set outputs and print:
- * see hal_turns_step_begins(). They are functions, so that a debugger can also count from them. */
+/* Call these at the begin and at the end of each control step, so that the time to read sensors, set outputs and print
+ * does not count: see hal_turns_step_begins(). They are functions, because a debugger can count from a function's
+ * address. */
 void hal_frames_step_begins(void);
 void hal_frames_step_ends(void);
 
-/* The program ends: see hal_turns_end(). */
+/* Call this when the program ends: see hal_turns_end(). */
 void hal_frames_end(int status);
 
-/* An operator's dials, X(name, word, unit, largest magnitude), and the notes that depend on them, X(name, word,
- * unit). For programs that ask for dials before hal_clock_start(). */
+/* An operator's dials, X(name, word, unit, largest magnitude), and the notes that depend on them, X(name, word, unit).
+ * For programs that ask for dials before hal_clock_start(). */
 #define HAL_DIAL_ROWS(X) \
     X(HAL_DIAL_SPEED, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_RADIUS, "dial_radius", "m", 1.0f) \
     X(HAL_DIAL_RATIO, "dial_ratio", "1", 16.0f)
 #define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_DISPLACEMENT, "displacement", "m")
 
-/* Dials of the rig on its bench. dial_speed is the set-point. dial_feed is the torque fed forward in every run, as a
- * share of gravity's torque; 0: all of it, if the set-point needs it. dial_brakes is 1 for a motor that brakes at a
- * run's end and after stop. */
+/* Dials of the rig on its bench. dial_speed is the set-point. dial_feed is the torque of the gravity compensation in
+ * every run, as a share of gravity's torque; 0: all of this torque, but only if the set-point needs compensation.
+ * dial_brakes is 1 for a motor that brakes at a run's end and after stop. */
 #define HAL_BENCH_DIAL_ROWS(X) \
     X(HAL_DIAL_TARGET, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_FEED, "dial_feed", "1", 4.0f) \
@@ -69,14 +70,14 @@ enum {
 
 #define HAL_DIAL_TICKS 100000U /* time between two readings of a dial */
 
-/* Call one of these before hal_clock_start(), if the carriage or the bench has dials. */
+/* If there are dials, call the function for the carriage or for the bench before hal_clock_start(). */
 void hal_frames_with_dials(void);
 void hal_frames_with_bench_dials(void);
 
-/* The dial's last reading; 0 before the first reading. */
+/* Returns the dial's last reading; 0 before the first reading. */
 float hal_frames_dial(unsigned which);
 
-/* Has every dial been read at least once? */
+/* True if every dial has been read at least once. */
 bool hal_frames_dials_heard(void);
 
 #ifdef __cplusplus

@@ -26,7 +26,7 @@ static void receive(hal_turns *turns, wh_frame *frame) {
     }
 }
 
-/* Appends new readings to those not yet taken. */
+/* Appends new readings to those that the program has not taken yet. */
 static void keep(hal_turns *turns, const wh_readings *news) {
     wh_readings *all = &turns->readings;
     unsigned edges = 0;
@@ -58,7 +58,7 @@ static void keep(hal_turns *turns, const wh_readings *news) {
     turns->sample = 0;
 }
 
-/* Takes the cause of the start, which comes before the first readings. */
+/* Stores the cause of the start, which comes before the first readings. */
 static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
     if (frame->version == WH_FRAME_VERSION && frame->kind == WH_FRAME_RESET &&
         !wh_reset_get(&turns->reset, frame->payload, frame->length)) {
@@ -66,8 +66,8 @@ static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
     }
 }
 
-/* Waits for readings; ignores those that are out of turn or of another version. `hello_bytes`: before the first reading,
- * the hello has this many bytes of turns->payload. */
+/* Waits for readings; ignores frames that come out of turn or have another version. Before the first reading,
+ * `hello_bytes` is the length of the hello in turns->payload. */
 static void hear(hal_turns *turns, unsigned hello_bytes) {
     wh_frame frame;
     wh_readings news;
@@ -139,7 +139,8 @@ void hal_turns_step_ends(hal_turns *turns) {
     }
 }
 
-/* This message takes no simulated time on the line, because hardware with such memory has no line. */
+/* This message takes no simulated time: in real hardware such a memory is in the processor, so nothing goes over the
+ * line. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count) {
     const uint32_t begun_timer = hal_link_timer();
     const unsigned all = count < WH_REMEMBER_MAX ? count : WH_REMEMBER_MAX;

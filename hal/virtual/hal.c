@@ -11,14 +11,15 @@
 
 #if !WH_DOUBLE
 
-/* The board's only rig: hardware is global, and so is its simulation. */
+/* The board's only rig. Hardware is global, and so is its simulation. */
 static hal_virtual_rig board_rig;
 
 hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
 static bool motor_started;
 
-/* The pulse whose leading edge was taken last; pulses are farther apart than their length. */
+/* `pulse` is the pulse whose leading edge was taken last. is_high is true until its end is taken, too. Pulses are
+ * farther apart than they are long. */
 static bool is_high;
 static hal_slot_edge pulse;
 

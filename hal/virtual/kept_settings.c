@@ -1,4 +1,4 @@
-/* kept_settings.c: hal/settings.h in plain memory, for a simulated rig: lost at its end. */
+/* kept_settings.c: hal/settings.h in plain memory, for a simulated rig. The settings are lost when the program ends. */
 #include <stdbool.h>
 
 #include "core/real.h"

@@ -3,7 +3,7 @@
 
 #include "hal/clock.h"
 
-/* The double reference build has angles in radians; boards, and so this file, count them. */
+/* This file needs integer angles. The double reference build has angles in radians, so it leaves the file out. */
 #if !WH_DOUBLE
 
 #define QUARTER_TURN 0x40000000U
@@ -50,16 +50,16 @@ float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig) {
     return wh_scene_rates(rig->scene, &rig->state)[0];
 }
 
-/* One step of the model: the angle's change, and its rates at both ends. */
+/* One step of the model: the change of the angle, and the rates at both ends. */
 typedef struct slice {
-    uint32_t phase; /* phase at the slice's beginning */
+    uint32_t phase; /* phase at the slice's begin */
     float way;      /* angle turned in the slice, phase units */
     float before;   /* rate at the beginning, phase units per step */
     float after;    /* rate at the end */
 } slice;
 
-/* The angle after the part s (0 to 1) of the slice: the cubic through both angles and both rates. At 1 ms and 330 rpm
- * its error is below 1e-9 rad, far below a microsecond's 3e-5. */
+/* Returns the angle after the share s (0 to 1) of the slice: the cubic through both angles and both rates. At 1 ms and
+ * 330 rpm its error is below 1e-9 rad, far below the 3e-5 rad of a microsecond. */
 static float way_at(const slice *during, float s, float *slope) {
     const float a = during->before + during->after - 2.0f * during->way;
     const float b = 3.0f * during->way - 2.0f * during->before - during->after;
@@ -67,8 +67,8 @@ static float way_at(const slice *during, float s, float *slope) {
     return ((a * s + b) * s + during->before) * s;
 }
 
-/* True if the slice moves the rotor onto `edge` in the direction that opens the slot; *part is the place in the slice,
- * 0 to 1. */
+/* True if the slice moves the rotor onto `edge` in the direction that opens the slot; *part then gets the share of the
+ * slice, 0 to 1, at which this happens. */
 static bool opens(const slice *during, uint32_t edge, bool forward, float *part) {
     const float gap = (float)(int32_t)(edge - during->phase);
     if (forward ? !(gap > 0.0f && during->way >= gap) : !(gap < 0.0f && during->way <= gap)) {
@@ -78,7 +78,8 @@ static bool opens(const slice *during, uint32_t edge, bool forward, float *part)
     for (unsigned round = 0; round < 3; round++) {
         float slope;
         const float miss = way_at(during, s, &slope) - gap;
-        if (slope * during->way > 0.0f) { /* the rotor turns back here: a straight line suffices */
+        /* if the rotor turns back here, a straight line suffices */
+        if (slope * during->way > 0.0f) {
             s -= miss / slope;
         }
     }
@@ -101,15 +102,15 @@ static void add_pulse(hal_virtual_rig *rig, unsigned sensor, uint32_t ticks) {
     }
 }
 
-/* Adds the pulses of the slice that began at `ticks`. A slice is much shorter than a quarter turn, so it has at most one
- * pulse. The slot opens a sensor `lead` before it, or `lead` after it when turning back. */
+/* Adds the pulses of the slice that began at `ticks`. A slice is much shorter than a quarter turn, so it has at most
+ * one pulse. The pulse begins `lead` before the sensor; if the rotor turns backwards, `lead` after it. */
 static void watch_slots(hal_virtual_rig *rig, const slice *during, uint32_t ticks) {
     const uint32_t lead = (uint32_t)(HAL_SLOT_LEAD_DEG * DEG);
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         const uint32_t stand = sensor * QUARTER_TURN;
         float part = 0.0f;
         if (opens(during, stand - lead, true, &part) || opens(during, stand + lead, false, &part)) {
-            /* the timer captures the count it shows: fractions are dropped */
+            /* The timer captures the count that it shows, so fractions are dropped. */
             add_pulse(rig, sensor, ticks + (uint32_t)(part * (float)rig->step_ticks));
         }
     }
@@ -148,8 +149,8 @@ static void read_load_cell(hal_virtual_rig *rig) {
     }
 }
 
-/* The effect of the drive stage's command, as the model's duty. Without current there is no torque, and the motor shows
- * its back-EMF. */
+/* Returns the drive stage's effect as a duty of the model. Without current there is no torque: the result is then the
+ * motor's back-EMF. */
 static float duty_of(const hal_virtual_rig *rig) {
     const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);
     const bool stuck = rig->faults.stuck > 0.0f;

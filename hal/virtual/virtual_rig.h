@@ -1,11 +1,12 @@
 /* virtual_rig.h: hardware simulated by the core's own model of the eccentric-mass rig.
  *
  * All physics is in core/models/eccentric.whirl (scene rig_fixed). This file has only the sensors around it: slot edges
- * located inside the model's step, the load cell's converter, the timer, the watchdog. One step of the model is one slice
- * of time. Time stops between two calls, so the same calls give the same bits on every machine. Single precision only.
+ * located inside the model's step, the load cell's converter, the timer, the watchdog. One step of the model is one
+ * slice of time. Time stops between two calls, so the same calls give the same bits on every machine. Single precision
+ * only.
  *
- * The hal_ functions (clock.h, motor.h, ...) act on one board-wide rig, hal_virtual_rig_instance(); the functions below
- * serve any number of rigs in the caller's memory. */
+ * The hal_ functions (clock.h, motor.h, ...) act on the board's only rig, hal_virtual_rig_instance(). The functions
+ * below work on any number of rigs in the caller's memory. */
 #ifndef HAL_VIRTUAL_RIG_H
 #define HAL_VIRTUAL_RIG_H
 
@@ -26,22 +27,23 @@ extern "C" {
 #define HAL_VIRTUAL_SAMPLES 8U
 #define HAL_VIRTUAL_PULSE_TICKS 150U /* length of the monostable's pulse */
 
-/* The supply at which the model's duty of 1 is full duty. It is also the motor's speed without load at that supply,
- * rad/s, because the back-EMF then equals the voltage. tests/core/test_virtual_rig.c compares it with the model. */
+/* The supply at which the model's duty of 1 is full duty. The number is also the motor's speed without load at that
+ * supply, rad/s, because the back-EMF then equals the voltage. tests/core/test_virtual_rig.c compares it with the
+ * model. */
 #define HAL_VIRTUAL_RATED_V 24.0f
 #define HAL_VIRTUAL_NO_LOAD_RADPS 62.831853f
 
-/* The timer wraps this long after the start, so that every run crosses the wrap. */
+/* The timer wraps this time after the start, so that every run crosses the wrap. */
 #define HAL_VIRTUAL_WRAP_AFTER_S 5U
 
-/* Injected faults, which may be set at any time. hal_virtual_rig_start() clears all. */
+/* Injected faults. They may be set at any time. hal_virtual_rig_start() clears all. */
 typedef struct hal_virtual_faults {
-    unsigned lose_pulses[2]; /* number of each sensor's next pulses to lose */
+    unsigned lose_pulses[2]; /* number of coming pulses of each sensor that are lost */
     bool dead_sensor[2];     /* the sensor gives no pulse */
-    unsigned lose_samples;   /* number of the next load samples to lose */
+    unsigned lose_samples;   /* number of coming load samples that are lost */
     bool stuck_load_cell;    /* the load cell repeats its last count */
-    float stuck; /* the drive stage gives this share of the supply for any command; 0: no fault */
-    bool deaf;   /* the drive stage ignores the enable, too; the watchdog still cuts it */
+    float stuck;     /* the stage gives this share of the supply for any command; 0: no fault */
+    bool deaf;       /* the stage ignores the enable, too; only the watchdog cuts it */
     bool freewheels; /* the drive stage can only drive, not brake */
 } hal_virtual_faults;
 
@@ -49,9 +51,9 @@ typedef struct hal_virtual_rig {
     const wh_scene *scene;
     wh_state state;
     uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
-    wh_status status;      /* WH_E_DIVERGED: the model diverged; the rotor stands still */
+    wh_status status;      /* WH_E_DIVERGED if the model diverged: the rotor then stands still */
     uint32_t ticks;        /* time now, 1 MHz, wrapping */
-    uint32_t step_ticks;   /* one step of the model */
+    uint32_t step_ticks;   /* duration of one step of the model */
     float volts;           /* commanded voltage */
     bool enabled;          /* the drive is on */
     float supply_V;        /* HAL_VIRTUAL_RATED_V at the start; may be set at any time */
@@ -67,33 +69,34 @@ typedef struct hal_virtual_rig {
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
     bool stop_cuts;    /* a short press of stop has cut the drive until hal_motor_off() */
-    bool stop_pressed; /* a person at the rig presses stop: may be set at any time */
+    bool stop_pressed; /* a person at the rig presses stop; may be set at any time */
     hal_reset cause;   /* why the processor started */
-    bool in_reset;     /* the processor is in reset or starting; the plant goes on meanwhile */
+    bool in_reset;     /* the processor is in reset or starts; the plant goes on meanwhile */
     uint8_t remembered[HAL_REMEMBER_BYTES];
     unsigned remembers; /* number of remembered bytes */
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
 /* Put the rig at rest at its scene's start, motor off, watchdog off. Returns false if the scene is not the fixed rig:
- * one angle, one input, at least one output, whole microseconds a step. */
+ * one angle, one input, at least one output, a step of whole microseconds. */
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 
-/* Advance time to `ticks`, in whole steps of the model: it may end up to one step later. */
+/* Advance the time to `ticks` in whole steps of the model, so the time may end up to one step later. */
 void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
 
-/* Reset the processor, for a cause other than power-on. Drive and watchdog are off, pulses and samples not yet taken
- * are lost, and the timer restarts; the rotor keeps turning. hal_clock_start() then starts no other rig. */
+/* Reset the processor, for a cause other than power-on. Drive and watchdog are off, pulses and samples that were not
+ * taken are lost, and the timer restarts; the rotor keeps turning. After this call, hal_clock_start() does not start
+ * the rig again. */
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
-/* The drive stage's input: a voltage, with the enable on; or off. The functions do on this rig what hal_motor_off(),
- * hal_slots_take() and hal_loadcell_take() do. The slots give only leading edges. */
+/* hal_virtual_rig_drive() switches the enable on and sets a voltage. The next functions do on this rig what
+ * hal_motor_off(), hal_slots_take() and hal_loadcell_take() do. The slots give only leading edges. */
 void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts);
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading);
 bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);
 
-/* True angle of the arms (phase within the turn, 2^32 a turn) and speed, for tests. */
+/* For tests: the true angle of the arms (phase within the turn, 2^32 per turn), and the speed. */
 uint32_t hal_virtual_rig_phase(const hal_virtual_rig *rig);
 float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig);
 
