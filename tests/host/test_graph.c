@@ -1,5 +1,6 @@
-/* test_graph.c: random expressions as a graph (host/prove/graph.h): values of the nodes; slopes against
- * complex-step derivatives; graphs without some variables; one node for equal expressions; simplification. */
+/* test_graph.c: random expressions as a graph (host/prove/graph.h): values of the nodes, slopes compared with
+ * complex-step derivatives, graphs without some variables, one node for equal expressions, and simplification. Also
+ * the reader of a model's expressions, and Taylor coefficients. */
 #include "host/base/alloc.h"
 #include "host/lang/model.h"
 #include "host/prove/graph.h"
@@ -9,19 +10,18 @@
 #include "derived.h"
 #include <complex.h>
 
-/* --- drawn expressions -------------------------------------------------------------------------------*/
-
-/* Random expressions as sequences of steps, as nodes of a graph (host/prove/graph.h) and as truncated
- * series in long double. The series of a function is the sum of its derivatives over factorials, times powers of the
- * series without its first coefficient; the program uses recurrences. Numbers are complex: a tiny imaginary part of a
- * variable yields the slope without a difference (complex-step derivative). */
+/* Random expressions as sequences of steps, as nodes of a graph (host/prove/graph.h), and as truncated series in
+ * long double. The series of a function is the sum of its derivatives over factorials, times powers of the
+ * argument's series without its first coefficient; the program uses recurrences instead. Numbers are complex: a tiny
+ * imaginary part of a variable gives the slope without a difference (complex-step derivative). */
 
 enum { DRAWN_VARIABLES = 3, DRAWN_STEPS = 20, DRAWN_ORDER = 7 };
 
-/* Size of the imaginary part. */
+/* Imaginary part that a variable gets for its slope. */
 #define DRAWN_TINY 1e-30L
 
-/* Kinds of steps. Each is defined everywhere; the logarithm, for example, is log(2 + u^2). */
+/* Kinds of steps, with the operands u and v. Each step has a value everywhere: the logarithm, for example, is log(2
+ * + u^2). */
 typedef enum drawn_kind {
     DRAWN_NUMBER,
     DRAWN_SUM,
@@ -34,13 +34,13 @@ typedef enum drawn_kind {
     DRAWN_EXP,   /* e^(u/4) */
     DRAWN_LOG,   /* log(2 + u^2) */
     DRAWN_POWER, /* (2 + u^2)^number */
-    DRAWN_WHOLE, /* u^number, a whole number above zero */
+    DRAWN_WHOLE, /* u^number, a positive whole number */
     DRAWN_KINDS
 } drawn_kind;
 
 typedef struct drawn_step {
     drawn_kind kind;
-    int left; /* the first operand; the first steps have none: they are the variables */
+    int left; /* first operand; the first steps are the variables and have none */
     int right;
     double number;
 } drawn_step;
@@ -77,7 +77,7 @@ static complex_number cosine(complex_number a) {
     return drawn_complex(cosl(creall(a)) * coshl(cimagl(a)), -sinl(creall(a)) * sinhl(cimagl(a)));
 }
 
-/* outer[n]: the n-th derivative at a, over n!. */
+/* outer[n] is the n-th derivative at a, divided by n!. */
 static void derivatives(drawn_kind kind, complex_number a, long double exponent, int order,
                         complex_number *outer) {
     long double factorial = 1.0L;
@@ -139,7 +139,7 @@ static series composed(drawn_kind kind, series u, long double exponent, int orde
     derivatives(kind, u.at[0], exponent, order, outer);
     series of = constant(0.0L);
     u.at[0] = 0.0L;
-    for (int n = order; n >= 0; n--) { /* Horner */
+    for (int n = order; n >= 0; n--) { /* Horner's scheme */
         of = product(&of, &u, order);
         of.at[0] += outer[n];
     }
@@ -183,14 +183,15 @@ static series step_series(const drawn_step *s, const series *of, int order) {
     return u;
 }
 
-/* Series to this order, of[DRAWN_STEPS], at x[DRAWN_VARIABLES]. */
+/* Computes the series of each step, of[DRAWN_STEPS], up to this order. x[DRAWN_VARIABLES] has the series of the
+ * variables. */
 static void drawn_graph_series(const drawn_graph *d, const series *x, int order, series *of) {
     for (int i = 0; i < DRAWN_STEPS; i++) {
         of[i] = i < DRAWN_VARIABLES ? x[i] : step_series(&d->step[i], of, order);
     }
 }
 
-/* Draws an expression with every kind of step. Its values stay moderate near x[DRAWN_VARIABLES]. */
+/* Draws an expression that has every kind of step. Its values near x[DRAWN_VARIABLES] stay moderate. */
 static void drawn_graph_draw(drawn_graph *d, dice *die, const double *x) {
     static const double exponents[] = {0.5, -0.5, 1.25, -2.0, 3.0, -1.0};
     series of[DRAWN_STEPS];
@@ -242,7 +243,8 @@ static int step_node(const drawn_step *s, graph *g, const int *made) {
     return -1;
 }
 
-/* Adds the expression's nodes to an empty graph: made[DRAWN_STEPS]. The variables are nodes 0 to DRAWN_VARIABLES - 1. */
+/* Adds the expression to an empty graph. made[DRAWN_STEPS] are the numbers of its nodes; the variables are nodes 0
+ * to DRAWN_VARIABLES - 1. */
 static void drawn_graph_nodes(const drawn_graph *d, graph *g, int *made) {
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
         made[i] = graph_variable(g, i);
@@ -255,7 +257,7 @@ static void drawn_graph_nodes(const drawn_graph *d, graph *g, int *made) {
 
 static long double middle(enclosure a) { return ((long double)a.low + (long double)a.high) / 2.0L; }
 
-/* Values of a graph's nodes, value[g->count]. Its numbers are the midpoints of their enclosures. */
+/* Computes the values of a graph's nodes, value[g->count]. A number counts as the middle of its enclosure. */
 static void drawn_graph_values(const graph *g, const long double *x, long double *value) {
     for (int i = 0; i < g->count; i++) {
         const node *n = &g->node[i];
@@ -300,7 +302,7 @@ static void draw(void) {
     drawn_graph_nodes(&drawn, g_graph, made_graph);
 }
 
-/* A node's value at x, where variables from number `first` on are zero. */
+/* The value of a node at x_graph, if the variables from number `first` on are zero. */
 static long double worth(int which, int first) {
     static long double value[NODES_MOST];
     long double at[DRAWN_VARIABLES];
@@ -312,7 +314,8 @@ static long double worth(int which, int first) {
     return value[which];
 }
 
-/* Values of the steps, with a tiny imaginary part of the variable `moved`, if any. */
+/* The series of the steps at x_graph, if the variables from `first` on are zero. Variable `moved` has a tiny
+ * imaginary part; -1: none. */
 static void series_at(int first, int moved, series *of) {
     series at[DRAWN_VARIABLES] = {{{0.0L}}};
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
@@ -354,7 +357,7 @@ TEST(graph, slopes) {
     }
 }
 
-/* Does the node depend on a variable from `first` on? */
+/* Does the node depend on a variable with number `first` or higher? */
 static bool reaches(int from, int first) {
     static bool wanted[NODES_MOST];
     bool found = false;
@@ -400,7 +403,7 @@ TEST(graph, without) {
     TEST_ASSERT_TRUE(reached > 100);
 }
 
-/* An expression that repeats earlier ones makes no node: each earlier node is found again, however many there are. */
+/* If an expression is built again, each of its steps must give its earlier node. */
 TEST(graph, one_node) {
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         int again[DRAWN_STEPS];
@@ -433,7 +436,7 @@ TEST(graph, one_node) {
         TEST_ASSERT_EQUAL_INT(whole[i], graph_whole(g_graph, i - 1000));
     }
     TEST_ASSERT_EQUAL_INT(2000, g_graph->count);
-    /* numbers with enclosures that differ in one end are two nodes */
+    /* numbers with enclosures that differ in one end must be two nodes */
     const int wide = graph_number(g_graph, (enclosure){1.0, 2.0});
     TEST_ASSERT_TRUE(wide != graph_number(g_graph, (enclosure){1.0, 3.0}) &&
                      wide != graph_number(g_graph, (enclosure){0.5, 2.0}) &&
@@ -443,7 +446,7 @@ TEST(graph, one_node) {
     graph_free(NULL);
 }
 
-/* Only identities for all values are simplified. */
+/* Only what holds for all values may be simplified. */
 static void expect_simple(int a, int b) {
     const int zero = graph_whole(g_graph, 0);
     const int one = graph_whole(g_graph, 1);
@@ -487,8 +490,7 @@ TEST(graph, simple) {
                 expect_simple(steps[i], steps[(i + 1) % 4]);
             }
         }
-        for (int i = 0; i < g_graph->count;
-             i++) { /* constants are in front of products, and only once */
+        for (int i = 0; i < g_graph->count; i++) { /* products must have one constant, in front */
             const node *n = &g_graph->node[i];
             const node_kind left = n->kind == NODE_NUMBER || n->kind == NODE_VARIABLE
                                        ? NODE_VARIABLE
@@ -521,8 +523,8 @@ TEST(graph, simple) {
     }
 }
 
-/* Integer exponents up to 64 become products, by repeated halving. Other exponents stay powers, and so does one whose
- * enclosure contains more than an integer. */
+/* Powers with integer exponents up to 64 must become products, by repeated halving. Other exponents must stay
+ * powers, and so must an exponent whose enclosure has more than one integer. */
 TEST(graph, whole_powers) {
     for (int exponent = -70; exponent <= 70; exponent++) {
         g_graph = graph_new();
@@ -544,8 +546,6 @@ TEST(graph, whole_powers) {
     }
 }
 
-/* --- numbers -----------------------------------------------------------------------------------------------*/
-
 static void expect_number(const char *what, int at, long double wanted) {
     TEST_ASSERT_TRUE_MESSAGE(graph_is_number(g_graph, at), what);
     const enclosure a = g_graph->node[at].number;
@@ -556,7 +556,7 @@ static void expect_number(const char *what, int at, long double wanted) {
         (long double)a.high - (long double)a.low <= 1e-11L * fabsl(wanted) + 1e-300L, what);
 }
 
-/* An operation on numbers is a number that encloses the long double result. */
+/* An operation on numbers must give a number that encloses the result in long double. */
 TEST(graph, numbers) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 100)); c++) {
         const double a = dice_between(&die, -5.0, 5.0);
@@ -589,7 +589,7 @@ TEST(graph, numbers) {
     }
 }
 
-/* A power's exponent as a file writes it, and its node. */
+/* Parses a number as the exponent of a power in a file, and returns its enclosure. */
 static enclosure read_number(const char *written) {
     char text[400];
     snprintf(text, sizeof text,
@@ -634,7 +634,7 @@ TEST(graph, whole_numbers_stay_whole) {
             TEST_ASSERT_TRUE_MESSAGE(enclosure_is_point(is) && is.low == cases[i].value, written);
             graph_free(g_graph);
         }
-        /* a decimal must not become a double */
+        /* a decimal fraction must be an enclosure, not one double */
         g_graph = graph_new();
         const int part = graph_div(g_graph, graph_whole(g_graph, a), graph_whole(g_graph, 7));
         TEST_ASSERT_EQUAL_INT(a % 7 == 0, enclosure_is_point(g_graph->node[part].number));
@@ -645,9 +645,9 @@ TEST(graph, whole_numbers_stay_whole) {
 SUITE(graph) { die = dice_of("graph", 41); }
 
 /* === reader =================================================================================== */
-/* A model's expressions as nodes of a graph (host/prove/graph.h). Random formulas have their long double values, and
- * numbers are enclosures. Derivatives are the right variables. Unsupported functions are reported once, at their
- * place. */
+/* A model's expressions as nodes of a graph (host/prove/graph.h). Random formulas must have their long double
+ * values, numbers must be enclosures, and derivatives must be the right variables. A function that is not supported
+ * must be reported once, at its place. */
 
 enum { LETS = 24, NUMBERS = 4, TEXT_SIZE = 6000, VARIABLES = 7 };
 
@@ -665,7 +665,8 @@ typedef struct reading {
 
 static reading r;
 
-/* States are a (second order) and b (first order): a, a', b. The highest derivatives a'' and b' follow. */
+/* Opens a text with the states a (second order) and b (first order). The variables are a, a', b, then the highest
+ * derivatives a'' and b'. */
 static void open_text(const char *text) {
     r = (reading){.errors = diags_new()};
     r.model = model_parse("x.whirl", text, strlen(text), r.errors);
@@ -708,9 +709,7 @@ static void close_text(void) {
     "mechanism m\nstate a\nstate b\n" \
     "equation a'' = 0 [1/s^2]*a\nequation b' = 0 [1/s]*b\n"
 
-/* --- random formulas ------------------------------------------------------------------------------------------ */
-
-/* Names of the leaves: states and their derivatives (times seconds), an input, parameters, earlier lets. */
+/* Leaves of the formulas: states and their derivatives (times seconds), an input, parameters, and earlier lets. */
 static const char *const leaves[] = {
     "a", "(a'*1 [s])", "b", "(a''*1 [s^2])", "(b'*1 [s])", "u", "p0", "p1", "p2", "p3"};
 enum { LEAVES = 10, MOVING = 5 };
@@ -738,7 +737,8 @@ static const char *name_of(int i, char name[24]) {
 
 enum { FORMULAS = 21 };
 
-/* Writes formula `which` of u and v. Returns its value at x, y. Functions with corners get only numbers. */
+/* Writes formula number `which` of u and v. Returns its value for u = x, v = y. A function with corners is used with
+ * numbers only. */
 static long double write_formula(int which, const char *u, const char *v, long double x,
                                  long double y, char *text) {
     const char *form = NULL;
@@ -776,7 +776,7 @@ static void draw_text(void) {
     for (int i = 0; i < LEAVES; i++) {
         d.is_number[i] = i >= MOVING;
         d.value[i] = (long double)dice_between(&die, -2.0, 2.0);
-        if (d.is_number[i]) { /* of hundredths: decimals that no double equals */
+        if (d.is_number[i]) { /* hundredths: no double equals such a decimal */
             d.value[i] = roundl(d.value[i] * 100.0L) / 100.0L;
             SAY("%s %s = %.2Lf\n", i == MOVING ? "input" : "parameter", leaves[i], d.value[i]);
         }
@@ -844,11 +844,9 @@ TEST(reader, worth_reader) {
     TEST_ASSERT_TRUE(numbers > 50);
 }
 
-/* --- corners of uncertain numbers ------------------------------------------------------------------------------ */
-
 static enclosure number_of(const char *formula) {
     char text[500];
-    /* z is an enclosure of zero, w one of a tenth */
+    /* z is an enclosure of zero, w an enclosure of a tenth */
     snprintf(text, sizeof text, HEAD "parameter z = 0.1*3 - 0.3\nparameter w = 0.1*1\nlet e = %s\n",
              formula);
     open_text(text);
@@ -861,7 +859,7 @@ static enclosure number_of(const char *formula) {
 
 static void expect_ends(const char *formula, double low, double high) {
     const enclosure e = number_of(formula);
-    const double slack = strstr(formula, "-w") != NULL ? 4e-17 : 0.0; /* -1 times w rounds */
+    const double slack = strstr(formula, "-w") != NULL ? 4e-17 : 0.0; /* -1 times w is rounded */
     TEST_ASSERT_TRUE_MESSAGE(e.low <= low && low - e.low <= slack, formula);
     TEST_ASSERT_TRUE_MESSAGE(e.high >= high && e.high - high <= slack, formula);
 }
@@ -889,9 +887,7 @@ TEST(reader, corners) {
     expect_ends("max(0, z)", 0.0, z.high);
 }
 
-/* --- refusals ------------------------------------------------------------------------------------------------- */
-
-/* The function must be reported once: by name, in line 6 at this column. */
+/* Fails the test if the function is not reported exactly once, with its name, in line 6 at the column of its call. */
 static void expect_refused(const char *formula, const char *name) {
     char text[500];
     char wanted[200];
@@ -929,14 +925,14 @@ TEST(reader, refused) {
             snprintf(formula, sizeof formula, inside[k], refused[i][0]);
             const bool is_other = strstr(formula, refused[i][1]) != strstr(formula, refused[i][0]);
             if (!is_other) {
-                /* otherwise the place could be that of another function of the same name */
+                /* else the name may be found at another call of the function */
                 expect_refused(formula, refused[i][1]);
             }
         }
     }
 }
 
-/* An output has no value of its own during a proof. */
+/* An output that uses another output is refused, because outputs have no value during a proof. */
 TEST(reader, outputs) {
     char *told = NULL;
     size_t length = 0;
@@ -954,11 +950,11 @@ TEST(reader, outputs) {
 SUITE(reader) { die = dice_of("reader", 53); }
 
 /* === taylor =================================================================================== */
-/* Taylor coefficients of random motions in enclosures (host/prove/taylor.h), and their slopes by the state, against
- * long double series by another method (drawn_graph_series). The enclosures are narrow at a point, and valid for every
- * start in a box. */
+/* Taylor coefficients of random motions in enclosures (host/prove/taylor.h), and their slopes by the state, compared
+ * with long double series by another method (drawn_graph_series). At a point the enclosures must be narrow; in a box
+ * they must hold for every start. */
 
-static int rate_step[DRAWN_VARIABLES]; /* the step that is a variable's rate */
+static int rate_step[DRAWN_VARIABLES]; /* the step that is the variable's rate */
 
 typedef struct drawn_motion {
     graph *graph;
@@ -983,7 +979,7 @@ static void draw_taylor(drawn_motion *m) {
                            .nodes = m->graph->count};
 }
 
-/* The series of all steps along the motion from this state, with a tiny imaginary part of state `moved`, if any. */
+/* The series of all steps along the motion from this state. State `moved` has a tiny imaginary part; -1: none. */
 static void along(const double *from, int moved, int order, series *of) {
     series at[DRAWN_VARIABLES] = {{{0.0L}}};
     for (int i = 0; i < DRAWN_VARIABLES; i++) {
@@ -1003,7 +999,7 @@ static void expect_held(const char *what, enclosure a, long double wanted, long 
         (long double)a.low <= wanted + slack && wanted - slack <= (long double)a.high, what);
 }
 
-/* Largest size of a step's coefficients up to k. */
+/* The largest absolute coefficient up to order k, at least 1. */
 static long double size_of(const series *s, int k) {
     long double size = 1.0L;
     for (int i = 0; i <= k; i++) {
@@ -1025,7 +1021,7 @@ TEST(taylor, at_a_point) {
         for (int i = 0; i < DRAWN_VARIABLES; i++) {
             at[i] = enclosure_of(x_graph[i]);
         }
-        for (int again = 0; again < 2; again++) { /* results of an earlier call do not matter */
+        for (int again = 0; again < 2; again++) { /* an earlier call must not change the result */
             TEST_ASSERT_TRUE(taylor_find(t, at));
         }
         along(x_graph, -1, order, of);
@@ -1099,8 +1095,6 @@ TEST(taylor, in_a_box) {
     TEST_ASSERT_TRUE(10 * finite >= 8 * cases);
 }
 
-/* --- closed forms ------------------------------------------------------------------------------------------*/
-
 typedef struct closed {
     graph *graph;
     int rate;
@@ -1113,7 +1107,7 @@ static void close_with(closed *c, int rate) {
         .states = 1, .rate = &c->rate, .node = c->graph->node, .nodes = c->graph->count};
 }
 
-/* A non-number is reported, even if nothing uses it. */
+/* A value that is not a number must be reported, even if nothing uses it. */
 TEST(taylor, no_number) {
     closed c = {.graph = graph_new()};
     (void)graph_variable(c.graph, 0);
@@ -1136,13 +1130,13 @@ TEST(taylor, no_number) {
     graph_free(c.graph);
 }
 
-/* The cost of a node grows with the square of the order and with the number of slopes. Here its products are counted. */
+/* The cost of a node grows with the square of the order and with the number of slopes. The test counts the products. */
 TEST(taylor, products) {
     closed c = {.graph = graph_new()};
     const int a = graph_variable(c.graph, 0);
     const int both = graph_add(c.graph, graph_sine(c.graph, a), graph_whole(c.graph, 3));
     close_with(&c, graph_mul(c.graph, both, graph_exp(c.graph, a)));
-    /* a sine, its cosine, an exponential, a product */
+    /* a sine, its cosine, an exponential and a product */
     for (int order = 1; order < 10; order++) {
         for (int slopes_to = -1; slopes_to <= order; slopes_to++) {
             double wanted = 0.0;

@@ -1,5 +1,6 @@
-/* test_hard.c: hard cases with contacts, and undamped resonance (docs/hard, docs/hard_cases.md), against closed forms.
- * Cases are redundant supports, frictions that break away, friction under a vanishing load, Newton's cradle. */
+/* test_hard.c: hard cases (docs/hard, docs/hard_cases.md), compared with closed forms: redundant supports, frictions
+ * that break away, friction under a load that vanishes, Newton's cradle, resonance, origins of coordinates, and
+ * borderline cases. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -18,12 +19,11 @@ static void open_hard(motion *m, const char *file, const char *name, const engin
                      (stepping){.kind = kind, .method = WH_RK4, .step_s = step_s});
 }
 
-/* --- redundant contacts --------------------------------------------------------------------------------------- */
-
 #define P0 15.0
-#define LIFTS_N 10.0 /* half the beam's weight; both blocks' static friction */
+#define LIFTS_N 10.0 /* half the beam's weight, and the static friction of both blocks */
 
-/* Motion from the moment when P0 sin(rate t) is LIFTS_N. The acceleration is factor (P0 sin(rate t) - against). */
+/* The motion that begins when P0 sin(rate t) reaches LIFTS_N, with the acceleration factor (P0 sin(rate t) -
+ * against). */
 static double moved_m(double rate, double t, double factor, double against) {
     const double t0 = asin(LIFTS_N / P0) / rate;
     const double s = t - t0;
@@ -34,10 +34,11 @@ static double moved_m(double rate, double t, double factor, double against) {
 
 typedef struct breaking {
     double off_m;
-    double at_rest_m; /* largest motion before P0 sin(rate t) is LIFTS_N */
+    double at_rest_m; /* largest motion before P0 sin(rate t) reaches LIFTS_N */
 } breaking;
 
-/* Runs until 0.3 s after that moment; both coordinates move together. The force's phase advances by `rate`, rad/s. */
+/* Runs until 0.3 s after P0 sin(rate t) reaches LIFTS_N. Both coordinates must move together. The phase of the force
+ * advances by `rate`, in rad/s. */
 static void run_breaking(const char *name, const char *second, stepping how, double rate,
                          double factor, double against, breaking *most) {
     const char *first = second[0] == 's' ? "y" : "x";
@@ -78,13 +79,14 @@ static void check_breaking(const char *name, const char *second, double factor, 
         }
         printf("  %s, %s: at rest to %.1e m; off by %.1e m at 1 ms, %.1e m at 0.25 ms\n", name,
                kind->name, most[0].at_rest_m, most[0].off_m, most[1].off_m);
-        TEST_ASSERT_TRUE(most[0].at_rest_m <= (real == 0 ? 1e-12 : 1e-9)); /* no creep */
+        /* the bodies must not creep */
+        TEST_ASSERT_TRUE(most[0].at_rest_m <= (real == 0 ? 1e-12 : 1e-9));
         TEST_ASSERT_TRUE(most[0].off_m < (real == 0 ? 1e-8 : 1e-4));
         TEST_ASSERT_TRUE(most[1].off_m <= most[0].off_m + (real == 0 ? 1e-12 : 1e-5));
     }
 }
 
-/* About the left support the inertia is 4/3 m: 4/3 m y'' = 2 P - m g. */
+/* The beam of mass m turns about its left support with the inertia of 4/3 m: 4/3 m y'' = 2 P - m g. */
 TEST(hard_contacts, a_beam_lifts_off_two_of_three_supports) {
     check_breaking("beam_lifts", "s", 3.0 / (4.0 * 2.0) * 2.0, 10.0);
 }
@@ -94,15 +96,14 @@ TEST(hard_contacts, two_blocks_break_loose_together) {
     check_breaking("blocks_slide", "y", 1.0 / 2.0, 8.0);
 }
 
-/* --- a pulsating load that vanishes -------------------------------------------------------------- */
-
 #define PULL_N 2.0
 #define LOAD_N 30.0
 #define STATIC 0.5
 #define KINETIC 0.4
 #define PHASE_RATE 10.0
 
-/* Velocity and place `s` seconds after phase p of forward sliding, with or without the pressing force. */
+/* Changes velocity and position to those `s` seconds after phase p, during forward sliding. If `pressed`, the load
+ * acts. */
 static void slide(double p, double s, int pressed, double *v, double *x) {
     const double w = PHASE_RATE;
     const double k = pressed ? KINETIC * LOAD_N : 0.0;
@@ -111,12 +112,11 @@ static void slide(double p, double s, int pressed, double *v, double *x) {
     *v += PULL_N * s - k / w * (sin(p + w * s) - sin(p));
 }
 
-/* The first moment within `span` at which a pressed slide comes to rest, or -1. v has its minimum when the friction equals
- * the pull again. */
+/* The first moment within `span` at which a slide under load comes to rest; -1 if there is none. */
 static double stops_after(double p, double span, double v) {
     double low = 0.0;
     double high = -1.0;
-    for (int i = 1; i <= 20000 && high < 0.0; i++) { /* the first negative value */
+    for (int i = 1; i <= 20000 && high < 0.0; i++) { /* finds the first negative speed */
         double at = v;
         double x = 0.0;
         slide(p, span * i / 20000.0, 1, &at, &x);
@@ -135,11 +135,11 @@ static double stops_after(double p, double span, double v) {
     return high;
 }
 
-/* From rest at phase 0 to t. */
+/* Position and speed at time t, from rest at phase 0. */
 static double pulled_m(double t, double *speed) {
     const double w = PHASE_RATE;
     const double quarter = acos(-1.0) / 2.0;
-    /* the angle at which the mass breaks loose */
+    /* the phase at which the mass breaks loose */
     const double loose = acos(PULL_N / (STATIC * LOAD_N));
     double now = 0.0; /* phase */
     double v = 0.0;
@@ -147,7 +147,7 @@ static double pulled_m(double t, double *speed) {
     const double end = w * t;
     for (int turn = 0; now < end; turn++) {
         const double base = 4.0 * quarter * turn;
-        double next = fmin(end, base + loose); /* sticks until there, if it rests */
+        double next = fmin(end, base + loose); /* a mass at rest sticks until then */
         if (v <= 0.0) {
             now = fmax(now, next);
         }
@@ -173,7 +173,7 @@ static double pulled_off_m(double step_s, const engine_kind *kind, uint64_t *eve
     double off = 0.0;
     motion m;
     open_hard(&m, HARD "pulsating_load.whirl", "load_pulsates", kind, step_s);
-    for (int i = 1; i <= 30; i++) { /* at the same moments, whatever the step */
+    for (int i = 1; i <= 30; i++) { /* compares at the same moments for every step */
         double v;
         motion_to(&m, 0.1 * i);
         const double x = pulled_m(0.1 * i, &v);
@@ -204,8 +204,6 @@ TEST(hard_contacts, a_load_that_pulsates_and_vanishes) {
     TEST_ASSERT_TRUE(in_float < 1e-4);
 }
 
-/* --- Newton's cradle ------------------------------------------------------------------------------------------------ */
-
 TEST(hard_contacts, the_cradle_swings) {
     for (int real = 0; real < 2; real++) {
         const double w = 5.0;
@@ -217,7 +215,8 @@ TEST(hard_contacts, the_cradle_swings) {
                   real == 0 ? &engine_double : &engine_float, 1e-3);
         for (int i = 1; i <= 5000; i++) {
             const double t = i * 1e-3;
-            const double part = fmod(t + period / 4.0, period) / period; /* < 1/2: first ball */
+            /* in the first half of the period the first ball swings */
+            const double part = fmod(t + period / 4.0, period) / period;
             const double swing = -0.1 * cos(w * t);
             TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
             off = fmax(off, fabs(motion_value(&m, "x1") - (part < 0.5 ? swing : 0.0)));
@@ -233,13 +232,11 @@ TEST(hard_contacts, the_cradle_swings) {
                (unsigned)contacts_overruns(&m));
         TEST_ASSERT_TRUE(off < (real == 0 ? 1e-8 : 1e-4));
         TEST_ASSERT_TRUE(between < (real == 0 ? 1e-8 : 1e-4));
-        TEST_ASSERT_TRUE(contacts_events(&m) >= 8 * 4); /* eight passages of four stops */
+        TEST_ASSERT_TRUE(contacts_events(&m) >= 8 * 4); /* eight passages with four impacts each */
         TEST_ASSERT_EQUAL_UINT64(0, contacts_overruns(&m));
         motion_close(&m);
     }
 }
-
-/* --- resonance --------------------------------------------------------------------------------------------------------- */
 
 /* Error relative to the amplitude at the end, F0/(2 k) w t. */
 static double resonance_off(double step_s, const engine_kind *kind) {
@@ -265,9 +262,9 @@ TEST(hard_contacts, a_resonance_that_nothing_damps) {
 }
 
 /* === hard origin ============================================================================== */
-/* R -> 0: straight flights past the origin of polar and spherical coordinates (docs/hard/polar.whirl,
- * docs/hard_cases.md). `whirl run` must warn exactly if a flight ends off its line, and its proposed remedy is
- * applied. */
+/* Straight flights past the origin of polar and spherical coordinates (docs/hard/polar.whirl, docs/hard_cases.md).
+ * `whirl run` must warn if a flight ends far from its line, and be silent if the flight is accurate. The proposed
+ * remedy must work. */
 
 static void run_with(const char *target, const char *set, bool is_float, const char *step,
                      said *what) {
@@ -285,9 +282,7 @@ static void run_with(const char *target, const char *set, bool is_float, const c
 
 static bool tells(const said *what) { return what->status != 0 || what->err[0] != '\0'; }
 
-/* --- r -> 0 ---------------------------------------------------------------------------------------------------- */
-
-/* A straight flight past the origin at a distance: its final error, m. */
+/* Final error in m of a straight flight that passes the origin at the distance d_m. */
 static double passage_by(wh_method method, double d_m, double step_s, const engine_kind *kind,
                          bool compensated) {
     char set[40];
@@ -346,7 +341,7 @@ TEST(hard_origin, past_the_origin_of_polar_coordinates) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-/* The method that a hint names, or else the run's own. */
+/* The method that a hint names; `own` if the hint names none. */
 static wh_method method_named(const char *hint, wh_method own) {
     const char *at = strstr(hint, "--method ");
     for (int m = 0; at != NULL && m < WH_METHODS; m++) {
@@ -358,8 +353,8 @@ static wh_method method_named(const char *hint, wh_method own) {
     return own;
 }
 
-/* Crude methods have larger errors and would need extremely small steps. The proposed remedy must be a possible one; the test
- * applies it. (A former version proposed `--step 0ns`.) */
+/* Methods of low order have larger errors here and would need extremely short steps. The proposed remedy must be a
+ * possible one, and must work. */
 TEST(hard_origin, past_the_origin_by_crude_methods) {
     static const wh_method crude[] = {WH_EULER, WH_SEMI_IMPLICIT_EULER, WH_HEUN, WH_NYSTROEM3};
     dice d = dice_of("crude", 15006);
@@ -369,7 +364,7 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
     double cured_m = 0.0;
     for (unsigned i = 0; i < cases; i++) {
         const wh_method own = crude[i % 4];
-        /* d is drawn up to the limit for nystroem3 */
+        /* up to the limit for nystroem3 */
         const double d_m = pow(10.0, dice_between(&d, -4.0, -2.6));
         char set[40];
         char about[SAID_SIZE + 100];
@@ -388,7 +383,7 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
         }
         const double step_s = strstr(hint, "--step ") != NULL ? said_named_step_s(hint) : 1e-3;
         const wh_method method = method_named(hint, own);
-        /* at 1 m/s the turn takes d/u; the proposed step must not be much shorter than this requires */
+        /* at 1 m/s the passage takes about d/u; the proposed step must not be much shorter than that requires */
         TEST_ASSERT_TRUE_MESSAGE(step_s >= d_m / 200.0 && step_s <= 1e-3, about);
         const double now_m = passage_by(method, d_m, step_s, &engine_double, false);
         snprintf(about + strlen(about), 40, " -> %.3g m", now_m);
@@ -402,8 +397,8 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
     TEST_ASSERT_TRUE(others > 0 && cures > 0);
 }
 
-/* Without rotation the flight goes straight through the origin: r changes its sign undisturbed. If a stage meets the origin
- * itself, theta'' is not a number, and the run ends with a message. */
+/* A flight without rotation goes through the origin, where r changes its sign. If a stage is at the origin itself,
+ * theta'' is not a number, and the run must end with a message. */
 TEST(hard_origin, through_the_origin) {
     static const char *const steps[] = {"1ms", "0.7ms", "0.3ms", "2ms"};
     unsigned through = 0;
@@ -421,11 +416,9 @@ TEST(hard_origin, through_the_origin) {
     printf("  %u of 8 go through, the others say when they end\n", through);
 }
 
-/* --- in space ------------------------------------------------------------------------------------------------- */
-
-/* A flight without forces past the origin: `away` is the nearest point, at distance d, and `way` the direction of flight. */
+/* A flight without forces in a straight line past the origin. */
 typedef struct flight {
-    double at[3], rate[3]; /* position and rate at its start; 1 m/s */
+    double at[3], rate[3]; /* position and rate at the start; the speed is 1 m/s */
     char text[400];        /* text of its scene */
 } flight;
 
@@ -437,7 +430,7 @@ static flight flight_drawn(dice *d, double d_m) {
     flight f = {{0.0}, {0.0}, ""};
     double away[3] = {0.0};
     double size = 0.0;
-    while (size < 0.2) { /* a direction and one across it, neither of them along the axis */
+    while (size < 0.2) { /* a direction, and one at right angles; neither along the axis */
         for (int i = 0; i < 3; i++) {
             f.rate[i] = dice_between(d, -1.0, 1.0);
             away[i] = dice_between(d, -1.0, 1.0);
@@ -527,13 +520,12 @@ TEST(hard_origin, past_the_origin_of_spherical_coordinates) {
 }
 
 /* === hard cases =============================================================================== */
-/* A motor too weak to pass a resonance (Sommerfeld), an almost vanishing inertia, decaying hops on a moving floor, a
- * table that falls away, fast rotation: closed forms, or the same energies in numbers (linkage.h). */
+/* A motor that is too weak to pass a resonance (Sommerfeld), a very small inertia, decaying hops on a moving floor,
+ * a table that falls away, fast rotation. Compared with closed forms, or with the same energies in numbers
+ * (linkage.h). */
 
-/* --- resonance ------------------------------------------------------------------------------------------------- */
-
-/* A carriage of 10 kg between springs, with its own 20 rad/s. On it is a rotor with an eccentric mass, which the
- * motor's torque alone would take to 60 rad/s. */
+/* A carriage of 10 kg between springs, with a natural frequency of 20 rad/s. It carries a rotor with an eccentric
+ * mass. Without the carriage, the motor's torque would take the rotor to 60 rad/s. */
 static linkage shaker(double torque_Nm) {
     linkage of = {.bodies = 2};
     of.body[0] = (linkage_body){.parent = -1,
@@ -552,7 +544,7 @@ static linkage shaker(double torque_Nm) {
     return of;
 }
 
-/* The rotor's speed after 12 s by the reference. */
+/* The rotor's speed after 12 s in the reference. */
 static double reference_after(double torque_Nm) {
     const linkage of = shaker(torque_Nm);
     linkage_motion wanted;
@@ -560,7 +552,7 @@ static double reference_after(double torque_Nm) {
     return (double)wanted.state[LINKAGE_BODIES + 1];
 }
 
-/* The same speed by the program. */
+/* The rotor's speed after 12 s in the program. */
 static double speed_after(double torque_Nm, stepping how) {
     char stall[40];
     motion m;
@@ -589,10 +581,8 @@ TEST(hard_cases, a_motor_at_a_resonance) {
     TEST_ASSERT_TRUE(strong > 40.0);
 }
 
-/* --- almost no inertia ----------------------------------------------------------------------------------------- */
-
-/* A disc on a frictionless pivot at a pendulum's end keeps its rotation, although its angle includes the pendulum's
- * coordinate. Its inertia may be tiny compared with the pendulum's. */
+/* A disc on a pivot without friction, at the end of a pendulum, must keep its rotation, although its angle is
+ * relative to the pendulum. The disc's inertia may be tiny compared with that of the pendulum. */
 TEST(hard_cases, a_disc_of_hardly_any_inertia) {
     double worst[2] = {0.0, 0.0};
     for (int k = 0; k <= 12; k += 3) {
@@ -630,8 +620,6 @@ TEST(hard_cases, a_disc_of_hardly_any_inertia) {
     TEST_ASSERT_TRUE(worst[1] < 2e-3);
 }
 
-/* --- floors that move ------------------------------------------------------------------------------------------ */
-
 static void open_table(motion *m, double A_m, double w_radps, double height_m, double restitution,
                        double step_s) {
     char more[400];
@@ -644,7 +632,7 @@ static void open_table(motion *m, double A_m, double w_radps, double height_m, d
 
 TEST(hard_cases, hops_on_a_moving_floor_end) {
     motion m;
-    open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* 5 m/s^2: a body on it stays */
+    open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* 5 m/s^2, so a body on the table stays */
     motion_to(&m, 2.0);
     for (int k = 0; k < 3000; k++) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
@@ -655,18 +643,18 @@ TEST(hard_cases, hops_on_a_moving_floor_end) {
     motion_close(&m);
 }
 
-/* The table leaves a ball behind when it falls faster than the ball: cos(w t) = -g/(A w^2). */
+/* The table leaves a ball behind when its downward acceleration exceeds g: cos(w t) = -g/(A w^2). */
 TEST(hard_cases, a_table_falls_away) {
     for (int k = 0; k < 5; k++) {
         const double A = 0.02 + 0.01 * k;
         const double w = 30.0;
         const double leaves = acos(-9.81 / (A * w * w)) / w;
-        const double t = 0.02; /* s of flight */
+        const double t = 0.02; /* seconds of flight */
         const double at = leaves + t;
         const double wanted =
             -A * cos(w * leaves) + A * w * sin(w * leaves) * t - 9.81 * t * t / 2.0;
         motion m;
-        const double step = at / 128.0; /* ends on the sampled moment */
+        const double step = at / 128.0; /* the last step ends at the compared moment */
         open_table(&m, A, w, 0.0, 0.0, step);
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 128));
         TEST_ASSERT_TRUE(motion_value(&m, "b") > motion_value(&m, "f"));
@@ -675,18 +663,16 @@ TEST(hard_cases, a_table_falls_away) {
     }
 }
 
-/* --- fast rotation --------------------------------------------------------------------------------------------- */
-
 TEST(hard_cases, fast_rotation) {
     for (int k = 0; k < 5; k++) {
-        const double rate = 600.0 * (k + 1) + 17.0 * k; /* up to 3068 rad/s: 0.49 turns a step */
+        const double rate = 600.0 * (k + 1) + 17.0 * k; /* up to 3068 rad/s: 0.49 turns in a step */
         char start[60];
         motion m;
         snprintf(start, sizeof start, "th'=%.17g", rate);
         motion_open_file(&m, HARD "rotor.whirl", "", "rotor_fast",
                          (stepping){.kind = &engine_float, .method = WH_RK4, .start = start});
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 100000));
-        /* the turn of a step is rounded to 2^-32 turns; the rate and the step are floats */
+        /* the rotation of a step is rounded to 2^-32 turns; rate and step are floats */
         const double turned = rate * 100.0;
         TEST_ASSERT_DOUBLE_WITHIN(turned * 1.3e-7 + 1e-4, turned, motion_value(&m, "th"));
         motion_close(&m);
@@ -694,13 +680,11 @@ TEST(hard_cases, fast_rotation) {
 }
 
 /* === hard edges =============================================================================== */
-/* Borderline cases (docs/hard, docs/hard_cases.md) against closed forms, on both sides: `whirl run` warns of wrong runs
- * and not of accurate ones. A floor too stiff for the step, jumping inputs, amplitudes from subnormal to the end of the
- * range, unequal masses. */
+/* Borderline cases (docs/hard, docs/hard_cases.md), compared with closed forms on both sides: `whirl run` must warn
+ * of wrong runs and not of accurate ones. A floor too stiff for the step, inputs that jump, amplitudes from
+ * subnormal numbers to the end of the range, unequal masses. */
 
-/* --- floors ---------------------------------------------------------------------------------------------------- */
-
-/* Relative energy change of a ball in 2 s on a floor of springs. */
+/* Relative change of the energy of a ball after 2 s on a floor of springs. */
 static double floor_off(double hw, const engine_kind *kind) {
     char set[40];
     motion m;
@@ -750,7 +734,7 @@ TEST(hard_edges, a_floor_stiffer_than_the_step_bears) {
     TEST_ASSERT_TRUE(gone > cases / 10 && sound > cases / 10);
 }
 
-/* With `stop` in place of a stiff spring: the height after 2 s of bounces is right at any step. */
+/* With a `stop` in place of a stiff spring, the height after 2 s of bounces must be right for any step. */
 TEST(hard_edges, a_stop_has_no_stiffness) {
     static const double steps[] = {1e-2, 5e-3, 1e-3, 1e-4};
     const double G = 9.81;
@@ -772,9 +756,7 @@ TEST(hard_edges, a_stop_has_no_stiffness) {
     }
 }
 
-/* --- inputs that jump ------------------------------------------------------------------------------------------- */
-
-/* Advances x'' + w^2 x = u over the time t, for constant u. */
+/* Advances position and velocity of x'' + w^2 x = u by the time t, for constant u. */
 static void exactly(double w, double u, double t, double *x, double *v) {
     const double y = *x - u / (w * w);
     const double x1 = y * cos(w * t) + *v / w * sin(w * t);
@@ -782,7 +764,7 @@ static void exactly(double w, double u, double t, double *x, double *v) {
     *x = x1 + u / (w * w);
 }
 
-/* Ten jumps between steps: the final error, m. */
+/* Final error in m after ten jumps of the input between steps. */
 static double jumps_off_m(dice *d, double step_s, image_matrix_of matrix) {
     motion m;
     double x = 0.0;
@@ -847,9 +829,7 @@ TEST(hard_edges, a_jump_inside_a_step) {
     TEST_ASSERT_TRUE(in_float < 1e-3 * 0.04);
 }
 
-/* --- the ends of a number's range -------------------------------------------------------------------------------- */
-
-/* A swing of amplitude A: its relative error after 1 s; infinite if it ends. */
+/* Largest relative error of a swing of amplitude A; infinite if the run ends early. */
 static double swing_off(double A_m, const engine_kind *kind, bool compensated) {
     char set[60];
     motion m;
@@ -898,7 +878,8 @@ static void scales(bool is_float, double least, double last) {
 TEST(hard_edges, amplitudes_to_the_ends_of_float) { scales(true, -45.0, 38.5); }
 TEST(hard_edges, amplitudes_to_the_ends_of_double) { scales(false, -305.0, 307.5); }
 
-/* A swing under a cubic force: x/A at ten moments; the same for every amplitude. */
+/* A swing under a cubic force, whose frequency does not depend on the amplitude in this scene: x/A at ten moments.
+ * Returns false if the run ends early. */
 static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
     char set[60];
     motion m;
@@ -914,7 +895,7 @@ static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
     return went;
 }
 
-/* In float the cube of the distance underflows long before the distance does: the report names underflow. */
+/* In float, the cube of the distance underflows long before the distance does. The hint must be to use double. */
 TEST(hard_edges, products_that_fall_below_float) {
     double wanted[10];
     unsigned off_course = 0;
@@ -946,21 +927,21 @@ TEST(hard_edges, products_that_fall_below_float) {
     TEST_ASSERT_TRUE(off_course >= 3 && sound >= 20);
 }
 
-/* Beyond 1e15 no step is accepted; beyond 6.28e9 rad no start of an angle in float. */
+/* Beyond 1e15 no step is accepted. In float, no start of an angle beyond 6.28e9 rad is accepted. */
 TEST(hard_edges, starts_that_are_too_large) {
     static const struct {
         const char *file, *start;
         bool is_float;
         int status;
     } starts[] = {
-        {HARD "scales.whirl:scales_usual", "x=1e14", false, 1}, /* its rate is 1e15 */
+        {HARD "scales.whirl:scales_usual", "x=1e14", false, 1}, /* its rate reaches 1e15 */
         {HARD "scales.whirl:scales_usual", "x=9e13", false, 0},
         {HARD "scales.whirl:scales_usual", "x=1e14", true, 1},
         {HARD "scales.whirl:scales_usual", "x=9e13", true, 0},
         {HARD "rotor.whirl:rotor_far", "th=6.281e9", true, 2},
         {HARD "rotor.whirl:rotor_far", "th=-6.281e9", true, 2},
         {HARD "rotor.whirl:rotor_far", "th=6.279e9", true, 0},
-        {HARD "rotor.whirl:rotor_fast", "th'=3142", true, 1}, /* half a turn a step */
+        {HARD "rotor.whirl:rotor_fast", "th'=3142", true, 1}, /* half a turn in a step */
         {HARD "rotor.whirl:rotor_fast", "th'=3141", true, 0},
         {HARD "rotor.whirl:rotor_fast", "th'=3142", false, 1},
     };
@@ -981,9 +962,7 @@ TEST(hard_edges, starts_that_are_too_large) {
     }
 }
 
-/* --- unequal masses ------------------------------------------------------------------------------------------------ */
-
-/* Error of both bodies after 5 s; the amplitude is 0.1 m. */
+/* Error in m of both bodies after 5 s, with an amplitude of 0.1 m. */
 static double unequal_off_m(double mass, const engine_kind *kind) {
     char more[200];
     motion m;
@@ -1001,9 +980,9 @@ static double unequal_off_m(double mass, const engine_kind *kind) {
     return off;
 }
 
-/* Up to a mass ratio of 1e8 there is no effect. The last place of M + m is 2^-53 of the larger mass, so relative to the
- * smaller mass the error grows with the ratio. The test allows that error in a phase of 50 rad, up to a ratio of 1e13. Beyond
- * that, the matrix is refused. */
+/* Up to a mass ratio of 1e8 there is no effect. M + m is rounded by 2^-53 of the larger mass, so relative to the
+ * smaller mass the error grows with the ratio. The test allows this error in a phase of 50 rad, up to a ratio of
+ * 1e13; beyond that, the mass matrix is refused. */
 TEST(hard_edges, two_bodies_of_very_different_mass) {
     double worst[2] = {0.0, 0.0};
     double beyond = 0.0;

@@ -1,6 +1,6 @@
-/* test_hard_scales.c: random planar linkages in other units, masses, lengths and times by factors from 1e-12 to 1e12.
- * Powers of two change no digit of a product or quotient, so the motion must be the same, except for the order of sums.
- * At the end of float's range a run must report it and never silently change. */
+/* test_hard_scales.c: random planar linkages with units of mass, length and time that differ by factors from 1e-12
+ * to 1e12. Powers of two change no digit of a product or quotient, so the motion must be the same, except for the
+ * sequence of sums. At the end of float's range, a run must report this and never change silently. */
 #include "command.h"
 #include "host/cli/commands.h"
 #include "linkage.h"
@@ -12,7 +12,7 @@ static unsigned cases(void) { return dice_cases(few_or_all(3, 30)); }
 
 typedef struct moved {
     wh_status status;
-    double value[2 * LINKAGE_BODIES]; /* values, then rates; in the units before scaling */
+    double value[2 * LINKAGE_BODIES]; /* coordinates, then rates, in SI units */
 } moved;
 
 typedef struct units {
@@ -98,15 +98,15 @@ static bool warns(const char *text) {
     return what.status == said_owes(what.err) && strstr(what.err, "float cannot represent") != NULL;
 }
 
-/* Range of the units, powers of two up to `most`, and the results of the runs with them. */
+/* Units are multiplied by powers of two up to 2^most. The other members are the results of the runs. */
 typedef struct reach {
     const int most;
     unsigned same; /* number of runs with identical bits */
-    unsigned none; /* refused or with a warning */
-    double worst;  /* largest error of the others */
+    unsigned none; /* number of runs that were refused or had a warning */
+    double worst;  /* largest error of the other runs */
 } reach;
 
-/* Runs a linkage in random units and compares it with the same linkage in SI units. */
+/* Runs a linkage in random units and compares the motion with that in SI units. */
 static void held_against(const moved *plain, const linkage *of, const engine_kind *kind, units u,
                          double most_off, reach *r) {
     const moved scaled = run_of(of, u, kind, ANGLES_TURNED);
@@ -130,7 +130,8 @@ static void held_against(const moved *plain, const linkage *of, const engine_kin
 
 enum { REACHES = 3 };
 
-/* Each linkage runs in units of each range. The error is within `most_off`, or the run is refused or warns. */
+/* Runs each linkage in units of each range. The error must be within `most_off`; or the run must be refused or, in
+ * float, warn. */
 static void in_all_units(const engine_kind *kind, double most_off, reach *reached) {
     dice d = dice_of("hard_scales", 16);
     uint64_t seed = d.state;
@@ -168,8 +169,8 @@ TEST(hard_scales, units_do_not_matter_in_float) {
     TEST_ASSERT_TRUE(reached[2].none * 4 <= cases());
 }
 
-/* The reference: same method and step, without rotated sines, in long double from the energies in numbers. *least: see
- * linkage_solve(). */
+/* The reference in long double, from the energies in numbers, with the same method and step but without rotated
+ * sines. *least: the result of linkage_solve(). */
 static moved by_numbers(const linkage *of, double *least) {
     linkage_motion wanted;
     moved end = {.status = WH_OK};
@@ -190,7 +191,7 @@ static double largest_of(const moved *m) {
     return largest;
 }
 
-/* Multiplies the masses, inertias and forces of bodies by random factors of up to this many decades, up or down. */
+/* Multiplies the masses, inertias and forces of each body by 1, 10^decades or 10^-decades at random. */
 static void make_unequal(linkage *of, double decades, dice *d) {
     of->springs = 0;
     for (int i = 0; i < of->bodies; i++) {
@@ -204,7 +205,7 @@ static void make_unequal(linkage *of, double decades, dice *d) {
     }
 }
 
-/* Change of the final state after a relative change of the start. */
+/* How much a relative change `share` of the start changes the final state. */
 static double carried(const linkage *of, const moved *wanted, double share) {
     linkage near = *of;
     double least;
@@ -216,17 +217,17 @@ static double carried(const linkage *of, const moved *wanted, double share) {
     return apart(wanted, &other);
 }
 
-/* Larger than any of these motions within 50 ms: the step is too long, as for a heavy body's damper on a light body,
- * and the run diverges. */
+/* If the reference exceeds this, the run diverges: the step is too long, as for a heavy body's damper on a light
+ * body. */
 #define GROWN 1e12
 
-/* Results of runs with unequal masses. The relative error of an acceleration is a unit in the last place (`last`), divided by
- * the part of the pivot that remains after elimination. */
+/* Runs with unequal masses. The expected relative error of an acceleration is one unit in the last place (`last`),
+ * divided by the smallest ratio of a pivot to its diagonal entry. */
 typedef struct unequal {
-    double worst; /* relative error, if elimination leaves at least a ten thousandth */
-    /* runs whose error exceeds the effect of 100 such errors in the start, and 100 such parts of the largest value */
+    double worst; /* largest relative error, of runs in which that ratio exceeds 1e-4 */
+    /* runs with an error above 100 times the expected one, and above the effect of such an error in the start */
     unsigned beyond;
-    unsigned plain; /* number of plain runs among those in `worst` */
+    unsigned plain; /* number of runs that count in `worst` */
 } unequal;
 
 static unequal of_unequal(const engine_kind *kind, double decades, double last) {
@@ -243,7 +244,7 @@ static unequal of_unequal(const engine_kind *kind, double decades, double last) 
         const double largest = largest_of(&wanted);
         const double off = apart(&wanted, &found);
         if (!(largest < GROWN)) {
-            /* the run in the other units diverges, too, and stops at the end of the number range */
+            /* the run must diverge, too, or reach such sizes */
             grown++;
             TEST_ASSERT_TRUE(found.status != WH_OK || (isfinite(largest) && off < 0.5 * largest));
             continue;

@@ -1,5 +1,5 @@
-/* test_held_text.c: the text of `whirl prove` on random findings (host/prove/containment.h), read back. Numbers round
- * up, but not by much; the right state is named at the end; rows are exact to the last bit. */
+/* test_held_text.c: reads back the text of `whirl prove` for random results (host/prove/containment.h). Numbers must
+ * be rounded up, but not by much; the text must end with the right state; rows must be exact to the last bit. */
 #include "drawn_image.h"
 #include "host/base/alloc.h"
 #include "host/prove/containment.h"
@@ -63,7 +63,8 @@ static const char *read_time(const char *at, double wanted_s) {
     return at;
 }
 
-/* Reads a number with this many digits. It must be at least the value, and at most two units of its last place above. */
+/* Reads a number with `places` digits. The number must not be below the value, and not more than two units of its
+ * last place above. */
 static const char *read_not_less(const char *at, const image_unit *unit, double si, int places) {
     const long double wanted =
         (long double)si * (long double)unit->divisor / (long double)unit->scale;
@@ -103,7 +104,8 @@ static const char *said_state(const char *at, int i, const char *name) {
     const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
     at = said_exactly(at, "  ");
     at = said_exactly(at, name);
-    for (size_t wide = strlen(name); wide < 16; wide++) { /* a column of names */
+    /* the names have a column of 16 characters */
+    for (size_t wide = strlen(name); wide < 16; wide++) {
         at = said_exactly(at, " ");
     }
     at = said_exactly(at, " ");
@@ -137,8 +139,8 @@ static const char *name_of(int i, char *text) {
     return text;
 }
 
-/* Among the states that are not proved to the end: the first one never proved, or else the one whose proof ends first; -1 if
- * there is none. */
+/* Among the states without a proof to the end: the first one that was never proved; else the one whose proof ends
+ * first; -1 if there is none. */
 static int first_that_is_not(void) {
     for (int i = 0; i < found.states; i++) {
         if (!found.state[i].begun) {

@@ -1,9 +1,9 @@
-/* test_hints.c: a hint on dry friction written by hand, and no hint on similar formulas. */
+/* test_hints.c: formulas of dry friction that a user wrote by hand must cause a hint; similar formulas must not. */
 #include "derived.h"
 #include "host/lang/hints.h"
 #include "parsed.h"
 
-/* The line of the Q that is reported, or 0. The first Q is in line 9. */
+/* The line of the formula that causes a hint; 0 if none does. The first Q is in line 9. */
 static int told(const char *forces) {
     char text[900];
     snprintf(text, sizeof text,
@@ -31,7 +31,7 @@ static void test_friction_by_hand_is_told(void) {
                                    "scene s { with rub }\n"));
 }
 
-/* Random losses that grow with the absolute rate: a factor, its exponent, and smooth losses beside it. */
+/* Random losses that grow with an absolute rate: a factor, its exponent, and smooth losses beside it. */
 static void test_losses_with_a_kink_are_told(void) {
     static const char *const sizes[] = {"abs(x')", "sqrt(x'^2)",   "x'*sign(x')",
                                         "x'*way",  "max(x', -x')", "abs(x' - y')"};
@@ -53,12 +53,13 @@ static void test_losses_with_a_kink_are_told(void) {
 }
 
 static void test_what_only_looks_like_it_is_not(void) {
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*sign(x')*x'^2\n"));    /* drag */
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*x'*abs(x')\n"));       /* drag */
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = mu*N*way\n"));            /* drives the body */
-    TEST_ASSERT_EQUAL_INT(0, told("Q(y) = -mu*N*way\n"));           /* another's rate */
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x' - y')\n")); /* between bodies */
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x/1 [m])\n")); /* of a position */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*sign(x')*x'^2\n")); /* drag */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*x'*abs(x')\n"));    /* drag */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = mu*N*way\n"));         /* drives the body */
+    /* rate of x */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(y) = -mu*N*way\n"));
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x' - y')\n")); /* between two bodies */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x/1 [m])\n")); /* sign of a position */
     TEST_ASSERT_EQUAL_INT(0, told("effect rub { Q(x) += -mu*N*way }\nscene s { until 1 [s] }\n"));
     TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -way*N*y/1 [m]/y*0\n")); /* not a number */
     TEST_ASSERT_EQUAL_INT(0, told("friction x static mu kinetic mu normal N\n"));

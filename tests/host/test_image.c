@@ -1,6 +1,6 @@
-/* test_image.c: an image is self-contained. Runs and written output are the same after the language and algebra objects
- * are freed; under the sanitizers, a remaining pointer into them fails here. An image remade with other starts equals
- * one derived with them. */
+/* test_image.c: an image must not depend on the objects of the language and the algebra: runs and output must be the
+ * same after these are freed. Under the sanitizers, a remaining pointer into them fails here. An image that is
+ * remade with other starts must equal one that was derived with them. */
 #include "test.h"
 
 #include "core/contact.h"
@@ -24,8 +24,6 @@
 /* === image ==================================================================================== */
 
 enum { STEPS = 20 };
-
-/* --- readers of an image --------------------------------------------------------------------------- */
 
 static void write_run(FILE *out, const image *im, const engine_kind *kind) {
     diags *errors = diags_new();
@@ -59,7 +57,7 @@ static void write_run(FILE *out, const image *im, const engine_kind *kind) {
     diags_free(errors);
 }
 
-/* Writes all messages on undefined values, for a state of NaNs. */
+/* Writes all messages about undefined values, for a state of NaNs. */
 static void write_undefined(FILE *out, const image *im) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -100,8 +98,6 @@ static char *everything(const image *im) {
     return text;
 }
 
-/* --- self-contained images --------------------------------------------------------------------------- */
-
 static void check_alone(derived *d, const char *what) {
     derived_expect(d, what);
     char *before = everything(d->image);
@@ -127,7 +123,7 @@ TEST(image, an_image_outlives_what_it_was_made_of) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_scene_alone) > 60);
 }
 
-/* Undefined values in lets, slopes and every part of a contact; their places are columns within a line. */
+/* Has undefined values in lets, in slopes and in every part of a contact, at various columns. */
 static const char undefined_everywhere[] =
     "mechanism m \"a\"\n"
     "    coordinate x [m] \"x\"\n"
@@ -147,8 +143,6 @@ TEST(image, a_file_of_ones_own_is_forgotten_too) {
     derived d = derived_text(undefined_everywhere);
     check_alone(&d, d.errors);
 }
-
-/* --- remade images ----------------------------------------------------------------------------------- */
 
 static char *as_c(const image *im) {
     char *text = NULL;
@@ -179,7 +173,7 @@ static int check_again(const scene *s) {
     }
     int compared = 0;
     if (d.image->recovered == 0) {
-        /* otherwise the lists contain the momentum, which depends on the start */
+        /* else the lists contain the momentum, which depends on the start */
         equations *e = equations_derive(other, errors);
         image *fresh = image_make(e, other->conserve, &plainly, IMAGE_TO_RUN, errors);
         image *again = image_again(d.image, other, errors);
@@ -205,13 +199,11 @@ TEST(image, other_starts_need_no_derivation) {
 }
 
 /* === described drawn ========================================================================== */
-/* `whirl describe --json` of random scenes contains every field of the image, with the layout of its brackets. */
+/* `whirl describe --json` of random scenes must have every field of the image, with correct layout. */
 
 static dice die;
 static drawn_scene drawn;
 static char *page;
-
-/* --- JSON ----------------------------------------------------------------------------------------------------- */
 
 static void expect_text(const char *path, const char *wanted) {
     char value[200];
@@ -238,7 +230,7 @@ static void expect_bool(const char *path, bool wanted) {
     expect_text(path, wanted ? "true" : "false");
 }
 
-/* "LIST/INDEX/KEY" */
+/* The path "LIST/INDEX/KEY", in static memory. */
 static const char *in(const char *list, int i, const char *key) {
     static char path[120];
     snprintf(path, sizeof path, "%s/%d/%s", list, i, key);
@@ -474,7 +466,8 @@ static void check_head(const image *im) {
     expect_number("bounds/events", im->contacts > 0 ? WH_EVENTS_MAX : 0);
 }
 
-/* Two blanks per open bracket, one value per line, nothing after a comma, a line end at the end. */
+/* The layout must have two blanks for each open bracket, one value on a line, nothing after a comma, and a line end
+ * at the end. */
 static void check_layout(void) {
     int depth = 0;
     for (const char *line = page; *line != '\0';) {
@@ -510,7 +503,7 @@ TEST(described_drawn, json_has_every_field) {
     }
 }
 
-/* Characters stay; quotes, control characters and invalid UTF-8 are replaced by their escapes. */
+/* Characters stay, except that quotes, control characters and invalid UTF-8 become escapes. */
 TEST(described_drawn, any_text_is_told) {
     static const char *const pieces[][2] = {{"a", "a"},
                                             {" ~", " ~"},
@@ -544,7 +537,7 @@ TEST(described_drawn, any_text_is_told) {
     }
 }
 
-/* JSON has no word for NaN and infinity: they become null. */
+/* NaN and infinity become null, because JSON has no word for them. */
 TEST(described_drawn, what_is_no_number_is_null) {
     static const double none[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < 3; i++) {
@@ -565,8 +558,8 @@ TEST(described_drawn, what_is_no_number_is_null) {
 SUITE(described_drawn) { die = dice_of("described_drawn", 4140); }
 
 /* === generated texts ========================================================================== */
-/* Tests over any mechanism cover every function: the writers of random expressions and mechanisms know each row of
- * host/number/functions.h. */
+/* The writers of random expressions and mechanisms must use every function of host/number/functions.h, so that tests
+ * over random mechanisms cover them all. */
 
 enum { SEED = 7 };
 
@@ -574,7 +567,7 @@ static const char *name(int f) { return function_name((function_id)f); }
 
 static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/* Marks the functions that the text calls; returns the number of unmarked ones. */
+/* Marks the functions that the text calls. Returns the number of functions without a mark. */
 static int mark_called(const char *text, bool called[FUNCTIONS]) {
     int left = 0;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -602,7 +595,7 @@ static void expect_all(const bool called[FUNCTIONS], const char *where) {
     TEST_ASSERT_TRUE_MESSAGE(all, message);
 }
 
-/* Mechanisms are drawn until each function has occurred. If some never occur, the failure names them. */
+/* Mechanisms are drawn until each function has occurred. If some functions never occur, the failure names them. */
 TEST(generated_texts, generated_texts) {
     static char text[1 << 14];
     static const char *const coordinates[] = {"q"};

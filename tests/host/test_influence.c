@@ -1,5 +1,5 @@
-/* test_influence.c: `conserve` with forces, losses and contacts: the message names the obstacle to conservation, and a
- * conserved coordinate that others depend on is accurate. */
+/* test_influence.c: `conserve` with forces, losses and contacts. The message must name the reason why a momentum is
+ * not conserved, and a conserved coordinate on which others depend must be accurate. */
 #include "derived.h"
 #include "host/derive/program.h"
 #include "motion.h"
@@ -14,7 +14,7 @@
     "effect rub { friction x static 0.3 kinetic 0.2 normal 1 [N] }\n" \
     "effect own { Q(y) += push\n  stop y <= 1 [m] restitution 0.5 }\n"
 
-/* The scene's `conserve` is refused with these words. */
+/* Fails the test if the scene's `conserve` is not refused with the text `wanted`. */
 static void refused(const char *scene_text, const char *wanted) {
     char text[1200];
     snprintf(text, sizeof text, "%s%s", CART, scene_text);
@@ -52,9 +52,9 @@ static void test_what_acts_on_others_only_is_no_reason(void) {
     equations_free(e);
 }
 
-/* A clock drives a mass on a spring: m x'' + k x = F sin(w t) from rest. Except at resonance, x = F/(k - m w^2) (sin(w
- * t) - w/w0 sin(w0 t)), w0 = sqrt(k/m). Runge-Kutta's error with h w0 = 0.005 over 50 rad is about 50 (h w0)^4/120 =
- * 3e-10 of 0.125 m. The clock's sum of 1e4 steps has an error of 1e-12 at most. */
+/* A clock drives a mass on a spring, which starts at rest: m x'' + k x = F sin(w t). Except at resonance, x = F/(k -
+ * m w^2) (sin(w t) - w/w0 sin(w0 t)), with w0 = sqrt(k/m). With h w0 = 0.005, the error of Runge-Kutta over 50 rad
+ * is about 50 (h w0)^4/120 = 3e-10 of 0.125 m. The clock is a sum of 1e4 steps with an error of 1e-12. */
 static void expect_driven(const char *clock) {
     char text[600];
     snprintf(text, sizeof text,
@@ -79,7 +79,7 @@ static void test_a_conserved_clock_drives(void) {
                   "let clock_T = 1e-9 [kg*m^2]*clock'^2/2");
 }
 
-/* No force acts on x, but an expression of y's contact names it: then x must be in the state. */
+/* No force acts on x, but an expression of a contact of y contains x. Then x must be in the state. */
 static void test_a_contact_that_names_it_keeps_it_in_the_state(void) {
     static const char *const contacts[] = {
         "stop y <= 1 [m] restitution x/10 [m]",
@@ -105,7 +105,7 @@ static void test_a_contact_that_names_it_keeps_it_in_the_state(void) {
     }
 }
 
-/* Every expression of a contact is checked for a non-number, with its place. */
+/* Every expression of a contact is checked for a value that is not a number. The message must have its place. */
 static void test_a_contact_without_a_number_is_refused(void) {
     static const struct {
         const char *contact;

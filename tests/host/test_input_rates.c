@@ -1,5 +1,6 @@
-/* test_input_rates.c: inputs with a rate: stops and holds that follow them, against closed forms and the same motion by
- * another method. The inputs are set before each step, as firmware does, or move by themselves. */
+/* test_input_rates.c: inputs with a rate. Stops and holds that follow such an input are compared with closed forms,
+ * or with the same motion by another method. The inputs are set before each step, as firmware does, or change by
+ * themselves. */
 #include "command.h"
 #include "derived.h"
 #include "motion.h"
@@ -22,10 +23,10 @@ static double course_at(const course *c, double t, int primes) {
     }
 }
 
-/* Inputs that the scene gets beside the value: the rate, the mean rate of the coming step, or rate and acceleration. */
+/* Inputs of the scene besides the value: its rate; the mean rate of the next step; or rate and acceleration. */
 enum { RATE, MEAN_RATE, ACCELERATION, TELLINGS };
 
-/* Sets the first inputs to the course at t. */
+/* Sets the value, and the inputs that `telling` selects, to those of the course at time t, for a step of h seconds. */
 static void set_course(motion *m, const course *c, int telling, double h, double t) {
     const double ahead = (course_at(c, t + h, 0) - course_at(c, t, 0)) / h;
     m->kind->set_input(m->run, 0, course_at(c, t, 0));
@@ -35,15 +36,13 @@ static void set_course(motion *m, const course *c, int telling, double h, double
     }
 }
 
-/* --- stops --------------------------------------------------------------------------------------------------- */
-
-/* Reference: a ball between two walls of constant speed V. After a hit with the speed v the ball leaves a wall at V - e
- * (v - V). */
+/* Reference: a ball between two walls that move at constant speeds. A ball that hits a wall of speed V at the speed
+ * v leaves at V - e (v - V). */
 static void exact_ball(const double *wall, const double *speed, double e, double until_s, double *x,
                        double *v) {
     double t = 0.0;
     for (;;) {
-        const int to = *v > speed[1] ? 1 : 0; /* the next wall that it meets, if any */
+        const int to = *v > speed[1] ? 1 : 0; /* the wall that the ball meets next, if any */
         const double closing = to == 1 ? *v - speed[1] : speed[0] - *v;
         const double way = to == 1 ? wall[1] + speed[1] * t - *x : *x - wall[0] - speed[0] * t;
         if (!(closing > 0.0) || t + way / closing >= until_s) {
@@ -101,7 +100,7 @@ TEST(input_rates, a_ball_between_moving_walls) {
     TEST_ASSERT_TRUE(worst[0] <= 1e-11 && worst[1] <= 3e-4);
 }
 
-/* A ball on a shaking table stays while the table's downward acceleration is below g, then flies. */
+/* A ball on a shaking table must stay while the table's downward acceleration is below g, and then fly. */
 TEST(input_rates, a_ball_on_a_shaking_table) {
     const unsigned cases = dice_cases(16);
     dice d = dice_of("input_rates", 4602);
@@ -122,7 +121,7 @@ TEST(input_rates, a_ball_on_a_shaking_table) {
         motion m;
         motion_open_text(&m, text, IN_DOUBLE);
         const double lost = asin(fmin(1.0, G / (c.size * c.rate * c.rate))) / c.rate;
-        /* ends while the ball flies, or, if it stays, at a phase of 4.5 rad */
+        /* ends while the ball flies; or, if the ball stays, at a phase of 4.5 rad */
         const double until = leaves ? lost + 0.25 / c.rate : 4.5 / c.rate;
         const unsigned steps = (unsigned)(until / 0.5e-3);
         for (unsigned k = 0; k < steps; k++) {
@@ -147,9 +146,7 @@ TEST(input_rates, a_ball_on_a_shaking_table) {
                      worst[ACCELERATION] <= 1e-4);
 }
 
-/* --- holds --------------------------------------------------------------------------------------------------- */
-
-/* A pendulum on a rope of length L(t), by RK4 of its angle with the exact L(t): a'' = -(2 L' a' + g sin a) / L. */
+/* A pendulum on a rope of length L(t): a'' = -(2 L' a' + g sin a)/L, by RK4 with the exact L(t). */
 static void exact_pendulum(const course *c, double until_s, double *a, double *rate) {
     enum { PARTS = 20000 };
     const double h = until_s / PARTS;
@@ -172,7 +169,8 @@ static void exact_pendulum(const course *c, double until_s, double *a, double *r
 
 enum { BY_HOLD, BY_ANGLE, BY_WAYS };
 
-/* The pendulum, with the rope as a hold or with the angle as coordinate. Returns the error after 2 s in steps of h. */
+/* Error after 2 s in steps of h. The pendulum has its rope as a hold, or the angle as its coordinate. *slipped: the
+ * largest error of the held rope. */
 static double rope_off(const course *c, int way, int telling, const engine_kind *kind, double h,
                        double *slipped) {
     static const char *const text_of[BY_WAYS] = {
@@ -218,7 +216,7 @@ static double rope_off(const course *c, int way, int telling, const engine_kind 
     double total[40];
     double left[8] = {0.0};
     m.kind->ledger(m.run, total, left);
-    /* float: a step's correction of a place is below the resolution of 20 J, and the ledger lacks it */
+    /* in float, correcting a position in each step changes the energy, and the ledger has no entry for this */
     TEST_ASSERT_TRUE(fabs(left[0]) < (kind == &engine_float ? 0.2 : 1e-6));
     motion_close(&m);
     return off;
@@ -230,8 +228,8 @@ static course draw_rope(dice *d) {
                     dice_between(d, -0.1, 0.2)};
 }
 
-/* If the input's rate is the mean rate of the step, or has an acceleration, the rope follows to second order in the step. With
- * the rate at the step's start, it follows to first order. The same holds for energies with L. The hold is exact in any case. */
+/* With the mean rate of the step, or with an acceleration, the rope follows to second order in the step; with the
+ * rate at the step's start, to first order. So do energies that contain L. The hold itself is exact. */
 TEST(input_rates, a_pendulum_on_a_rope_of_changing_length) {
     const unsigned cases = dice_cases(6);
     dice d = dice_of("input_rates", 4602);
@@ -263,10 +261,8 @@ TEST(input_rates, a_pendulum_on_a_rope_of_changing_length) {
     TEST_ASSERT_TRUE(slipped[0] <= 1e-13 && slipped[1] <= 2e-6);
 }
 
-/* --- refused steps and corrections ---------------------------------------------------------------------------- */
-
-/* Scenes with any step, with energy balance or without; x is free, at a wall that the input moves, or constrained by
- * one or several holds. */
+/* Writes a scene with or without energy balance. x is free, at a wall that the input moves, or constrained by one or
+ * several holds. */
 static void refused_text(dice *d, unsigned i, char text[static 900]) {
     static const char *const contact[] = {
         "",
@@ -287,11 +283,11 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
              i % 2 ? " with ledger" : "", dice_between(d, -0.3, 0.3));
 }
 
-/* After a refused step the run continues as if the step had not been requested, also if the inputs differed from the last
- * good ones. */
+/* After a refused step, the run must go on as if the step had not been requested, whatever inputs caused the
+ * refusal. */
 TEST(input_rates, a_refused_step_leaves_no_trace) {
     static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
-                                 1e30}; /* finite: a hold may withstand it as force P */
+                                 1e30}; /* finite: holds may withstand it */
     dice d = dice_of("input_rates", 4603);
     for (unsigned i = 0; i < dice_cases(56); i++) {
         char text[900];
@@ -322,7 +318,7 @@ TEST(input_rates, a_refused_step_leaves_no_trace) {
         }
         TEST_ASSERT_EQUAL_UINT64(m[1].kind->hash(m[1].run), m[0].kind->hash(m[0].run));
         TEST_ASSERT_TRUE_MESSAGE(left[0][0] == left[1][0] && fabs(left[0][0]) < 1e-2, text);
-        /* Coordinates that follow an input are not corrected, all others are. */
+        /* wh_scene_set_real() must refuse coordinates that follow an input, and accept all others */
         const image *im = m[0].image;
         wh_real real[2 * IMAGE_COMPONENTS_MAX] = {0};
         wh_contacts contacts;
@@ -343,8 +339,6 @@ TEST(input_rates, a_refused_step_leaves_no_trace) {
         motion_close(&m[1]);
     }
 }
-
-/* --- the language -------------------------------------------------------------------------------------------- */
 
 TEST(input_rates, what_a_rate_may_be) {
     static const struct {

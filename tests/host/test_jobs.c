@@ -1,5 +1,5 @@
-/* test_jobs.c: worker processes of a sweep (host/os/jobs.h). Rows stay in order, whichever
- * worker ends first. Also: a lost worker, refused rows, and a low limit of open files. */
+/* test_jobs.c: worker processes of a sweep (host/os/jobs.h). Rows must come in sequence, whichever worker ends
+ * first. Also a lost worker, refused rows, and a low limit of open files. */
 #include "test.h"
 
 #include <signal.h>
@@ -20,10 +20,10 @@ typedef struct log_of_rows {
     bool in_order;
     bool as_worked;
     uint64_t failed;
-    uint64_t limit; /* refuse the rows after this */
+    uint64_t limit; /* refuse all rows after this point */
 } log_of_rows;
 
-/* A row has up to 200 kB, more than a pipe can hold. */
+/* Writes a row of up to 200 kB, which is more than a pipe can hold. */
 static bool quick_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     (void)context;
     for (uint64_t i = 0; i < (point % 50 == 0 ? 20000U : 1U); i++) {
@@ -35,14 +35,14 @@ static bool quick_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     return point % 10 != 3;
 }
 
-/* Sleeps for less time the larger p % 8 is, so that points end out of order. */
+/* Sleeps less for a larger point % 8, so that points do not end in sequence. */
 static bool slow_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const struct timespec nap = {0, (long)(7 - point % 8) * 300000};
     nanosleep(&nap, NULL);
     return quick_work(context, point, row, reason);
 }
 
-/* One point of forty takes so long that the other workers reach their limit before the row of this point is written. */
+/* One point of forty takes so long that the other workers reach their limit before this point's row is written. */
 static bool held_up_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const struct timespec nap = {0, 30000000L};
     if (point % 40 == 7) {
@@ -130,8 +130,8 @@ TEST(jobs, a_lost_worker_is_noticed) {
     TEST_ASSERT_TRUE(log.in_order && log.next <= 20);
 }
 
-/* With a low limit of open files, either fewer workers deliver all rows or Whirl reports an error.
- * No file or block leaks. */
+/* With a low limit of open files, fewer workers must deliver all rows, or there must be an error. No file or memory
+ * block may leak. */
 TEST(jobs, few_files) {
     struct rlimit usual;
     int done = 0;
@@ -167,7 +167,8 @@ static volatile sig_atomic_t caught;
 
 static void catch (int signal) { caught = signal; }
 
-/* Ctrl-C reaches all processes of a terminal. The parent decides when the others end. */
+/* Ctrl-C sends the signal to all processes of a terminal. A worker must go on, because the parent decides when
+ * workers end. */
 static bool interrupted_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     raise(SIGINT);
     return quick_work(context, point, row, reason);
@@ -183,7 +184,7 @@ TEST(jobs, interrupts_are_the_parent_s) {
 
 static bool endless_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const struct timespec nap = {0, 20000000L};
-    for (int i = 0; i < 250 && point != FIRST; i++) { /* 5 s */
+    for (int i = 0; i < 250 && point != FIRST; i++) { /* at least 5 s */
         nanosleep(&nap, NULL);
     }
     return quick_work(context, point, row, reason);
@@ -202,7 +203,8 @@ TEST(jobs, workers_end_when_they_are_told) {
     TEST_ASSERT_TRUE(log.next == FIRST + 1 && end.tv_sec - begin.tv_sec < 4);
 }
 
-/* The progress line of a sweep (host/study/session.h): percentage, bar, pace, and time left at that pace. */
+/* Tests of the progress line of a sweep (host/study/session.h): percentage, bar, pace, and remaining time at that
+ * pace. */
 static char *shown;
 static size_t length;
 
@@ -240,7 +242,7 @@ TEST(jobs, what_is_shown) {
     }
 }
 
-/* The line is not drawn again at once. Zero of zero points are 100 %. Without a terminal no line is drawn. */
+/* The line must not be drawn again at once. Zero of zero points are 100 %. Without a terminal there must be no line. */
 TEST(jobs, when_it_is_shown) {
     progress p = begun(1.0, 0, 0);
     progress_show(&p, 0);
@@ -254,7 +256,7 @@ TEST(jobs, when_it_is_shown) {
     TEST_ASSERT_FALSE(p.drawn);
     TEST_ASSERT_TRUE(length > once && shown[length - 1] == '\r');
     TEST_ASSERT_EQUAL_CHAR('\r', shown[once]);
-    TEST_ASSERT_TRUE(strspn(shown + once + 1, " ") >= once - 1); /* the line is blank again */
+    TEST_ASSERT_TRUE(strspn(shown + once + 1, " ") >= once - 1); /* the line must be blank again */
     const size_t cleared = length;
     progress_clear(&p);
     fflush(p.out);

@@ -1,6 +1,6 @@
-/* test_jumped.c: steps that jump over a pole (host/check/pole.h). The divisors of drawn equations and forces
- * come near zero and never reach it. A warning must appear if the run crossed the pole, and only then. The last state
- * alone shows whether it crossed. False alarms: test_unjumped.c. */
+/* test_jumped.c: steps that jump over a pole (host/check/pole.h). The divisors of these equations and forces come
+ * near zero, but the true motion never reaches zero. A warning must appear if the run has crossed the pole, which
+ * its last state shows, and only then. test_unjumped.c tests for false alarms. */
 #include "blocks.h"
 #include "host/check/pole.h"
 #include "host/cli/commands.h"
@@ -19,13 +19,13 @@ static double last_of(const char *name) {
     return strtod(at + strlen(wanted), NULL);
 }
 
-/* Width of a bend relative to a step: steps jump over most of the narrow ones and few of the wide ones. */
+/* Width of the bend near the pole, in steps. Steps jump over most of the narrow bends and over few of the wide ones. */
 static double width(unsigned c) {
     return exp(c % 2 == 0 ? dice_between(&die, -(double)few_or_all(3, 6), -0.7)
                           : dice_between(&die, 0.5, 2.0));
 }
 
-/* Michaelis-Menten decay in several forms: s' = -v s/(k + s) never falls below zero. Its pole is at -k or further. */
+/* Michaelis-Menten decay in several forms: s' = -v s/(k + s) never falls below zero. The pole is at -k or below. */
 static const char *const knees[] = {
     "let d = k + s\nequation s' = -rate*v*s/d\n",
     "equation s' = -rate*v*s*(k + s)^(-1)\n",
@@ -35,19 +35,19 @@ static const char *const knees[] = {
     "equation s' = -rate*v*s^2/(k + s)^2\n",
     "equation s' = -rate*v*s/(k + s)/(1 + 0.001*cos(s))\n",
     "equation s' = -rate*v/(1 + k/s)\n", /* the denominator changes its sign twice */
-    "equation (k + s)*s' = -rate*v*s\n", /* no division */
-    /* the denominator is (s + k)^2: no change of sign */
+    "equation (k + s)*s' = -rate*v*s\n", /* without a division */
+    /* the denominator is (s + k)^2 and does not change its sign */
     "equation s' = -rate*v*s^2/(s^2 + 2*k*s + k^2)\n",
     "let c = 2*v\nequation s' = -rate*v*s^2/(2*c^2*(1 - cos((s + k)/c)))\n",
     "state p\nequation p' = -rate*p\nequation s' = -rate*v*s^2/((k + s)^2 + p^2)\n",
     "equation (k^2 + 2*k*s + s^2)*s' = -rate*v*s^2\n",
     "equation s' = -rate*v*s^3/(s^3 + 3*k*s^2 + 3*k^2*s + k^3)\n",
-    /* two poles, -k and -4 k, possibly in one step */
+    /* two poles, -k and -4 k, perhaps in one step */
     "equation s' = -rate*v*s^2/(4*k^2 + 5*k*s + s^2)\n",
 };
 enum { KNEES = sizeof knees / sizeof knees[0] };
 
-/* Least distance between zero and pole. It is larger with 1 - cos(x), which has few digits for small x. */
+/* Least distance of the pole from zero. It is larger with 1 - cos(x), which has few digits for small x. */
 static double apart(unsigned which, double v, double k) {
     return strstr(knees[which], "cos((") != NULL ? fmax(k, 1e-3 * v) : k;
 }
@@ -76,7 +76,8 @@ TEST(jumped, knees) {
         knee_text(text, c % KNEES, v, k, s, step_s);
         const char *number = c % 3 == 0 ? "float" : "double";
         jumps_run(text, number, no_more);
-        if (jumps_said.status != said_owes(jumps_said.err)) { /* reported as unbounded on the way */
+        /* the run has ended early, as unbounded */
+        if (jumps_said.status != said_owes(jumps_said.err)) {
             TEST_ASSERT_EQUAL_INT(1, jumps_said.status);
             continue;
         }
@@ -104,7 +105,7 @@ TEST(jumped, knees) {
     TEST_ASSERT_TRUE(6U * told > cases && 6U * kept > cases && 2U * cured > told);
 }
 
-/* The report has the same step and expression as the test's own run. Nothing leaks. */
+/* The report must have the step and the expression of the test's own run, and no memory may leak. */
 TEST(jumped, when) {
     for (unsigned c = 0; c < dice_cases(few_or_all(2 * KNEES, 8 * KNEES)); c++) {
         char text[JUMPS_TEXT];
@@ -137,8 +138,8 @@ TEST(jumped, when) {
     }
 }
 
-/* In bends as narrow as these, runs with half the step jump, too, and the two runs may agree. No result after the jump
- * may be trusted. */
+/* At such narrow bends, runs with half the step jump, too, and the two runs may agree. No result after the jump may
+ * be trusted. */
 TEST(jumped, trust) {
     for (unsigned c = 0; c < jumps_cases(KNEES, 8 * KNEES, 3); c++) {
         char text[JUMPS_TEXT];
@@ -158,7 +159,7 @@ TEST(jumped, trust) {
     }
 }
 
-/* The force of this brake vanishes with the rate, so its energy balances everywhere. */
+/* The force of this brake is zero at rate zero, and its energy balance is right on both sides of the pole. */
 TEST(jumped, forces) {
     static const char *const forces[] = {"-B*x'/(v0 + x')", "-B*x'*(v0 + x')^(-1)",
                                          "-B*(1 - v0/(v0 + x'))"};
@@ -191,7 +192,8 @@ TEST(jumped, forces) {
                      (cases < 24 || (4U * told > cases && 4U * kept > cases)));
 }
 
-/* An angle passes a zero of a cosine or tangent in a denominator, and no step ends near that zero. w is the angle's rate. */
+/* An angle passes a zero of a cosine or tangent in a denominator, and no step ends near that zero. w is the angle's
+ * rate. */
 TEST(jumped, angles) {
     static const char *const poles[] = {"1/cos(th - %.17g [rad])", "tan(th - %.17g [rad])",
                                         "1/tan(th - %.17g [rad])",
@@ -210,13 +212,13 @@ TEST(jumped, angles) {
         motion_open_text(
             &m, text,
             (stepping){.kind = c % 2 == 0 ? &engine_float : &engine_double, .method = WH_RK4});
-        /* checks only that it jumps, because the search for a step that works takes long */
+        /* checks only that the run jumps, because the search for a better step takes long */
         TEST_ASSERT_TRUE_MESSAGE(jumps_some(&m), text);
         motion_close(&m);
     }
 }
 
-/* The warning names the equation whose denominator crosses zero, among other equations in any order. */
+/* Among other equations in any sequence, the warning must name the equation whose denominator passes zero. */
 TEST(jumped, which_equation_is_told) {
     static const char *const others[] = {"equation p'' = -p*9 [1/s^2]\n",
                                          "equation q' = (1 + p*p)*rate\n"};
@@ -238,7 +240,7 @@ TEST(jumped, which_equation_is_told) {
                  stands == 2 ? knee : others[1], coming);
         jumps_run(text, "double", no_more);
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(jumps_said.err), jumps_said.status, jumps_said.err);
-        if (last_of("s") > 0.0) { /* only a stage has crossed the pole, not the run */
+        if (last_of("s") > 0.0) { /* a stage has crossed the pole, but the run has not */
             continue;
         }
         const char *told = strstr(jumps_said.err, "grows without bound: ");
@@ -248,7 +250,7 @@ TEST(jumped, which_equation_is_told) {
     }
 }
 
-/* Far from the origin positions have few digits: exponential growth and a saturating motion. */
+/* Far from the origin, positions have few digits. The motion grows exponentially or saturates. */
 TEST(jumped, far_away) {
     static const char *const laws[] = {"1/(s - a)", "sin(s - a)/(s - a)", "(s - a)^(-2)",
                                        "(s^2 - a^2)/(s - a)"};
