@@ -9,20 +9,23 @@
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
-#include "host/cli/target.h"
 #include "host/emit/description.h"
 #include "host/engine/engine.h"
 #include "host/number/functions.h"
 
-/* Returns false, and reports the reason, if a word is an option; "-" is a file. */
-static bool has_no_options(const char *command, int count, char **words) {
-    for (int i = 0; i < count; i++) {
-        if (words[i][0] == '-' && words[i][1] != '\0') {
-            options_unknown(command, words[i], 0, (const char *const[]){NULL});
-            return false;
-        }
-    }
-    return true;
+/* The words of a command without options. */
+typedef struct words_of {
+    char **word; /* [count] */
+    int count;
+} words_of;
+
+static int words_command(const char *command, const command_usage *usage, int count, char **words,
+                         int (*work)(void *all)) {
+    words_of all = {.word = words};
+    const char *last;
+    const target_reader reader = {
+        .command = command, .usage = usage, .many = words, .many_count = &all.count, .work = work};
+    return target_command(&reader, count, words, NULL, &all, &last);
 }
 
 /* === whirl accel ============================================================================== */
@@ -97,27 +100,18 @@ static int print_image(const image *im, const char *file) {
     return finite ? EXIT_DONE : EXIT_RUN_FAILED;
 }
 
-int command_accel(int count, char **words) {
-    if (options_help(count, words, &accel_usage)) {
-        return EXIT_DONE;
-    }
-    if (count < 1) {
-        options_usage(stderr, &accel_usage);
-        return EXIT_BAD_INPUT;
-    }
-    if (!has_no_options("accel", count, words)) {
-        return EXIT_BAD_INPUT;
-    }
+static int accel_work(void *all) {
+    const words_of *words = all;
     source_model from;
     const mechanism *of;
     const scene *in;
-    int code = source_open(&from, words[0]);
+    int code = source_open(&from, words->word[0]);
     if (code == EXIT_DONE) {
         code = source_pick(&from, false, &of, &in);
     }
     if (code == EXIT_DONE) {
-        const overrides changes = {.values = (const char *const *)(words + 1),
-                                   .value_count = count - 1};
+        const overrides changes = {.values = (const char *const *)(words->word + 1),
+                                   .value_count = words->count - 1};
         loaded made;
         const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_RUN};
         code = load(&made, &from, of, in, &changes, &wish);
@@ -129,6 +123,10 @@ int command_accel(int count, char **words) {
     }
     source_close(&from);
     return code;
+}
+
+int command_accel(int count, char **words) {
+    return words_command("accel", &accel_usage, count, words, accel_work);
 }
 
 /* === whirl check ============================================================================== */
@@ -183,23 +181,18 @@ static int check_one(const char *file) {
     return code;
 }
 
-int command_check(int count, char **words) {
+static int check_work(void *all) {
+    const words_of *files = all;
     int code = EXIT_DONE;
-    if (options_help(count, words, &check_usage)) {
-        return EXIT_DONE;
-    }
-    if (!has_no_options("check", count, words)) {
-        return EXIT_BAD_INPUT;
-    }
-    if (count == 0) {
-        options_usage(stderr, &check_usage);
-        return EXIT_BAD_INPUT;
-    }
-    for (int i = 0; i < count; i++) {
-        const int one = check_one(words[i]);
+    for (int i = 0; i < files->count; i++) {
+        const int one = check_one(files->word[i]);
         code = one > code ? one : code;
     }
     return code;
+}
+
+int command_check(int count, char **words) {
+    return words_command("check", &check_usage, count, words, check_work);
 }
 
 /* === whirl describe =========================================================================== */

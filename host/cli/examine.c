@@ -9,7 +9,7 @@
 #include "host/derive/symmetry.h"
 #include "host/emit/emit.h"
 #include "host/show/show_equations.h"
-#include "target.h"
+#include "options.h"
 
 static const command_usage usage = {
     .head =
@@ -33,7 +33,7 @@ static const command_usage usage = {
 typedef struct examine_options {
     common_options common;
     const char *target;
-    bool latex;
+    const char *form;
 } examine_options;
 
 /* --- causes of a momentum's change ----------------------------------------------------------------- */
@@ -291,20 +291,13 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
 
 /* --- the command ----------------------------------------------------------------------------------------*/
 
-static bool take_one(int count, char **words, int *at, void *options, bool *bad) {
-    static const char *const forms[] = {"text", "latex"};
-    examine_options *o = options;
-    const char *value = options_value(count, words, at, "--as", bad);
-    if (value != NULL) {
-        const int chosen = options_choose("examine", "form", value, forms, sizeof forms[0], 2);
-        *bad = chosen < 0;
-        o->latex = chosen == 1;
-    }
-    return value != NULL;
-}
-
 static int examine_source(source_model *from, void *options) {
+    static const char *const forms[] = {"text", "latex"};
     const examine_options *o = options;
+    const int form = options_choose("examine", "form", o->form, forms, sizeof forms[0], 2);
+    if (form < 0) {
+        return EXIT_BAD_INPUT;
+    }
     loaded made;
     int code = target_load(&made, from, &o->common,
                            (load_wish){.use = IMAGE_TO_RUN, .keep = KEEP_EQUATIONS});
@@ -323,7 +316,7 @@ static int examine_source(source_model *from, void *options) {
             diags_flush(from->errors, stderr);
             code = EXIT_BAD_INPUT;
         } else {
-            print_all(made.equations, found, o->latex);
+            print_all(made.equations, found, form == 1);
         }
         symmetries_free(found);
     }
@@ -332,12 +325,11 @@ static int examine_source(source_model *from, void *options) {
 }
 
 int command_examine(int count, char **words) {
-    static const char *const own[] = {"--as", NULL};
-    examine_options o = {.common = options_defaults()};
+    examine_options o = {.common = options_defaults(), .form = "text"};
+    const own_option own[] = {{.word = "--as", .text = &o.form}, {.word = NULL}};
     const target_reader reader = {.command = "examine",
                                   .usage = &usage,
-                                  .own = own,
-                                  .take = take_one,
+                                  .table = own,
                                   .derives = true,
                                   .work_on = examine_source};
     return target_command(&reader, count, words, &o.common, &o, &o.target);

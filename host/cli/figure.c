@@ -9,7 +9,6 @@
 #include "host/cli/load.h"
 #include "host/cli/options.h"
 #include "host/cli/run.h"
-#include "host/cli/target.h"
 #include "host/io/figure_draw.h"
 #include "host/io/gnuplot.h"
 #include "host/io/plot.h"
@@ -52,29 +51,6 @@ typedef struct plot_options {
 static bool is_csv(const char *name) {
     const size_t length = strlen(name);
     return length > 4 && options_same(name + length - 4, ".csv");
-}
-
-static void take_plot(int count, char **words, int *at, plot_options *o, bool *bad) {
-    static const char *const own[] = {RUN_CHOICE_WORDS, "--legend", "--out", NULL};
-    const int from = *at;
-    const char *value = NULL;
-    if (run_take_choice("plot", count, words, at, &o->choice, bad) || *bad) {
-        return;
-    }
-    if ((value = options_value(count, words, at, "--out", bad)) != NULL) {
-        o->out = value;
-    } else if (!*bad && (value = options_value(count, words, at, "--legend", bad)) != NULL) {
-        o->choice.legend = value;
-    } else if (!*bad && options_take("plot", OPTIONS_SCENE, count, words, at, &o->common, bad)) {
-        for (int i = from; i < *at; i++) {
-            o->passed[1 + o->passed_count++] = words[i];
-        }
-    } else if (!*bad && words[*at][0] == '-') {
-        options_unknown("plot", words[*at], OPTIONS_SCENE, own);
-        *bad = true;
-    } else if (!*bad) {
-        o->target[o->targets++] = words[(*at)++];
-    }
 }
 
 /* The text "l=20cm" if word i is --set l=20cm or --set=l=20cm, or --start with such a value; else NULL. */
@@ -147,7 +123,11 @@ static bool is_whole(const plot_options *o) {
     return sets_once(o) && gnuplot_can_draw_for("plot", "--out", o->out) && gnuplot_is_there();
 }
 
-static int draw_all(plot_options *o) {
+static int plot_work(void *options) {
+    plot_options *o = options;
+    if (!is_whole(o)) {
+        return EXIT_BAD_INPUT;
+    }
     plot_run *runs = alloc(o->targets, sizeof *runs);
     int code = EXIT_DONE;
     int count = 0;
@@ -171,23 +151,23 @@ static int draw_all(plot_options *o) {
 }
 
 int command_plot(int count, char **words) {
-    if (options_help(count, words, &plot_usage)) {
-        return EXIT_DONE;
-    }
     plot_options o = {.common = options_defaults(),
                       .target = alloc(count, sizeof *o.target),
                       .passed = alloc(count + 1, sizeof *o.passed)};
-    bool bad = false;
-    for (int at = 0; at < count && !bad;) {
-        take_plot(count, words, &at, &o, &bad);
-    }
-    int code = EXIT_BAD_INPUT;
-    if (!bad && o.targets == 0) {
-        options_usage(stderr, &plot_usage);
-    } else if (!bad && is_whole(&o)) {
-        code = draw_all(&o);
-    }
-    options_forget(&o.common);
+    const char *last;
+    const own_option own[] = {RUN_CHOICE_ROWS(o.choice),
+                              {.word = "--legend", .text = &o.choice.legend},
+                              {.word = "--out", .text = &o.out},
+                              {.word = NULL}};
+    const target_reader reader = {.command = "plot",
+                                  .usage = &plot_usage,
+                                  .table = own,
+                                  .many = o.target,
+                                  .many_count = &o.targets,
+                                  .passed = o.passed + 1,
+                                  .passed_count = &o.passed_count,
+                                  .work = plot_work};
+    const int code = target_command(&reader, count, words, &o.common, &o, &last);
     free(o.target);
     free(o.passed);
     return code;
@@ -218,47 +198,10 @@ typedef struct figure_options {
     const char *out;
     const char *given[DATA_MOST]; /* NAME=FILE */
     int given_count;
-    char *passed[WORDS_MOST]; /* words for every run */
-    char *varied;             /* the same words as text, a blank before each */
+    char **passed; /* [passed_count] words for every run */
     int passed_count;
+    char *varied; /* the same words as text, a blank before each */
 } figure_options;
-
-static bool take_one(int count, char **words, int *at, figure_options *o) {
-    static const char *const own[] = {"--out", "--data", NULL};
-    bool bad = false;
-    const int from = *at;
-    const char *value = options_value(count, words, at, "--out", &bad);
-    if (value != NULL) {
-        o->out = value;
-    } else if (!bad && (value = options_value(count, words, at, "--data", &bad)) != NULL) {
-        const bool full = o->given_count == DATA_MOST;
-        bad = full || strchr(value, '=') == NULL;
-        if (full) {
-            fprintf(stderr, "whirl figure: error: more than %d --data options\n", DATA_MOST);
-        } else if (bad) {
-            fprintf(stderr, "whirl figure: error: --data takes NAME=FILE, not '%.60s'\n", value);
-        } else {
-            o->given[o->given_count++] = value;
-        }
-    } else if (!bad && options_take("figure", OPTIONS_SCENE, count, words, at, &o->common, &bad)) {
-        for (int i = from; i < *at && o->passed_count < WORDS_MOST; i++) {
-            o->passed[o->passed_count++] = words[i];
-            char *longer = alloc_words("%s %s", o->varied, words[i]);
-            free(o->varied);
-            o->varied = longer;
-        }
-    } else if (!bad && words[*at][0] == '-') {
-        options_unknown("figure", words[*at], OPTIONS_SCENE, own);
-        bad = true;
-    } else if (!bad && o->name != NULL) {
-        fprintf(stderr, "whirl figure: error: one figure at a time: '%.60s' is a second\n",
-                words[*at]);
-        bad = true;
-    } else if (!bad) {
-        o->name = words[(*at)++];
-    }
-    return !bad;
-}
 
 /* --- its records ----------------------------------------------------------------------------------------- */
 
@@ -310,7 +253,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
         return EXIT_RUN_FAILED;
     }
     char *file = alloc_words("%s/records.csv", folder);
-    char *all[2 * WORDS_MOST + 4];
+    char **all = alloc(count + o->passed_count + 3, sizeof *all);
     int n = 0;
     for (int i = 1; i < count; i++) {
         all[n++] = word[i];
@@ -336,6 +279,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
     }
     (void)rmdir(folder);
     free(file);
+    free(all);
     return code == EXIT_DONE && data->csv == NULL ? EXIT_RUN_FAILED : code;
 }
 
@@ -406,7 +350,20 @@ static int draw(const figure_options *o, const char *where, const char *text) {
     return code;
 }
 
-static int draw_named(const figure_options *o) {
+static int figure_work(void *options) {
+    figure_options *o = options;
+    for (int i = 0; i < o->given_count; i++) {
+        if (strchr(o->given[i], '=') == NULL) {
+            fprintf(stderr, "whirl figure: error: --data takes NAME=FILE, not '%.60s'\n",
+                    o->given[i]);
+            return EXIT_BAD_INPUT;
+        }
+    }
+    for (int i = 0; i < o->passed_count; i++) {
+        char *longer = alloc_words("%s %s", o->varied, o->passed[i]);
+        free(o->varied);
+        o->varied = longer;
+    }
     const size_t length = strlen(o->name);
     if (length > 4 && strcmp(o->name + length - 4, ".fig") == 0) {
         size_t size;
@@ -432,21 +389,22 @@ static int draw_named(const figure_options *o) {
 }
 
 int command_figure(int count, char **words) {
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    figure_options o = {.common = options_defaults(), .varied = alloc_words("%s", "")};
-    bool good = true;
-    for (int at = 0; at < count && good;) {
-        good = take_one(count, words, &at, &o);
-    }
-    int code = EXIT_BAD_INPUT;
-    if (good && o.name == NULL) {
-        options_usage(stderr, &usage);
-    } else if (good) {
-        code = draw_named(&o);
-    }
-    options_forget(&o.common);
+    figure_options o = {.common = options_defaults(),
+                        .passed = alloc(count, sizeof *o.passed),
+                        .varied = alloc_words("%s", "")};
+    const own_option own[] = {
+        {.word = "--out", .text = &o.out},
+        {.word = "--data", .text = o.given, .count = &o.given_count, .limit = DATA_MOST},
+        {.word = NULL}};
+    const target_reader reader = {.command = "figure",
+                                  .usage = &usage,
+                                  .table = own,
+                                  .passed = o.passed,
+                                  .passed_count = &o.passed_count,
+                                  .one = "figure",
+                                  .work = figure_work};
+    const int code = target_command(&reader, count, words, &o.common, &o, &o.name);
+    free(o.passed);
     free(o.varied);
     return code;
 }

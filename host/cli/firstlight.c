@@ -10,7 +10,7 @@
 #include "host/base/alloc.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
-#include "host/cli/target.h"
+#include "host/cli/options.h"
 #include "host/engine/loop.h"
 #include "host/monitor/light.h"
 #include "host/os/atomic_file.h"

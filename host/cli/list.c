@@ -1,7 +1,9 @@
 /* list.c: `whirl list`: mechanisms, their effects and scenes. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "host/base/alloc.h"
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
@@ -228,14 +230,9 @@ static const form forms[] = {
 };
 
 static const form *form_of(const char *word) {
-    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
-        if (strcmp(forms[i].word, word) == 0) {
-            return &forms[i];
-        }
-    }
-    fprintf(stderr, "whirl list: error: there is no form '%s'\nhint: --as text or --as table\n",
-            word);
-    return NULL;
+    const int chosen = options_choose("list", "form", word, forms, sizeof forms[0],
+                                      (int)(sizeof forms / sizeof forms[0]));
+    return chosen < 0 ? NULL : &forms[chosen];
 }
 
 /* `first`: no entry was listed before. */
@@ -317,47 +314,48 @@ static int list_figures(void) {
     return EXIT_DONE;
 }
 
-int command_list(int count, char **words) {
-    const form *as = &forms[0];
-    int files = 0; /* words[0..files-1] are the files */
-    bool bad = false;
-    int (*other)(void) = NULL; /* --units, --hard or --figures */
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    for (int at = 0; at < count && !bad;) {
-        const char *value = options_value(count, words, &at, "--as", &bad);
-        if (value != NULL) {
-            as = form_of(value);
-            bad = as == NULL;
-        } else if (!bad && strcmp(words[at], "--units") == 0) {
-            other = list_units;
-            at++;
-        } else if (!bad && strcmp(words[at], "--figures") == 0) {
-            other = list_figures;
-            at++;
-        } else if (!bad && strcmp(words[at], "--hard") == 0) {
-            other = list_hard;
-            at++;
-        } else if (!bad && words[at][0] == '-' && words[at][1] != '\0') {
-            options_unknown("list", words[at], 0,
-                            (const char *const[]){"--as", "--units", "--hard", "--figures", NULL});
-            bad = true;
-        } else if (!bad) {
-            words[files++] = words[at++];
-        }
-    }
-    if (!bad && other != NULL && count > 1) {
+typedef struct list_options {
+    char **file; /* [files] */
+    int files;
+    const char *form;
+    bool units, hard, figures;
+} list_options;
+
+static int list_work(void *options) {
+    const list_options *o = options;
+    const int other = o->units + o->hard + o->figures;
+    if (other + (o->files > 0) + (o->form != NULL) > 1 && other > 0) {
         fputs("whirl list: error: --units, --hard and --figures go alone\n", stderr);
-        bad = true;
+        return EXIT_BAD_INPUT;
     }
-    if (!bad && other != NULL) {
-        return other();
+    if (other > 0) {
+        return o->units ? list_units() : o->hard ? list_hard() : list_figures();
     }
-    int code = bad ? EXIT_BAD_INPUT : files == 0 ? list_builtin(as) : EXIT_DONE;
-    for (int i = 0; i < files && !bad; i++) {
-        const int one = list_file(words[i], as, i == 0);
+    const form *as = form_of(o->form != NULL ? o->form : "text");
+    int code = as == NULL ? EXIT_BAD_INPUT : o->files == 0 ? list_builtin(as) : EXIT_DONE;
+    for (int i = 0; i < o->files && as != NULL; i++) {
+        const int one = list_file(o->file[i], as, i == 0);
         code = one > code ? one : code;
     }
+    return code;
+}
+
+int command_list(int count, char **words) {
+    list_options o = {.file = alloc(count, sizeof *o.file)};
+    const char *last;
+    const own_option own[] = {{.word = "--as", .text = &o.form},
+                              {.word = "--units", .flag = &o.units},
+                              {.word = "--hard", .flag = &o.hard},
+                              {.word = "--figures", .flag = &o.figures},
+                              {.word = NULL}};
+    const target_reader reader = {.command = "list",
+                                  .usage = &usage,
+                                  .table = own,
+                                  .many = o.file,
+                                  .many_count = &o.files,
+                                  .none = true,
+                                  .work = list_work};
+    const int code = target_command(&reader, count, words, NULL, &o, &last);
+    free(o.file);
     return code;
 }

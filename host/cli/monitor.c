@@ -11,7 +11,6 @@
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
-#include "host/cli/target.h"
 #include "host/io/gnuplot.h"
 #include "host/io/plot.h"
 #include "host/monitor/recording.h"

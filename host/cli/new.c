@@ -73,23 +73,20 @@ static int write_new(const char *name, const char *file) {
     return EXIT_DONE;
 }
 
-int command_new(int count, char **words) {
-    if (options_help(count, words, &usage)) {
-        return EXIT_DONE;
-    }
-    if (count != 1) {
-        options_usage(stderr, &usage);
+static int new_work(void *options) {
+    const char *const name = *(const char **)options;
+    if (!options_is_name("new", name, NAME_LENGTH_MAX - (int)strlen(suffix))) {
         return EXIT_BAD_INPUT;
     }
-    if (words[0][0] == '-') {
-        options_unknown("new", words[0], 0, (const char *const[]){NULL});
-        return EXIT_BAD_INPUT;
-    }
-    if (!options_is_name("new", words[0], NAME_LENGTH_MAX - (int)strlen(suffix))) {
-        return EXIT_BAD_INPUT;
-    }
-    char *file = alloc_words("%s.whirl", words[0]);
-    const int code = write_new(words[0], file);
+    char *file = alloc_words("%s.whirl", name);
+    const int code = write_new(name, file);
     free(file);
     return code;
+}
+
+int command_new(int count, char **words) {
+    const char *name;
+    const target_reader reader = {
+        .command = "new", .usage = &usage, .one = "name", .work = new_work};
+    return target_command(&reader, count, words, NULL, &name, &name);
 }

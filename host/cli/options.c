@@ -111,18 +111,6 @@ static bool is_option(const char *word, const char *name) {
     return strncmp(word, name, length) == 0 && (word[length] == '\0' || word[length] == '=');
 }
 
-static bool may_be_repeated(const char *name) {
-    static const char *const all[] = {"--set",  "--start",  "--with", "--without",
-                                      "--over", "--panel",  "--data", "--measure",
-                                      "--vary", "--within", "--fault"};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        if (strcmp(name, all[i]) == 0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* The value of the option at `at`; "" if it is missing. */
 static const char *value_at(int count, char **words, int at, const char *name) {
     const size_t length = strlen(name);
@@ -130,7 +118,7 @@ static const char *value_at(int count, char **words, int at, const char *name) {
 }
 
 static bool is_new(int count, char **words, int at, const char *name) {
-    for (int i = 0; i < at && !may_be_repeated(name); i++) {
+    for (int i = 0; i < at; i++) {
         if (is_option(words[i], name)) {
             fprintf(stderr, "whirl: error: %s is given twice: '%s' and '%s'\n", name, words[i],
                     words[at]);
@@ -146,13 +134,16 @@ static bool is_new(int count, char **words, int at, const char *name) {
     return true;
 }
 
-const char *options_value(int count, char **words, int *at, const char *name, bool *bad) {
+/* If words[*at] is `name` or `name=VALUE`, returns its value and advances *at past it. Returns NULL for another word. A
+ * missing value is reported and sets *bad, and so is a second one unless the option `repeats`. */
+static const char *value_of(int count, char **words, int *at, const char *name, bool repeats,
+                            bool *bad) {
     const size_t length = strlen(name);
     const char *word = words[*at];
     if (!is_option(word, name)) {
         return NULL;
     }
-    if (!is_new(count, words, *at, name)) {
+    if (!repeats && !is_new(count, words, *at, name)) {
         *bad = true;
         ++*at;
         return NULL;
@@ -238,11 +229,12 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
     }
 }
 
-/* The value of the option `which` at words[*at], "" for an option without a value; NULL for another word. */
+/* The value of the option `which` at words[*at], "" for an option without a value; NULL for another word. The options up
+ * to --without may be repeated. */
 static const char *common_value(common_option which, int count, char **words, int *at, bool *bad) {
     const option_row *row = &option_rows[which];
     if (row->value[0] != '\0') {
-        return options_value(count, words, at, row->word, bad);
+        return value_of(count, words, at, row->word, which <= OPTION_WITHOUT, bad);
     }
     if (strcmp(words[*at], row->word) != 0) {
         return NULL;
@@ -335,7 +327,8 @@ bool options_number(const char *command, const char *option, const char *text, d
     return good;
 }
 
-bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad) {
+/* Reads --strict, --strict=off or --strict=LIMIT, for run_checks_fails(). Returns false for another word. */
+static bool take_strict(const char *command, char **words, int *at, double *strict, bool *bad) {
     static const char name[] = "--strict";
     const size_t length = sizeof name - 1;
     const char *value = words[*at] + length;
@@ -384,6 +377,12 @@ static bool knows_fixed(const char *command) {
            strcmp(command, "trust") == 0;
 }
 
+/* Stores the word's place among `rows` in a setting of the integration. */
+#define CHOOSE(what, rows, count, type, setting) \
+    chosen = options_choose(command, what, value, rows, sizeof(rows)[0], count); \
+    to->integration.setting = chosen < 0 ? to->integration.setting : (type)chosen; \
+    return chosen >= 0
+
 static bool take(common_option which, const char *command, const char *value, common_options *to) {
     static const struct {
         const char *word;
@@ -399,28 +398,15 @@ static bool take(common_option which, const char *command, const char *value, co
     case OPTION_WITHOUT: return push_names(c, &c->without, &c->without_count, word, value);
     case OPTION_STEP: c->step = value; break;
     case OPTION_UNTIL: c->until = value; break;
-    case OPTION_METHOD:
-        chosen =
-            options_choose(command, "method", value, wh_methods, sizeof wh_methods[0], WH_METHODS);
-        to->integration.method = chosen < 0 ? WH_METHOD_DEFAULT : (wh_method)chosen;
-        return chosen >= 0;
+    case OPTION_METHOD: CHOOSE("method", wh_methods, WH_METHODS, wh_method, method);
     case OPTION_COMPENSATED: to->integration.compensated = true; break;
     case OPTION_STABILIZED: to->integration.stabilized = true; break;
     case OPTION_ANGLES:
-        chosen = options_choose(command, "form of angles", value, image_angles_words,
-                                sizeof image_angles_words[0], IMAGE_ANGLES);
-        to->integration.angles = chosen < 0 ? ANGLES_TURNED : (image_angles)chosen;
-        return chosen >= 0;
+        CHOOSE("form of angles", image_angles_words, IMAGE_ANGLES, image_angles, angles);
     case OPTION_MATRIX:
-        chosen = options_choose(command, "matrix", value, image_matrix_words,
-                                sizeof image_matrix_words[0], IMAGE_MATRICES);
-        to->integration.matrix = chosen < 0 ? MATRIX_NONE : (image_matrix_of)chosen;
-        return chosen >= 0;
+        CHOOSE("matrix", image_matrix_words, IMAGE_MATRICES, image_matrix_of, matrix);
     case OPTION_TABLES:
-        chosen = options_choose(command, "form of tables", value, image_tables_words,
-                                sizeof image_tables_words[0], IMAGE_TABLES_FORMS);
-        to->integration.tables = chosen < 0 ? TABLES_NONE : (image_tables)chosen;
-        return chosen >= 0;
+        CHOOSE("form of tables", image_tables_words, IMAGE_TABLES_FORMS, image_tables, tables);
     case OPTION_CELLS: return take_cells(command, value, &to->integration.cells);
     case OPTION_NUMBER:
         chosen = options_choose(command, "number", value, numbers, sizeof numbers[0],
@@ -445,22 +431,146 @@ bool options_take(const char *command, unsigned groups, int count, char **words,
     return false;
 }
 
-void options_unknown(const char *command, const char *word, unsigned groups,
-                     const char *const *own) {
+/* === the words of a command ================================================================== */
+
+/* The groups of common options that the command accepts. */
+static unsigned groups_of(const target_reader *r) {
+    return r->passed != NULL ? OPTIONS_SCENE : r->usage->groups;
+}
+
+static void say_unknown(const target_reader *r, const char *word) {
     nearest search = nearest_start(word, strlen(word));
     for (int i = 0; i < OPTIONS; i++) {
-        if ((option_rows[i].group & groups) != 0) {
+        if ((option_rows[i].group & groups_of(r)) != 0) {
             nearest_offer(&search, option_rows[i].word);
         }
     }
-    for (int i = 0; own[i] != NULL; i++) {
-        nearest_offer(&search, own[i]);
+    for (const own_option *o = r->table; o != NULL && o->word != NULL; o++) {
+        nearest_offer(&search, o->word);
     }
     nearest_offer(&search, "--help");
-    fprintf(stderr, "whirl %s: error: unknown option '%s'\n", command, word);
+    fprintf(stderr, "whirl %s: error: unknown option '%s'\n", r->command, word);
     if (search.best != NULL) {
         fprintf(stderr, "hint: did you mean %s?\n", search.best);
     } else {
-        fprintf(stderr, "hint: whirl %s --help lists the options\n", command);
+        fprintf(stderr, "hint: whirl %s --help lists the options\n", r->command);
     }
+}
+
+/* Takes the value of one of the table's options. Returns false, and reports the reason, if the value is wrong. */
+static bool take_value(const char *command, const own_option *o, const char *value) {
+    if (o->number == NULL) {
+        const bool full = o->limit > 0 && *o->count == o->limit;
+        if (full) {
+            fprintf(stderr, "whirl %s: error: more than %d %s options\n", command, o->limit,
+                    o->word);
+        } else {
+            o->text[o->count != NULL ? (*o->count)++ : 0] = value;
+        }
+        return !full;
+    }
+    if (!options_number(command, o->word, value, o->least, o->most, o->hint, o->number)) {
+        return false;
+    }
+    if (o->whole && number_floor(*o->number) < *o->number) {
+        fprintf(stderr, "whirl %s: error: %s takes a whole number, not '%.40s'\nhint: %s\n",
+                command, o->word, value, o->hint);
+        return false;
+    }
+    return true;
+}
+
+static bool take_own(const target_reader *r, int count, char **words, int *at, bool *bad) {
+    for (const own_option *o = r->table; o != NULL && o->word != NULL && !*bad; o++) {
+        const char *value = NULL;
+        if (o->strict != NULL) {
+            if (take_strict(r->command, words, at, o->strict, bad)) {
+                return true;
+            }
+        } else if (o->flag == NULL && !o->is_bare) {
+            value = value_of(count, words, at, o->word, o->count != NULL, bad);
+        } else if (strcmp(words[*at], o->word) == 0) {
+            value = words[(*at)++];
+        }
+        if (value != NULL && o->flag != NULL) {
+            *o->flag = true;
+        } else if (value != NULL) {
+            *bad = !take_value(r->command, o, value);
+        }
+        if (value != NULL) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool take_target(const target_reader *r, char *word, const char **target) {
+    if (word[0] == '-' && word[1] != '\0') {
+        say_unknown(r, word);
+        return false;
+    }
+    if (r->many != NULL) {
+        r->many[(*r->many_count)++] = word;
+    } else if (*target != NULL) {
+        if (r->derives) {
+            fprintf(stderr, "whirl %s: error: more than one thing to %s: %s\n", r->command,
+                    r->command, word);
+        } else {
+            fprintf(stderr, "whirl %s: error: one %s at a time, not also '%s'\n", r->command,
+                    r->one != NULL ? r->one : "scene", word);
+        }
+        return false;
+    }
+    *target = word;
+    return true;
+}
+
+bool target_read(const target_reader *r, int count, char **words, common_options *common,
+                 const char **target) {
+    bool bad = false;
+    *target = NULL;
+    for (int at = 0; at < count && !bad;) {
+        const int from = at;
+        if (options_take(r->command, groups_of(r), count, words, &at, common, &bad)) {
+            for (int i = from; r->passed != NULL && i < at; i++) {
+                r->passed[(*r->passed_count)++] = words[i];
+            }
+        } else if (!bad && !take_own(r, count, words, &at, &bad) && !bad) {
+            bad = !take_target(r, words[at++], target);
+        }
+    }
+    return !bad;
+}
+
+int target_command(const target_reader *r, int count, char **words, common_options *common,
+                   void *options, const char **target) {
+    int code = EXIT_BAD_INPUT;
+    if (options_help(count, words, r->usage)) {
+        code = EXIT_DONE;
+    } else if (target_read(r, count, words, common, target)) {
+        if (*target == NULL && !r->none) {
+            options_usage(stderr, r->usage);
+        } else if (r->work_on == NULL) {
+            code = r->work(options);
+        } else {
+            source_model from;
+            code = source_open(&from, *target);
+            code = code == EXIT_DONE ? r->work_on(&from, options) : code;
+            source_close(&from);
+        }
+    }
+    if (common != NULL) {
+        options_forget(common);
+    }
+    return code;
+}
+
+int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish) {
+    const mechanism *of;
+    const scene *in;
+    const overrides changes = options_overrides(&common->change);
+    *made = (loaded){0};
+    wish.settings = common->integration;
+    const int code = source_pick(from, from->model->scene_count == 1, &of, &in);
+    return code == EXIT_DONE ? load(made, from, of, in, &changes, &wish) : code;
 }

@@ -5,9 +5,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "host/base/exit.h"
+#include "host/cli/load.h"
 #include "host/engine/engine.h"
-#include "host/lang/model.h"
 
 /* Options of several commands, in the order of help texts: X(id, word, value, group, description, broken into lines of
  * OPTION_TEXT_WIDTH columns). The descriptions of methods are made from core/method.h. */
@@ -97,10 +96,6 @@ bool options_wants_help(int count, char **words);
 /* If --help or -h is among the words, print `usage` and return true. */
 bool options_help(int count, char **words, const command_usage *usage);
 
-/* If words[*at] is `name` (or `name=VALUE`), return its value and advance *at past it. Returns NULL for another word. A
- * missing value is reported and sets *bad. A repeated option is reported, too, unless it may be repeated. */
-const char *options_value(int count, char **words, int *at, const char *name, bool *bad);
-
 /* Reads a number between two bounds, inclusive, for this option of this command. For other text, returns false and
  * reports the hint. */
 bool options_number(const char *command, const char *option, const char *text, double least,
@@ -110,8 +105,6 @@ bool options_number(const char *command, const char *option, const char *text, d
 #define EFFORT_LEAST 1e4
 #define EFFORT_MOST 1e15
 
-/* Reads --strict, --strict=off or --strict=LIMIT, for run_checks_fails(). Returns false for another word. */
-bool options_strict(const char *command, char **words, int *at, double *strict, bool *bad);
 #define OPTIONS_STRICT_HELP \
     "  --strict=off         exit status 0 even with a warning (default: 1)\n" \
     "  --strict=LIMIT       the allowed energy residual, as a part of the balance's largest entry\n"
@@ -166,9 +159,61 @@ bool options_same(const char *a, const char *b);
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count);
 
-/* Report an unknown word, with the nearest of the common options in `groups`, of --help and of the command's `own`
- * (NULL ends the list). */
-void options_unknown(const char *command, const char *word, unsigned groups,
-                     const char *const *own);
+/* === the words of a command =================================================================== */
+
+/* One of a command's own options, in a table. Exactly one of text, number, strict and flag is set. */
+typedef struct own_option {
+    const char *word;
+    const char **text; /* gets the value as typed */
+    int *count;     /* for an option that may be repeated: the number of values in text[] so far */
+    int limit;      /* the most values; 0: no limit */
+    double *number; /* gets the value as a number from `least` to `most` */
+    double least, most;
+    bool whole; /* the number must be whole */
+    const char *hint;
+    double *strict; /* gets the limit of --strict, --strict=off or --strict=LIMIT */
+    bool *flag;     /* is set by an option without a value */
+    bool is_bare;   /* an option without a value: text gets its word */
+} own_option;
+
+/* Rows for numbers, and for options of several commands. */
+#define OWN_NUMBER(name, to, from, up_to, such_as) \
+    { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as }
+#define OWN_WHOLE(name, to, from, up_to, such_as) \
+    { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as, .whole = true }
+#define OWN_TOLERANCE(to) \
+    OWN_NUMBER("--tolerance", to, 1e-15, 1.0, \
+               "a part of the range that a coordinate has: --tolerance 1e-3")
+#define OWN_EFFORT(to, such_as) \
+    OWN_NUMBER("--effort", to, EFFORT_LEAST, EFFORT_MOST, "operations: --effort " such_as)
+
+typedef struct target_reader {
+    const char *command;
+    const command_usage *usage; /* its groups of common options are accepted */
+    const own_option *table;    /* own options, ended by one without a word; or NULL */
+    char **many;                /* gets all targets, for a command that takes several; else NULL */
+    int *many_count;
+    char **passed; /* gets the words of all common options of `whirl run`, for runs; or NULL */
+    int *passed_count;
+    const char *one; /* word for a target in the message about a second one; NULL: "scene" */
+    bool derives;    /* a target may also be a mechanism; that message then says so */
+    bool none;       /* the command may have no target */
+    /* The work of target_command(), which returns an exit status: on the opened target, or (`work` alone) without it. */
+    int (*work_on)(source_model *from, void *options);
+    int (*work)(void *options);
+} target_reader;
+
+/* Takes all common and own options. *target is the only other word, the last of `many`, or NULL. Returns false after an
+ * error, which is reported. `common` may be NULL for a command without common options. */
+bool target_read(const target_reader *reader, int count, char **words, common_options *common,
+                 const char **target);
+
+/* load() of the named scene, or of the file's only scene, with the common options. */
+int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish);
+
+/* A whole command: prints the help text, or takes the words and does the work; the options are then forgotten. Returns an exit
+ * status. */
+int target_command(const target_reader *reader, int count, char **words, common_options *common,
+                   void *options, const char **target);
 
 #endif

@@ -17,7 +17,7 @@
 #include "host/pil/lockstep.h"
 #include "host/pil/report.h"
 #include "host/pil/taped.h"
-#include "target.h"
+#include "options.h"
 
 #define FINE_STEP "50us"
 #define PATIENCE_S 10.0
@@ -92,6 +92,8 @@ typedef struct pil_options {
     const char *place;
     const char *jitter;
     const char *delay;
+    const char **fault; /* [fault_count] */
+    int fault_count;
     fault_plan faults;
     double seed;
     double clock_Hz;
@@ -104,13 +106,6 @@ typedef struct pil_options {
 
 /* --- options ------------------------------------------------------------------------------------------------*/
 
-static bool take_fault(int count, char **words, int *at, void *options, bool *bad) {
-    pil_options *o = options;
-    const char *value = options_value(count, words, at, "--fault", bad);
-    *bad = *bad || (value != NULL && !fault_read(&o->faults, value));
-    return value != NULL;
-}
-
 /* Printing a tape needs no firmware. */
 static bool is_read_alone(const pil_options *o) {
     const char *beside = o->target != NULL     ? "scene"
@@ -118,7 +113,7 @@ static bool is_read_alone(const pil_options *o) {
                          : o->firmware != NULL ? "--firmware"
                          : o->tape != NULL     ? "--tape"
                          : o->replay != NULL   ? "--replay"
-                         : o->faults.count > 0 ? "--fault"
+                         : o->fault_count > 0  ? "--fault"
                                                : NULL;
     if (beside != NULL) {
         fprintf(stderr, "whirl pil: error: --read excludes %s: it only prints the tape\n", beside);
@@ -173,7 +168,7 @@ static bool go_together(const pil_options *o) {
         return false;
     }
     if (o->replay != NULL &&
-        (o->target != NULL || o->tape != NULL || o->csv != NULL || o->faults.count > 0)) {
+        (o->target != NULL || o->tape != NULL || o->csv != NULL || o->fault_count > 0)) {
         fprintf(stderr,
                 "whirl pil: error: --replay excludes %s: the tape takes the plant's place\n",
                 o->target != NULL ? "scene"
@@ -419,6 +414,11 @@ static int replay(const pil_options *o) {
 
 static int pil_work(void *options) {
     pil_options *o = options;
+    for (int i = 0; i < o->fault_count; i++) {
+        if (!fault_read(&o->faults, o->fault[i])) {
+            return EXIT_BAD_INPUT;
+        }
+    }
     if (!is_known_board(o) || !go_together(o)) {
         return EXIT_BAD_INPUT;
     }
@@ -440,12 +440,13 @@ static int pil_work(void *options) {
 
 int command_pil(int count, char **words) {
     pil_options o = {.common = options_defaults(),
+                     .fault = alloc(count, sizeof *o.fault),
                      .seed = 1.0,
                      .clock_Hz = CLOCK_HZ,
                      .cycles = CYCLES,
                      .patience_s = PATIENCE_S};
-    static const char *const other[] = {"--fault", NULL};
     const own_option own[] = {
+        {.word = "--fault", .text = o.fault, .count = &o.fault_count},
         {.word = "--firmware", .text = &o.firmware},
         {.word = "--board", .text = &o.board},
         {.word = "--tape", .text = &o.tape},
@@ -466,12 +467,9 @@ int command_pil(int count, char **words) {
         {.word = "--faults", .flag = &o.kinds},
         {.word = "--quiet", .flag = &o.quiet},
         {.word = NULL}};
-    const target_reader reader = {.command = "pil",
-                                  .usage = &usage,
-                                  .table = own,
-                                  .take = take_fault,
-                                  .own = other,
-                                  .none = true,
-                                  .work = pil_work};
-    return target_command(&reader, count, words, &o.common, &o, &o.target);
+    const target_reader reader = {
+        .command = "pil", .usage = &usage, .table = own, .none = true, .work = pil_work};
+    const int code = target_command(&reader, count, words, &o.common, &o, &o.target);
+    free(o.fault);
+    return code;
 }

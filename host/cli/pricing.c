@@ -42,8 +42,6 @@ typedef struct pricing_row {
 static const pricing_row option_rows[PRICING_OPTIONS] = {PRICING_OPTION_ROWS(ROW)};
 #undef ROW
 
-_Static_assert((int)PRICING_OPTIONS <= (int)OWN_OPTIONS_MOST, "room for all");
-
 pricing_options pricing_defaults(const char *command, int word_count) {
     return (pricing_options){.command = command,
                              .common = options_defaults(),
@@ -79,7 +77,7 @@ static bool read_words(int count, char **words, pricing_options *o) {
     }
     const command_usage accepted = {.groups = PRICING_GROUPS};
     const target_reader reader = {.command = o->command, .usage = &accepted, .table = own};
-    if (!target_read(&reader, count, words, &o->common, o, &o->target)) {
+    if (!target_read(&reader, count, words, &o->common, &o->target)) {
         return false;
     }
     if (o->target == NULL) {

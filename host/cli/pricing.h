@@ -6,7 +6,6 @@
 #include "host/study/price_table.h"
 #include "options.h"
 #include "pricing_scene.h"
-#include "target.h"
 
 /* The commands that accept an option. */
 enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };

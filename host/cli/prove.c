@@ -16,7 +16,7 @@
 #include "host/os/atomic_file.h"
 #include "host/os/system.h"
 #include "host/prove/containment.h"
-#include "target.h"
+#include "options.h"
 #include "trusting.h"
 
 /* EFFORT: the limit of operations without --effort. PRODUCTS_1S: products of enclosures per second. */

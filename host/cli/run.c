@@ -16,11 +16,11 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/os/system.h"
+#include "options.h"
 #include "pricing.h"
 #include "pricing_scene.h"
 #include "rating.h"
 #include "run.h"
-#include "target.h"
 #include "trusting.h"
 
 static const command_usage usage = {
@@ -75,39 +75,6 @@ typedef struct run_options {
     simulation_settings settings;
 } run_options;
 
-static bool take_drawn(int count, char **words, int *at, void *options, bool *bad) {
-    run_options *o = options;
-    return run_take_choice("run", count, words, at, &o->settings.choice, bad);
-}
-
-bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
-                     bool *bad) {
-    const struct {
-        const char *option;
-        const char **place;
-    } own[] = {{"--y", &to->y},
-               {"--x", &to->x},
-               {"--title", &to->title},
-               {"--xlabel", &to->xlabel},
-               {"--ylabel", &to->ylabel}};
-    const char *value = NULL;
-    for (size_t i = 0; i < sizeof own / sizeof own[0] && !*bad && value == NULL; i++) {
-        value = options_value(count, words, at, own[i].option, bad);
-        *own[i].place = value != NULL ? value : *own[i].place;
-    }
-    if (value == NULL && !*bad &&
-        (value = options_value(count, words, at, "--panel", bad)) != NULL) {
-        *bad = to->panels == PLOT_PANELS;
-        if (*bad) {
-            fprintf(stderr, "whirl %s: error: more than %d --panel options\n", command,
-                    PLOT_PANELS);
-        } else {
-            to->panel[to->panels++] = value;
-        }
-    }
-    return value != NULL;
-}
-
 static bool files_are_apart(const simulation_settings *s) {
     const struct {
         const char *option;
@@ -129,9 +96,9 @@ static bool files_are_apart(const simulation_settings *s) {
 }
 
 static bool read_options(int count, char **words, run_options *o) {
-    static const char *const drawn[] = {RUN_CHOICE_WORDS, NULL};
     simulation_settings *to = &o->settings;
-    const own_option own[] = {{.word = "--csv", .text = &to->csv},
+    const own_option own[] = {RUN_CHOICE_ROWS(to->choice),
+                              {.word = "--csv", .text = &to->csv},
                               {.word = "--columns", .text = &to->columns},
                               {.word = "--vcd", .text = &to->vcd},
                               {.word = "--every", .text = &o->every},
@@ -142,10 +109,9 @@ static bool read_options(int count, char **words, run_options *o) {
                               {.word = "--json", .flag = &to->json},
                               {.word = "--quiet", .flag = &to->quiet},
                               {.word = NULL}};
-    const target_reader reader = {
-        .command = "run", .usage = &usage, .table = own, .take = take_drawn, .own = drawn};
+    const target_reader reader = {.command = "run", .usage = &usage, .table = own};
     o->common.number = NULL;
-    if (!target_read(&reader, count, words, &o->common, o, &o->target)) {
+    if (!target_read(&reader, count, words, &o->common, &o->target)) {
         return false;
     }
     if (o->target == NULL) {

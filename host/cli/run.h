@@ -13,11 +13,17 @@
     "  --title TEXT         the title\n" \
     "  --xlabel TEXT        the label of the horizontal axis\n" \
     "  --ylabel TEXTS       the labels of the panels, between commas\n"
-#define RUN_CHOICE_WORDS "--y", "--panel", "--x", "--title", "--xlabel", "--ylabel"
-
-/* If words[*at] is one of these, take it and advance *at past it. An error is reported and sets *bad. */
-bool run_take_choice(const char *command, int count, char **words, int *at, plot_choice *to,
-                     bool *bad);
+/* Their rows, for a plot_choice. */
+#define RUN_CHOICE_ROWS(choice) \
+    {.word = "--y", .text = &(choice).y}, \
+        {.word = "--panel", \
+         .text = (choice).panel, \
+         .count = &(choice).panels, \
+         .limit = PLOT_PANELS}, \
+        {.word = "--x", .text = &(choice).x}, {.word = "--title", .text = &(choice).title}, \
+        {.word = "--xlabel", .text = &(choice).xlabel}, { \
+        .word = "--ylabel", .text = &(choice).ylabel \
+    }
 
 /* As command_run() with these words and --quiet. *taken gets the data of a picture, decimated for this choice, and no
  * picture is drawn. Call plot_run_close() in any case. */

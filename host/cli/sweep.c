@@ -21,7 +21,7 @@
 #include "host/study/grid.h"
 #include "host/study/session.h"
 #include "host/study/stability_map.h"
-#include "target.h"
+#include "options.h"
 #include "trusting.h"
 
 /* Limits of a map: the number of axes, and the most pairs of values. */

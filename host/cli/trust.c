@@ -16,7 +16,7 @@
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 #include "host/os/system.h"
-#include "target.h"
+#include "options.h"
 #include "trusting.h"
 
 /* Default limit of operations without --effort. */
@@ -230,14 +230,15 @@ int command_trust(int count, char **words) {
     }
     trust_options o = {
         .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
-    static const char *const other[] = {"--proved", NULL};
+    bool proved; /* for the list of options: command_prove() reads it */
     const own_option own[] = {OWN_TOLERANCE(o.tolerance),
                               OWN_EFFORT(o.effort, "1.5e11"),
                               {.word = "--csv", .text = &o.csv},
                               {.word = "--json", .flag = &o.json},
+                              {.word = "--proved", .flag = &proved},
                               {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
     const target_reader reader = {
-        .command = "trust", .usage = &usage, .table = own, .own = other, .work = trust_target};
+        .command = "trust", .usage = &usage, .table = own, .work = trust_target};
     return target_command(&reader, count, words, &o.common, &o, &o.target);
 }
