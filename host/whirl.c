@@ -16,8 +16,8 @@
 typedef struct command {
     const char *name;
     int (*run)(int count, char **words);
-    const char *takes; /* its arguments, for the list of commands */
-    const char *text;  /* its purpose; NULL hides a command of the project's own build */
+    const char *takes; /* the command's arguments, for the list of commands */
+    const char *text;  /* the command's purpose; NULL hides a command of the project's own build */
 } command;
 
 static const command commands[] = {
@@ -127,7 +127,7 @@ static int answer(int count, char **words) {
     return asks_for_help ? named->run(1, help) : named->run(count - 2, words + 2);
 }
 
-/* Checks that all output was written, because an answer that is cut off is useless. An early part may have failed although
+/* Checks that all output was written, because an incomplete answer is useless. An early part may have failed although
  * the last one was written. */
 static int after_writing(int code) {
     errno = 0;

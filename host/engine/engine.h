@@ -11,12 +11,12 @@
 typedef struct engine_event {
     int contact;
     int mode;
-    double at_s;  /* time since the begin of the step, s */
+    double at_s;  /* time since the beginning of the step, s */
     bool strikes; /* a stop or a hold gave an impulse */
 } engine_event;
 
-/* Impacts with a restitution outside 0 to 1, which is clamped: their number, and for the first one the stop, the
- * restitution and the begin of its step. */
+/* Impacts with a restitution outside 0 to 1, which is clamped. `count` is their number; the other members are the
+ * stop, the restitution, and the beginning of the step of the first such impact. */
 typedef struct engine_clamped {
     uint64_t count;
     int contact;
@@ -27,14 +27,15 @@ typedef struct engine_clamped {
 /* The motion between two events of a step, or between an event and an end of the step. */
 typedef struct engine_piece {
     double span_s;
-    const double *from; /* [angles + reals], as engine_kind's state() */
+    const double *from; /* [angles + reals] state at the begin, as engine_kind's state() gives it */
     const double *to;
     const int *mode; /* [contacts] */
 } engine_piece;
 
 typedef struct engine_kind {
     const char *name; /* "float", "double" or "fixed" (host/fixed) */
-    int digits;       /* significant digits that carry a number of this kind through text */
+    /* significant digits with which text keeps each number of this kind exactly */
+    int digits;
     void *(*start)(const image *im); /* the image must outlive the run */
     void (*stop)(void *run);
     wh_status (*step)(void *run);
@@ -56,13 +57,14 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the numerical drift); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* Increments of component i, angles first, are rounded to whole units. Returns the largest size, since the start, of the
-     * sum of these round-offs. *span: the range that the component would have covered without round-off. Both are SI. Without
-     * unit() only turn angles count, which move by 2^-32 turn in float. 0 in double, and with compensated sums. */
+    /* Round-off of component i, angles first, whose increments are rounded to whole units. Returns the largest size,
+     * since the start, of the sum of these round-offs. *span: the range that the component would have covered without
+     * round-off. Both are SI. If unit() is NULL, only turn angles are rounded, in float to 2^-32 turn. The result is 0
+     * in double, and with compensated sums. */
     double (*component_off)(const void *run, int i, double *span);
     /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);
-    /* The unit of component i; SI. NULL: floating point. */
+    /* The unit to which component i is rounded; SI. NULL: floating point. */
     double (*unit)(const void *run, int i);
     engine_clamped (*clamped)(const void *run); /* NULL: this number type has no impacts */
     /* The pieces of the last step, if it was searched for events; else an empty list. NULL: not available. */
@@ -72,7 +74,7 @@ typedef struct engine_kind {
 /* Number of list operations that this process has evaluated so far. It is the same on every machine. Other work counts as the
  * number of operations that would take as long, accurate to a third. */
 extern uint64_t engine_operations;
-/* Number of operations of one evaluation of the accelerations, including its share of the method and the contacts. */
+/* Number of operations of one evaluation of the accelerations, with its share of the method and the contacts. */
 uint64_t engine_evaluation(const image *im);
 
 extern const engine_kind engine_float;
@@ -82,15 +84,15 @@ extern const engine_kind engine_double;
 typedef struct evaluator evaluator;
 evaluator *evaluator_new(const op_list *t);
 void evaluator_free(evaluator *ev);
-/* From now on wrap angles to one turn before taking sines. A float run's turn angles may exceed the range of the double
- * build's sine. */
+/* Makes evaluator_run() wrap angles to one turn before it takes their sines. A float run's turn angles may exceed the
+ * range of the double build's sine. */
 void evaluator_wrap(evaluator *ev);
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result);
-/* The value of this operation of the list in the last evaluator_run(). */
+/* Returns the value of this operation of the list in the last evaluator_run(). */
 double evaluator_value(const evaluator *ev, int operation);
-/* Bounds on the round-off of the results of the last evaluator_run(), with the same angles: error[results], in units of
- * the numbers' unit round-off (rounding.h). */
+/* Computes bounds on the round-off of the results of the last evaluator_run(), with the same angles: error[results], in
+ * units of the number type's unit round-off (rounding.h). */
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);
 
 #endif

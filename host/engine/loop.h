@@ -20,7 +20,7 @@ typedef struct budget {
 
 void budget_begin(budget *b);
 void budget_end(budget *b);
-/* Remaining operations; below 0: exhausted. */
+/* Returns the remaining operations; below 0, the budget is exhausted. */
 double budget_left(const budget *b);
 
 typedef struct loop {
@@ -29,7 +29,7 @@ typedef struct loop {
     uint64_t steps;
     budget *own;        /* counts the operations of the steps; NULL: unused */
     const budget *pays; /* the steps must stay within this budget; NULL: no limit */
-    /* Called at the start and after each step; false: stop. NULL: no call. */
+    /* Called at the start and after each step. If it returns false, the loop ends. NULL: no call. */
     bool (*see)(void *of, uint64_t step);
     void *of;
 } loop;
@@ -42,10 +42,10 @@ typedef enum loop_end {
     LOOP_SPENT /* the budget is empty */
 } loop_end;
 
-/* From the present step to the last, or to an interrupt (host/os/system.h). */
+/* Steps the run from the present step to the last, or to an interrupt (host/os/system.h). */
 loop_end loop_run(const loop *l, wh_status *status);
 
-/* Makes this many steps, without callbacks, until the first failure. */
+/* Makes `count` steps, without callbacks. Stops at the first failure. */
 wh_status loop_steps(const engine_kind *kind, void *run, uint64_t count);
 
 #endif

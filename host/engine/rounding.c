@@ -5,8 +5,8 @@
 
 #include "host/base/alloc.h"
 
-/* FLOAT_MOST: larger values are infinite in float. ALL_LOST: error of a quotient by infinity, relative, in units of
- * round-off. */
+/* FLOAT_MOST: larger values are infinite in float. ALL_LOST: relative error of a quotient by infinity, in units of
+ * the unit round-off. */
 #define FLOAT_MOST 0x1.fffffep127
 #define ALL_LOST 0x1p24
 
@@ -19,8 +19,8 @@ static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
 }
 
-/* Round-off of an OP_PHASE, a sum of multiples of angles: the sum of its terms' sizes, because each term is rounded.
- * `more` is the error of operand b. */
+/* Returns the round-off of an OP_PHASE, a sum of multiples of angles. It is the sum of the terms' sizes, because each
+ * term is rounded. `more` is the error of operand b. */
 static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
     double size = fabs(o->value);
     for (int i = 0; i < t->angles; i++) {
@@ -34,14 +34,14 @@ static double of_phase(const op_list *t, const op *o, const rounding_values *at,
     return size + (o->b >= 0 ? fabs(at->value[o->b]) + more : 0.0);
 }
 
-/* Bound for a function of (x, y), by its slopes, if x and y have the errors `a` and `b`. */
+/* Returns the bound for a function of (x, y), by its slopes, if x and y have the errors `a` and `b`. */
 static double of_call(function_id function, double x, double y, double a, double b) {
     const double by_x = fabs(number_slope(function, 0, x, y)) * a;
     return function_arguments(function) == 1 ? by_x
                                              : by_x + fabs(number_slope(function, 1, x, y)) * b;
 }
 
-/* The error that the operands' errors a and b cause; *rounds: is the result rounded, too? */
+/* Returns the error that the operands' errors cause. *rounds: true if the result is rounded, too. */
 static double carried(const op_list *t, const op *o, const rounding_values *at, const double *error,
                       double v, bool *rounds) {
     const int values = op_rows[o->code].values;
@@ -61,14 +61,14 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_NOISE: return 0.0;
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
     case OP_CELL: return 0.0;
-    /* as for a sine: this bounds the effect of the argument, not the interpolation error */
+    /* as for a sine: the bound contains the effect of the argument, but not the interpolation error */
     case OP_LINE:
     case OP_CUBIC: *rounds = true; return fabs(v);
     case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);
     case OP_COS: return 1.0 + a * fabs(at->sine[o->a]);
     case OP_NEG:
     case OP_ABS: return a;
-    case OP_SIGN: return 0.0; /* the error is zero, except at its jump */
+    case OP_SIGN: return 0.0; /* the slope is zero, except at the jump */
     case OP_MIN:
     case OP_MAX: return v == x ? a : b;
     case OP_ADD:

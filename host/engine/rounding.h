@@ -4,7 +4,7 @@
 
 #include "host/image/op_list.h"
 
-/* A list as it was just evaluated in double. Sine and cosine are those of the phases. */
+/* A list as it was just evaluated in double. `sine` and `cosine` are those of its phases. */
 typedef struct rounding_values {
     const double *value;     /* [t->count] */
     const double *sine;      /* [t->count] */
@@ -16,13 +16,13 @@ typedef struct rounding_values {
                 * number an infinite one; 0: neither underflow nor overflow */
 } rounding_values;
 
-/* Bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in double,
- * 2^-24 in float). Products of errors are neglected.
+/* Computes bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in
+ * double, 2^-24 in float). Products of errors are neglected.
  *
- * A running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 3.3). Each
- * operation's result is rounded once, and the errors of its operands enter by its slopes. So a small difference
- * of large terms gets an error in proportion to the terms. The state itself counts as exact. The bound is
- * infinite or NaN if an operation has no slope. */
+ * This is a running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 3.3).
+ * Each operation's result is rounded once, and the errors of its operands enter by its slopes. So a small difference
+ * of large terms gets an error in proportion to the terms. The state itself counts as exact. The bound is infinite or
+ * NaN if an operation has no slope. */
 void rounding_of(const op_list *t, const rounding_values *at, double *error);
 
 #endif

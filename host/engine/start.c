@@ -17,7 +17,7 @@ static void put(char text[METHODS_TEXT_SIZE], const char *before, const char *wo
 }
 
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]) {
-    const char *waiting = NULL; /* "or" precedes the last one */
+    const char *waiting = NULL; /* "or" comes before the last method */
     text[0] = '\0';
     for (int i = 0; i < WH_METHODS; i++) {
         if (wh_method_takes((wh_method)i, form) && wh_methods[i].takes != WH_NO_RATES) {
@@ -58,7 +58,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
 
 /* === can it start? ============================================================================ */
 
-/* A start within this distance beyond a stop, m or rad, is only round-off of the conversion of units. */
+/* If a start lies beyond a stop by less than this, in m or rad, that is only round-off of the conversion of units. */
 #define ROUNDING 1e-9
 
 static bool is_apart(const image_contact *stop, double gap, diags *errors) {
@@ -112,7 +112,7 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) 
     return good;
 }
 
-/* An unknown with a rate that the accelerations depend on, or -1. */
+/* Returns an unknown whose rate the accelerations contain, or -1. */
 static int rate_taken(const image *im) {
     const op_list *t = im->list[IMAGE_STEP];
     for (int k = 0; k < t->count; k++) {
@@ -125,7 +125,8 @@ static int rate_taken(const image *im) {
     return -1;
 }
 
-/* The stages of a composition have no rates, so accelerations, contacts and the balance may not depend on rates. */
+/* Returns false, and reports the reason, if rates matter: the stages of a composition have none, so accelerations,
+ * contacts and the balance must not depend on rates. */
 static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];

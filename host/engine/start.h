@@ -6,23 +6,22 @@
 #include "host/engine/engine.h"
 
 /* === methods in words ========================================================================= */
-/* The rows of core/method.h as words for users. */
 
-/* Room for the words of all methods in a sentence. */
+/* Size of a text with the words of all methods in a sentence. */
 enum { METHODS_TEXT_SIZE = 96 + 40 * WH_METHODS };
 
-/* The methods that take every system of this form: "euler, heun or rk4". Returns `text`. */
+/* Writes the methods that support all systems of this form, such as "euler, heun or rk4". Returns `text`. */
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
 
-/* Writes the names of all methods, with the default first and marked. Those that do not take first-order systems, or
- * rates, follow after semicolons. Returns `text`. */
+/* Writes the names of all methods, with the default first and marked. The methods that do not support first-order
+ * systems, or rates, follow after semicolons. Returns `text`. */
 const char *methods_in_help(char text[METHODS_TEXT_SIZE]);
 
 /* Returns false, and reports each error: a stop that is passed at the start by more than round-off, an undefined gap,
  * or an angle outside the range of this number type. */
 bool start_is_possible(const image *im, const engine_kind *kind, diags *errors);
 
-/* As above, for angles only: false, reported, if float, as in generated C, cannot represent one. */
+/* Returns false, and reports each error, if float, as in generated C, cannot represent a start angle. */
 bool start_angles_are_held(const image *im, diags *errors);
 
 /* Returns false, and reports the reason, if the method (core/method.h) does not support the image's form, or

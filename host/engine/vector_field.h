@@ -1,8 +1,9 @@
-/* vector_field.h: a scene's right-hand side in double, independent of the run's numbers: slopes at any state. Contact forces are not included.
+/* vector_field.h: a scene's right-hand side in double, whatever the number type of the run: slopes at any state.
+ * Contact forces are not included.
  *
- * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep their start values, as in the
- * balance. Slopes and energies do not depend on time: only a place recovered from its momentum does
- * (host/derive/conserve.c), and they may not contain one. */
+ * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep their start values, as in
+ * the balance. Slopes and energies do not depend on time. Only a place recovered from its momentum does
+ * (host/derive/conserve.c), and they must not contain such a place. */
 #ifndef ENGINE_VECTOR_FIELD_H
 #define ENGINE_VECTOR_FIELD_H
 
@@ -12,7 +13,7 @@ typedef struct vector_field {
     const image *image;
     int n; /* components of the state */
     evaluator *evaluator;
-    double *value; /* results of the image's books list at the last state */
+    double *value; /* results of the list IMAGE_BOOKS at the last state */
     double *input;
     int *
         next; /* [n] the component that is the slope of this one; or -1 - unknown, if the slope is that unknown's highest
@@ -22,10 +23,10 @@ typedef struct vector_field {
 vector_field *vector_field_open(const image *im, const engine_kind *kind);
 void vector_field_close(vector_field *f);
 
-/* slope[n] at the state x[n]. */
+/* Computes slope[n] at the state x[n]. */
 void vector_field_slope(vector_field *f, const double *x, double *slope);
-/* off[n]: bounds on the double round-off of the highest derivatives in the last slope, at the same state x[n]; 0 for all other
- * components. */
+/* Computes off[n], bounds on the double round-off of the highest derivatives in the last slope, at the same state x[n].
+ * It is 0 for all other components. */
 void vector_field_rounding(vector_field *f, const double *x, double *off);
 
 #endif

@@ -8,13 +8,12 @@
 #include "host/fixed/fixed_list.h"
 
 /* === a list in fixed point as C =============================================================== */
-/* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are written as constants, so that a
- * compiler folds them. */
+/* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are written as constants. */
 
-/* A list with more operations than this is called at each stage and not inlined. */
+/* A list with more operations than this is called at each stage, not inlined. */
 enum { INLINED_MOST = 80 };
 
-/* A number in C. INT32_C() accepts no sign, so -5 becomes -INT32_C(5). */
+/* Writes a number in C. INT32_C() accepts no sign, so -5 becomes -INT32_C(5). */
 static void c_fixed_number(FILE *out, int32_t number) {
     fprintf(out, number < 0 ? "(-INT32_C(%" PRIu32 "))" : "INT32_C(%" PRIu32 ")",
             number < 0 ? 0U - (uint32_t)number : (uint32_t)number);
@@ -197,8 +196,8 @@ static void gained(FILE *out, fixed_gain g, const char *x) {
     fprintf(out, ", %d)", g.by);
 }
 
-/* Writes the first half of a statement: component i plus the increment that the caller writes next, limited to the range.
- * limits() writes the second half. */
+/* Writes the first half of a statement, which adds an increment to component i and limits the sum to the range. The
+ * caller writes the increment next; limits() writes the second half. */
 static void limited(FILE *out, int i) {
     fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ", i, i);
 }
@@ -308,7 +307,7 @@ static void end_first(FILE *out, const fixed_plan *p) {
     }
 }
 
-/* The length of an array, which C requires to be at least one. */
+/* Returns the length of an array, which C requires to be at least one. */
 static int at_least_one(int count) { return count > 0 ? count : 1; }
 
 static void begin_step(FILE *out, const fixed_plan *p) {

@@ -6,7 +6,7 @@
 
 #include "host/fixed/fixed_plan.h"
 
-/* The scene as C for core/fixed_scene.h, and its header, for C and C++. */
+/* Write the scene as C for core/fixed_scene.h, and the header, which C and C++ can include. */
 void c_fixed(FILE *out, const fixed_plan *plan, const char *file);
 void c_fixed_header(FILE *out, const fixed_plan *plan, const char *file);
 

@@ -9,8 +9,8 @@
 #include "host/number/functions.h"
 
 /* === fixed loss =============================================================================== */
-/* Round-off of the steps of a run in fixed point, compared with the same step of RK4 in double from the same
- * state. The difference of the increments is lost; its sum since the start is reported (host/check/slow.h). */
+/* The round-off of a run in fixed point: each step is compared with the same step of RK4 in double from the same
+ * state. The difference of the increments is lost. Its sum since the start is reported (host/check/slow.h). */
 
 typedef struct fixed_loss fixed_loss;
 
@@ -29,13 +29,13 @@ struct fixed_loss {
     const fixed_plan *plan;
     evaluator *step;
     component_loss *component; /* [angles + reals] */
-    int64_t *angle;            /* before the step */
+    int64_t *angle;            /* angles before the step */
     int32_t *real;
     uint32_t saturated;
     double *input;
 };
 
-/* The smallest increment of component i; SI. */
+/* Returns the smallest increment of component i; SI. */
 static double fixed_loss_unit(const fixed_plan *p, int i) {
     const int angles = p->image->angles;
     return i < angles ? RAD_PER_UNIT : number_scaled(1.0, -p->format[i - angles].bits);
@@ -74,7 +74,7 @@ static void fixed_loss_free(fixed_loss *l) {
     }
 }
 
-/* slope[]: the time derivatives of all components, angles first. */
+/* Computes slope[]: the time derivatives of all components, angles first. */
 static void slopes(const fixed_loss *l, const double *at, double *slope) {
     const fixed_plan *p = l->plan;
     const int angles = p->image->angles;
@@ -85,7 +85,7 @@ static void slopes(const fixed_loss *l, const double *at, double *slope) {
     evaluator_run(l->step, 0.0, at, at + angles, at + moved, l->input, slope + moved);
 }
 
-/* Called before each step. A step with clamped values does not count, because clamping is reported separately. */
+/* Called before each step. A step with clamped values is not counted, because clamping is reported separately. */
 static void fixed_loss_before(fixed_loss *l, const wh_fixed_state *state) {
     static const double part[] = {0.0, 0.5, 0.5, 1.0};
     static const double weight[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
@@ -135,8 +135,8 @@ static void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state) {
     }
 }
 
-/* For component i, angles first: the largest size of its lost sum since the start, and the span that it would have covered without
- * the loss; SI. */
+/* Returns, for component i, angles first, the largest size of its lost sum since the start. *span: the range that it
+ * would have covered without the loss. SI. */
 static double fixed_loss_off(const fixed_loss *l, int i, double *span) {
     *span = l->component[i].high - l->component[i].low;
     return l->component[i].most;
@@ -151,7 +151,7 @@ typedef struct fixed_run {
     wh_fixed_state state;
     void *memory;
     int32_t *value; /* [list->count] */
-    int32_t *sine;  /* [list->count] of phases */
+    int32_t *sine;  /* [list->count] sines of phases */
     int32_t *cosine;
     evaluator *observe;
     fixed_loss *loss;
@@ -237,7 +237,7 @@ static int32_t gained(fixed_gain g, int32_t x) {
     return wh_fixed_mul(wh_fixed_left(x, g.shift), g.number, g.by);
 }
 
-/* A step in progress: the inputs of the list at a stage, and its results. */
+/* A step in progress: the leaves of the list at a stage, and the results of all stages. */
 typedef struct fixed_stages {
     uint32_t phase[IMAGE_COMPONENTS_MAX];
     int32_t linear[2 * IMAGE_COMPONENTS_MAX];
@@ -246,8 +246,8 @@ typedef struct fixed_stages {
     int32_t given[4][IMAGE_COMPONENTS_MAX];
 } fixed_stages;
 
-/* The increment of a position at a stage, before rounding. Stages are not clamped to the ranges: the list has room for all
- * stages of steps that begin within the ranges (fixed_plan.c). */
+/* Returns the increment of a position at a stage, before rounding. Stages are not clamped to the ranges: the list has
+ * room for all stages of steps that begin within the ranges (fixed_plan.c). */
 static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
     return stage == 1
                ? k->half_rate[i]
@@ -260,7 +260,7 @@ static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
     const int linears = p->coordinates - angles;
-    const int twice = stage == 3 ? 1 : 0; /* stage 3 is at the step's end, not in its middle */
+    const int twice = stage == 3 ? 1 : 0; /* stage 3 is at the end of the step, not in the middle */
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
         const int32_t more = wh_fixed_round(place_more(m, k, i, stage), m->guard - twice);
@@ -293,7 +293,7 @@ static int32_t limited(fixed_run *run, int at, int32_t x) {
     return wh_fixed_limit(x, f->low, f->high, &run->state.saturated);
 }
 
-/* (k1 + 2 k2 + 2 k3 + k4)/3, with the binary point of the state. */
+/* Returns (k1 + 2 k2 + 2 k3 + k4)/3 with the binary point of the state. */
 static int32_t sixths(const fixed_mover *m, const fixed_stages *k, int i) {
     const int32_t middle = k->given[1][i] + k->given[2][i];
     return gained(m->third, k->given[0][i] + k->given[3][i] + 2 * middle);

@@ -105,7 +105,7 @@ enum { BITS_LEAST = -60, BITS_MOST = 90 };
 #define ROUNDED (1.0 - 0x1p-40)
 
 int fixed_point_of(double size, int digits) {
-    int exponent; /* size <= 2^exponent, except for the outward rounding of a power of two */
+    int exponent; /* size <= 2^exponent, except if a power of two was rounded outwards */
     if (number_split(ROUNDED * size, &exponent) == 0.0) {
         return digits;
     }
@@ -113,23 +113,21 @@ int fixed_point_of(double size, int digits) {
     return bits > BITS_MOST ? BITS_MOST : bits < BITS_LEAST ? BITS_LEAST : bits;
 }
 
-/* The largest size of the integers of an operation, as a double. */
+/* Returns the largest size of the integers of an operation, as a double. */
 static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->range), o->bits); }
 
 static int least(int a, int b) { return a < b ? a : b; }
 static int most(int a, int b) { return a > b ? a : b; }
 
-/* --- points ------------------------------------------------------------------------------------------*/
-
-/* Digits after the point of a product. There is also room for the product of the operands' largest sizes, so that left shifts
- * suffice. */
+/* Returns the digits after the point of a product. They also leave room for the product of the operands' largest sizes,
+ * so that left shifts suffice. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
     const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* Digits after the point of a sum: at most those of the finer operand. The format must also have room for constants and
- * compared values. */
+/* Returns the digits after the point of a sum, at most those of the finer operand. Constants and compared values must
+ * have room, too. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -208,8 +206,6 @@ static void lower(fixed_list *l) {
     free(wanted);
 }
 
-/* --- shifts ------------------------------------------------------------------------------------------*/
-
 static int32_t whole(double value, int bits) {
     return (int32_t)number_nearest(number_scaled(value, bits));
 }
@@ -228,15 +224,15 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     }
 }
 
-/* The largest left shift with which a number of this many units stays within 31 digits. */
+/* Returns the largest left shift with which a number of this many units stays within 31 digits. */
 static int left_of(double size) {
     int exponent;
     (void)number_split(size + 1.0, &exponent);
     return 31 - exponent;
 }
 
-/* Chooses the shifts of a product with `bits` after the point. The factors have `a_bits` and `b_bits` after the point, and room for
- * a_left and b_left left shifts. False: there is no room. */
+/* Chooses the shifts of a product with `bits` digits after the point. The factors have `a_bits` and `b_bits` digits
+ * after the point, and room for a_left and b_left left shifts. Returns false if there is no room. */
 static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b_left) {
     const int by = a_bits + b_bits - o->bits - 32;
     const int short_of = by >= 1 ? 0 : 1 - by;
@@ -291,7 +287,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
         o->bits--;
     }
     o->follows = a_left >= o->spread;
-    if (o->follows) { /* shifts for the least number of leading zeros */
+    if (o->follows) { /* shifts for the smallest number of leading zeros */
         const int more = most(o->spread - o->a.shift, 0);
         o->a.shift += more - o->spread;
         o->by += more;
@@ -370,7 +366,7 @@ bool fixed_fits(const fixed_list *l) {
     return true;
 }
 
-/* Digits of an operation: a sum has room for one more than a product. */
+/* Returns the number of digits of an operation: a sum has room for one more than a product. */
 static int digits_of(const fixed_list *l, int i) {
     const bool sums = l->op[i].code == FIXED_SUM || l->op[i].code == FIXED_DIFFERENCE;
     return is_result(l, i) ? FIXED_RESULT_DIGITS : sums ? FIXED_KEPT_DIGITS : FIXED_DIGITS;
@@ -399,8 +395,8 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 }
 
 /* === ranges of values ========================================================================= */
-/* Interval arithmetic for each cell of the turn angles separately. Over a whole turn at once, every denominator could
- * be zero. */
+/* Interval arithmetic is done for each cell of the turn angles separately. Over a whole turn at once, every
+ * denominator could be zero. */
 
 /* Cells per turn, and cells of all turn angles together. */
 enum {
@@ -423,7 +419,7 @@ typedef struct hull {
     enclosure *now;   /* [count] ranges in the present cell */
     enclosure *angle; /* [angles] */
     int *cell;        /* [angles] */
-    bool *cut;        /* [angles] does any phase depend on it? */
+    bool *cut;        /* [angles] true if a phase depends on the angle */
     int cells;        /* number of cells per turn */
     bool at_middles;  /* leaves are at the middle of their ranges */
     bool divides_zero;
@@ -446,7 +442,7 @@ static enclosure leaf_of(const hull *h, enclosure range) {
     return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-/* An enclosure of the sines of all angles in a. Tighter than enclosure_sine() of a whole cell; SINE_OFF covers
+/* Encloses the sines of all angles in `a`, tighter than enclosure_sine() of a whole cell. SINE_OFF covers
  * round-off. */
 static enclosure sines(enclosure a, double ahead_rad) {
     a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
@@ -493,7 +489,7 @@ static enclosure value_of(hull *h, const fixed_op *o) {
     return none;
 }
 
-/* Round-off of an operation: half a unit of the result, plus that of shifted operands, with a margin. */
+/* Returns the round-off of an operation: half a unit of the result, plus that of shifted operands, with a margin. */
 static double rounding_of(const hull *h, const fixed_op *o) {
     const bool rounds = o->code > FIXED_PHASE;
     return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;
@@ -564,8 +560,8 @@ static bool enclose_all(hull *h) {
     return !h->divides_zero;
 }
 
-/* Is the denominator zero somewhere in the turn even with all other leaves at the middle of their ranges? Then smaller ranges do
- * not help. */
+/* Is the denominator zero somewhere in the turn if all other leaves are at the middle of their ranges? Then smaller
+ * ranges do not help. */
 static bool divides_zero_anyway(hull *h) {
     h->at_middles = true;
     return !enclose_all(h);
@@ -613,8 +609,6 @@ int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bo
 
 /* === the list ================================================================================= */
 
-/* --- the copy ----------------------------------------------------------------------------------------*/
-
 static int enter(fixed_list *l, fixed_op o) {
     l->op = alloc_more(l->op, l->count + 1, sizeof *l->op);
     l->op[l->count] = o;
@@ -627,7 +621,7 @@ static int enter_constant(fixed_list *l, double value) {
 
 static bool is_constant(const fixed_list *l, int i) { return l->op[i].code == FIXED_CONSTANT; }
 
-/* +-2^n? */
+/* Is the value a power of two, with either sign? */
 static bool is_power(double value) {
     int exponent;
     const double part = number_split(value, &exponent);
@@ -651,7 +645,7 @@ static int enter_product(fixed_list *l, int a, int b) {
     return enter(l, (fixed_op){.code = FIXED_PRODUCT, .a = {.op = a}, .b = {.op = b}});
 }
 
-/* The fixed-point form of *o. *lacks: the name of an operation that has none. */
+/* Returns the fixed-point form of *o. *lacks: the name of an operation that has none. */
 static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     fixed_op made = {.code = FIXED_CONSTANT, .a = {.op = -1}, .b = {.op = -1}};
     switch (o->code) {
@@ -681,7 +675,7 @@ static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     case OP_SIGN: made.code = FIXED_SIGN; break;
     case OP_MIN: made.code = FIXED_LEAST; break;
     case OP_MAX: made.code = FIXED_MOST; break;
-    case OP_MUL: return made; /* enter_product() */
+    case OP_MUL: return made; /* see enter_product() */
     case OP_SQRT: *lacks = "a square root"; return made;
     case OP_POW: *lacks = "a power"; return made;
     case OP_CALL: *lacks = function_name(o->function); return made;
@@ -703,7 +697,7 @@ static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     return made;
 }
 
-/* Enters operation i times `scale`. If the operation has a constant factor, the two are joined. */
+/* Enters operation i times `scale`. If the operation has a constant factor, `scale` is joined with it. */
 static int enter_scaled(fixed_list *l, int i, double scale) {
     const fixed_op *o = &l->op[i];
     double factor = scale;

@@ -14,13 +14,13 @@
 
 /* Fills range[reals + inputs], components first, with the declared ranges. An undeclared range comes from a reference
  * run of the scene in double with the scene's method. Its far end is twice the value that is farthest from zero in that
- * run. If the value does not change its sign, the near end is half the value nearest to zero. If the value is always
- * zero, the range is -1 to 1. Returns false if that run failed, which is reported, or was interrupted. `progress`: show
- * the progress on standard error. */
+ * run. Its near end is half the value nearest to zero if all values have one sign. If the value is always zero, the
+ * range is -1 to 1. Returns false if the run failed, which is reported, or was interrupted. `progress`: show the
+ * progress on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
-/* Most binary digits of a value. FIXED_DIGITS: values of the list; twice a value still fits, with its round-off.
- * FIXED_RESULT_DIGITS: results of the list, of which a step adds six. FIXED_KEPT_DIGITS: the state. */
+/* Largest number of binary digits of a value. FIXED_DIGITS: values of the list; twice a value still fits, with its
+ * round-off. FIXED_RESULT_DIGITS: results of the list, of which a step adds six. FIXED_KEPT_DIGITS: the state. */
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
@@ -31,14 +31,14 @@ typedef enum fixed_code {
     FIXED_PHASE,      /* offset + sum turns[i] phase[i] */
     FIXED_SINE,       /* sine of phase a */
     FIXED_COSINE,     /* cosine of phase a */
-    FIXED_SUM,        /* round(a) + round(b): each with its shift */
+    FIXED_SUM,        /* round(a) + round(b): each operand has its shift */
     FIXED_DIFFERENCE, /* round(a) - round(b) */
     FIXED_PRODUCT,    /* (a << shift) (b << shift) 2^-(32 + by), rounded */
     FIXED_QUOTIENT, /* (a << shift + more) reciprocal(|b| << zeros + more) 2^-(32 + by), rounded */
     FIXED_SAME,     /* round(a), or -round(a): a power of two costs no product */
     FIXED_ABS,      /* round(|a|) */
     FIXED_SIGN,     /* sign of a: -1, 0 or 1 */
-    FIXED_LEAST,    /* the lesser of round(a) and round(b) */
+    FIXED_LEAST,    /* the smaller of round(a) and round(b) */
     FIXED_MOST
 } fixed_code;
 
@@ -54,18 +54,19 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: |b| has at least `zeros` leading zeros, and at most `spread` further ones (`more` in the formula). If a
-     * has room for it (`follows`), the further zeros also shift a. Otherwise they make `by` less. */
+    /* FIXED_QUOTIENT: |b| has at least `zeros` leading zeros, and at most `spread` further ones (`more` in the
+     * formula). The further zeros also shift a if it has room for that (`follows`). Otherwise `by` is smaller by their
+     * number. */
     int zeros;
     int spread;
     bool follows;
-    bool negated;     /* FIXED_SAME; FIXED_QUOTIENT: b is negative */
-    const int *turns; /* FIXED_PHASE: of the image's list */
+    bool negated;     /* FIXED_SAME: the result is -a; FIXED_QUOTIENT: b is negative */
+    const int *turns; /* FIXED_PHASE: factors, owned by the image's list */
     double offset_rad;
     uint32_t offset;
     double value;    /* FIXED_CONSTANT; FIXED_SAME: the power of two, with its sign */
     enclosure range; /* range of the possible values */
-    int bits;        /* after the binary point */
+    int bits;        /* binary digits after the point */
     bool used;
 } fixed_op;
 
@@ -77,7 +78,7 @@ typedef struct fixed_list {
     int angles;
 } fixed_list;
 
-/* The list with its results times scale[results]; NULL, reported, if an operation has no fixed form. */
+/* Returns the list with its results times scale[results]. NULL, reported, if an operation has no fixed form. */
 fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors);
 void fixed_list_free(fixed_list *list);
 
@@ -88,25 +89,26 @@ typedef struct fixed_leaves {
     const enclosure *input;
 } fixed_leaves;
 
-/* The largest size of a value. Products of two such values are finite, so that all intervals are finite. */
+/* Limit of the size of a value. Products of two such values are finite, so all intervals are finite. */
 #define FIXED_SIZE_MOST 0x1p80
 
-/* Encloses all values in op[].range, cell by cell of the turn angles. `bits_known`: includes the rounding to op[].bits.
- * Returns the number of cells per turn, or a code. FIXED_HULL_ZERO: a denominator may be zero (reported).
- * FIXED_HULL_UNBOUNDED: a value exceeds FIXED_SIZE_MOST. FIXED_HULL_STOPPED: the user interrupted. */
+/* Encloses all values in op[].range, cell by cell of the turn angles. If `bits_known` is true, the rounding to
+ * op[].bits is included. Returns the number of cells per turn, or a code. FIXED_HULL_ZERO: a denominator may be zero
+ * (reported). FIXED_HULL_UNBOUNDED: a value exceeds FIXED_SIZE_MOST. FIXED_HULL_STOPPED: the user interrupted. */
 enum { FIXED_HULL_ZERO = 0, FIXED_HULL_UNBOUNDED = -1, FIXED_HULL_STOPPED = -2 };
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors);
 
-/* Choose op[].bits, shifts and numbers; the caller has set op[].bits of the leaves. False: a value has no room (reported). */
+/* Chooses op[].bits, shifts and numbers; the caller has set op[].bits of the leaves. Returns false if a value has no
+ * room (reported). */
 bool fixed_bits(fixed_list *list, const image *im, diags *errors);
 
-/* Does everything fit, after fixed_hull() with bits_known? */
+/* Do all values fit, after fixed_hull() with bits_known? */
 bool fixed_fits(const fixed_list *list);
 
-/* Digits after the point with which `size` fills at most `digits` binary digits; the largest for zero. */
+/* Returns the digits after the point with which `size` fills at most `digits` binary digits; `digits` for zero. */
 int fixed_point_of(double size, int digits);
-/* As above, for a constant factor: with 31 binary digits, the last of them rounded. */
+/* As fixed_point_of(), for a constant factor with 31 binary digits, of which the last is rounded. */
 int fixed_factor_bits(double value);
 
 #endif

@@ -66,7 +66,7 @@ static bool starts_inside(const image *im, const enclosure *range, diags *errors
     return good;
 }
 
-/* Are all ranges within the largest size of a value? */
+/* Do all ranges stay within FIXED_SIZE_MOST? Reports those that do not. */
 static bool ranges_are_bounded(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -108,14 +108,12 @@ bool fixed_inputs_declared(const image *im, const enclosure *range, diags *error
 
 #define PHASE_PER_RAD 683565275.57643159 /* 2^32/(2 pi) */
 
-/* --- formats -------------------------------------------------------------------------------------------*/
-
 static wh_fixed_format format_of(enclosure range, int bits) {
     return (wh_fixed_format){(int16_t)bits, (int32_t)number_ceiling(number_scaled(range.low, bits)),
                              (int32_t)number_floor(number_scaled(range.high, bits))};
 }
 
-/* Largest number of binary digits after the point with which `size` fits in `most` units. */
+/* Returns the largest number of binary digits after the point with which `size` fits into `most` units. */
 static int room_for(double size, double most) {
     const int finest = fixed_point_of(size, FIXED_DIGITS) + 3;
     int less = 0;
@@ -125,8 +123,8 @@ static int room_for(double size, double most) {
     return finest - less;
 }
 
-/* Sets the gain that multiplies a number of up to `size` units by `factor` and changes its bits after the point. False:
- * there is no room. */
+/* Sets the gain that multiplies a number of at most `size` units by `factor`, and changes its digits after the point
+ * from `from` to `to`. Returns false if there is no room. */
 static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
     const int bits = fixed_factor_bits(factor);
     int digits;
@@ -138,14 +136,15 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
     return gain->shift <= 31 - digits;
 }
 
-/* As above, for results of the list, with a factor of 15 digits: for the increments of a position at a stage. */
+/* As make_gain(), for results of the list and a factor of 15 digits: for the increments of a position at a stage. */
 static fixed_gain short_gain(double factor, int from, int to) {
     const int bits = fixed_factor_bits(factor) - 16;
     const double number = number_nearest(number_scaled(factor, bits));
     return (fixed_gain){number > 32767.0 ? 32767 : (int32_t)number, 0, from - 14 + bits - to};
 }
 
-/* Digits of a component with step increments of at most 2 `by`: as many as fit, and fewer than those of the increments. */
+/* Returns the digits of a component whose increments in a step are at most 2 `by`: as many as fit, and fewer than those
+ * of the increments. */
 static int kept_bits(enclosure range, double by, int list_bits) {
     const int finest = fixed_point_of(enclosure_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
     return finest < list_bits - 1 ? finest : list_bits - 1;
@@ -168,7 +167,8 @@ static const fixed_op *result_of(const fixed_plan *p, int i) {
     return &p->list->op[p->list->result[i]];
 }
 
-/* The index of the real component that result i of the list changes; -1 for an angle of a first-order system. */
+/* Returns the index of the real component that result i of the list changes; -1 for an angle of a first-order
+ * system. */
 static int kept_at(const fixed_plan *p, int i) {
     const int angles = p->image->angles;
     return p->second ? (p->coordinates - angles) + i : i - angles;
@@ -193,7 +193,7 @@ static bool move_place(fixed_plan *p, int i) {
     const double half = 0.5 * im->step_s * unit;
     const double by =
         half * (enclosure_size(p->range[kept_at(p, i)]) +
-                2.0 * enclosure_size(accel->range)); /* the most that half a step adds */
+                2.0 * enclosure_size(accel->range)); /* the largest change in half a step */
     int bits = 0;
     if (i < im->angles) {
         if (2.0 * by >= 1073741824.0) {
@@ -259,7 +259,7 @@ static fixed_leaves leaves_of(const fixed_plan *p) {
     return (fixed_leaves){p->stage, p->stage + linears, p->stage + im->reals};
 }
 
-/* The most that a whole step adds to a real component, from the ranges of the list's results. */
+/* Returns the largest change of a real component in a whole step, from the ranges of the list's results. */
 static double most_added(const fixed_plan *p, int at) {
     const image *im = p->image;
     const int linears = p->second ? im->coordinates - im->angles : im->reals;
@@ -274,8 +274,8 @@ static double most_added(const fixed_plan *p, int at) {
            (enclosure_size(p->range[linears + i]) + 2.0 * enclosure_size(result_of(p, i)->range));
 }
 
-/* Widens the stages to the ranges plus the increments of a step. The increments depend on the stages, so this is repeated.
- * Returns true if the stages had enough room already. */
+/* Widens the stages to the ranges plus the increments of a step. The increments depend on the stages, so this is
+ * repeated. Returns true if the stages already had enough room. */
 static bool widen_stages(fixed_plan *p) {
     const image *im = p->image;
     bool enough = true;
@@ -290,8 +290,8 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
-/* Finds the ranges of all values with the present stages. False, reported: some values are too large. ranges_alone: the
- * stages do not exceed the ranges yet. */
+/* Finds the ranges of all values with the present stages. Returns false, and reports it, if some values are too large.
+ * ranges_alone: the stages do not exceed the ranges yet. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
     const fixed_leaves leaves = leaves_of(p);
@@ -350,7 +350,8 @@ static bool make_points(fixed_plan *p, diags *errors) {
     return good && stands;
 }
 
-/* Chooses points until everything fits, rounding included. Rounding widens the stages, which matters if a step adds little. */
+/* Chooses points until everything fits, rounding included. Rounding widens the stages, which matters if a step adds
+ * little. */
 static bool make_all_fit(fixed_plan *p, diags *errors) {
     for (int pass = 0; pass < 6; pass++) {
         if (!make_points(p, errors) || !hull_of(p, true, false, errors)) {
@@ -393,7 +394,7 @@ static void make_starts(fixed_plan *p) {
     }
 }
 
-/* The first format of a component, with room for the stages. */
+/* Returns the first format of a component, with room for the stages. */
 static wh_fixed_format first_format(enclosure range, enclosure stage) {
     const int bits = fixed_point_of(enclosure_size(range), FIXED_DIGITS);
     const int of_stage = fixed_point_of(enclosure_size(stage), FIXED_KEPT_DIGITS);

@@ -9,8 +9,8 @@
 
 /* === statements that fixed point refuses, each at its place =================================== */
 
-/* Generated code may get inputs that no run has tested. So each input without a declared range is reported, with the
- * range of a run. Returns false if there is such an input. */
+/* Reports each input without a declared range, with the range that it has in a run, because generated code may get
+ * inputs that no run has tested. Returns false if there is such an input. */
 bool fixed_inputs_declared(const image *im, const enclosure *range, diags *errors);
 
 /* Multiplication by a constant, with a change of the binary point: x 2^shift number 2^-(32 + by), rounded. */
@@ -31,21 +31,22 @@ typedef struct fixed_gain {
 typedef struct fixed_mover {
     int to_kept;
     fixed_gain third;
-    int guard; /* from here on for second order only: digits, then gains of v, A and A1 + A2 + A3 */
+    /* from here on for second order only: digits, then the gains of v, A and A1 + A2 + A3 */
+    int guard;
     fixed_gain half_rate;
-    fixed_gain half_accel; /* number and by of wh_fixed_mul_short() */
+    fixed_gain half_accel; /* `number` and `by` of wh_fixed_mul_short() */
     fixed_gain third_accel;
 } fixed_mover;
 
 typedef struct fixed_plan {
     const image *image;
-    wh_fixed_format *format; /* [reals + inputs] as the scene has them */
+    wh_fixed_format *format; /* [reals + inputs] in the order of the scene */
     enclosure *range;        /* [reals + inputs] at the ends of steps */
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
     /* [reals + inputs] the range is declared; otherwise it is from a reference run */
     bool *declared;
     bool second;
-    int coordinates;    /* for first order the number of components */
+    int coordinates;    /* for first order, the number of components */
     fixed_mover *mover; /* [coordinates], angles first */
     fixed_list *list;
     int cells; /* number of cells per turn with which no denominator was zero */
@@ -54,13 +55,13 @@ typedef struct fixed_plan {
     int32_t *start_input;
 } fixed_plan;
 
-/* For an image made with the default method. Returns NULL, and reports the reason, if the scene has no such step, or
- * after an interrupt. `progress`: show the progress on standard error. */
+/* Makes the plan of an image with the default method. Returns NULL, and reports the reason, if the scene has no step
+ * in fixed point, or after an interrupt. `progress`: show the progress on standard error. */
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* Prints the ranges of turn angles, which are not used, and undeclared ranges: a line each, beginning with `begin`, such as "the
- * range of theta' is -40 .. 40 [rad/s], ...". */
+/* Prints declared ranges of turn angles, which are not used, and undeclared ranges. Each takes a line that begins with
+ * `begin`, such as "the range of theta' is -40 .. 40 [rad/s], ...". */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif

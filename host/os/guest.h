@@ -18,12 +18,13 @@
 #define GUEST_NOT_RUN 127
 
 typedef struct guest_wish {
-    bool by_line; /* no process: the firmware is at the other end of the caller's line `line` */
+    /* there is no process: the firmware is at the other end of the caller's line `line` */
+    bool by_line;
     int line;
     const char *image; /* an ELF file: for Arm, or a program of this machine */
     const char *board; /* QEMU's machine */
     bool mute;         /* hide the guest's console */
-    double patience_s; /* longest silence, and longest time to exit */
+    double patience_s; /* longest silence, and longest time that the guest may take to exit, s */
 } guest_wish;
 
 typedef struct guest {
@@ -46,15 +47,17 @@ typedef enum guest_heard {
     GUEST_STOPPED /* the user interrupted */
 } guest_heard;
 
-/* The machine in BOARD_MACHINE of boards/NAME/board.mk, below the working directory. Returns false if there is none. */
+/* Reads the machine from BOARD_MACHINE in boards/NAME/board.mk, below the working directory. Returns false if there is
+ * none. */
 #define GUEST_MACHINE_BYTES 64
 bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]);
 
-/* Returns false, and reports the reason, if the image cannot be run. Call guest_end() in any case. */
+/* Starts the guest. Returns false, and reports the reason, if the image cannot be run. Call guest_end() in any
+ * case. */
 bool guest_start(guest *g, const guest_wish *wish);
 
 guest_heard guest_receive(guest *g, wh_frame *frame);
-/* Send bytes; GUEST_FRAME on success. */
+/* Sends bytes. Returns GUEST_FRAME on success. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count);
 
 typedef struct guest_end_status {
@@ -64,7 +67,7 @@ typedef struct guest_end_status {
     const char *signal_name;
 } guest_end_status;
 
-/* Close the line, wait for the patience, then kill; the process is gone on return. A second call, or a call after a
+/* Closes the line, waits for patience_s, then kills the process if it still runs. A second call, or a call after a
  * failed start, does nothing. */
 guest_end_status guest_end(guest *g);
 

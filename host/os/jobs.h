@@ -21,7 +21,8 @@ typedef struct jobs {
     bool (*work)(void *context, uint64_t point, FILE *row, FILE *reason);
     /* Called in the parent, in order of the points: takes a row. Returning false ends all work. */
     bool (*deliver)(void *context, uint64_t point, bool good, const char *row, const char *reason);
-    /* In the parent, after some rows or a moment: writes out the delivered rows, shows progress. */
+    /* Called in the parent, after some rows or a short time: writes out the delivered rows, and shows the
+     * progress. */
     bool (*pause)(void *context, uint64_t next);
 } jobs;
 

@@ -13,28 +13,28 @@ typedef struct port {
 } port;
 
 #define PORT_SPEEDS "9600, 19200, 38400, 57600, 115200 or 230400"
-/* True for a speed that the system supports. */
+/* Returns true if the system supports this speed. */
 bool port_has_speed(double baud);
 
-/* Open and lock a line at this speed, without echo and conversion. False, with errno, if it is missing, or (EBUSY) if another
- * program has locked it. */
+/* Opens and locks a line at this speed, without echo and conversion. Returns false, with errno, if the line is missing,
+ * or (EBUSY) if another program has locked it. */
 bool port_open(port *p, const char *name, double baud);
 
-/* Discard received bytes of a line that were not read. */
+/* Discards the received bytes of a line that were not read. */
 void port_forget(const port *p);
 
-/* Report on standard error that the line cannot be opened, with the reason from errno and the hint. */
+/* Reports on standard error that the line cannot be opened, with the reason from errno and the hint. */
 void port_say_unopened(const char *name, const char *hint);
 
 /* Restores the line's settings. */
 void port_close(port *p);
 
-/* Read at most `room` bytes, after waiting at most wait_ms for them. If `typed` is not NULL, a line on standard input
- * also ends the wait, and *typed is true. Returns the number of bytes, 0 for none yet, -1 if the peer is gone, the file
- * has ended or the read failed (failed). */
+/* Reads at most `room` bytes, after waiting at most wait_ms for them. If `typed` is not NULL, a line on standard input
+ * also ends the wait, and *typed is true. Returns the number of bytes, 0 if none have come yet, or -1 if the peer is
+ * gone, the file has ended or the read failed (`failed`). */
 int port_read(port *p, uint8_t *bytes, size_t room, int wait_ms, bool *typed);
 
-/* Write all bytes; false if the peer is gone, or accepts nothing for a second. */
+/* Writes all bytes. Returns false if the peer is gone, or accepts nothing for a second. */
 bool port_write(port *p, const char *bytes, size_t count);
 
 #endif

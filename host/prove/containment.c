@@ -13,7 +13,7 @@
 #include "host/number/ratio.h"
 #include "host/os/system.h"
 
-/* --- the run's states, SI, in the order of the motion's -----------------------------------------------*/
+/* --- states of the run, SI, in the order of the motion -----------------------------------------------*/
 
 typedef struct reading {
     const containment_wish *wish;
@@ -53,9 +53,9 @@ static void read_run(const reading *r, void *run) {
 
 /* --- the tolerances ----------------------------------------------------------------------------------- */
 
-/* Least range of a state, as a part of its size, or of the range of another state with the same unit. */
+/* Smallest range of a state, relative to its size, or to the range of another state with the same unit. */
 #define LITTLE 1e-3
-/* Replaces the range, SI, if no state with this unit moves. Even then the tube has a width. */
+/* Replaces the range, SI, if no state with this unit moves, because the tube has a width in this case, too. */
 #define STILL 1e-9
 
 static const char *unit_of(const containment_wish *w, int i) {
@@ -154,7 +154,7 @@ typedef struct going {
     containment_found *held;
     flowpipe *tube;
     void *run;
-    enclosure step_s; /* the run's step length */
+    enclosure step_s; /* length of a step of the run */
     enclosure next_s; /* time from the tube to the next record of the run */
     enclosure *exact; /* [states] */
     uint64_t done;    /* completed steps of the run */
@@ -169,7 +169,7 @@ static void look_now(going *g) {
     }
 }
 
-/* Compare the records within the open step of length h_s. Returns their number; *last_s is the time of the last one. */
+/* Compares the records within the open step of length h_s. Returns their number. *last_s: time of the last one. */
 static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     uint64_t count = 0;
     while (g->done < g->held->run_steps && !all_closed(g->held)) {
@@ -186,7 +186,7 @@ static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     return count;
 }
 
-/* One step of the tube, and the run's steps that end in it. False: the tube ends. */
+/* Makes one step of the tube, and the run's steps that end in it. Returns false if the tube ends. */
 static bool go_on(going *g) {
     const image *im = g->wish->image;
     const double left_s = 1.001 * ratio_times(g->held->run_steps - g->done, im->step);
@@ -207,7 +207,7 @@ static bool go_on(going *g) {
     return good && g->next_s.low > 0.0;
 }
 
-/* The reason to end now; CONTAINMENT_AT_END if there is none. `on`: the result of go_on(). */
+/* Returns the reason to end now, or CONTAINMENT_AT_END if there is none. `on`: the result of go_on(). */
 static containment_end ended(const going *g, bool on) {
     const containment_wish *w = g->wish;
     const bool spent = w->products_most > 0.0 && flowpipe_products(g->tube) > w->products_most;
@@ -305,11 +305,13 @@ typedef struct figure {
     char text[40];
 } figure;
 
-/* Rounds up to this number of places, so that a statement proved for x is true for the printed number, too. */
+/* Rounds up to this number of decimal places, so that a statement proved for x is true for the printed number,
+ * too. */
 static figure not_less(double x, int places) {
     figure f;
     const char *end;
-    double shown = enclosure_above(enclosure_above(x)); /* the conversion of units rounds, too */
+    /* twice, because the conversion of units rounds, too */
+    double shown = enclosure_above(enclosure_above(x));
     snprintf(f.text, sizeof f.text, "%.*e", places, x);
     while (x > 0.0 && decimal_read(f.text, &end) < x) {
         shown *= 1.001;
@@ -318,7 +320,7 @@ static figure not_less(double x, int places) {
     return f;
 }
 
-/* The reason why the proved time ends. */
+/* Returns the words for the reason why the proved time ends. */
 static const char *behind(const containment_found *h, const containment_state *s) {
     static const char *const ends[] = {[CONTAINMENT_AT_END] = "",
                                        [CONTAINMENT_RUN_ENDS] = "; there the run fails",
@@ -356,7 +358,7 @@ static void print_state(FILE *out, const containment_found *h, const containment
             off.text, wide.text, behind(h, s));
 }
 
-/* The state with the shortest proof, or -1 if all are proved to the end. */
+/* Returns the state with the shortest proof, or -1 if all are proved to the end. */
 static int first_of(const containment_found *h) {
     int first = -1;
     for (int i = 0; i < h->states; i++) {
@@ -394,8 +396,6 @@ void containment_print(FILE *out, const containment_found *h, const containment_
                 name_of(w, first, name));
     }
 }
-
-/* --- rows ----------------------------------------------------------------------------------------------*/
 
 void containment_rows_head(FILE *out, const containment_wish *w) {
     char name[NAME_SIZE];

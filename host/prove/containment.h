@@ -8,7 +8,7 @@
 #include "host/engine/engine.h"
 #include "host/prove/flowpipe.h"
 
-#define CONTAINMENT_TOLERANCE 1e-3 /* as a part of a coordinate's range in the run */
+#define CONTAINMENT_TOLERANCE 1e-3 /* relative to a coordinate's range in the run */
 
 typedef struct containment_wish {
     const exact_motion *motion;
@@ -26,8 +26,9 @@ typedef struct containment_wish {
 
 typedef enum containment_verdict {
     CONTAINMENT_TO_THE_END, /* proved within the tolerance at every step's end */
-    CONTAINMENT_LEFT,       /* proved until until_s; the next step's end is proved to be outside */
-    CONTAINMENT_UNTOLD,     /* proved until until_s; after that the tube is too wide to decide */
+    /* proved until until_s; at the next step's end the error is proved to be larger */
+    CONTAINMENT_LEFT,
+    CONTAINMENT_UNTOLD, /* proved until until_s; after that the tube is too wide to decide */
     CONTAINMENT_UNENDED /* proved until until_s, where the tube or the run ends: see containment_found's `end` */
 } containment_verdict;
 
@@ -36,14 +37,14 @@ typedef enum containment_end {
     CONTAINMENT_RUN_ENDS, /* the run failed */
     CONTAINMENT_NO_STEP,  /* the tube has no further step */
     CONTAINMENT_SPENT,    /* the limit on products was reached */
-    CONTAINMENT_STOPPED   /* the caller stopped it */
+    CONTAINMENT_STOPPED   /* the user interrupted */
 } containment_end;
 
-/* For a state of the motion; SI. */
+/* The result for a state of the motion; SI. */
 typedef struct containment_state {
     containment_verdict verdict;
     bool open;
-    bool begun;   /* within the tolerance at the start: else nothing is proved */
+    bool begun;   /* within the tolerance at the start; otherwise nothing is proved */
     double range; /* range in the run, but at least a thousandth of the largest size */
     double
         within; /* allowed error: the requested one; else the tolerance times the state's range, or times a
@@ -71,8 +72,8 @@ void containment_free(containment_found *h);
 
 void containment_print(FILE *out, const containment_found *h, const containment_wish *w);
 
-/* Rows of comma-separated values, in SI, with all digits: the time, and for each state the least and greatest value of
- * the exact motion, and the run's value. */
+/* Write rows of comma-separated values, in SI, with all digits: the time, and for each state the least and greatest
+ * value of the exact motion, and the run's value. */
 void containment_rows_head(FILE *out, const containment_wish *w);
 void containment_row(FILE *out, const containment_wish *w, uint64_t step, const enclosure *exact,
                      const double *run);

@@ -12,13 +12,11 @@ typedef struct making {
     const instance *instance;
     int count; /* unknowns */
     int states;
-    int *matrix; /* [count * count] M of M x = f, */
-    int *force;  /* [count] and f */
-    int *solved; /* [count] x, by unknown */
+    int *matrix; /* [count * count] matrix M of M x = f */
+    int *force;  /* [count] f */
+    int *solved; /* [count] nodes of x, by unknown */
     diags *errors;
 } making;
-
-/* --- refused scenes ---------------------------------------------------------------------------------- */
 
 static bool is_smooth(const instance *inst, diags *errors) {
     const mechanism *m = inst->mechanism;
@@ -51,9 +49,7 @@ static bool is_smooth(const instance *inst, diags *errors) {
     return true;
 }
 
-/* --- the equations -----------------------------------------------------------------------------------*/
-
-/* The sum of all terms of a kind; -1: reported. */
+/* Returns the sum of all terms of a kind, or -1 (reported). */
 static int sum_of_terms(making *k, term_kind kind, int unknown) {
     const mechanism *m = k->instance->mechanism;
     int sum = graph_whole(k->graph, 0);
@@ -108,8 +104,8 @@ static bool not_linear(making *k, const term *t) {
     return false;
 }
 
-/* left - right = 0, linear in the highest derivatives. host/derive has checked this in its normal form, which drops the
- * smallest terms. */
+/* Builds the equations left - right = 0, which are linear in the highest derivatives. host/derive has checked this in
+ * the normal form, which drops the smallest terms. */
 static bool given_outright(making *k) {
     graph *g = k->graph;
     const mechanism *m = k->instance->mechanism;
@@ -137,10 +133,8 @@ static bool given_outright(making *k) {
     return true;
 }
 
-/* --- solved ------------------------------------------------------------------------------------------*/
-
-/* An admissible pivot: preferably a number, else any value other than zero. An inertia matrix is positive definite, so
- * its diagonal has only nonzero pivots; then only the diagonal is used. */
+/* Finds a pivot: preferably a number, otherwise any node that is not zero. A mass matrix is positive definite, so its
+ * diagonal has no zero pivots; then only the diagonal is used. */
 static bool find_pivot(const making *k, const bool *row_done, const bool *column_done, int *row,
                        int *column) {
     const bool diagonal = !k->instance->mechanism->is_system;
@@ -159,7 +153,7 @@ static bool find_pivot(const making *k, const bool *row_done, const bool *column
     return best > 0;
 }
 
-/* Subtract a multiple of row p from row i to make column c of it zero. */
+/* Subtracts a multiple of row p from row i, so that column c of row i becomes zero. */
 static void take_row(making *k, int i, int p, int c) {
     graph *g = k->graph;
     const int n = k->count;
@@ -175,7 +169,7 @@ static void take_row(making *k, int i, int p, int c) {
     k->force[i] = graph_sub(g, k->force[i], graph_mul(g, by, k->force[p]));
 }
 
-/* Solve row p for column c; all other unknowns except those of earlier pivots are known. */
+/* Solves row p for column c. All other unknowns are known, except those of earlier pivots. */
 static void substitute(making *k, int p, int c, const bool *known) {
     graph *g = k->graph;
     int right = k->force[p];
@@ -219,8 +213,6 @@ static bool solve(making *k) {
     return good;
 }
 
-/* --- the needed nodes -------------------------------------------------------------------------------- */
-
 static void need(const graph *g, bool *needed, int a) {
     for (int i = a; i >= 0; i--) { /* operands come before their users */
         const node *n = &g->node[i];
@@ -234,7 +226,7 @@ static void need(const graph *g, bool *needed, int a) {
             }
         }
         if (needed[i] && n->kind == NODE_SINE) {
-            needed[i + 1] = true; /* the sine's cosine */
+            needed[i + 1] = true; /* the cosine belongs to the sine */
         }
     }
 }
@@ -267,8 +259,6 @@ static void take_nodes(exact_motion *m, const graph *g, const int *rate) {
     free(to);
 }
 
-/* --- all of it -----------------------------------------------------------------------------------------*/
-
 static void number_states(making *k, exact_motion *m) {
     const mechanism *of = k->instance->mechanism;
     for (int i = 0; i < k->count; i++) {
@@ -300,7 +290,7 @@ static bool read_starts(making *k, exact_motion *m) {
     return true;
 }
 
-/* A number without an enclosure (1/0, the root of -1) is NaN. */
+/* Reports a number without an enclosure, which is NaN (1/0, the root of -1), and returns false. */
 static bool is_defined(const exact_motion *m, const mechanism *of, diags *errors) {
     bool good = true;
     for (int i = 0; i < m->nodes; i++) {

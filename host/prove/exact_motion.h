@@ -16,14 +16,14 @@ typedef struct exact_motion {
     int states;
     exact_state *state; /* [states] */
     enclosure *start;   /* [states] SI */
-    int *rate;          /* [states] the node of each state's rate */
+    int *rate;          /* [states] node of each state's rate */
     /* All nodes: the variables first, 0 to states - 1, then the others in order of evaluation. */
     node *node;
     int nodes;
 } exact_motion;
 
-/* Returns NULL, and reports the reason, if the motion cannot be enclosed: contacts, functions with corners, expressions
- * undefined at the start. */
+/* Returns NULL, and reports the reason, if the motion cannot be enclosed, because of contacts, functions with corners,
+ * or expressions that are undefined at the start. */
 exact_motion *exact_motion_make(const instance *inst, diags *errors);
 void exact_motion_free(exact_motion *m);
 

@@ -8,11 +8,11 @@
 #include "host/base/alloc.h"
 #include "host/number/functions.h"
 
-/* === orthogonal =============================================================================== */
-/* Axes for a box that turns with the motion. They are nearly orthogonal, so enclosing a turned box in a new one along
- * them costs little (Lohner, Enclosing the solutions of ordinary initial and boundary value problems, 1987). */
+/* === axes that turn with the motion =========================================================== */
+/* The axes are nearly orthogonal, so that enclosing a turned box in a new one along them costs little (Lohner,
+ * Enclosing the solutions of ordinary initial and boundary value problems, 1987). */
 
-/* The columns of `of` into a[n * n], by their contribution to the box, longest first. */
+/* Copies the columns of `of` to a[n * n], sorted by their contribution to the box, longest first. */
 static void sorted(int n, const double *of, const double *radii, double *a) {
     bool *taken = alloc(n, sizeof *taken);
     for (int c = 0; c < n; c++) {
@@ -38,7 +38,7 @@ static void sorted(int n, const double *of, const double *radii, double *a) {
     free(taken);
 }
 
-/* Apply the reflection by v[n], on rows k on, to columns `from` on of m. */
+/* Applies the reflection by v[n], on the rows from k on, to the columns of m from `from` on. */
 static void reflect(int n, double *m, const double *v, int k, int from) {
     double norm = 0.0;
     for (int i = k; i < n; i++) {
@@ -55,8 +55,8 @@ static void reflect(int n, double *m, const double *v, int k, int from) {
     }
 }
 
-/* axes[n * n], a column each: the columns of `of`, orthogonalized in order of their length times radii[n]
- * (Householder's reflections). Doubles suffice: their round-off can only widen the result. */
+/* Computes axes[n * n], one in each column: the columns of `of`, orthogonalized in order of their length times
+ * radii[n] (Householder's reflections). Doubles suffice: their round-off can only widen the result. */
 static void orthogonal_axes(int n, const double *of, const double *radii, double *axes) {
     double *a = alloc((int64_t)n * n, sizeof *a);
     double *v = alloc((int64_t)n * n, sizeof *v); /* a row for each reflection */
@@ -81,7 +81,7 @@ static void orthogonal_axes(int n, const double *of, const double *radii, double
     free(v);
 }
 
-/* to[n] = a x. */
+/* Computes to[n] = a x. */
 static void frame_apply(int n, const enclosure *a, const enclosure *x, enclosure *to) {
     for (int i = 0; i < n; i++) {
         enclosure sum = enclosure_of(0.0);
@@ -92,7 +92,7 @@ static void frame_apply(int n, const enclosure *a, const enclosure *x, enclosure
     }
 }
 
-/* The largest absolute row sum of I - A^T A. */
+/* Returns the largest absolute row sum of I - A^T A. */
 static double off_orthogonal(int n, const double *axes) {
     double most = 0.0;
     for (int i = 0; i < n; i++) {
@@ -155,7 +155,7 @@ void zonotope_free(zonotope *z) {
 
 static double size_of(double x) { return x < 0.0 ? -x : x; }
 
-/* The sum of absolute values, rounded up. */
+/* Adds absolute values, rounded up. */
 static double sum_up(double a, double b) { return b == 0.0 ? a : enclosure_above(a + b); }
 
 void zonotope_box(const zonotope *z, enclosure *box) {
@@ -168,9 +168,7 @@ void zonotope_box(const zonotope *z, enclosure *box) {
     }
 }
 
-/* --- along axes -----------------------------------------------------------------------------------------*/
-
-/* The n longest generators as columns; unit axes fill missing ones. */
+/* Finds the n longest generators, as columns. Unit axes fill missing ones. */
 static void longest(const zonotope *z, double *columns, double *radii) {
     const int n = z->n;
     double *length = alloc(n, sizeof *length);
@@ -199,7 +197,7 @@ static void longest(const zonotope *z, double *columns, double *radii) {
     free(length);
 }
 
-/* The extent of generators `from` on along each row of the inverse axes. */
+/* Computes the extent of the generators from `from` on along each row of the inverse axes. */
 static void reach(const zonotope *z, const enclosure *inverse, int from, double *radius) {
     const int n = z->n;
     for (int i = 0; i < n; i++) {
@@ -215,7 +213,7 @@ static void reach(const zonotope *z, const enclosure *inverse, int from, double 
     }
 }
 
-/* Axes along the generators and their inverse; the unit axes if that inverse has no enclosure. */
+/* Finds axes along the generators, and their inverse. If the inverse has no enclosure, the unit axes are used. */
 static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
     const int n = z->n;
     double *columns = alloc((int64_t)n * n, sizeof *columns);
@@ -251,8 +249,6 @@ void zonotope_frame(const zonotope *z, double *axes, enclosure *off) {
     free(radius);
 }
 
-/* --- fewer ---------------------------------------------------------------------------------------------*/
-
 typedef struct ranked {
     double size;
     int which;
@@ -283,7 +279,8 @@ static void sort_by_size(zonotope *z) {
     free(sorted);
 }
 
-/* The smaller half becomes one box along axes. The rounding of its corners is added to rounding[n]. */
+/* Replaces the smaller half of the generators by one box along axes. The rounding of its corners is added to
+ * rounding[n]. */
 static void reduce(zonotope *z, double *rounding) {
     const int n = z->n;
     double *axes = alloc((int64_t)n * n, sizeof *axes);
@@ -307,9 +304,8 @@ static void reduce(zonotope *z, double *rounding) {
     free(radius);
 }
 
-/* --- mapped --------------------------------------------------------------------------------------------*/
-
-/* vector[n] becomes the centre of map vector + more (NULL: nothing); its error is added to rounding[n]. to[n] is scratch. */
+/* Replaces vector[n] by the centre of map vector + more (NULL: nothing). Its error is added to rounding[n]. to[n] is
+ * working memory. */
 static void map_vector(int n, const enclosure *map, double *vector, const enclosure *more,
                        enclosure *to, double *rounding) {
     for (int i = 0; i < n; i++) {
@@ -349,9 +345,10 @@ void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more) {
 
 /* === the tube ================================================================================= */
 
-/* The length of a step is chosen so that its remainder is at most this part of the largest value of the state so far. */
+/* The length of a step is chosen so that its remainder is at most this, relative to the largest value of the state so
+ * far. */
 #define REMAINDER 0x1p-54
-/* The tube ends if the step must be shorter than this, s. */
+/* The tube ends if the step would have to be shorter than this, s. */
 #define STEP_LEAST_S 1e-9
 #define STEP_FIRST_S 0.01
 enum { TRIALS = 60, GENERATORS = 3000 };
@@ -361,9 +358,9 @@ struct flowpipe {
     int states;
     int order;
     int first;        /* coefficients up to this one use derivatives; later ones are small */
-    taylor *middle;   /* coefficients at the centre */
-    taylor *all;      /* coefficients over the whole box, and derivatives up to `first` */
-    taylor *over;     /* coefficients over a whole step, one order more */
+    taylor *middle;   /* Taylor coefficients at the centre */
+    taylor *all;      /* Taylor coefficients over the whole box, with derivatives up to `first` */
+    taylor *over;     /* Taylor coefficients over a whole step, one order more */
     double *centre;   /* [states] a point x of the tube is centre plus off */
     zonotope *off;    /* deviation from the centre */
     enclosure *box;   /* [states] box of x along the state axes */
@@ -433,7 +430,7 @@ static bool find(flowpipe *t, taylor *series, const enclosure *x) {
 
 /* --- enclosure of the motion over a step ------------------------------------------------------------- */
 
-/* The Taylor polynomial over the whole step, from the whole box: the sum of [0, h]^k x_k over k <= order. */
+/* Encloses the Taylor polynomial over the whole step, from the whole box: the sum of [0, h]^k x_k over k <= order. */
 static enclosure polynomial_over(const flowpipe *t, int i, enclosure span) {
     enclosure sum = taylor_of(t->all, i, t->order)[0];
     for (int k = t->order - 1; k >= 0; k--) {
@@ -442,15 +439,15 @@ static enclosure polynomial_over(const flowpipe *t, int i, enclosure span) {
     return sum;
 }
 
-/* tau^(order + 1) times the next coefficient over `stay`: Lagrange's remainder. */
+/* Lagrange's remainder: tau^(order + 1) times the next coefficient over `stay`. */
 static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
     return enclosure_mul(enclosure_whole_power(tau, t->order + 1),
                          taylor_of(t->over, i, t->order + 1)[0]);
 }
 
-/* Does every motion from the box stay in `stay` for h_s? If one first left `stay` at t, its Taylor polynomial with
- * Lagrange's remainder over `stay` up to t would be inside `stay`: a contradiction. *excess: the largest remainder
- * relative to REMAINDER's bound. */
+/* Does every motion from the box stay in `stay` for h_s? If a motion first left `stay` at t, its Taylor polynomial
+ * with Lagrange's remainder over `stay` up to t would be inside `stay`: a contradiction. *excess: the largest
+ * remainder, relative to its bound by REMAINDER. */
 static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;
@@ -476,7 +473,7 @@ static bool stays(flowpipe *t, double h_s, double *excess) {
     return good;
 }
 
-/* The next trial's length from the remainder's order, with bounded change. */
+/* Returns the length of the next trial, from the order of the remainder, with bounded change. */
 static double changed(double h_s, double excess, int order) {
     const double factor =
         excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(order + 1)) : 2.0;
@@ -525,9 +522,8 @@ double flowpipe_open(flowpipe *t, double most_s) {
     return t->open_s;
 }
 
-/* --- in the step -------------------------------------------------------------------------------------*/
-
-/* The displacement of the centre: its polynomial minus its start, the later coefficients, and the remainder. */
+/* Returns the displacement of the centre: its polynomial minus its start, the later coefficients, and the
+ * remainder. */
 static enclosure way_at(const flowpipe *t, int i, enclosure tau) {
     enclosure sum = taylor_of(t->all, i, t->order)[0];
     for (int k = t->order - 1; k > 0; k--) {
@@ -572,7 +568,7 @@ static bool all_finite(const flowpipe *t) {
     return good;
 }
 
-/* Moves the centre by the middle of the displacement. `left` gets the remainder of the displacement's enclosure. The
+/* Moves the centre by the middle of the displacement. left[]: the rest of the displacement's enclosure. The
  * displacement is small, so little precision is lost. */
 static void go_to(flowpipe *t, enclosure tau, enclosure *left) {
     for (int i = 0; i < t->states; i++) {
@@ -595,9 +591,9 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
     t->products += 2.0 * (double)n * (double)n *
-                   (double)t->off->count; /* products of this step, also those in flowpipe_open() */
+                   (double)t->off->count; /* products of this step, with those in flowpipe_open() */
     for (int i = 0; i < n; i++) {
-        /* derivatives cover the segment from the centre to the motion */
+        /* the derivatives must hold on the whole segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);
         t->box[i] = enclosure_hull(enclosure_add(centre, t->box[i]), centre);
     }

@@ -33,27 +33,27 @@ void zonotope_free(zonotope *z);
 
 /* Computes the smallest box, box[n], that contains the zonotope. */
 void zonotope_box(const zonotope *z, enclosure *box);
-/* Axes, the columns of axes[n * n], nearly orthogonal, the first along the longest extent; and the deviation's
- * components along them, off[n]. */
+/* Computes nearly orthogonal axes, the columns of axes[n * n]; the first is along the longest extent. off[n] encloses
+ * the components of the deviation along these axes. */
 void zonotope_frame(const zonotope *z, double *axes, enclosure *off);
-/* Apply all maps in map[n * n] and add `more`[n]. */
+/* Applies all maps in map[n * n], and adds `more`[n]. */
 void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more);
 
 enum { FLOWPIPE_ORDER = 26 };
 
 typedef struct flowpipe flowpipe;
 
-/* The motion must outlive it. */
+/* `m` must outlive the tube. */
 flowpipe *flowpipe_new(const exact_motion *m, int order);
 void flowpipe_free(flowpipe *t);
 
-/* Open a step of at most `most_s` at the present time. Returns its length, s, or 0 if no step of useful length is
- * possible. Until flowpipe_on() the tube is known at tau_s in [0, length]: x[states]. */
+/* Opens a step of at most `most_s` at the present time. Returns its length, s, or 0 if no step of useful length is
+ * possible. Until flowpipe_on(), flowpipe_at() encloses the motion at tau_s in [0, length]: x[states]. */
 double flowpipe_open(flowpipe *t, double most_s);
 void flowpipe_at(const flowpipe *t, enclosure tau_s, enclosure *x);
-/* Move the present time to this time of the open step. Returns false if the tube ends there. */
+/* Moves the present time to tau_s in the open step. Returns false if the tube ends at that time. */
 bool flowpipe_on(flowpipe *t, enclosure tau_s);
-/* Steps so far, and their estimated cost in products of enclosures. */
+/* Number of steps so far, and their estimated cost in products of enclosures. */
 uint64_t flowpipe_steps(const flowpipe *t);
 double flowpipe_products(const flowpipe *t);
 

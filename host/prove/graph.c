@@ -10,8 +10,6 @@
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 
-/* --- nodes that are one ------------------------------------------------------------------------------*/
-
 graph *graph_new(void) { return alloc(1, sizeof(graph)); }
 
 void graph_free(graph *g) {
@@ -81,15 +79,11 @@ static int entered(graph *g, node_kind kind, int left, int right, enclosure numb
     return *slot;
 }
 
-/* --- looking -------------------------------------------------------------------------------------------*/
-
 bool graph_is_number(const graph *g, int a) { return g->node[a].kind == NODE_NUMBER; }
 
 bool graph_is_zero(const graph *g, int a) {
     return graph_is_number(g, a) && enclosure_is_zero(g->node[a].number);
 }
-
-/* --- making --------------------------------------------------------------------------------------------*/
 
 int graph_number(graph *g, enclosure value) {
     const enclosure clean = enclosure_is_zero(value) ? enclosure_of(0.0) : value; /* no -0 */
@@ -102,8 +96,8 @@ int graph_variable(graph *g, int which) {
     return entered(g, NODE_VARIABLE, which, -1, enclosure_of(0.0));
 }
 
-/* x op y for numbers. A double computed without an error stays a double: 2*3 is a whole exponent, as 6 is. The error
- * terms are Knuth's and Dekker's; Dekker's split requires sizes below 1e150. */
+/* Computes x op y for numbers. A double computed without an error stays a double: 2*3 is a whole exponent, as 6 is.
+ * The error terms are Knuth's and Dekker's; Dekker's split requires sizes below 1e150. */
 static enclosure folded(char op, enclosure x, enclosure y) {
     const double a = x.low;
     const double b = op == '-' ? -y.low : y.low;
@@ -182,7 +176,7 @@ int graph_sub(graph *g, int a, int b) {
     return made_of_two(g, NODE_DIFFERENCE, a, b);
 }
 
-/* Numbers move to the front: the constants of a product form one factor. */
+/* Numbers move to the front, so that the constants of a product form one factor. */
 int graph_mul(graph *g, int a, int b) {
     const node x = g->node[a];
     const node y = g->node[b];
@@ -218,7 +212,7 @@ int graph_div(graph *g, int a, int b) {
     return made_of_two(g, NODE_RATIO, a, b);
 }
 
-/* A sine and its cosine are made together, in adjacent nodes: their Taylor coefficients depend on each other. */
+/* Makes a sine and its cosine together, in adjacent nodes, because their Taylor coefficients depend on each other. */
 static int wave(graph *g, int a, bool cosine) {
     const enclosure of = g->node[a].number;
     if (graph_is_number(g, a)) {
@@ -270,7 +264,7 @@ int graph_power(graph *g, int a, enclosure exponent) {
 
 /* === derivatives ============================================================================== */
 
-/* The new nodes of the nodes visited so far. New nodes are added during the walk, but only earlier ones are looked
+/* The new node for each node visited so far. New nodes are added during the walk, but only earlier ones are looked
  * up. */
 typedef struct rewriting {
     graph *graph;
@@ -286,7 +280,7 @@ static rewriting begin(graph *g, int variable) {
     return r;
 }
 
-/* The derivative of sine, cosine, exp and so on by their argument. */
+/* Returns the derivative of a sine, cosine, exponential and so on by its argument. */
 static int outer_slope(graph *g, int a) {
     const node n = g->node[a];
     switch (n.kind) {
@@ -447,7 +441,7 @@ static int hyperbolic(graph *g, int a, bool sine) {
                      sine ? graph_sub(g, up, down) : graph_add(g, up, down));
 }
 
-/* Functions with corners accept only numbers. */
+/* Functions with corners are possible for numbers only. */
 static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
     graph *g = s->graph;
     if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {
@@ -457,8 +451,8 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
     return graph_number(g, enclosure_call(tree->function, x, b >= 0 ? g->node[b].number : x));
 }
 
-/* A bound of the angle in [-pi/2, pi/2] with the sine (or tangent) x. Neighbouring doubles on both sides are tested;
- * both functions increase monotonically there. */
+/* Returns a bound of the angle in [-pi/2, pi/2] whose sine (or tangent) is x. Doubles farther and farther from the
+ * computed angle are tested; both functions increase monotonically in this interval. */
 static double inverse_end(double x, bool tangent, double side) {
     const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */
@@ -489,7 +483,7 @@ static enclosure inverse(enclosure x, bool tangent) {
                : (enclosure){inverse_end(x.low, tangent, -1.0), inverse_end(x.high, tangent, 1.0)};
 }
 
-/* atan2(y, x), by quadrant; NaN at its cut. */
+/* Encloses atan2(y, x), by quadrant. NaN at its cut. */
 static enclosure inverse_ratio(enclosure y, enclosure x) {
     const enclosure right = enclosure_times(enclosure_pi(), 0.5);
     if (x.low > 0.0) {
@@ -502,7 +496,7 @@ static enclosure inverse_ratio(enclosure y, enclosure x) {
     return enclosure_is_zero(y) && x.high < 0.0 ? enclosure_pi() : enclosure_of((double)NAN);
 }
 
-/* Inverse functions accept only numbers. */
+/* Inverse functions are possible for numbers only. */
 static int read_inverse(reader_symbols *s, const expr *tree, int a, int b) {
     graph *g = s->graph;
     if (!graph_is_number(g, a) || (b >= 0 && !graph_is_number(g, b))) {

@@ -41,7 +41,7 @@ typedef struct graph {
     int slots;
 } graph;
 
-/* A graph with more nodes is too large for repeated evaluation. */
+/* Largest number of nodes of a graph that is evaluated repeatedly. */
 enum { GRAPH_NODES_MAX = 20000 };
 
 graph *graph_new(void);
@@ -65,7 +65,7 @@ bool graph_is_number(const graph *g, int a);
 bool graph_is_zero(const graph *g, int a);
 
 int graph_slope(graph *g, int a, int variable);
-/* `a` with 0 in place of the variables from `first` on. */
+/* Returns `a` with 0 in place of the variables from `first` on. */
 int graph_without(graph *g, int a, int first);
 
 /* === reader =================================================================================== */
@@ -84,7 +84,7 @@ typedef struct reader_symbols {
     diags *errors;
 } reader_symbols;
 
-/* The node, or -1: reported. */
+/* Returns the node, or -1 (reported). */
 int read_node(reader_symbols *s, const expr *tree);
 
 #endif

@@ -1,5 +1,5 @@
-/* taylor.c: the recurrences of Taylor coefficients. With u and v the operands of a node, coefficient k follows from
- * theirs up to k and from its own below k. */
+/* taylor.c: the recurrences of Taylor coefficients. u and v are the operands of a node. Coefficient k of the node
+ * follows from their coefficients up to k, and from its own below k. */
 #include "host/prove/taylor.h"
 
 #include <stdlib.h>
@@ -7,9 +7,9 @@
 #include "host/base/alloc.h"
 #include "host/number/enclosure.h"
 
-/* === dual ===================================================================================== */
-/* An enclosure with its derivatives by all states: entry 0 is the value, then come `width` - 1 derivatives.
- * With width 1 it is the value alone. Entries that are exactly zero cost almost nothing. */
+/* === enclosures with derivatives ============================================================== */
+/* An enclosure with its derivatives by all states: entry 0 is the value, then come `width` - 1 derivatives. With
+ * width 1 it is only the value. Entries that are exactly zero cost almost nothing. */
 
 static void dual_zero(enclosure *to, int width) {
     for (int j = 0; j < width; j++) {
@@ -45,7 +45,7 @@ static void dual_add_multiple(enclosure *to, enclosure number, const enclosure *
     }
 }
 
-/* to += a b; to += number a b */
+/* to += a b */
 static void dual_add_product(enclosure *to, const enclosure *a, const enclosure *b, int width) {
     const enclosure x = a[0];
     const enclosure y = b[0];
@@ -84,7 +84,7 @@ static void dual_divide(enclosure *to, const enclosure *a, int width) {
     }
 }
 
-/* The derivatives of a function of `a` with value to[0] and derivative `slope` there. */
+/* Computes the derivatives of a function of `a` whose value is to[0] and whose derivative is `slope`. */
 static void dual_chain(enclosure *to, enclosure slope, const enclosure *a, int width) {
     for (int j = 1; j < width; j++) {
         to[j] = enclosure_mul(slope, a[j]);
@@ -118,7 +118,7 @@ const enclosure *taylor_of(const taylor *t, int i, int k) { return at(t, i, k); 
 
 static enclosure whole(int value) { return enclosure_of((double)value); }
 
-/* Number of entries of coefficient k. */
+/* Returns the number of entries of coefficient k. */
 static int width_of(const taylor *t, int k) { return k <= t->slopes_to ? t->width : 1; }
 
 /* to = sum of u_j v_(k-j) */
@@ -152,7 +152,8 @@ static void ratio(const taylor *t, const node *n, int self, int k, enclosure *to
     dual_divide(to, at(t, n->right, 0), width_of(t, k));
 }
 
-/* s' = u' c, c' = -u' s: k s_k = sum of j u_j c_(k-j), and similarly the cosine. `self` is the cosine, after the sine. */
+/* s' = u' c, c' = -u' s: k s_k = sum of j u_j c_(k-j), and similarly for the cosine. `self` is the cosine's node, which
+ * comes after the sine's. */
 static void waves(const taylor *t, const node *n, int self, int k) {
     enclosure *sine = at(t, self - 1, k);
     enclosure *cosine = at(t, self, k);
@@ -286,7 +287,7 @@ bool taylor_find(taylor *t, const enclosure *x) {
     return all_finite(t);
 }
 
-/* The cost of a product: each coefficient is a sum of products, and each derivative a sum of two. */
+/* Returns the cost of a product: each coefficient is a sum of products, and each derivative a sum of two. */
 static double products_to(int order) { return 0.5 * (double)(order + 1) * (double)(order + 2); }
 
 double taylor_products(const taylor *t) {

@@ -17,13 +17,13 @@ typedef struct taylor {
 taylor *taylor_new(const exact_motion *m, int order, int slopes_to);
 void taylor_free(taylor *t);
 
-/* Compute all coefficients at the states x[states]. Returns false if one is not finite there. */
+/* Computes all coefficients at the states x[states]. Returns false if one of them is not finite. */
 bool taylor_find(taylor *t, const enclosure *x);
 
-/* Estimated products of enclosures of one taylor_find(). */
+/* Returns the estimated products of enclosures in one taylor_find(). */
 double taylor_products(const taylor *t);
 
-/* Coefficient k of state i: the value, then, up to slopes_to, its derivatives. */
+/* Returns coefficient k of state i: the value, followed by its derivatives if k is at most slopes_to. */
 const enclosure *taylor_of(const taylor *t, int i, int k);
 
 #endif

@@ -63,8 +63,6 @@ int system_end(FILE *command) {
     return -1;
 }
 
-/* --- points one after the other ------------------------------------------------------------------------*/
-
 int jobs_workers(void) { return 1; }
 
 jobs_result jobs_run(const jobs *j) {
@@ -86,8 +84,6 @@ jobs_result jobs_run(const jobs *j) {
     }
     return JOBS_DONE;
 }
-
-/* --- no firmware, no line --------------------------------------------------------------------------------*/
 
 bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]) {
     (void)board;

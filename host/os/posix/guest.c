@@ -19,9 +19,7 @@
 enum { DOWN = 3, UP = 4, ABOVE = 10 };
 enum { POLL_MS = 50 };
 
-/* --- the kind of image --------------------------------------------------------------------------------- */
-
-/* Executable and linkable format: magic, then at byte 18 the machine, in the file's byte order. */
+/* Returns true for an ELF file: its magic, then at byte 18 the machine, in the file's byte order. */
 static bool is_elf(const unsigned char *head, size_t count, bool *arm) {
     enum { MACHINE = 18, ARM = 40, LITTLE = 1 };
     if (count < MACHINE + 2 || memcmp(head, "\177ELF", 4) != 0) {
@@ -69,8 +67,6 @@ bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]) {
     return machine[0] != '\0';
 }
 
-/* --- start ------------------------------------------------------------------------------------------------*/
-
 /* Moves the pipes to their numbers DOWN and UP, by way of high numbers that are free. All other descriptors close on exec. */
 static bool place_line(int down, int up) {
     const int high_down = fcntl(down, F_DUPFD_CLOEXEC, ABOVE);
@@ -91,7 +87,7 @@ static bool tie_to(pid_t parent) {
     return setpgid(0, 0) == 0 && getppid() == parent;
 }
 
-/* If wished, silences the guest's console, which is Whirl's standard output. */
+/* If `wished` is true, silences the guest's console, which is Whirl's standard output. */
 static bool mute(bool wished) {
     const int nowhere = wished ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
     return !wished || (nowhere >= 0 && dup2(nowhere, STDOUT_FILENO) >= 0);
@@ -164,9 +160,7 @@ bool guest_start(guest *g, const guest_wish *wish) {
     return true;
 }
 
-/* --- the line -----------------------------------------------------------------------------------------------*/
-
-/* Wait until the line is readable, in short intervals, so that an interrupt from before the wait is noticed. */
+/* Waits until the line is readable, in short intervals, so that an interrupt from before the wait is noticed. */
 static guest_heard wait_to_read(const guest *g, double end_s) {
     struct pollfd line = {.fd = g->up, .events = POLLIN};
     do {
@@ -205,7 +199,8 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
     }
 }
 
-/* A pipe accepts a few kilobytes without blocking, and taking turns puts at most one frame in it. A serial line is slower. */
+/* A pipe accepts a few kilobytes without blocking. Because guest and host take turns, it holds at most one frame. A
+ * serial line is slower. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
     struct pollfd line = {.fd = g->down, .events = POLLOUT};
     for (unsigned done = 0; done < count;) {
@@ -223,8 +218,6 @@ guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
     }
     return GUEST_FRAME;
 }
-
-/* --- end ------------------------------------------------------------------------------------------------------*/
 
 static void close_line(int *descriptor) {
     if (*descriptor >= 0) {

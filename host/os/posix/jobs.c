@@ -14,7 +14,7 @@
 #include "host/base/alloc.h"
 #include "host/os/system.h"
 
-/* Points per worker that may be handed out, counted from the first point that is not yet delivered. */
+/* Number of points that each worker may have ahead of the first point that is not yet delivered. */
 #define AHEAD 8U
 #define PAUSE_MS 50
 #define ASK_US 200000
@@ -162,7 +162,7 @@ static bool start(pool *p) {
     return p->started > 0;
 }
 
-/* Hand out numbers as far as the window reaches. */
+/* Hands out numbers as far as the window reaches. */
 static void send(pool *p) {
     while (p->sent < p->jobs->end && p->sent < p->delivered + p->window &&
            write_all(p->tickets, &p->sent, sizeof p->sent)) {
@@ -191,7 +191,7 @@ static void take_answers(pool *p, worker *w) {
     memmove(w->bytes, w->bytes + at, w->length);
 }
 
-/* Reads from a worker. False when it has ended. */
+/* Reads from a worker. When the worker has ended, closes its pipe and returns false. */
 static bool listen_to(pool *p, worker *w) {
     if (w->room - w->length < 65536) {
         w->room = 2 * w->room + 65536;
@@ -241,7 +241,8 @@ static jobs_result attend(pool *p) {
         const int heard = poll(ears, (nfds_t)p->started, PAUSE_MS);
         for (int i = 0; i < p->started && heard > 0; i++) {
             if (ears[i].revents != 0 && !listen_to(p, &p->workers[i])) {
-                result = JOBS_WORKER_LOST; /* workers end only after their numbers do */
+                /* workers end only after the pipe with the numbers is closed */
+                result = JOBS_WORKER_LOST;
             }
         }
         if (!deliver(p) || !j->pause(j->context, p->delivered)) {
@@ -266,7 +267,8 @@ jobs_result jobs_run(const jobs *j) {
     p.window = AHEAD * (uint64_t)j->workers;
     p.workers = alloc(j->workers, sizeof *p.workers);
     p.slots = alloc((int64_t)p.window, sizeof *p.slots);
-    void (*const before)(int) = signal(SIGPIPE, SIG_IGN); /* a write to a lost worker */
+    /* a write to a lost worker must not end the program */
+    void (*const before)(int) = signal(SIGPIPE, SIG_IGN);
     jobs_result result = JOBS_WORKER_LOST;
     if (start(&p)) {
         result = attend(&p);

@@ -50,7 +50,7 @@ static bool make_plain(port *p, double baud) {
 /* Locks the line, because two readers would take bytes from each other. */
 static bool have_alone(int file) {
     if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
-        return true; /* also true if the system cannot lock it */
+        return true; /* also if the system has no locks */
     }
     errno = EBUSY;
     return false;

@@ -54,7 +54,7 @@ bool system_lock(FILE *file) {
 
 FILE *system_read_from(const char *command) { return popen(command, "r"); }
 
-/* For system_write_to(). written: the command's input; before: the handler of SIGPIPE, to be restored. */
+/* For system_write_to(): the stream to the command's input, and the handler of SIGPIPE, to be restored. */
 static FILE *written;
 static void (*before)(int);
 
