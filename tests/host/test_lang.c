@@ -1,4 +1,4 @@
-/* test_lang.c: meaning of a .whirl file: units, dimensions, names, values of scenes. */
+/* test_lang.c: the meaning of a .whirl file: units, dimensions, names, and the values of scenes. */
 #include "test.h"
 
 #include "host/lang/value.h"
@@ -99,7 +99,7 @@ static void test_sets_may_name_later_parameters(void) {
     expect_exactly(121.0, made->start[0][0]);
 }
 
-/* Without memoization each of these sixty lets would double the work. */
+/* Each of these sixty lets must be evaluated once; else each of them would double the work. */
 static void test_lets_are_evaluated_once(void) {
     char text[4000];
     int used = snprintf(text, sizeof text,
@@ -135,8 +135,8 @@ static void test_byte_order_mark_and_line_ends(void) {
 
 enum { IN_SCENE_PLACES = 5, PLACES = 7 };
 
-/* A mechanism with X, p and q in this unit, and a value for one of them in this place. NULL:
- * refused; *report (freed by the caller) has the reason. */
+/* Instantiates a mechanism with X, p and q in `unit`, and an assignment in place number `at` of the scene. Returns
+ * NULL if it is refused. *report: the reason, which the caller frees. */
 static instance *given_in(const char *unit, int at, const char *assigned, char **report) {
     static const char *const put[IN_SCENE_PLACES] = {"start %s", "start X = 0, %s", "set %s",
                                                      "set %s", "when X crosses 0 { set %s }"};
@@ -176,8 +176,8 @@ static double value_in(int at) {
     }
 }
 
-/* Every unit, place and notation: a value must have its unit unless that is SI. The hint can be
- * pasted and gives the declared unit. */
+/* For every unit, place and notation: a value without its unit must be refused, unless the unit is SI. The hint must
+ * have the declared unit, and must be accepted if it is pasted. */
 static void test_a_value_without_its_unit_is_refused(void) {
     static const char *const name[PLACES] = {"X", "X'", "p", "q", "X", "X", "p"};
     static const struct {
@@ -223,8 +223,8 @@ static void test_a_value_without_its_unit_is_refused(void) {
     TEST_ASSERT_TRUE(refused > 500);
 }
 
-/* A bare number next to an angle in [deg] is refused in every sum and comparison, except 0 and pi.
- * The hint can be pasted. Next to an angle in [rad] it is accepted. */
+/* A number without a unit, next to an angle in [deg], must be refused in every sum and comparison, except 0 and pi.
+ * The hint must be accepted if it is pasted. Next to an angle in [rad] the number is accepted. */
 static void test_a_bare_number_beside_an_angle(void) {
     static const char *const lines[] = {
         "stop %s >= a restitution 0",
@@ -286,7 +286,7 @@ static void test_a_bare_number_beside_an_angle(void) {
     }
 }
 
-/* The same through a parameter. Functions that return radians are accepted. */
+/* A bare number in a parameter must be refused, too. Functions that return radians must be accepted. */
 static void test_units_come_through_names(void) {
     static const char *const good[] = {"X = 2*p", "X = asin(0.5)", "X = q0*1 [deg]"};
     for (int i = 0; i < 4; i++) {

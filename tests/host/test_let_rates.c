@@ -1,12 +1,12 @@
-/* test_let_rates.c: x1' and x1'' of `let x1 = ...`, compared with derivatives by the textbook's rules. A random tree of
- * functions is written as a let. The tree's derivatives are written as text. Both files must give the same
+/* test_let_rates.c: x1' and x1'' of `let x1 = ...`, compared with derivatives by the textbook's rules. A random tree
+ * of functions is written once as a let, and once with its derivatives as text. Both files must give the same
  * equations. */
 #include "command.h"
 #include "derived.h"
 #include "host/base/alloc.h"
 #include "host/emit/emit.h"
 
-/* A formula with its first and second derivative; "0" if zero. Never freed before the test ends. */
+/* A formula and its first and second derivative as texts, "0" if zero. They are freed at the end of the test. */
 typedef struct formula {
     char *f, *d, *dd;
 } formula;
@@ -27,7 +27,7 @@ static void forget(void) {
     }
 }
 
-/* f(u). `slope` and `bend` are f'(u) and f''(u) as texts. */
+/* f(u), with the texts `slope` for f'(u) and `bend` for f''(u). */
 static formula chain(char *f, char *slope, char *bend, formula u) {
     return (formula){f, TEXT("(%s)*(%s)", slope, u.d),
                      TEXT("((%s)*(%s)^2 + (%s)*(%s))", bend, u.d, slope, u.dd)};
@@ -42,7 +42,7 @@ static formula leaf(dice *d) {
     }
 }
 
-/* The tree has `deep` levels. A quotient inside a power has many normal forms, so it is not drawn there. */
+/* Draws a tree with `deep` levels. A quotient inside a power has many normal forms and is not drawn. */
 static formula draw(dice *d, int deep) {
     if (deep == 0) {
         return leaf(d);
@@ -123,8 +123,8 @@ static void expect_same_numbers(const derived *a, const derived *b, const char *
     }
 }
 
-/* Both files give the same numbers, and in nine of ten cases the same C. In the others, powers of quotients have no
- * unique normal form. */
+/* Both files must give the same numbers, and in nine of ten cases the same C code. Powers of quotients in the other
+ * cases have no unique normal form. */
 TEST(let_rates, derivatives_of_lets_are_those_by_hand) {
     dice d = dice_of("let_rates", 4601);
     const unsigned cases = dice_cases(usual_or(120, 20));
@@ -154,7 +154,7 @@ TEST(let_rates, derivatives_of_lets_are_those_by_hand) {
     TEST_ASSERT_TRUE(compared >= cases / 2 && 10 * equal >= 9 * compared);
 }
 
-/* A derivative of a let is allowed where one of a coordinate is. The messages give its order. */
+/* A derivative of a let is allowed wherever that of a coordinate is. A refusal must name its order. */
 TEST(let_rates, derivatives_of_lets_keep_the_rules) {
     static const struct {
         const char *line;

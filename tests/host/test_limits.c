@@ -1,5 +1,5 @@
-/* test_limits.c: longest stable step. Bisection on the program's own runs is compared with the
- * stability polynomials of the methods, on the imaginary and real axis. Also the steps in hints. */
+/* test_limits.c: the longest stable step, by bisection on runs of the program, compared with the methods' stability
+ * polynomials on the imaginary and the real axis. Also the steps in hints. */
 #include "command.h"
 #include "host/check/summary.h"
 #include "motion.h"
@@ -15,8 +15,8 @@ static const char system_swing[] =
     "mechanism m\nstate x [m]\nstate v [m/s]\nequation x' = v\nequation v' = -1 [1/s^2]*x\n"
     "scene s { start x = 1 [m]\nstep 1 [ms]\nuntil 1e6 [s] }\n";
 
-/* Does the motion stay bounded? In a system of first order, the step's matrix is as normal as the system's, so even a
- * small growth is visible. */
+/* Does the motion stay bounded? In a system of first order, the matrix of a step is as normal as that of the system,
+ * so a small growth is visible, too. */
 static bool stays(const char *text, wh_method method, double step_s) {
     motion m;
     bool bounded = true;
@@ -50,8 +50,8 @@ static double measured(const char *text, wh_method method) {
     return low;
 }
 
-/* Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.2. Nyström methods: by bisection on the
- * polynomials of their rows (docs/stability.md). 0: never stable; below 0: the method takes no such system. */
+/* Known limits (Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.2). Those of Nyström methods
+ * come from bisection on the polynomials of their rows (docs/stability.md). 0: never stable; negative: not possible. */
 static const struct {
     wh_method method;
     double swings;
@@ -69,7 +69,7 @@ static const struct {
              {WH_NYSTROEM5, 2.3905, 3.3865, 0.8523}};
 
 static void hold(const char *text, wh_method method, double limit, const char *what) {
-    if (limit == 0.0) { /* a quarter of the step is unstable too */
+    if (limit == 0.0) { /* a quarter of the step is unstable, too */
         TEST_ASSERT_FALSE_MESSAGE(stays(text, method, 0.5), wh_methods[method].word);
         printf("  %-20s %s: none\n", wh_methods[method].word, what);
     } else if (limit > 0.0) {
@@ -92,7 +92,7 @@ TEST(limits, measured_limits_are_the_known_ones) {
     TEST_ASSERT_EQUAL_UINT((1U << WH_METHODS) - 1U, seen);
 }
 
-/* docs/dev/numerics.md has a row for each method, with these limits. */
+/* docs/dev/numerics.md must have a row with these limits for each method. */
 TEST(limits, the_page_has_the_known_limits) {
     FILE *in = fopen("docs/dev/numerics.md", "r");
     TEST_ASSERT_NOT_NULL(in);
@@ -118,8 +118,8 @@ TEST(limits, the_page_has_the_known_limits) {
     free(page);
 }
 
-/* Nice steps are 1, 2 and 5 times powers of ten, here from 5000 down over 16 decades. Each result must be the largest nice
- * step up to the given one. */
+/* Nice steps are 1, 2 and 5 times powers of ten, here from 5000 down over 16 decades. The result must be the largest
+ * nice step up to the given one. */
 TEST(limits, nice_steps) {
     dice die = dice_of("nice steps", 68);
     for (unsigned c = 0; c < dice_cases(2000); c++) {
@@ -132,7 +132,7 @@ TEST(limits, nice_steps) {
         const double next_s = nice_s * (two ? 2.5 : 2.0);
         TEST_ASSERT_TRUE(nice_s <= most_s * (1.0 + 2e-9));
         TEST_ASSERT_TRUE(next_s > most_s || next_s > 5001.0);
-        /* a nice step less round-off maps to itself; one that is 1e-7 shorter, to the next shorter one */
+        /* a nice step less round-off must give itself; one that is shorter by 1e-7 must give the next shorter one */
         TEST_ASSERT_TRUE(fabs(step_nice_s(nice_s * (1.0 - 1e-13)) / nice_s - 1.0) < 1e-12);
         TEST_ASSERT_TRUE(step_nice_s(nice_s * (1.0 - 1e-7)) < 0.6 * nice_s);
     }

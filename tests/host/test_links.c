@@ -1,5 +1,5 @@
-/* test_links.c: pendulums of one to twelve links, derived from their energies, compared with
- * equations by hand. The mass matrix has closed forms and is solved in long double. */
+/* test_links.c: pendulums with one to twelve links. The accelerations derived from their energies are compared with
+ * equations by hand, whose mass matrix has a closed form and is solved in long double. */
 #include "derived.h"
 
 enum { LINKS_MOST = 12, STATES = 40 };
@@ -7,13 +7,13 @@ enum { LINKS_MOST = 12, STATES = 40 };
 
 typedef struct links {
     int n;
-    double mass[LINKS_MOST];   /* kg, at the end of each rod */
-    double length[LINKS_MOST]; /* m */
-    double torque[LINKS_MOST]; /* N m, on each link */
+    double mass[LINKS_MOST];   /* at the end of each rod, kg */
+    double length[LINKS_MOST]; /* length of each rod, m */
+    double torque[LINKS_MOST]; /* on each link, N m */
 } links;
 
-/* Writes a chain of links. Angles are measured from hanging straight down. Each link adds its own speed and height to
- * those of the link above. */
+/* Writes a chain of links. Angles are zero when a link hangs down. Each link adds its own speed and height to those
+ * of the link above. */
 static char *written(const links *of) {
     char *text;
     size_t size;
@@ -44,7 +44,7 @@ static char *written(const links *of) {
     return text;
 }
 
-/* M_ij = mu l_i l_j cos(a_i - a_j); mu: sum of the masses from link max(i, j) on. */
+/* Accelerations by hand: M_ij = mu l_i l_j cos(a_i - a_j), with the sum mu of the masses from link max(i, j) on. */
 static void by_hand(const links *of, const state_values *s, long double *accel) {
     long double m[LINKS_MOST][LINKS_MOST + 1];
     long double below[LINKS_MOST + 1]; /* sum of the masses from link k on */

@@ -1,9 +1,9 @@
-/* test_lockin_truth.c: the rig's measurement compared with the true value, and the coverage of its intervals.
+/* test_lockin_truth.c: the rig's measurement compared with the truth, and how often its intervals contain the truth.
  *
- * The true value is the first Fourier coefficient, over the angle, of the force of a rotor that is integrated with
- * small steps in double (rig_orbit.c) without noise. The measurement has noise of the cell and jitter of the pulses.
- * Seeds are fixed. WHIRL_FULL=1 (`make rig-truth`) takes 200 and 1,000 runs of each kind, `make test` fewer, and prints
- * the results. */
+ * The truth is the first Fourier coefficient, over the angle, of the force of a rotor that is integrated with small
+ * steps in double (rig_orbit.c). The measurement has noise of the cell and jitter of the pulses. Seeds are fixed.
+ * WHIRL_FULL=1 (`make rig-truth`) does 200 or 1,000 runs of each kind and prints the results; `make test` does
+ * fewer. */
 #include "command.h"
 #include "core/rig/datasheet.h"
 #include "hal/virtual/virtual_rig.h"
@@ -19,7 +19,7 @@ static void check_below(double bound, double value) {
 
 #define DEG (180.0 / 3.14159265358979323846)
 #define LEAD_RAD (1.0 / DEG)
-/* turns before the record: more than the firmware waits for the speed to settle */
+/* turns before the record, more than the firmware waits for the speed to settle */
 #define BEFORE 14U
 #define TURNS 20U
 
@@ -33,10 +33,10 @@ static rig_orbit orbit;
 typedef struct tally {
     unsigned runs;
     unsigned good;
-    unsigned covered[2]; /* amplitude, phase */
-    double sum[2];       /* errors: relative in amplitude, rad in phase */
+    unsigned covered[2]; /* number of intervals that contain the truth: amplitude, phase */
+    double sum[2];       /* sums of errors: relative amplitude, phase in rad */
     double square[2];
-    double half[2][1000]; /* half-widths, the same units */
+    double half[2][1000]; /* half-widths in the same units */
 } tally;
 
 static tally found;
@@ -105,21 +105,21 @@ static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     return measured.quality;
 }
 
-/* The scatter is at most 1.3 times that of the cell's noise over as many samples. Jitter adds to the phase the error of
- * the mean of TURNS pulses, each with jitter_s. Jitter also changes the measured speed ripple E, and by 3/2 E dE the
- * amplitude. */
+/* The scatter may be 1.3 times that of the cell's noise over as many samples. Jitter adds to the phase the error of
+ * the mean of TURNS pulses. Jitter also changes the measured speed ripple E by dE, and so the amplitude by 3/2 E dE. */
 static void check_scatter(const rig_noise *noise) {
     const double samples = TURNS * orbit.turn_s / 0.002;
     const double cells = 1.3 * noise->cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
     const double marks =
         1.3 * noise->jitter_s * 2.0 * 3.14159265358979323846 / (orbit.turn_s * sqrt((double)TURNS));
-    const double few = full() ? 1.0 : 1.3; /* few runs measure the scatter poorly */
+    const double few = full() ? 1.0 : 1.3; /* with few runs the scatter is uncertain */
     check_below(fabs(bias(0)) + few * hypot(cells, 1.5 * orbit.swing * marks), rms(0));
     check_below(fabs(bias(1)) + few * hypot(cells, marks), rms(1));
 }
 
-/* A cell with noise, and a converter of 12 bits (STM32F405): 64 conversions in 2 ms, one count 109 mN, noise of half a
- * count. Without noise a crest repeats one value longer than a working cell would. The result must still be honest. */
+/* A cell with noise, or a 12-bit converter (STM32F405): 64 conversions in 2 ms, 109 mN a count, noise of half a
+ * count. Without noise, a crest repeats one value for longer than a working cell would. The result must still be
+ * right. */
 TEST(lockin_truth, bias_and_scatter) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     static const rig_noise cells[] = {
@@ -147,7 +147,8 @@ TEST(lockin_truth, bias_and_scatter) {
     }
 }
 
-/* At 330 rpm: 93 to 97 % of 1,000 runs lie within their interval, and the intervals are not wider than needed. */
+/* At 330 rpm, 93 to 97 % of 1,000 runs must have the truth in their interval, so the intervals are not wider than
+ * needed. */
 TEST(lockin_truth, intervals_hold_what_they_promise) {
     static const double cells_N[] = {0.5, 1.0, 3.0};
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
@@ -167,7 +168,8 @@ TEST(lockin_truth, intervals_hold_what_they_promise) {
     }
 }
 
-/* With the cell's own noise the intervals have their least width: at least 95 % lie within 0.1 % and 0.1 degrees. */
+/* With the cell's own noise, the intervals have their least width. At least 95 % of the runs must have the truth in
+ * their interval, within 0.1 % and 0.1 degrees. */
 TEST(lockin_truth, intervals_where_floors_rule) {
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
     for (unsigned i = 0; i < 2; i++) {
@@ -176,7 +178,7 @@ TEST(lockin_truth, intervals_where_floors_rule) {
         measure_many(&noise, runs, 200000U + 2000U * i);
         print_row(330.0, &noise);
         for (unsigned what = 0; what < 2; what++) {
-            /* with jitter, the pulses' errors make the phase's interval wider than the least */
+            /* with jitter, the errors of the pulses widen the interval of the phase */
             const double least = !full() ? 0.85 : i == 1 && what == 1 ? 0.93 : 0.95;
             TEST_ASSERT_TRUE((double)found.covered[what] / runs >= least);
         }
@@ -189,7 +191,7 @@ static double drawn(double least, double most) {
     return least + (most - least) * ((double)(scattered() >> 11) + 0.5) * 0x1p-53;
 }
 
-/* Inertia and friction are drawn within 30 %, at the slowest set-point. */
+/* Rotors whose inertia and friction are wrong by up to 30 %, at the slowest set-point. */
 TEST(lockin_truth, drawn_rotors) {
     for (unsigned i = 0; i < 2; i++) {
         const rig_noise noise = {.cell_N = i == 0 ? 0.07 : 1.0, .jitter_s = i == 0 ? 0.0 : 60e-6};
@@ -215,8 +217,8 @@ TEST(lockin_truth, drawn_rotors) {
     }
 }
 
-/* The gravity compensation of a rotor with other parameters than the controller assumes, and the
- * friction that limits braking. */
+/* Gravity compensation of a rotor whose parameters differ from the controller's. `part`, `inertia` and `drag` are
+ * factors. Friction (`drag`) helps the motor to brake. */
 typedef struct fed_kind {
     double part;
     double late_rad;
@@ -241,9 +243,9 @@ static void print_fed(const fed_kind *kind, double rpm, const rig_noise *noise) 
     print_row(rpm, noise);
 }
 
-/* From the speed at which the motor can just brake as much as required, the result is within 1 % and 1 degree. The
- * compensation is wrong by up to 30 %, the inertia 50 % higher or 30 % lower. Slower, the rotor cannot pass the top
- * by itself and the motor cannot brake enough. There only the right compensation passes. */
+/* At speeds at which the motor can brake as much as required, the result must be within 1 % and 1 degree. The
+ * compensation may be wrong by up to 30 %, the inertia 50 % too high or 30 % too low. At lower speeds the motor cannot
+ * brake enough, so only the right compensation is tested there. */
 TEST(lockin_truth, what_is_fed_does_not_show) {
     static const double rpm[] = {100.0, 107.0, 115.0, 123.0, 130.0, 170.0, 250.0, 330.0};
     static const fed_kind kinds[] = {
@@ -261,7 +263,7 @@ TEST(lockin_truth, what_is_fed_does_not_show) {
             TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, bias(0));
             TEST_ASSERT_DOUBLE_WITHIN(1.0 / DEG, 0.0, bias(1));
             check_scatter(&noise);
-            if (slow) { /* only the right compensation, with friction of 1 or 3 times */
+            if (slow) { /* here the compensation is right, with one or three times the friction */
                 TEST_ASSERT_DOUBLE_WITHIN(0.4 / DEG, 0.0, bias(1));
                 TEST_ASSERT_TRUE(found.covered[1] >= found.runs * 9U / 10U);
                 TEST_ASSERT_TRUE(found.covered[0] >= found.runs * 9U / 10U);
@@ -270,8 +272,8 @@ TEST(lockin_truth, what_is_fed_does_not_show) {
     }
 }
 
-/* The compensation's angle has a Gaussian error; the configured tolerance is two standard deviations. The interval covers the
- * truth as often as promised. */
+/* The angle of the compensation has a normal error, and the configured tolerance is two standard deviations. The
+ * interval must contain the truth as often as promised. */
 TEST(lockin_truth, intervals_while_fed) {
     const rig_noise noise = {.cell_N = 1.0, .jitter_s = 60e-6};
     rotor.compensation_tolerance_rad = (wh_real)0.02;
@@ -285,7 +287,7 @@ TEST(lockin_truth, intervals_while_fed) {
         kind.part = drawn(0.9, 1.1);
         kind.inertia = drawn(0.8, 1.2);
         kind.drag = drawn(1.0, 5.0);
-        /* the sum of four uniform numbers is normal enough */
+        /* the sum of four uniform numbers is nearly normal */
         for (unsigned i = 0; i < 4; i++) {
             kind.late_rad += drawn(-0.0085, 0.0085);
         }
@@ -302,8 +304,8 @@ TEST(lockin_truth, intervals_while_fed) {
     }
 }
 
-/* Faults of the cell at all speeds: a result of good quality is right within its interval plus 1 %. Gain errors below 5
- * % are exempt, because only calibration finds them. Some results must be good. */
+/* Faults of the cell, at all speeds. A result of good quality must be right within its interval plus 1 %. Gain
+ * errors below 5 % are exempt, because only a calibration can find them. Some results must be good. */
 TEST(lockin_truth, no_fault_is_called_good) {
     static const rig_noise faults[] = {
         {.cell_N = 0.07, .frozen_s = 0.1},

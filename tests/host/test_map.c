@@ -1,5 +1,5 @@
-/* test_map.c: stability maps of random springs, dampers and decays, per method, compared with closed forms from both
- * sides. Limits: unbounded runs, tolerance, energy. Also interrupted maps. */
+/* test_map.c: stability maps of random springs, dampers and decays for each method, compared with closed forms on
+ * both sides of the limit. Also limits for bounds, tolerance and energy, and maps that are interrupted. */
 #include "test.h"
 
 #include <complex.h>
@@ -18,7 +18,7 @@ typedef struct drawn_map {
 } drawn_map;
 
 typedef struct map_asked {
-    const char *text; /* the text; its scene is s */
+    const char *text; /* a mechanism with a scene s */
     const char *over[2];
     wh_method method;
     double tolerance;
@@ -55,7 +55,7 @@ static const map_cell *cell_of(const drawn_map *m, uint64_t across, uint64_t at)
     return &m->map.cell[map_point(&m->map, across, at)];
 }
 
-/* |R(z)| of Runge-Kutta methods with as many stages as their order: exp() truncated after z^order. */
+/* |R(z)| of a Runge-Kutta method with as many stages as its order: exp(z) without the terms after z^order. */
 static double growth(int order, double complex z) {
     double complex sum = 1.0;
     double complex next = 1.0;
@@ -66,7 +66,7 @@ static double growth(int order, double complex z) {
     return cabs(sum);
 }
 
-/* Largest |z| in this direction without growth; 0 if the method grows at every |z|. */
+/* Largest |z| in this direction without growth; 0 if the method grows for every |z|. */
 static double longest(int order, double complex direction) {
     double low = 0.0;
     double high = 0.0;
@@ -81,9 +81,10 @@ static double longest(int order, double complex direction) {
     return low;
 }
 
-/* `order` is that of growth(); 0: `undamped` is the limit h w of an undamped oscillation. It is 2 for leapfrog and
- * semi-implicit Euler (Hairer, Lubich & Wanner, Geometric Numerical Integration, section I.1). Limits of Nyström methods
- * come from runs of 40,000 steps (docs/stability.md). 2 % above the limit a run grows a hundredfold in `steps` steps. */
+/* Methods with an `order` have the limit that growth() gives. Else `undamped` is the limit h w of an undamped
+ * oscillation. It is 2 for leapfrog and semi-implicit Euler (Hairer, Lubich & Wanner, Geometric Numerical Integration,
+ * section I.1). That of Nyström methods comes from runs of 40,000 steps (docs/stability.md). With a
+ * step 2 % above the limit, a run grows a hundredfold in `steps` steps. */
 static const struct {
     wh_method method;
     int order;
@@ -101,7 +102,7 @@ typedef struct tally {
     unsigned within, beyond;
 } tally;
 
-/* The map has no divergence below each place's limit, and only divergence above 1.02 of it. */
+/* For each place, the map must show no divergence below the limit, and only divergence above 1.02 of the limit. */
 static void hold_to(const map_asked *a, const double *limit_s, double known_to, tally *sum) {
     drawn_map m;
     open_map(&m, a);
@@ -125,8 +126,8 @@ static void hold_to(const map_asked *a, const double *limit_s, double known_to, 
     close_map(&m);
 }
 
-/* Maps steps from 0.7 of the smallest limit to 1.3 of the largest. Random: whether steps rise or fall, and which axis
- * comes first. */
+/* Maps steps from 0.7 of the smallest limit to 1.3 of the largest. Steps rise or fall, and the axes come in either
+ * sequence, at random. */
 static void hold_drawn(dice *d, const char *text, wh_method method, const char *across,
                        const double *limit_s, double known_to, tally *sum) {
     char step[120];
@@ -143,7 +144,7 @@ static void hold_drawn(dice *d, const char *text, wh_method method, const char *
     hold_to(&a, limit_s, known_to, sum);
 }
 
-/* m x'' + c x' + k x = 0 of any mass and stiffness, undamped and underdamped. */
+/* m x'' + c x' + k x = 0 for any mass and stiffness, without damping or underdamped. */
 TEST(map, springs_of_all_methods) {
     dice d = dice_of("map", 1421);
     const unsigned cases = dice_cases(few_or_all(1, 6) * ROWS);
@@ -162,7 +163,8 @@ TEST(map, springs_of_all_methods) {
         double limit_s[PLACES];
         char text[600];
         char across[100];
-        for (int i = 0; i < PLACES; i++) { /* m has the factor s^2, c has s: the frequency is w/s */
+        /* m has the factor s^2 and c the factor s, so the frequency is w/s */
+        for (int i = 0; i < PLACES; i++) {
             limit_s[i] = z / w * (1.0 + 0.1 * i);
         }
         snprintf(text, sizeof text,
@@ -183,7 +185,6 @@ static const char spring_text[] =
     "mechanism spring\ncoordinate x [m]\nparameter k = 1 [N/m]\nparameter m = 1 [kg]\n"
     "T = m*x'^2/2\nV = k*x^2/2\nscene s { start x = 1 [m]; step 1 [s]; until 200 [s] }\n";
 
-/* Explicit Euler and Heun are never stable for an undamped oscillation. */
 TEST(map, no_limit) {
     const wh_method methods[] = {WH_EULER, WH_HEUN};
     for (int i = 0; i < 2; i++) {
@@ -196,8 +197,8 @@ TEST(map, no_limit) {
 }
 
 /* With a long step, a pendulum that starts at 90 degrees swings wider each time, until it goes over the top. This
- * happens at steps slightly below the stability limit of small oscillations, 2.83 root(l/g). No step between that and
- * ten times the limit may be reported as stable, in a run of nine to 35 steps. */
+ * happens at steps slightly below the limit of small oscillations, 2.83 sqrt(l/g). No step from that limit to ten
+ * times that limit may be shown as stable. */
 TEST(map, pendulums_from_a_right_angle) {
     static const char text[] = "mechanism pendulum\ncoordinate a [rad]\nparameter l = 0.19 [m]\n"
                                "T = 1 [kg]*(l*a')^2/2\nV = -9.81 [N]*l*cos(a)\n"
@@ -219,8 +220,8 @@ TEST(map, pendulums_from_a_right_angle) {
     close_map(&m);
 }
 
-/* A run that grows 20-fold counts as bounded, one that grows 1e4-fold does not. If half the step is too long, too, the
- * run and its half-step run grow alike. Then the run with the finest step of the row decides. */
+/* A run that grows 20-fold counts as bounded, a run that grows 1e4-fold does not. If half the step is too long as
+ * well, both runs grow alike; then the run with the finest step of the row decides. */
 TEST(map, what_bounds_are) {
     dice d = dice_of("map bounds", 1424);
     for (unsigned k = 0; k < dice_cases(12); k++) {
@@ -250,10 +251,10 @@ TEST(map, what_bounds_are) {
     }
 }
 
-/* With z = h w, Runge-Kutta 4 has a phase error of z^5/120 and an energy error of z^6/72 in each step. In a run of
- * length T these add up to w T z^4/120 of the amplitude (half of it relative to the range) and w T z^5/72 of the energy.
- * The largest entry of the energy balance is the work on changes of speed. It is half the RMS momentum times the range of
- * the rate: root 2 of the energy. */
+/* With z = h w, each step of Runge-Kutta 4 has a phase error of z^5/120 and an energy error of z^6/72. In a run of
+ * length T these sum to w T z^4/120 of the amplitude (half of that relative to the range) and to w T z^5/72 of the
+ * energy. The largest entry of the energy balance is half the RMS momentum times the range of the rate: sqrt(2) of
+ * the energy. */
 TEST(map, where_a_tolerance_and_the_energy_end) {
     dice d = dice_of("map tolerance", 1423);
     const unsigned cases = dice_cases(few_or_all(4, 32));

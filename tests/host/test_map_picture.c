@@ -1,5 +1,5 @@
-/* test_map_picture.c: stability maps as pictures, words and CSV: made-up maps, compared with map_picture.txt. `cat` stands in
- * for gnuplot, so that its "picture" is the script. */
+/* test_map_picture.c: made-up stability maps as pictures, words and CSV, compared with map_picture.txt. The program
+ * `cat` takes the place of gnuplot, so the "picture" is the script. */
 #include "test.h"
 
 #include <sys/stat.h>
@@ -13,8 +13,6 @@
 #define PICTURE "build/tests/drawn_map.svg"
 #define PLAYERS "build/tests/players"
 
-/* --- made-up maps ------------------------------------------------------------------------------------------*/
-
 static const symbol swept[2] = {
     {.kind = SYM_PARAMETER, .name = "k", .text = "", .unit = "N/m", .dim.twelfths = {0, 12, -24}},
     {.kind = SYM_PARAMETER,
@@ -24,7 +22,8 @@ static const symbol swept[2] = {
      .index = 1,
      .dim.twelfths = {0, 12}}};
 
-/* Axes: the step is the first, the second or neither. Values rise or fall, are logarithmic, below zero, or a single one. */
+/* Axes: the step is the first axis, the second, or none. Values rise or fall, are logarithmic or negative, or there
+ * is only one. */
 static const axis axes_of[][2] = {
     {{.name = "step", .column = "step", .from = 0.001, .to = 0.1, .count = 7, .is_log = true},
      {.name = "k", .column = "k", .symbol = &swept[0], .from = 9.0, .to = 1.0, .count = 5}},
@@ -54,7 +53,7 @@ static const axis axes_of[][2] = {
       .is_log = true}}};
 enum { MAPS = sizeof axes_of / sizeof axes_of[0], CELLS = 35 };
 
-/* The struct has pointers into itself, so it must not be moved. */
+/* Contains pointers into itself, so it must not be moved. */
 typedef struct shown {
     axis axes[2];
     grid grid;
@@ -80,9 +79,7 @@ static void made_up_map(shown *s, int n) {
     }
 }
 
-/* --- pictures ------------------------------------------------------------------------------------------------*/
-
-/* Makes a shell script with this line the first gnuplot in PATH. */
+/* Writes a shell script with this line, and makes it the first `gnuplot` in PATH. */
 static char *play_gnuplot(const char *part) {
     const char *path = getenv("PATH");
     char *before = strdup(path != NULL ? path : "");
@@ -144,7 +141,7 @@ TEST(map_picture, maps_are_shown_as_before) {
     alloc_text_end(all.to);
     stop_playing(path);
     for (char *at = all.text; (at = strchr(at, '\r')) != NULL; at++) {
-        *at = '|'; /* ends a row of the CSV */
+        *at = '|'; /* marks the end of a row of the CSV */
     }
     expect_printed("map_picture", all.text);
     free(all.text);

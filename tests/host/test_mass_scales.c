@@ -1,5 +1,5 @@
-/* test_mass_scales.c: singular mass matrices must be found independently of units and mass ratios. Generated
- * mechanisms are compared with elimination in long double. Matrices alone: test_rank.c. */
+/* test_mass_scales.c: singular mass matrices must be found whatever the units and mass ratios. Generated mechanisms
+ * are compared with elimination in long double. test_rank.c tests matrices alone. */
 #include "command.h"
 #include "derived.h"
 
@@ -13,7 +13,7 @@ static int cases(int usual) {
                         : (int)usual_or((unsigned)usual, (unsigned)usual / 4);
 }
 
-/* x of M x = b, with partial pivoting. */
+/* Solves M x = b, with partial pivoting. */
 static void solve(const long double *mass, const long double *b, int n, long double *x) {
     long double a[MOST][MOST + 1];
     for (int i = 0; i < n; i++) {
@@ -25,13 +25,13 @@ static void solve(const long double *mass, const long double *b, int n, long dou
     dense_solve(n, MOST + 1, a[0], x);
 }
 
-/* Bodies with speeds that are integer combinations of the coordinates' rates, and their masses. */
+/* Bodies whose speeds are integer combinations of the rates of the coordinates. */
 typedef struct bodies {
-    int n;                /* coordinates */
-    int count;            /* bodies */
-    int part[ROOM];       /* [count][n] */
+    int n;                /* number of coordinates */
+    int count;            /* number of bodies */
+    int part[ROOM];       /* [count][n] factors of the rates */
     double mass_kg[MOST]; /* [count] */
-    double unit[MOST];    /* [n] metres per unit of a coordinate: a power of ten */
+    double unit[MOST];    /* [n] metres per unit of a coordinate, a power of ten */
 } bodies;
 
 static bodies random_bodies(uint64_t *seed, int n, int count, double decades) {
@@ -91,7 +91,7 @@ static char *text_of(const bodies *b, const double *force) {
     return text;
 }
 
-/* One-norm of the inverse without units: the amplification of rounding. */
+/* One-norm of the inverse of the matrix without units, which is the factor by which round-off grows. */
 static double inverse_size(const long double *mass, int n) {
     long double scaled[ROOM];
     double most = 0.0;
@@ -112,7 +112,7 @@ static double inverse_size(const long double *mass, int n) {
     return most;
 }
 
-/* Accelerations are right within the matrix's round-off. Returns the worst error relative to that bound. */
+/* Accelerations must be right within the matrix's round-off. Returns the worst error, divided by that bound. */
 static double check_right(const bodies *b, uint64_t *seed) {
     long double mass[ROOM];
     long double wanted[MOST];
@@ -149,7 +149,7 @@ static double check_right(const bodies *b, uint64_t *seed) {
     return worst;
 }
 
-/* Mass ratios up to 1e12, units from micrometres to thousands of kilometres. */
+/* Mass ratios up to 1e12, and units from micrometres to thousands of kilometres. */
 TEST(mass_scales, mixed_masses_and_units_are_right) {
     uint64_t seed = 90210;
     double worst = 0.0;
@@ -180,7 +180,8 @@ TEST(mass_scales, fewer_bodies_than_coordinates_are_refused) {
     }
 }
 
-/* Two squares of speeds for three rates: a' and b' occur in one combination only, with sines as factors. */
+/* Two squares of speeds for three rates: a' and b' occur in a single combination, with sines as factors. So the
+ * matrix is singular. */
 TEST(mass_scales, one_speed_through_sines_is_refused) {
     uint64_t seed = 31;
     for (int i = 0; i < 60; i++) {

@@ -1,5 +1,5 @@
-/* test_matrix.c: a linear step as one matrix, for generated and built-in linear mechanisms. References: the
- * exponential in 113 bits of the test's own matrices (linear.h), and the stages of RK4. */
+/* test_matrix.c: a linear step as one matrix, for generated and built-in linear mechanisms. References are the
+ * exponential of the test's own matrices in 113 bits (linear.h), and the stages of RK4. */
 #include "test.h"
 
 #include "host/base/alloc.h"
@@ -50,12 +50,12 @@ TEST(matrix, twice_the_digits) {
     }
 }
 
-/* Each constant is the float nearest to its 113 bits, including ties and values next to ties. */
+/* A constant must be the float nearest to its two parts, also at ties and next to ties. */
 TEST(matrix, constants_are_rounded_once) {
     uint64_t seed = 7002;
     for (unsigned n = 0; n < dice_cases(20000); n++) {
         twofold a = drawn_twofold(&seed);
-        if (n % 2 == 0) { /* a tie between two floats, or next to one */
+        if (n % 2 == 0) { /* a tie between two floats, or near one */
             const float below = (float)a.high;
             const double middle = ((double)below + (double)nextafterf(below, INFINITY)) / 2.0;
             a = (twofold){middle, n % 3 == 0 ? 0.0 : number_scaled(middle, n % 5 == 0 ? -55 : -90)};
@@ -73,10 +73,10 @@ TEST(matrix, constants_are_rounded_once) {
     }
 }
 
-/* Half a unit in the last place of a double. At 0: half the smallest subnormal, which is no double. */
+/* Half a unit in the last place of a double. The result is half the smallest subnormal number for x = 0. */
 static quad half_unit(double x) { return (quad)(nextafter(fabs(x), HUGE_VAL) - fabs(x)) / 2; }
 
-/* Largest error of an entry, less what `allowed` permits, in half units of its last place. */
+/* Largest error of an entry beyond `allowed`, in half units of the entry's last place. */
 static double entries_off(const linear *of, const image *im, quad want[][LINEAR_COLUMNS],
                           const quad allowed[][LINEAR_COLUMNS]) {
     double most = 0.0;
@@ -105,7 +105,8 @@ static void set_matrix(motion *m, const char *text, const engine_kind *kind, ima
         (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix});
 }
 
-/* A, B and c of the operation list equal the test's own, up to the rounding of the list's few constants. */
+/* A, B and c of the operation list must equal the test's own, apart from the round-off of the list's few constants.
+ * Then of->rate gets the list's values. */
 static void take_rates(const image *im, const char *text, linear *of) {
     static twofold rates[LINEAR_STATES * LINEAR_COLUMNS];
     TEST_ASSERT_EQUAL_INT(of->columns, affine_columns(im));
@@ -121,8 +122,8 @@ static void take_rates(const image *im, const char *text, linear *of) {
     }
 }
 
-/* Every entry is the double nearest to the exponential of the list's matrix, from soft to stiff: oscillations shorter than a
- * step, dampers that stop a motion within one step. */
+/* Every entry must be the double nearest to the exponential of the list's matrix, for soft and stiff mechanisms:
+ * oscillations shorter than a step, and dampers that stop a motion within one step. */
 TEST(matrix, entries_are_the_nearest_doubles) {
     static const int stiff[] = {0, 6, 14, 20};
     uint64_t seed = 7003;
@@ -148,7 +149,8 @@ TEST(matrix, entries_are_the_nearest_doubles) {
     printf("  entries of generated matrices are off by %.4f of half a unit\n", worst);
 }
 
-/* With coupled masses each constant of the list is rounded by up to half a unit. The exponential amplifies that by about |A|. */
+/* With coupled masses, each constant of the list is rounded by up to half a unit. The exponential multiplies this by
+ * about |A|. */
 TEST(matrix, entries_of_full_mass_matrices) {
     uint64_t seed = 7004;
     double worst = 0.0;
@@ -171,7 +173,7 @@ TEST(matrix, entries_of_full_mass_matrices) {
             }
         }
         for (int i = of.coordinates; i < of.states;
-             i++) { /* each entry may be as uncertain as the largest */
+             i++) { /* each entry may be as uncertain as the largest one */
             for (int k = 0; k < of.columns; k++) {
                 size.rate[i][k] += most;
             }
@@ -197,7 +199,8 @@ static void widen(const linear *of, const quad *x, double *size) {
     }
 }
 
-/* Inputs change every seventh step. Returns the final error relative to the largest position or rate. */
+/* Runs with inputs that change every seven steps. Returns the error at the end, relative to the largest position or
+ * rate. */
 static double run_error(const linear *of, const char *text, motion *m, int order, int steps,
                         uint64_t *seed) {
     static quad step[LINEAR_STATES][LINEAR_COLUMNS];
@@ -229,8 +232,8 @@ static double run_error(const linear *of, const char *text, motion *m, int order
     return most;
 }
 
-/* Makes 1000 steps in double or float, with or without compensated sums, by an exact or an RK4 matrix. The error is
- * round-off: at most `most` units. */
+/* A thousand steps in double or float, with or without compensated sums, by an exact matrix or a matrix of RK4. The
+ * error must be round-off: up to `most` units. */
 TEST(matrix, motions_are_those_of_the_exponential) {
     static const struct {
         const engine_kind *kind;
@@ -265,8 +268,8 @@ TEST(matrix, motions_are_those_of_the_exponential) {
 }
 
 /* === matrix printed =========================================================================== */
-/* A step's matrix as tables, LaTeX and Octave (host/emit/matrix.c), parsed again. Each entry matches to the printed
- * digits and has the names of its row and column. */
+/* Reads the matrix of a step from tables, LaTeX and Octave (host/emit/matrix.c). Each entry must be right to its
+ * printed digits and have the names of its row and column. */
 
 static dice die;
 static drawn_image drawn;
@@ -297,7 +300,7 @@ static const char *read_entry(const char *at, int i, int k) {
     return at;
 }
 
-/* "(theta [rad], X [m])": columns from `first` to before `end`. */
+/* Reads "(theta [rad], X [m])": the names of columns `first` to end - 1. */
 static const char *read_names(const char *at, int first, int end, bool units) {
     char name[40];
     at = said_exactly(at, "(");
@@ -319,7 +322,7 @@ static const char *said_motion(const char *at) {
                                 : "the step of Runge-Kutta 4");
 }
 
-/* Columns `first` to before `end`, at most five side by side. All lines of a block have equal length. */
+/* Reads columns `first` to end - 1, up to five side by side. All lines of a block must have the same length. */
 static const char *read_table(const char *at, const char *title, int first, int end) {
     char name[40];
     for (int from = first; from < end; from += 5) {
@@ -381,7 +384,7 @@ TEST(matrix_printed, tables) {
     }
 }
 
-/* "\Phi = \begin{bmatrix} ... & ... \\ ... \end{bmatrix}" */
+/* Reads "\Phi = \begin{bmatrix} ... & ... \\ ... \end{bmatrix}". */
 static const char *read_latex(const char *at, const char *title, int first, int end) {
     at = said_exactly(at, title);
     at = said_exactly(at, " = \\begin{bmatrix}\n");
@@ -431,7 +434,7 @@ static const char *read_exactly(const char *at, double wanted) {
     return at;
 }
 
-/* "  Phi = [", a row a line, all digits; "zeros(2, 0)" without columns. */
+/* Reads "  Phi = [", one row on each line, with all digits; or "zeros(2, 0)" if there are no columns. */
 static const char *read_octave(const char *at, const char *name, int first, int end) {
     const image_matrix *m = &drawn.im.matrix;
     char words[60];
@@ -485,8 +488,8 @@ TEST(matrix_printed, octave) {
 SUITE(matrix_printed) { die = dice_of("matrix_printed", 44); }
 
 /* === matrix runs ============================================================================= */
-/* Steps as one matrix in use: built-in linear scenes, a million steps, turn angles, systems of
- * first order, sweeps over the step, divergence, and refusals. */
+/* Uses of matrix steps: built-in linear scenes, a million steps, turn angles, systems of first order, sweeps over
+ * the step, divergence, and refusals. */
 
 static stepping as_matrix(const engine_kind *kind, image_matrix_of matrix, bool compensated) {
     return (stepping){.kind = kind, .method = WH_RK4, .compensated = compensated, .matrix = matrix};
@@ -494,12 +497,12 @@ static stepping as_matrix(const engine_kind *kind, image_matrix_of matrix, bool 
 
 enum { MILLION = 1000000 };
 
-/* Error after a million steps of an oscillator, and the largest error at any time before, relative to the amplitude. */
+/* Distance of an oscillator's state from the true one, relative to an amplitude of 1. */
 static double oscillator_off(const float x, const float v, const quad *truth, double omega) {
     return hypot((double)((quad)x - truth[0]), (double)((quad)v - truth[1]) / omega);
 }
 
-/* x + (Phi - 1) x compared with Phi x, every entry rounded once to float. */
+/* Compares x + (Phi - 1) x with Phi x, after a million steps. Every entry is rounded once to float. */
 TEST(matrix_runs, rounding_the_change_is_better) {
     static const double stiffness[] = {1.5, 39.5, 700.0};
     for (int k = 0; k < 3; k++) {
@@ -553,8 +556,8 @@ TEST(matrix_runs, rounding_the_change_is_better) {
     }
 }
 
-/* A rotor with friction and a motor, and a free one. No force depends on either angle. The first rotor has the later
- * coordinate. */
+/* Two rotors, of which one is free and one has friction and a motor. No force depends on their angles. A coordinate
+ * x comes last. */
 static const char rotors[] =
     "mechanism rotors\ncoordinate th [rad]\ncoordinate ps [rad]\ncoordinate x [m]\n"
     "input M = 3 [N*m]\nT = 2 [kg*m^2]*th'^2/2 + 1 [kg*m^2]*ps'^2/2 + 1 [kg]*x'^2/2\n"
@@ -563,7 +566,8 @@ static const char rotors[] =
     "scene s { start th = 0.25, th' = 4 [rad/s], ps = 1, ps' = 20 [rad/s], x = 0.5 [m]; step 1 [ms]; "
     "until 100 [s] }\n";
 
-/* Errors relative to round-off: th and x against the exponential in 113 bits, ps against its rate. */
+/* Runs the rotors. The angle th is compared with the exponential in 113 bits, the free rotor's ps with its constant
+ * rate. */
 static void expect_rotors(const engine_kind *kind, bool compensated, image_matrix_of matrix,
                           double most_rad, double most_free_rad) {
     const int steps = 100000;
@@ -604,15 +608,15 @@ static void expect_rotors(const engine_kind *kind, bool compensated, image_matri
 TEST(matrix_runs, turn_angles) {
     expect_rotors(&engine_double, false, MATRIX_EXACT, 1e-11, 1e-8);
     expect_rotors(&engine_double, true, MATRIX_EXACT, 1e-12, 1e-12);
-    /* A free rotor moves by the same 1.5e-9 rad in each of 1e5 steps, rounded once. A slow rate stays constant if a
-     * step changes it by less than half a unit in the last place, with any stepper. */
+    /* In each of 1e5 steps the free rotor moves by the same angle, rounded to 1.5e-9 rad. With any method, a slow
+     * rate stays constant if a step changes it by less than half a unit in the last place. */
     expect_rotors(&engine_float, false, MATRIX_NONE, 4e-3, 1.5e-4);
     expect_rotors(&engine_float, false, MATRIX_EXACT, 4e-3, 1.5e-4);
     expect_rotors(&engine_float, true, MATRIX_NONE, 4e-3, 1.5e-4);
     expect_rotors(&engine_float, true, MATRIX_EXACT, 4e-3, 1.5e-4);
 }
 
-/* A system given as equations of orders one and two, with an angle driven by a state. The reference is a closed form. */
+/* A system of two equations: a state drives an angle. The reference is a closed form. */
 TEST(matrix_runs, systems_of_first_order) {
     static const char text[] =
         "mechanism sys\nstate a [rad]\nstate u [V]\ninput d = 2 [V]\n"
@@ -636,7 +640,7 @@ TEST(matrix_runs, systems_of_first_order) {
     }
 }
 
-/* An unstable balance ends at the same step as with RK4's stages, in the last good state. */
+/* An unstable balance must end at the same step as with RK4's stages, in the last good state. */
 TEST(matrix_runs, runs_that_diverge_end_alike) {
     static const char text[] =
         "mechanism m\ncoordinate b [m]\ncoordinate q [m]\nT = 1 [kg]*(q'^2 + b'^2)/2\n"
@@ -702,7 +706,7 @@ static void expect_refused(const char *text, const char *const *more, const char
     model_drop();
 }
 
-/* `line`, the sixth, is refused at the position of `part`. */
+/* Fails the test if `line`, the sixth line, is not refused at the position of `part`. */
 static void expect_not_linear(const char *line, const char *part, const char *why) {
     char text[800];
     char wanted[200];

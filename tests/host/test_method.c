@@ -1,6 +1,6 @@
-/* test_method.c: the first-order form of `whirl derive`, for mechanisms with random names. Each slope has its
- * component's name and a prime, and the letter of the components is not a coordinate's. Also the effects, the rows of
- * core/method.h, and the paths of RK4. */
+/* test_method.c: the first-order form of `whirl derive`, for mechanisms with random names. Each slope must have its
+ * component's name and a prime, and the letter of the components must not be the name of a coordinate. Also the
+ * effects, the rows of core/method.h, and the ways to compute RK4. */
 #include "core/step/ledger_step.h"
 #include "host/cli/commands.h"
 #include "host/engine/start.h"
@@ -133,15 +133,16 @@ TEST(first_order, effects_are_told) {
 }
 
 /* === method rows ============================================================================== */
-/* The rows of core/method.h are explicit and have unique words. Orders: test_method_order.c; stability: test_limits.c. */
+/* The rows of core/method.h must be explicit and have different words. test_method_order.c tests their orders,
+ * test_limits.c their stability. */
 
-#define ROUNDING 1e-6 /* round-off of sums of a few shares, here in float */
+#define ROUNDING 1e-6 /* of sums of a few shares, in float */
 
 typedef struct butcher {
     int stages;
     double a[WH_STAGES_MAX][WH_STAGES_MAX];
-    double b[WH_STAGES_MAX];        /* rates */
-    double position[WH_STAGES_MAX]; /* positions */
+    double b[WH_STAGES_MAX];        /* weights of the rates */
+    double position[WH_STAGES_MAX]; /* weights of the positions */
     double c[WH_STAGES_MAX];
 } butcher;
 
@@ -178,7 +179,7 @@ TEST(method_rows, rows_are_explicit) {
     }
 }
 
-/* If the position weights are the product b A, the method equals the row's Runge-Kutta method applied to x' = f(x). */
+/* If the position weights are b A, the method must be the row's Runge-Kutta method applied to x' = f(x). */
 TEST(method_rows, runge_kutta_methods_have_the_positions_of_their_rates) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
@@ -238,8 +239,8 @@ static unsigned times_in(const char *text, const char *word) {
     return times;
 }
 
-/* The sentence names each method once and the default first, or only the methods for one form. The buffer's old text does not
- * matter. */
+/* The sentence must name each method once and the default first, or only the methods for one form. Old text in the
+ * buffer must not matter. */
 TEST(method_rows, sentences_have_each_method_once) {
     char text[METHODS_TEXT_SIZE];
     char first[80];
@@ -262,15 +263,15 @@ TEST(method_rows, sentences_have_each_method_once) {
 }
 
 /* === rk4 ====================================================================================== */
-/* The paths of `rk4` compared with core/rk4.h: one step of each built-in scene without contacts, from random moments.
- * Variants: sines rotated, looked up, with the balance of energy. */
+/* `rk4` compared with core/rk4.h: one step of each built-in scene without contacts, from random states, with rotated
+ * sines, with sines from a table, and with the energy balance. */
 
 enum { DRAWS = 5, VALUES = 3 * IMAGE_COMPONENTS_MAX };
 
 static uint64_t seed;
-static int compared; /* steps */
+static int compared; /* number of compared steps */
 
-/* One step in numbers of this kind from a state (angles first, rad). Returns false if the step is refused. */
+/* Does one step from the state `from` (angles first, rad) with this engine. Returns false if the step is refused. */
 static bool step_from(const motion *m, const engine_kind *kind, const double *from, double *to) {
     for (int i = 0; i < m->image->angles; i++) {
         m->image->start_rad[i] = from[i];
@@ -295,8 +296,8 @@ static double largest(const double *from, const double *to, int begin, int end) 
     return size;
 }
 
-/* Largest component of the same kind as i (angles, positions or rates) before and after a step, plus the change of position.
- * If terms cancel, round-off is of this scale. */
+/* The scale of round-off if terms cancel: the largest component of the same kind as i (angles, positions or rates)
+ * before and after the step, plus the change of position. */
 static double size_of(const image *im, int i, const double *from, const double *to) {
     const int count = im->angles + im->reals;
     const int rates = im->form == WH_SECOND_ORDER ? im->coordinates : im->angles;

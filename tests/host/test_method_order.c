@@ -1,14 +1,14 @@
-/* test_method_order.c: order of the rows of core/method.h by the order conditions: one per rooted tree, for first
- * order, second order, and second order without rates. */
+/* test_method_order.c: the order of each row of core/method.h, by the order conditions: one condition for each
+ * rooted tree, for first order, second order, and second order without rates. */
 #define WH_DOUBLE 1
 
 #include "core/step/ledger_step.h"
 #include "test.h"
 
-#define ROUNDING 4e-15L /* round-off of sums of a few shares, here in double */
+#define ROUNDING 4e-15L /* of sums of a few shares, in double */
 enum { ORDER_MAX = 6, TREES = 320, STAGES = WH_STAGES_MAX };
 
-/* A row in long double. Rates of stage i have the weights a[i], its position has node[i] and reach[i]. */
+/* A row in long double. Stage i has the weights a[i] for its rates, and node[i] and reach[i] for its position. */
 typedef struct weights {
     int stages;
     long double a[STAGES][STAGES];
@@ -18,13 +18,14 @@ typedef struct weights {
     long double positions[STAGES];
 } weights;
 
-/* A tree of the derivatives of f(q, q') along the motion. Its order is that of the first power of h to which it contributes. */
+/* A tree of the derivatives of f(q, q') along the motion. `order`: the lowest power of h to which the tree
+ * contributes. */
 typedef struct tree {
     int order;
-    bool by_rates;     /* a branch by rates */
-    bool by_positions; /* a branch by positions */
+    bool by_rates;     /* has a branch by rates */
+    bool by_positions; /* has a branch by positions */
     long double density;
-    long double at[STAGES]; /* value of the tree at each stage */
+    long double at[STAGES]; /* the tree's value at each stage */
 } tree;
 
 typedef struct forest {
@@ -70,7 +71,7 @@ static weights weights_of(int method) {
     return w;
 }
 
-/* `now` with one more branch of weight `weight`; its stages see the sums `sum`. */
+/* Returns the tree `now` with one more branch, whose values are summed with the weights `by`. */
 static tree branched(const forest *f, tree now, long double (*by)[STAGES], const tree *branch,
                      bool to_position) {
     const int stages = f->of.stages;
@@ -87,8 +88,9 @@ static tree branched(const forest *f, tree now, long double (*by)[STAGES], const
     return now;
 }
 
-/* All trees of `order` that extend `now` with `left` nodes, using branches from number `from` on. Branch 0 is the
- * initial rate, which moves the position. Each further tree gives two branches: the position and the rate moved by it. */
+/* Adds to the forest all trees of `order` that extend `now` by `left` nodes, with branches from number `from` on.
+ * Branch 0 is the initial rate, which moves the position. Each smaller tree gives two branches, because it moves the
+ * position and the rate. */
 static void grow(forest *f, int order, int left, int from, tree now) {
     if (left == 0) {
         TEST_ASSERT_TRUE(f->count < TREES);
@@ -156,8 +158,8 @@ static void plant(forest *f, int method) {
     }
 }
 
-/* The number of trees is as published (Hairer, Norsett & Wanner, I, sections II.2 and II.14), so no condition is
- * missing. */
+/* The number of trees must be the published one (Hairer, Norsett & Wanner, I, sections II.2 and II.14). Then no
+ * condition is missing. */
 TEST(method_order, no_tree_is_missing) {
     static const int all[ORDER_MAX] = {1, 2, 6, 18, 60, 204};
     static const int first_order[ORDER_MAX] = {1, 1, 2, 4, 9, 20};
@@ -198,7 +200,8 @@ TEST(method_order, rows_have_their_order_and_no_more) {
     }
 }
 
-/* A stage's node is the sum of its shares. A stage that reuses another's position has the same shares. */
+/* A stage's node must be the sum of its shares. A stage that reuses the position of another one must have the same
+ * shares. */
 TEST(method_order, nodes_follow_from_the_shares) {
     for (int m = 0; m < WH_METHODS; m++) {
         const wh_tableau *t = wh_tableau_of((wh_method)m);
@@ -216,8 +219,8 @@ TEST(method_order, nodes_follow_from_the_shares) {
     }
 }
 
-/* Without rates in the forces each step is a composition of kicks and drifts, which preserves area, and is its own
- * reverse. */
+/* Without rates in the forces, each step is a sequence of kicks and drifts. So it preserves area, and it must be its
+ * own reverse. */
 TEST(method_order, compositions_are_symplectic_and_symmetric) {
     int rows = 0;
     for (int m = 0; m < WH_METHODS; m++) {

@@ -1,5 +1,5 @@
-/* test_methods.c: every method in every form of scene, with compensated sums, energy balance and contacts: right
- * order, or refused. */
+/* test_methods.c: every method with every form of scene, with compensated sums, energy balance and contacts, must
+ * have its order or be refused. Also accelerations compared with a reference. */
 #include "test.h"
 
 #include "host/cli/commands.h"
@@ -10,13 +10,14 @@
 
 /* === methods ================================================================================== */
 
-/* A form and a mechanism for it, whose scene ends at 1 s or 0.25 s. Steps are 2^-k s, so that they fit the end. */
+/* A form and a mechanism of this form, whose scene ends at 1 s or 0.25 s. Steps are 2^-k s, so that a whole number
+ * of them fits. */
 typedef struct form {
     const char *name;
     wh_form form;
-    bool ledger;      /* has energies */
+    bool ledger;      /* the mechanism has energies */
     bool no_rates;    /* accelerations do not depend on rates */
-    const char *kind; /* reason why a first-order form is refused, or NULL */
+    const char *kind; /* why the first-order form is refused, or NULL */
     const char *text;
 } form;
 
@@ -85,7 +86,7 @@ static bool takes(const form *f, wh_method method, bool ledger) {
            (wh_methods[method].takes != WH_NO_RATES || (f->no_rates && !ledger));
 }
 
-/* The final state with steps of 2^-halvings s. */
+/* Computes the state at the end, with steps of 2^-halvings s. */
 static int end_of(const form *f, stepping how, int halvings, double value[VALUES]) {
     motion m;
     how.step_s = ldexp(1.0, -halvings);
@@ -129,7 +130,8 @@ TEST(methods, orders_are_those_of_the_names) {
                                   .compensated = compensated,
                                   .ledger = ledger};
             const int wanted = wh_methods[method].order;
-            /* the error of a fifth-order method depends on where in a step the stop is hit, so it gets fewer halvings */
+            /* fewer halvings for a method of fifth order, whose error depends on the place in a step where the stop
+             * is hit */
             const bool hits = strstr(f->name, "is hit") != NULL;
             const int halvings = wanted < 5 ? 12 - 2 * wanted : hits ? 2 : 3; /* log2 of 1 s/step */
             const int more = wanted < 5 ? 1 : 7 - halvings;
@@ -182,8 +184,7 @@ TEST(methods, books_have_the_order_of_the_name) {
     printf("  %d books measured\n", measured);
 }
 
-/* Both Euler methods have order one. They differ in the rate by which the position moves: the old one or the new
- * one. */
+/* Both Euler methods have order one. One moves the position by the old rate, the other by the new rate. */
 TEST(methods, semi_implicit_euler_moves_by_the_new_rates) {
     const double h = 1.0 / 256.0;
     for (int i = 0; i < FORMS; i++) {
@@ -200,7 +201,7 @@ TEST(methods, semi_implicit_euler_moves_by_the_new_rates) {
                                         .ledger = ledger});
             double before[VALUES];
             double after[VALUES];
-            const int n = m.image->coordinates; /* positions, then rates, in the same order */
+            const int n = m.image->coordinates; /* positions, then rates, in the same sequence */
             m.kind->state(m.run, before, before + m.image->angles);
             TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
             m.kind->state(m.run, after, after + m.image->angles);
@@ -247,17 +248,17 @@ TEST(methods, methods_are_refused_where_their_rows_say) {
 }
 
 /* === reference ================================================================================ */
-/* Output of `whirl accel` compared with accelerations derived by SymPy and mpmath (tests/reference/accel.txt, made by
- * derive.py).
+/* The output of `whirl accel`, compared with accelerations that SymPy and mpmath derived (tests/reference/accel.txt,
+ * made by derive.py).
  *
- * The criterion is |got - want| <= 1e-12 |want|. If the reference is zero, it is 1e-12 of the largest acceleration of
- * that state, or 1e-12 if all are zero. */
+ * The criterion is |got - want| <= 1e-12 |want|. If the reference is zero, the bound is 1e-12 of the largest
+ * acceleration of the state, or 1e-12 if all are zero. */
 
 #define REFERENCE "tests/reference/accel.txt"
 #define TOLERANCE 1e-12
 enum { LINE = 2048, WORDS = 40 };
 
-/* Adds the words of `text` after the first `count`, and NULL. Returns their number. */
+/* Splits `text` into words, stores them after the first `count` words, and then NULL. Returns the number of words. */
 static int split(char *text, const char *words[WORDS], int count) {
     char *rest = NULL;
     for (char *word = strtok_r(text, " \n", &rest); word != NULL;
@@ -269,7 +270,7 @@ static int split(char *text, const char *words[WORDS], int count) {
     return count;
 }
 
-/* The value in a line such as `theta'' = 1.25`; NAN if there is none of that name. */
+/* The value in a line such as `theta'' = 1.25`; NaN if there is no such name. */
 static double value_of(const char *text, const char *name) {
     char line[100];
     snprintf(line, sizeof line, "\n%s = ", name);
@@ -277,7 +278,7 @@ static double value_of(const char *text, const char *name) {
     return at != NULL ? strtod(strchr(at, '=') + 1, NULL) : (double)NAN;
 }
 
-/* `FILE | a=1 b'=2 | a''=3 b''=4`; returns the number of accelerations. */
+/* Checks a line `FILE | a=1 b'=2 | a''=3 b''=4`. Returns the number of accelerations. */
 static int check_line(char *line, double *worst) {
     static said what;
     const char *words[WORDS];
@@ -311,7 +312,7 @@ static int check_line(char *line, double *worst) {
         const double off = fabs(got - value[i]) / size;
         snprintf(about, sizeof about, "%s: %s is %.17g, not %.17g", words[0], wanted[i], got,
                  value[i]);
-        TEST_ASSERT_TRUE_MESSAGE(off <= TOLERANCE, about); /* false for NaN */
+        TEST_ASSERT_TRUE_MESSAGE(off <= TOLERANCE, about); /* false for NaN, too */
         *worst = fmax(*worst, off);
     }
     return count;

@@ -1,6 +1,7 @@
-/* test_missed.c: contacts and forces thinner than the path of a step. Hits on round posts follow closed forms
- * (core/contact/contact_step.h). Passing a latch, flat wall, edge or barrier of potential energy gives a warning
- * (host/check/missed.h); a right run gives none. WHIRL_CASES=2000 WHIRL_SEED=... takes more or other cases. */
+/* test_missed.c: contacts and forces that are thinner than the path of a step. Hits on round posts must follow
+ * closed forms (core/contact/contact_step.h). A body that passes a latch, a flat wall, an edge or a barrier of
+ * potential energy must cause a warning (host/check/missed.h); a right run must not. WHIRL_CASES=N and WHIRL_SEED=N
+ * choose other cases. */
 #include "command.h"
 #include "contacts.h"
 #include "hybrid.h"
@@ -10,19 +11,19 @@ enum { TEXT = 1500 };
 
 static char text[TEXT];
 
-/* A body of 1 kg; its path starts 1 m before a place, plus a random part of a step. */
+/* A body of 1 kg. Its path starts 1 m and a random part of a step before a place. */
 typedef struct flight {
     double start_m; /* start on the x axis, relative to the place */
     double v_m_s;
     double step_s;
     double until_s;
     double place_m[2];
-    char x[40]; /* x from there, in the language */
+    char x[40]; /* x - place as a formula of the language */
     char y[40];
-    double bounce_s; /* time of another body's bounce; 0: no other body */
+    double bounce_s; /* time at which another body bounces; 0: no other body */
 } flight;
 
-/* Draws the place, at the origin or up to 2 m away on each axis, and whether another body bounces nearby. */
+/* Draws the place, at the origin or up to 2 m from it on each axis, and whether another body bounces nearby. */
 static void flight_place(dice *d, flight *f) {
     const bool away = dice_one_of(d, 4) != 0;
     static const char names[] = "xy";
@@ -44,7 +45,7 @@ static flight flight_draw(dice *d) {
     return f;
 }
 
-/* Runs to the end, with the statements `more`; y starts at `aside_m`. Returns whether there was a warning. */
+/* Runs to the end with the statements `more`. y starts at aside_m. Returns whether there is a warning. */
 static bool fly(motion *m, const flight *f, const char *more, double aside_m) {
     char start[80] = "";
     const bool beside = f->bounce_s > 0.0;
@@ -64,7 +65,7 @@ static bool fly(motion *m, const flight *f, const char *more, double aside_m) {
 
 static double thickness_m(dice *d) { return 0.1e-3 * exp(dice_between(d, 0.0, log(320.0))); }
 
-/* Statements with $x and $y relative to the place; $w is the thickness. */
+/* Copies statements. $x and $y become the coordinates relative to the place, $w becomes the thickness. */
 static void place_write(const flight *f, double w_m, const char *from, char to[static TEXT]) {
     size_t used = 0;
     for (; *from != '\0'; from++) {
@@ -88,7 +89,7 @@ static const char *const posts[] = {
 
 enum { POSTS = sizeof posts / sizeof posts[0] };
 
-/* Posts of 0.1 to 32 mm are hit at the centre, off the centre, or missed; restitution 1. */
+/* Posts of 0.1 to 32 mm with restitution 1, hit at the centre, hit off the centre, or missed. */
 TEST(missed, posts) {
     dice d = dice_of("missed", 1);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 120));
@@ -104,7 +105,7 @@ TEST(missed, posts) {
         const bool hits = fabs(aside_m) < r_m;
         const double at_m = hits ? -sqrt(r_m * r_m - aside_m * aside_m) : 0.0;
         const double hit_s = (at_m - f.start_m) / f.v_m_s;
-        const double nx = at_m / r_m; /* (nx, ny): normal of the post where it is hit */
+        const double nx = at_m / r_m; /* (nx, ny): normal of the post at the hit */
         const double ny = aside_m / r_m;
         const double turn = hits ? 2.0 * f.v_m_s * nx : 0.0;
         const double left_s = f.until_s - hit_s;
@@ -113,10 +114,11 @@ TEST(missed, posts) {
         const double off_m = hypot(motion_value(&m, "x") - f.place_m[0] - x_m,
                                    motion_value(&m, "y") - f.place_m[1] - y_m);
         const double edge = fabs(fabs(ny) - 1.0);
-        /* Away from the origin the squares are expanded: the squared gap has the round-off of the squared place. */
+        /* away from the origin, the squares are expanded, so the squared gap has the round-off of the squared
+         * position */
         const double square_m2 = pow(hypot(f.place_m[0], f.place_m[1]), 2.0);
         const double turned = 16.0 * 0x1p-53 * square_m2 / (r_m * r_m * sqrt(edge));
-        if (edge > 1e-3) { /* a grazed post amplifies the round-off of the position */
+        if (edge > 1e-3) { /* a grazing hit amplifies the round-off of the position */
             TEST_ASSERT_TRUE_MESSAGE(off_m < 1e-7 + turned, text);
         }
         thin += hits && 2.0 * r_m < f.v_m_s * f.step_s;
@@ -125,7 +127,7 @@ TEST(missed, posts) {
     TEST_ASSERT_TRUE(thin * 3 > cases);
 }
 
-/* Returns true if the energy differs from that at the start by more than 1 %. Start and end are far from the barrier. */
+/* Has the energy changed by more than 1 % since the start? Start and end are far from the barrier. */
 static bool is_unbalanced(const motion *m, const flight *f) {
     const double vx = motion_value(m, "x'");
     const double vy = motion_value(m, "y'");
@@ -152,7 +154,7 @@ static const char *const flats[] = {
 
 enum { FLATS = sizeof flats / sizeof flats[0] };
 
-/* Latches, walls and a potential barrier higher than the body's energy are hit, or there is a warning. */
+/* A body must hit latches, walls, and a potential barrier above its energy, or there must be a warning. */
 TEST(missed, flat_ones) {
     dice d = dice_of("missed", 2);
     const unsigned cases = dice_cases(few_or_all(112, 224));
@@ -184,7 +186,7 @@ TEST(missed, flat_ones) {
     TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
 }
 
-/* A run with the warning's remedy, a shorter step or an earlier end, has no such warning. */
+/* With the warning's remedy, a shorter step or an earlier end, the run must not have this warning. */
 TEST(missed, ways_out) {
     dice d = dice_of("missed", 7);
     const unsigned cases = dice_cases(few_or_all(usual_or(26, 13), 130));
@@ -207,7 +209,7 @@ TEST(missed, ways_out) {
             jumps_run(text, number, words);
         }
         if (is_told &&
-            strstr(jumps_said.err, "[missed]") != NULL) { /* else cosh() overflowed (float) */
+            strstr(jumps_said.err, "[missed]") != NULL) { /* else cosh() has overflowed in float */
             TEST_ASSERT_TRUE_MESSAGE(jumps_named(cure, words), text);
             ways[strncmp(cure, "--until", 7) == 0]++;
             jumps_run(text, number, words);
@@ -217,8 +219,8 @@ TEST(missed, ways_out) {
     TEST_ASSERT_TRUE(ways[0] * 6 > cases && ways[1] > 0);
 }
 
-/* The path passes the apex of a weak conical potential, near which the force's direction jumps, and then a barrier of
- * potential energy. Either there is a warning, or the body turns back at the barrier. */
+/* The body passes near the tip of a weak conical potential, where the direction of the force jumps, and then comes
+ * to a barrier of potential energy. It must turn back there, or there must be a warning. */
 TEST(missed, hills_behind_a_tip) {
     dice d = dice_of("missed", 5);
     const unsigned cases = dice_cases(20);
@@ -243,7 +245,7 @@ TEST(missed, hills_behind_a_tip) {
     TEST_ASSERT_TRUE(met < cases);
 }
 
-/* A bump of height 1 and width about $w at $x = 0. */
+/* Bumps of height 1 and a width of about $w at $x = 0. */
 static const char *const bumps[] = {
     "exp(-($x/($w))^2)",
     "1/(1 + ($x/($w))^6)",
@@ -253,8 +255,8 @@ static const char *const bumps[] = {
 
 enum { BUMPS = sizeof bumps / sizeof bumps[0] };
 
-/* Statements that act only in a narrow interval of x; %s is the bump. In order: a normal force that rises while y slides,
- * one that vanishes while y sticks and a spring pulls it, coefficients that rise, and a crossing that stops y. */
+/* Statements that act only in a narrow interval of x; %s is the bump. In sequence: a normal force that rises while y
+ * slides; one that vanishes while y sticks and a spring pulls; coefficients that rise; a crossing that stops y. */
 static const char *const narrow[] = {
     "friction y static 0.3 kinetic 0.2 normal 1 [mN] + 1e7 [N]*%s",
     "V = 1 [N/m]*$y^2/2\nfriction y static 0.9 kinetic 0.8 normal 10 [mN]*(1 - %s)",
@@ -264,7 +266,8 @@ static const char *const narrow[] = {
 
 enum { NARROW = sizeof narrow / sizeof narrow[0] };
 
-/* Friction limits and crossings that exist only within a step: y follows the closed form, or there is a warning. */
+/* Friction limits and crossings that exist only within a step. y must follow the closed form, or there must be a
+ * warning. */
 TEST(missed, narrow_limits_and_crossings) {
     dice d = dice_of("missed", 6);
     const unsigned cases = dice_cases(few_or_all(48, 240));
@@ -299,12 +302,13 @@ TEST(missed, narrow_limits_and_crossings) {
     TEST_ASSERT_TRUE(told * 4 > cases && met * 10 > cases);
 }
 
-/* Two points that move on straight lines at constant speed, or the second on a turning disk. The least distance is
+/* Two points on straight lines at constant speed; or the second point is on a turning disk. Their least distance is
  * found by dense sampling. */
 typedef struct pass {
     double aside_m;    /* distance of the first body's path from the x axis */
-    double u_m, w_m_s; /* the second body: its start on x, and its rate */
-    double disk_m;     /* radius of the second point on its disk; 0: it moves along x, at y = 0 */
+    double u_m, w_m_s; /* the second body's start on the x axis, and its rate */
+    /* radius of the second point on its disk; 0: the point moves along the x axis */
+    double disk_m;
     double turn_rad, turn_rad_s;
 } pass;
 
@@ -321,8 +325,8 @@ static double pass_least_m(const flight *f, const pass *p) {
     return least_m;
 }
 
-/* Posts on a second body or on a turning disk, pairs of posts, and latches between two circles, all in motion. Each
- * post is hit if the reference is hit, or there is a warning. */
+/* Posts on a moving body or on a turning disk, pairs of posts, and latches between two circles. If the reference
+ * hits a post, the run must hit it or have a warning. */
 TEST(missed, moving_ones) {
     dice d = dice_of("missed", 4);
     const unsigned cases = dice_cases(few_or_all(usual_or(40, 15), 120));
@@ -356,7 +360,7 @@ TEST(missed, moving_ones) {
                      "stop sqrt((x - %.17g [m]*cos(u))^2 + (y - %.17g [m]*sin(u))^2) >= %.17g [m] "
                      "restitution 0.5",
                      p.disk_m, p.disk_m, r_m);
-        } else if (k % 4 == 2) { /* a pair, the second far aside */
+        } else if (k % 4 == 2) { /* two posts, of which the second is far away */
             snprintf(stops, sizeof stops,
                      "stop sqrt((x - 0.1 [m])^2 + (y - 1 [m])^2) >= %.17g [m] restitution 0.5\n"
                      "stop sqrt(x^2 + y^2) >= %.17g [m] restitution 0.5",
@@ -391,9 +395,7 @@ TEST(missed, moving_ones) {
     TEST_ASSERT_TRUE(hits * 2 > cases && thin * 3 > cases);
 }
 
-/* --- right runs ---------------------------------------------------------------------------------------*/
-
-/* $w is wide relative to the path of a step; %s are random numbers. */
+/* $w is wide compared with the path of a step; %s are random numbers. */
 static const char *const rights[] = {
     "stop sqrt($x^2 + $y^2) >= 0.5*$w restitution %s",
     ("V = 9.81 [N]*$y + %s*100 [N/m]*$x^2/2\nstop $y >= -0.3 [m] restitution 0.6\n"
@@ -427,7 +429,7 @@ static void right_draw(dice *d, unsigned kind, flight *f, double *aside_m, char 
     place_write(f, w_m, from, more);
 }
 
-/* Does the run with the warning agree with an eighth of the step? */
+/* Does the run agree with a run that has an eighth of the step? */
 static bool is_right(const motion *m, const char *of, stepping how) {
     motion fine;
     how.step_s = m->image->step_s / 8.0;
@@ -444,7 +446,7 @@ static bool is_right(const motion *m, const char *of, stepping how) {
     return done && off < 1e-3;
 }
 
-/* Random linkages with stops and frictions, and wide contacts: no warning if the run is right. */
+/* Random linkages with stops and frictions, and wide contacts. A right run must have no warning. */
 TEST(missed, right_runs) {
     dice d = dice_of("missed", 3);
     const unsigned cases = dice_cases(few_or_all(usual_or(30, 15), 120));
@@ -481,7 +483,7 @@ TEST(missed, right_runs) {
     TEST_ASSERT_TRUE(told * 20 <= cases);
 }
 
-/* Faces that end at $x = 0, except the last ones. */
+/* Faces that end at $x = 0, except the last two faces, which go on. */
 static const char *const faces[] = {
     "stop max($x, $y) >= 0 restitution %.3f",
     "stop max(abs($x + 0.6 [m]) - 0.6 [m], $y) >= 0 restitution %.3f",
@@ -494,8 +496,8 @@ static const char *const faces[] = {
 
 enum { FACES = sizeof faces / sizeof faces[0], FACES_ENDING = FACES - 2 };
 
-/* A body slides on a face and, in half of the runs, over its edge into flight: a right run or a warning. On the face
- * there is never a warning. */
+/* A body slides on a face; in half of the runs it leaves the face over its edge. The run must be right or have a
+ * warning. On the face, there must be no warning. */
 TEST(missed, edges) {
     dice d = dice_of("missed", 7);
     const unsigned cases = dice_cases(60);

@@ -1,4 +1,4 @@
-/* test_mistyped.c: for a mistyped name of any kind and place the message suggests the declared one. */
+/* test_mistyped.c: if a name of any kind, at any place, is mistyped, the message must suggest the declared name. */
 #include "command.h"
 #include "host/cli/commands.h"
 

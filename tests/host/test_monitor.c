@@ -1,5 +1,5 @@
-/* test_monitor.c: telemetry as records, waves and counts (host/monitor/recording.h). Frames of random channels with
- * losses, clock wraps and restarts are compared with the test's own files. */
+/* test_monitor.c: telemetry as records, waves and counts (host/monitor/recording.h). Frames of random channels, with
+ * losses, clock wraps and restarts, are compared with files that the test itself writes. Also schema lines. */
 #include "host/base/alloc.h"
 #include "host/monitor/recording.h"
 #include "host/monitor/wire.h"
@@ -26,11 +26,11 @@ typedef struct told {
     FILE *to_ring;
     recording_counts counts;
     int64_t time_us;     /* time of the next sample */
-    int64_t last_us;     /* time of the last frame of a run */
+    int64_t last_us;     /* time of the last run frame */
     uint32_t ticks_of_0; /* the rig's clock at time 0 */
-    bool begun;          /* a frame has arrived since the start */
+    bool begun;          /* a frame has come since the start */
     bool run_came;
-    bool headed; /* the header of the records is written */
+    bool headed; /* the records have their header */
     bool ring_headed;
     uint16_t next[SCHEMA_CHANNELS];
     uint16_t dropped[SCHEMA_CHANNELS];
@@ -38,14 +38,14 @@ typedef struct told {
     int pulses;
     int64_t pulse_us[PULSES_MOST];
     unsigned pulse_of[PULSES_MOST];
-    int pulse_long[PULSES_MOST]; /* us; 0: unknown */
-    bool tells_ends;             /* the rig reports ends of pulses; before the first: 100 us */
+    int pulse_long[PULSES_MOST]; /* in us; 0: unknown */
+    bool tells_ends;             /* the rig reports the ends of pulses */
     bool has_ended;
-    int64_t free_from_us[2]; /* end of the last pulse */
+    int64_t free_from_us[2]; /* end of the last pulse of each sensor */
     int64_t trip_us;
     unsigned trip;
     int64_t sample_us; /* time of the last sample */
-    double sample;     /* first field of the last sample; NAN: no sample */
+    double sample;     /* first field of the last sample; NaN if none */
 } told;
 
 static told t;
@@ -124,9 +124,8 @@ static void drop(void) {
     free(t.wanted_ring);
 }
 
-/* --- frames -----------------------------------------------------------------------------------------------------*/
-
-/* Writes random bytes of a field to at[] and its text in a record. Returns the value, NAN if invalid. */
+/* Writes random bytes of a field to at[], and to `words` the text that a record must have. Returns the value, NaN if
+ * the field is invalid. */
 static double put_field(const schema_field *f, uint8_t *at, char *words) {
     const uint32_t usual = drawn_32() >> (32U - 8U * f->size);
     const bool none = f->size == 2 && dice_one_of(&die, 5) == 0;
@@ -160,7 +159,7 @@ static void send(unsigned channel, int64_t time_us, const uint8_t *payload, unsi
     }
 }
 
-/* Some frames are lost; the rig itself dropped some of them. */
+/* Loses some frames. The rig itself dropped a part of them. */
 static void lose(unsigned channel) {
     if (t.any[channel] && dice_one_of(&die, 4) == 0) {
         const unsigned lost =
@@ -173,7 +172,7 @@ static void lose(unsigned channel) {
     }
 }
 
-/* A pulse lies between two samples, so that the order is clear. */
+/* A time between two samples, so that a pulse has a clear place among the samples. */
 static int64_t about_now_us(void) { return t.time_us + 1 + (int64_t)dice_one_of(&die, 900); }
 
 static void send_run(void) {
@@ -189,7 +188,7 @@ static void send_run(void) {
         t.counts.lost_samples += lost;
     }
     const int64_t most_us =
-        c->period_ticks * 9 / 20; /* less than half a period, so that rounding removes the jitter */
+        c->period_ticks * 9 / 20; /* below half a period, so that rounding removes the jitter */
     const int64_t jitter_us =
         t.run_came ? (int64_t)dice_one_of(&die, 2U * (unsigned)most_us) - most_us : 0;
     const int64_t begin_us = t.time_us + jitter_us;
@@ -241,7 +240,7 @@ static void send_ring(void) {
     }
     int64_t time_us = begin_us;
     for (unsigned k = 0; k < rows; k++) {
-        time_us += dice_one_of(&die, 60000); /* only the low half is sent */
+        time_us += dice_one_of(&die, 60000); /* only the low 16 bits of the clock are sent */
         const uint32_t ticks = t.ticks_of_0 + (uint32_t)time_us;
         payload[at++] = (uint8_t)ticks;
         payload[at++] = (uint8_t)(ticks >> 8);
@@ -279,11 +278,11 @@ static void send_event(void) {
         t.trip_us = time_us;
         t.trip = payload[1];
     } else if (payload[0] == 3 && payload[1] < 2) {
-        return; /* the end of a pulse is sent only after its beginning */
+        return; /* an end of a pulse is only sent after its begin */
     }
     lose(RECORDING_EVENT);
     send(RECORDING_EVENT, time_us, payload, 2);
-    if (high_us > 0 && t.has_ended && dice_one_of(&die, 8) == 0) { /* end lost: length unknown */
+    if (high_us > 0 && t.has_ended && dice_one_of(&die, 8) == 0) { /* the end is lost */
         t.pulse_long[t.pulses - 1] = 0;
     } else if (high_us > 0) {
         payload[0] = 3;
@@ -293,7 +292,7 @@ static void send_event(void) {
     }
 }
 
-/* Frames without a schema, or unlike their schema. */
+/* Sends frames that have no schema, or that do not fit their schema. */
 static void send_strange(void) {
     static const uint8_t payload[PAYLOAD_MOST];
     const schema_channel *run = &t.s.channel[RECORDING_RUN];
@@ -326,8 +325,8 @@ static void send_strange(void) {
     t.counts.strange--;
 }
 
-/* The rig restarts with another clock and counts from zero; its first sample comes at the expected time. A line of the rig or
- * a sequence number that decreases shows it. */
+/* The rig restarts with another clock and other sequence numbers. A line of the rig, or a lower sequence number,
+ * shows this. The first sample comes at the expected time. */
 static void begin_anew(void) {
     if (!t.begun || !t.run_came) {
         return;
@@ -377,9 +376,8 @@ static void send_any(void) {
     }
 }
 
-/* --- waves ------------------------------------------------------------------------------------------------------*/
-
-/* A signal's value at a time in the dump; NAN before the first. `name` is the last word of its line. */
+/* A signal's value at a time of the dump; NaN before its first value. `name` is the last word of the signal's
+ * declaration. */
 static double dumped(const char *name, int64_t time_us) {
     char var[80];
     char id[12] = "";
@@ -432,7 +430,7 @@ static void expect_waves(void) {
     }
 }
 
-/* With files, or without them, with rows for a picture or not. */
+/* Tests recordings with and without files, and with and without rows for a picture. */
 TEST(recording, streams) {
     unsigned pulses = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(50, 20)); c++) {
@@ -459,12 +457,12 @@ TEST(recording, streams) {
 SUITE(recording) { die = dice_of("recording", 48); }
 
 /* === schema =================================================================================== */
-/* Schema lines of a rig (host/monitor/recording.h): random channels, states and rates are parsed as written. A line with
- * a missing or wrong part is refused and changes nothing. */
+/* Schema lines of a rig (host/monitor/recording.h). Random channels, states and rates must be read as written. A
+ * line with a missing or wrong part must be refused and change nothing. */
 
 enum { LINE = 600, PIECES = 5 };
 
-/* A channel, and the parts of its line. Each part can be omitted or replaced. */
+/* A channel, and the parts of its line. A test can omit or replace each part. */
 typedef struct written {
     schema_channel channel;
     unsigned index;
@@ -479,7 +477,7 @@ static void draw_word(char *to, unsigned longest) {
     to[length] = '\0';
 }
 
-/* Comma-separated fields; the last may lack an offset. */
+/* Writes fields, separated by commas. The last field may lack its offset. */
 static void draw_fields(schema_field *fields, int count, char *text) {
     static const unsigned sizes[] = {1, 2, 4};
     size_t at = strlen(text);
@@ -651,8 +649,8 @@ TEST(schema, states) {
     expect_refused(&s, "ERR 0=a");
 }
 
-/* After a frame that was cut off, its remainder and the line after it are torn. The next line, and a line between
- * complete frames, are not. */
+/* After a frame that was cut off, its remainder and the next line count as torn. The line after that, and a line
+ * between complete frames, do not. */
 TEST(schema, torn_lines) {
     static wire w;
     static const char bytes[] = "D +\nxH\0ERR 100\r\nOK\r\n\0\x80\x81\0OK\r\n";
