@@ -107,10 +107,11 @@ FULL_LIST := build/check/full.list
 full_part = "host suites$(comma) all cases$(comma) part $(1) of 6" 'sh tests/each.sh build/tests/host $$(sh tests/part.sh $(FULL_LIST) $(1) 6)'
 full-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
+	+@$(call build_board_tests,$(BOARDS_TEST))
 	@mkdir -p $(dir $(FULL_LIST)) && { $(call suites_of,$$(grep -lE "few_or_all|usual_or" tests/host/test_*.c)); printf 'test_%s.c\n' $(HOST_FULL); } | sort -u >$(FULL_LIST)
 	@WHIRL_FULL=rest WHIRL=build/whirl TEST_SECONDS=3600 sh tests/run.sh build/check/log_full \
 	    $(foreach p,0 1 2 3 4 5,$(call full_part,$(p))) $(call run_cli,$(filter-out $(CLI_FULL),$(CLI_ASKS))) \
-	    $(foreach t,$(CLI_FULL),"$(t)" "WHIRL_FULL=1 sh $(t)")
+	    $(foreach t,$(CLI_FULL),"$(t)" "WHIRL_FULL=1 sh $(t)") $(RUN_BOARD)
 
 # --- sanitizers -----------------------------------------------------------------------------------
 # WHIRL_FEW: some cases of every class, because an instrumented program takes six times as long. Scripts that only compile

@@ -49,9 +49,9 @@ $(foreach t,core host chip,$(B)/tests/$(t)_suites.c): $(B)/tests/%_suites.c: tes
 	$(Q)sh $< tests/$*/test_*.c >$@
 
 CORE_TEST_PARTS := $(CORE_TEST_C) $(B)/tests/core_suites.c $(UNITY_DIR)/unity.c
-# Suites that boards leave to mps2-an386, except in `make test-boards`: whole runs of the rig, whose bits are equal on all
-# boards (gate-hashes). Boards keep suites of conversions, roots, functions and the core's steps, which differ between
-# processors.
+# Suites that the emulator leaves to this machine, except in `make full` and `make test-boards`: whole runs of the rig, which
+# run here in float and double, and whose bits are equal on all boards (gate-hashes). Boards keep suites of conversions,
+# roots, functions and the core's steps, which differ between processors.
 CORE_RUNS := rig_gravity rig_lead rig_motor rig_observer rig_off rig_pulses rig_run rig_slope rig_swing rig_swing_pulses \
     virtual_rig_faults
 CORE_LESS_C := $(filter-out $(CORE_RUNS:%=tests/core/test_%.c),$(CORE_TEST_C))
@@ -141,6 +141,7 @@ run_board = "portable suites$(comma) $(1)" "$(call on_board,$(1),run-suites)"
 RUN_BOARD = $(foreach b,$(BOARDS_TEST),$(call run_board,$(b)))
 build_board_tests = $(foreach b,$(1),$(call on_board,$(b),board-tests) &&) true
 
+test-now: export SUITES = less
 test-now: $(GEN)/.stamp
 	@$(MAKE) test-programs
 	+@$(call build_board_tests,$(BOARDS_TEST))
