@@ -299,7 +299,7 @@ static void write_train(char *text, size_t size, double pulses_hz, double duty, 
 TEST(pulse_trains, pulses_between_stages) {
     static const double turns[] = {0.5, 1.0, 1.0, 1.5, 2.0, 3.0, 5.0};
     dice d = dice_of("pulses", 6301);
-    const unsigned cases = dice_cases(few_or_all(usual_or(8, 3), 200));
+    const unsigned cases = dice_cases(few_or_all(usual_or(8, 2), 200));
     unsigned wrong = 0;
     unsigned told = 0;
     for (unsigned i = 0; i < cases; i++) {

@@ -183,8 +183,9 @@ TEST(far_origin, fine_steps_are_silent) {
     unsigned told = 0;
     const unsigned rounds = dice_cases(usual_or(2, 1));
     for (unsigned i = 0; i < rounds * 9 * FAR; i++) {
-        const double tens = i / FAR % 9; /* 1 to 1e8 amplitudes */
-        for (int k = 0; k < 2; k++) {
+        const double tens = i / FAR % 9;                /* 1 to 1e8 amplitudes */
+        for (unsigned n = 0; n < usual_or(2, 1); n++) { /* in both numbers, or in one of them */
+            const int k = (int)((i / FAR + i + n) % 2U);
             const double most = far_most((far_kind)(i % FAR), k == 1);
             far_case c = case_of(&d, pow(10.0, fmin(tens, most)) * dice_between(&d, 0.5, 1.5));
             c.step_s = dice_between(&d, 0.005, 0.03) / c.omega_radps;

@@ -419,7 +419,7 @@ TEST(folded, numbers_beside_a_rest) {
  * little as the round-off of decimals, but it is the whole force on the mass. */
 TEST(folded, what_is_nearly_the_same) {
     dice d = dice_of("folded", 4);
-    for (unsigned k = 0; k < dice_cases(usual_or(40, 5)); k++) {
+    for (unsigned k = 0; k < dice_cases(usual_or(40, 2)); k++) {
         char text[600];
         said what;
         const double stiff = power_of_ten(&d, 10.0, 14.0);
@@ -802,7 +802,7 @@ static double off_of(const drawn *w) {
 
 TEST(folded_numbers, what_numbers_lose_is_told) {
     dice d = dice_of("folded_numbers", 1);
-    const unsigned cases = dice_cases(usual_or(few_or_all(60, 600), 20));
+    const unsigned cases = dice_cases(usual_or(few_or_all(60, 600), 8));
     unsigned off = 0;
     unsigned told = 0;
     unsigned right = 0;

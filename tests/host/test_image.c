@@ -15,6 +15,7 @@
 #include "host/io/records.h"
 #include "host/number/functions.h"
 
+#include "command.h"
 #include "derived.h"
 #include "drawn_scene.h"
 #include "expressions.h"
@@ -156,6 +157,10 @@ static char *as_c(const image *im) {
 }
 
 static int check_again(const scene *s) {
+    static unsigned scenes;
+    if (scenes++ % usual_or(1, 2) != 0) {
+        return 0;
+    }
     char start[100];
     derived d = derived_builtin(s->name);
     derived_expect(&d, s->name);
@@ -195,7 +200,7 @@ static int check_again(const scene *s) {
 }
 
 TEST(image, other_starts_need_no_derivation) {
-    TEST_ASSERT_TRUE(each_builtin_scene(check_again) > 50);
+    TEST_ASSERT_TRUE(each_builtin_scene(check_again) > (int)usual_or(50, 25));
 }
 
 /* === described drawn ========================================================================== */

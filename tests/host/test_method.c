@@ -325,7 +325,10 @@ static int paths_of_a_scene(const scene *s) {
     motion plain;
     motion_open(&plain, s->name, how);
     how.method = WH_RK4;
-    for (int i = 0; i < 3 && plain.image->contacts == 0; i++) {
+    static unsigned scenes;
+    const unsigned first = scenes++;
+    for (unsigned n = 0; n < usual_or(3, 1) && plain.image->contacts == 0; n++) {
+        const unsigned i = (first + n) % 3U;
         how.angles = i == 1 ? ANGLES_LOOKUP : ANGLES_TURNED;
         how.ledger = i == 2;
         if (how.ledger && !plain.image->has_energies) {
@@ -348,7 +351,7 @@ static int paths_of_a_scene(const scene *s) {
 
 TEST(rk4, all_paths_step_as_the_plain_one) {
     each_builtin_scene(paths_of_a_scene);
-    TEST_ASSERT_TRUE(compared > 500);
+    TEST_ASSERT_TRUE(compared > (int)usual_or(500, 200));
 }
 
 SUITE(rk4) { seed = 20261129; }

@@ -252,7 +252,7 @@ TEST(symmetry, particles) {
     dice die = dice_of("symmetry", 1);
     int with_rotation = 0;
     int with_none = 0;
-    for (unsigned c = 0; c < dice_cases(few_or_all(60, 500)); c++) {
+    for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 24), 500)); c++) {
         uint64_t seed = die.state + 7919U * c;
         particles p = {.bodies = 2 + (int)(random_bits(&seed) % 2U)};
         p.at = (int)(random_bits(&seed) % (unsigned)p.bodies);

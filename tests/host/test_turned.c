@@ -151,7 +151,7 @@ static void write_mechanism(unsigned number, double drive, double speed, uint64_
 
 /* The share of mechanisms in which the two forms differ by more than `within` times the error of lookup. */
 static double share_apart(double within, double drive, double speed) {
-    const unsigned cases = dice_cases(few_or_all(60, 200));
+    const unsigned cases = dice_cases(few_or_all(usual_or(60, 24), 200));
     uint64_t seed = 20261122;
     char text[4096];
     unsigned compared = 0;
@@ -188,7 +188,7 @@ TEST(turned, generated_mechanisms_that_become_fast_go_on) {
 /* First-order systems with rates that depend strongly on the angles, near the stability limit. The slopes at the stages
  * differ much from that at the begin, and after half a turn the system moves to another equilibrium. */
 TEST(turned, stiff_angles_of_first_order_move_alike) {
-    const unsigned cases = dice_cases(few_or_all(100, 300));
+    const unsigned cases = dice_cases(few_or_all(usual_or(100, 40), 300));
     uint64_t seed = 20261122;
     char text[400];
     unsigned compared = 0;
