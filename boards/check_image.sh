@@ -1,10 +1,9 @@
 #!/bin/sh
-# check_image.sh ELF...: fail if a firmware image contains forbidden code:
-# a heap, the C library's mathematics or printing, or double-precision arithmetic in software.
-# NM names the nm to use; it defaults to arm-none-eabi-nm.
-# FLASHED lists the flashed ones among them: these must contain no breakpoint, which without a debugger is a fault, and no way out
-# of main(). OBJDUMP shows their code.
-# UNDRIVEN lists those that must not be able to enable the motor: they must not call the function that does.
+# check_image.sh ELF...: fails if a firmware image contains forbidden code: a heap, the C library's mathematics or printing,
+# or double-precision arithmetic in software. NM names the nm to use; the default is arm-none-eabi-nm. FLASHED lists the
+# flashed images among them: they must contain no breakpoint, which without a debugger is a fault, and no way out of main().
+# OBJDUMP shows their code. UNDRIVEN lists the images that must not be able to enable the motor: they must not call the
+# function that does.
 set -u
 NM=${NM:-arm-none-eabi-nm}
 OBJDUMP=${OBJDUMP:-arm-none-eabi-objdump}
@@ -42,7 +41,7 @@ for elf in "$@"; do
     undriven=0
     case " $UNDRIVEN " in *" $elf "*) undriven=1 ;; esac
     printf '%s\n' "$symbols" | awk -v elf="$elf" -v undriven=$undriven '
-        # Symbol names are the last field; undefined ones have no address before their letter.
+        # Symbol names are the last field; undefined symbols have no address before their letter.
         function found(kind) {
             printf "%s: %s: %s%s\n", elf, kind, name, undefined ? " (undefined)" : ""
             bad++

@@ -1,10 +1,10 @@
 /* atmega.h: declarations shared by the drivers of the ATmega2560. "DS 17.3" is a section of its data sheet
- * (DS40002211A). The chip fixes the timers' pins, so they are here, by their names on the chip and on an Arduino Mega:
+ * (DS40002211A). The chip fixes the timers' pins. Their names on the chip and (in brackets) on an Arduino Mega are:
  *
- *   timer 1    PWM on OC1A, PB5 (D11); enable on PB6 (D12); stop on PB4 (D10)
- *   timer 2    starts the converter 5000 times a second: load cell on ADC0 (A0), supply on ADC1 (A1)
- *   timer 4, 5 the time base, and capture of sensor 1 on ICP4, PL0 (D49), of sensor 2 on ICP5, PL1 (D48)
- *   USART 0    the console: out PE1 (D1), in PE0 (D0) */
+ *     timer 1    PWM on OC1A, PB5 (D11); enable on PB6 (D12); stop on PB4 (D10)
+ *     timer 2    starts the converter 5000 times a second: load cell on ADC0 (A0), supply on ADC1 (A1)
+ *     timer 4, 5 the time base, and capture of sensor 1 on ICP4, PL0 (D49), of sensor 2 on ICP5, PL1 (D48)
+ *     USART 0    the console: out PE1 (D1), in PE0 (D0) */
 #ifndef BOARDS_ATMEGA_H
 #define BOARDS_ATMEGA_H
 
@@ -21,10 +21,10 @@
 #define ATMEGA_STOP_BIT PB4
 #define ATMEGA_CELL_INPUT 0U
 #define ATMEGA_SUPPLY_INPUT 1U
-/* The divider before the supply's input: 50 V at the reference. */
+/* The supply voltage that the divider at the supply's input reduces to the reference voltage. */
 #define ATMEGA_SUPPLY_FULL_mV UINT32_C(50000)
 
-/* Switch interrupts off until atmega_go_on(). Returns the state before. */
+/* Switch interrupts off until atmega_go_on(). Returns the interrupt state before the call. */
 static inline uint8_t atmega_hold(void) {
     const uint8_t before = SREG;
     cli();
@@ -32,29 +32,29 @@ static inline uint8_t atmega_hold(void) {
 }
 static inline void atmega_go_on(uint8_t before) { SREG = before; }
 
-/* Timers 4 and 5 have the same count, two to a tick (time_base.c). */
+/* Timers 4 and 5 always have the same count. A tick has two counts (time_base.c). */
 #define ATMEGA_COUNTS_PER_TICK 2U
 void atmega_time_base_start(void);
 
-/* The time now, with interrupts off. */
+/* Returns the time now. Call it with interrupts off. */
 uint32_t atmega_ticks(void);
 
-/* An instant stored by an interrupt: the count, and the number of its wraps. Valid for 4 s. */
+/* The time of an interrupt: a timer's count, and the number of its wraps. Valid for 4 s. */
 typedef struct atmega_instant {
     uint16_t count;
     uint8_t wraps;
 } atmega_instant;
 
-/* The lowest byte of the number of wraps so far, set by interrupts. */
+/* The lowest byte of the number of wraps so far. Interrupts count it. */
 extern volatile uint8_t atmega_wraps;
 
-/* Within an interrupt: the time at which both timers showed `count`, less than half a wrap ago. */
+/* Returns the time at which both timers showed `count`, less than half a wrap ago. Call it within an interrupt. */
 static inline atmega_instant atmega_instant_of(uint16_t count) {
     atmega_instant at = {count, atmega_wraps};
-    /* read first: a wrap of the timer after this line does not matter */
+    /* read first: if the timer wraps after this line, it does not matter */
     const uint16_t now = TCNT4;
     const bool pending = (TIFR4 & _BV(TOV4)) != 0;
-    if (count >= 0x8000U && now < 0x8000U) { /* the instant was before the last wrap */
+    if (count >= 0x8000U && now < 0x8000U) { /* `count` was reached before the last wrap */
         at.wraps = (uint8_t)(at.wraps - (pending ? 0U : 1U));
     } else if (pending && count < 0x8000U) {
         at.wraps++;
@@ -64,8 +64,8 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
 
 uint32_t atmega_ticks_of(atmega_instant at);
 
-/* Start the watchdog: it resets the chip after 2048 << twice clocks of its own oscillator (DS 12.5.2). The second store
- * must follow within four clocks of the first. */
+/* Start the watchdog: it resets the chip after 2048 << twice clocks of its own oscillator (DS 12.5.2). The chip
+ * requires the second store within four clocks of the first. */
 static inline void atmega_watch(uint8_t twice) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);
     const uint8_t settings =
@@ -77,17 +77,17 @@ static inline void atmega_watch(uint8_t twice) {
     atmega_go_on(before);
 }
 
-/* The supply at the last sample of the load (cell.c) as a factor: ATMEGA_WHOLE divided by the volts; 0: no supply. The
+/* ATMEGA_WHOLE divided by the supply's volts, measured with the last sample of the load (cell.c); 0: no supply. The
  * division is done with the sample, because some control steps have no time for it. */
 #define ATMEGA_WHOLE 25600U
 float atmega_parts_per_V(void);
 
-/* The starts of the parts of the rig's hardware, called by hal_clock_start() (rig_clock.c). */
+/* Start the parts of the rig's hardware. hal_clock_start() calls these functions (rig_clock.c). */
 void atmega_motor_start(void);
 void atmega_slots_start(void);
 void atmega_cell_start(void);
 
-/* Kinds of faults, on a chip that detects none in hardware. */
+/* Kinds of faults. The chip detects none in hardware. */
 typedef enum atmega_fault_kind {
     ATMEGA_FAULT_NONE,
     ATMEGA_FAULT_STRAY,  /* an interrupt without a handler */
@@ -95,7 +95,7 @@ typedef enum atmega_fault_kind {
     ATMEGA_FAULT_RESTART /* the program restarted without a reset, because of a wild jump */
 } atmega_fault_kind;
 
-/* Switch the motor off, record the fault, reset. `at`: the byte address of the fault; 0: unknown. */
+/* Switch the motor off, record the fault, reset. `at` is the byte address of the fault; 0: unknown. */
 _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at);
 
 typedef struct atmega_fault_record {
@@ -103,19 +103,19 @@ typedef struct atmega_fault_record {
     uint32_t at;
     uint32_t ticks;  /* time of the fault; the clock restarts at each start */
     uint32_t state;  /* last argument of hal_reset_mark() */
-    uint16_t faults; /* faults since power-on, including this one */
+    uint16_t faults; /* number of faults since power-on, including this one */
     uint16_t sum;
 } atmega_fault_record;
 
 void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks);
 
-/* Read the record of a fault before this start, once. Returns false if there is none. */
+/* Read the record of a fault before this start; only the first call finds it. Returns false if there is no record. */
 bool atmega_take_fault(atmega_fault_record *record);
 
-/* After a power-on: forget the record and the remembered bytes, which are then random. */
+/* Call this after a power-on: it drops the record and the remembered bytes, which are then random. */
 void atmega_forget(void);
 
-/* MCUSR at the processor's start (DS 12.5.1); 0: no reset occurred. */
+/* Returns MCUSR at the processor's start (DS 12.5.1); 0: no reset occurred. */
 uint8_t atmega_reset_flags(void);
 
 #endif

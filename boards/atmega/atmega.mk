@@ -1,6 +1,7 @@
-# atmega.mk: boards with an ATmega2560: boards/avr, with drivers for all of the rig's hardware. Programs that end, with an exit
-# status, are for the emulator. A flashed one never ends, and has its own build (BOARD_FLASHED_FLAGS). Its 8 KB of memory have no
-# room for telemetry and samples of slow turns, its 16 MHz no time for an observer and a free swing (docs/boards.md).
+# atmega.mk: boards with an ATmega2560: boards/avr, with drivers for all of the rig's hardware. Programs that end, with an
+# exit status, are for the emulator. A flashed program never ends, and has its own build (BOARD_FLASHED_FLAGS). Its 8 KB of
+# memory have no room for telemetry and for samples of slow turns, and 16 MHz are too slow for an observer and a free swing
+# (docs/boards.md).
 include boards/avr/avr.mk
 BOARD_ATMEGA   := $(addprefix boards/atmega/,board.c cell.c eeprom.c fault.c kept.c motor.c reset.c rig_clock.c slots.c stop.c time_base.c \
                   usart.c watchdog.c)

@@ -1,14 +1,14 @@
 /* cell.c: load cell and supply by the chip's 10-bit converter (DS 26).
  *
- * Timer 2 starts a conversion every 200 us: sixteen of the cell, then 24 of the supply, so that a sample takes 8 ms. A
- * sample is the mean of the sixteen. Its time stamp is the middle of their times, so it has no delay. A force that
- * rotates at 6 Hz becomes 0.06 % too small. One count of the converter is 0.434 N. The error of a mean of sixteen is
- * 0.03 N if the force changes by some counts meanwhile. If the force is constant, the error is below half a count,
- * 0.22 N.
+ * Timer 2 starts a conversion every 200 us: sixteen of the cell, then 24 of the supply, so a sample takes 8 ms. A
+ * sample is the mean of the sixteen. Its time stamp is the middle of their times, so it has no delay. The mean makes a
+ * force that rotates at 6 Hz 0.06 % too small. One count of the converter is 0.434 N. If the force changes by some
+ * counts during the sixteen conversions, the error of their mean is 0.03 N. If the force is constant, the error is
+ * below half a count, 0.22 N.
  *
- * The amplifier's output without force is half of the reference, the chip's own supply. Near either end it is
- * saturated. If a whole sample is near the lower end, a wire is broken: a resistor then pulls the pin down, except for
- * its leakage. */
+ * Without force, the amplifier's output is half of the reference, the chip's own supply. Near either end the amplifier
+ * is saturated. If all of a sample's counts are near the lower end, a wire is broken: a resistor then pulls the pin
+ * down, except for its leakage. */
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -17,16 +17,16 @@
 #define TICK_TICKS 200U
 #define CELL_TICKS 16U
 #define ALL_TICKS (HAL_LOADCELL_PERIOD_TICKS / TICK_TICKS)
-#define SUPPLY_TICKS 8U /* the last conversions of the supply: only these are used */
+#define SUPPLY_TICKS 8U /* only these last conversions of the supply are used */
 _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
                    ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
                "a sample each period");
 
-/* Timer 2 counts every 2 us. */
+/* Timer 2 counts once every 2 us. */
 #define TIMER_COUNT_TICKS 2U
 _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32nd");
 
-/* The input is sampled and held one and a half clocks of 125 kHz after the start (DS 26.4). */
+/* Time from the start of a conversion until the input is held: one and a half clocks of 125 kHz (DS 26.4). */
 #define HELD_TICKS 12U
 /* Time from the middle of the sixteen conversions to the tick after the last one. */
 #define BEHIND_TICKS (CELL_TICKS * TICK_TICKS / 2U + TICK_TICKS / 2U - HELD_TICKS)
@@ -34,12 +34,13 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 #define FULL 1023U
 #define MIDDLE 512U
 #define RAIL (FULL / 64U)       /* margin in which no amplifier is linear: 73 mV */
-#define OPEN_BELOW (FULL / 16U) /* 0.3 V */
+#define OPEN_BELOW (FULL / 16U) /* an input below 0.3 V is not connected */
 #define REFERENCE _BV(REFS0)
-#define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0)) /* a 128th: 125 kHz */
+/* clock divided by 128: 125 kHz */
+#define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0))
 
-/* The supply is measured with each sample of the cell, not in each control step. The bit SUPPLY_BEYOND marks a sum with
- * a conversion beyond the converter's end. */
+/* The supply is measured with each sample of the cell, not in each control step. The bit SUPPLY_BEYOND marks a sum that
+ * contains a conversion at the converter's end. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_BEYOND 0x8000U
 #define SUPPLY_V_PER_COUNT ((float)ATMEGA_SUPPLY_FULL_mV / 1000.0f / 1024.0f)
@@ -51,19 +52,19 @@ _Static_assert(SUPPLY_TICKS *FULL < SUPPLY_BEYOND, "the sum leaves the bit alone
 #define SAMPLES_KEPT 4U /* a power of two */
 
 typedef struct cell_sample {
-    atmega_instant at; /* the end of its last conversion's tick */
+    atmega_instant at; /* the tick at which the last conversion ended */
     uint16_t sum;
     uint8_t status;
 } cell_sample;
 
 static volatile cell_sample kept[SAMPLES_KEPT];
-static volatile uint8_t head; /* written by the interrupt only */
+static volatile uint8_t head; /* only the interrupt changes it */
 static volatile uint8_t tail;
 static volatile uint16_t supply_sum;
 static float supply_V;
 static float parts_per_V;
 
-/* Ended conversions of the present sample, cell and supply; used by the interrupt only. */
+/* Number of ended conversions of the present sample, cell and supply. Only the interrupt uses it. */
 static uint8_t place;
 static uint16_t sum;
 static uint16_t supply;
@@ -73,7 +74,7 @@ void atmega_cell_start(void) {
     DIDR0 = _BV(ATMEGA_CELL_INPUT) | _BV(ATMEGA_SUPPLY_INPUT);
     ADMUX = REFERENCE | ATMEGA_CELL_INPUT;
     ADCSRA = CONVERTER;
-    TCCR2A = _BV(WGM21); /* up to OCR2A */
+    TCCR2A = _BV(WGM21); /* timer 2 counts up to OCR2A */
     OCR2A = TICK_TICKS / TIMER_COUNT_TICKS - 1U;
     OCR2B = OCR2A / 2U;
     TCNT2 = 0;
@@ -89,8 +90,8 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* A sample is complete. This is a separate interrupt, so that the ticks' interrupts save fewer registers. Its timer has
- * counted the time since the last tick. */
+/* Stores a complete sample. It is a separate interrupt, because the ticks' interrupts then save fewer registers. TCNT2
+ * has counted the time since the last tick. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);
@@ -108,7 +109,7 @@ ISR(TIMER2_COMPB_vect) {
     saturated = false;
 }
 
-/* A tick. The conversion that started at the previous tick, 200 us ago, has ended. */
+/* A tick of 200 us: the conversion that started at the previous tick has ended. */
 ISR(TIMER2_COMPA_vect) {
     const uint16_t count = ADC;
     uint8_t next = (uint8_t)(place + 1U);
@@ -149,7 +150,7 @@ static void renew_supply(void) {
     parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
-/* The sum of sixteen counts of 10 bits has 14 bits: one unit is four of hal/loadcell.h's. */
+/* The sum of sixteen counts of 10 bits has 14 bits. One unit of it is four counts of hal/loadcell.h. */
 bool hal_loadcell_take(hal_load_sample *sample) {
     if (tail == head) {
         return false;

@@ -1,10 +1,10 @@
-/* eeprom.c: settings in the chip's EEPROM (DS 8.6), two slots of 256 bytes. Bytes are erased and written one by one,
- * 1.8 ms each: a slot takes at most 0.46 s. Bytes with the right value are skipped. */
+/* eeprom.c: settings in the chip's EEPROM (DS 8.6), two slots of 256 bytes. Each byte is erased and written by itself,
+ * in 1.8 ms; bytes that already have the right value are skipped. A slot takes at most 0.46 s. */
 #include "hal/settings.h"
 
 #include "atmega.h"
 
-#define FIRST 256U /* not 0: a failing supply may corrupt byte 0, the idle address */
+#define FIRST 256U /* not 0, because a failing supply may corrupt byte 0, the idle address */
 #define SLOTS 2U
 #define ERASED 0xFFU
 #define ERASE _BV(EEPM0)
@@ -19,7 +19,8 @@ static uint16_t address_of(unsigned slot, unsigned at) {
     return (uint16_t)(FIRST + slot * HAL_SETTINGS_BYTES + at);
 }
 
-/* Wait until the EEPROM is idle. A byte takes less than 20 ms, at any speed of this loop. */
+/* Waits until the EEPROM is idle; returns false if it stays busy. A byte takes less than 20 ms, at any speed of this
+ * loop. */
 static bool rests(void) {
     for (uint16_t i = 0; i < 60000U; i++) {
         if ((EECR & _BV(EEPE)) == 0) {
@@ -43,8 +44,8 @@ static uint8_t load(uint16_t address) {
     return byte;
 }
 
-/* Program one byte. The second store must follow within four clocks of the first. Returns false if the byte read back
- * is wrong. */
+/* Programs one byte. The chip requires the second store within four clocks of the first. Returns false if the byte that
+ * is read back is wrong. */
 static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
     if (!rests()) {
         return false;

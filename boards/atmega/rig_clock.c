@@ -1,5 +1,5 @@
-/* rig_clock.c: the start of the rig's hardware, and the source of its clock (the time itself is in
- * boards/shared/rig_time.c). */
+/* rig_clock.c: the start of the rig's hardware, and the source of its clock. (boards/shared/rig_time.c has the time
+ * itself.) */
 #include "hal/clock.h"
 
 #include "boards/board.h"
@@ -8,7 +8,7 @@
 
 #include "atmega.h"
 
-/* The motor is started first: it is off from here on, even if later parts fail. */
+/* Starts the motor's part first, so that the motor is off even if later parts fail. */
 hal_start hal_clock_start(void) {
     atmega_motor_start();
     (void)hal_reset_cause();
@@ -17,7 +17,7 @@ hal_start hal_clock_start(void) {
     return board_ticks_go_on() ? HAL_STARTED : HAL_START_NO_TIMER;
 }
 
-/* Fuses choose the crystal, and there is no other source: if the crystal stops, the processor has no clock. */
+/* Fuses choose the crystal. If it stops, the processor has no clock at all. */
 hal_clock_source hal_clock_source_now(void) { return HAL_CLOCK_CRYSTAL; }
 
 uint32_t hal_clock_tolerance_ppm(void) { return 100; }

@@ -1,10 +1,10 @@
 /* slots.c: the slot sensors on the input captures of timers 4 and 5, which store the time of an edge in hardware (DS
- * 17.6). Their noise canceller requires four equal samples, 0.25 us. They wait for rising and falling edges
- * alternately. The interrupt only copies the times.
+ * 17.6). Their noise canceller requires four equal samples, 0.25 us. They capture rising and falling edges alternately.
+ * The interrupt only copies the times.
  *
- * The chip does not report a capture that is overwritten before it is read: of several edges of one sensor within the
- * latency of the interrupt, only the last is seen. If a pulse has ended by then, its end is missing. Overruns count
- * edges for which there was no room, and pulses that began too soon after the end of another. */
+ * The chip does not report that a capture was overwritten before it was read. If several edges of one sensor come
+ * within the latency of the interrupt, only the last is seen. If a pulse has ended by then, its end is missing.
+ * Overruns count edges for which there was no room, and pulses that began too soon after the end of another pulse. */
 #include "hal/slots.h"
 
 #include "atmega.h"
@@ -17,7 +17,7 @@ typedef struct kept_edge {
 } kept_edge;
 
 static volatile kept_edge kept[EDGES_KEPT];
-static volatile uint8_t head; /* written by interrupts only */
+static volatile uint8_t head; /* only interrupts change it */
 static volatile uint8_t tail;
 static volatile uint32_t overruns;
 static volatile bool stopped;
@@ -41,7 +41,7 @@ void atmega_slots_start(void) {
     atmega_go_on(before);
 }
 
-/* Stores an edge. When the memory is full, interrupts stay off until an edge is taken. */
+/* Stores an edge. If the memory is full, interrupts stay off until the program takes an edge. */
 static void keep(uint8_t of, uint16_t count) {
     if ((uint8_t)(head - tail) == EDGES_KEPT) {
         overruns++;
@@ -58,28 +58,28 @@ static void keep(uint8_t of, uint16_t count) {
     head++;
 }
 
-/* True if the edge that a sensor's timer waits for came before the timer began to wait. */
+/* True if the edge that a sensor's timer shall capture came before the timer was ready for it. */
 static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control,
                                  const volatile uint8_t *flags) {
     const bool high = (PINL & _BV(sensor)) != 0;
     return high == ((*control & _BV(ICES4)) != 0) && (*flags & _BV(ICF4)) == 0;
 }
 
-/* From now on the timer waits for the other edge (falling instead of rising, or the reverse). The change of edge may
- * set the capture flag (DS 17.6.3), which is then cleared. */
+/* Makes the timer capture the other edge (falling instead of rising, or the reverse). This change may set the capture
+ * flag (DS 17.6.3), so the flag is cleared. */
 static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *flags) {
     *control ^= _BV(ICES4);
     *flags = _BV(ICF4);
 }
 
-/* Returns the edge that a sensor's timer has captured, as bits of kept_edge. Then the timer waits for the other edge,
- * or for the same one again if the other edge has already passed. During a burst more edges may pass: hal_slots_take()
+/* Returns the edge that a sensor's timer has captured, as bits of kept_edge. Then the timer captures the other edge, or
+ * the same one again if the other edge has already passed. During a burst still more edges may pass: hal_slots_take()
  * checks for this. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);
     for (uint8_t looks = 0; looks < 3U && waits_in_vain(sensor, control, flags); looks++) {
-        overruns += (*control & _BV(ICES4)) != 0 ? 1U : 0U; /* a pulse's beginning was lost */
+        overruns += (*control & _BV(ICES4)) != 0 ? 1U : 0U; /* the begin of a pulse was lost */
         wait_for_other(control, flags);
     }
     return (uint8_t)(sensor | (rose ? HAL_SLOT_LEADING : HAL_SLOT_TRAILING) << 1);
@@ -108,7 +108,7 @@ ISR(TIMER4_CAPT_vect) { fetch(true, (TIFR5 & _BV(ICF5)) != 0); }
 
 ISR(TIMER5_CAPT_vect) { fetch((TIFR4 & _BV(ICF4)) != 0, true); }
 
-/* Waits for edges again. After a burst, the next edge of a pin that is low is a rising one. */
+/* Restarts the capture. The next edge of a pin that is low is a rising one. */
 static void go_on_waiting(void) {
     if ((TCCR4B & TCCR5B & _BV(ICES4)) != 0) {
         return;

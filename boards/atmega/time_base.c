@@ -1,5 +1,6 @@
-/* time_base.c: timers 4 and 5 as one free-running count of 2 MHz, extended by its overflows to 32 bits of 1 MHz. Both
- * start at the same instant (DS 18.2: their prescaler is stopped), so that their captures have the same time base. */
+/* time_base.c: timers 4 and 5 as one free-running count of 2 MHz. With the number of overflows it becomes a time of 32
+ * bits at 1 MHz. Both timers start at the same instant (DS 18.2: their prescaler is stopped), so their captures have
+ * the same time base. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -9,7 +10,7 @@ _Static_assert(F_CPU / 8U == ATMEGA_COUNTS_PER_TICK * 1000000U, "the prescaler's
 
 #define TICKS_PER_WRAP (0x10000U / ATMEGA_COUNTS_PER_TICK)
 
-static volatile uint32_t base_ticks; /* time in ticks when the count last wrapped */
+static volatile uint32_t base_ticks; /* time, in ticks, at which the count last wrapped */
 volatile uint8_t atmega_wraps;
 
 ISR(TIMER4_OVF_vect) {
@@ -17,7 +18,7 @@ ISR(TIMER4_OVF_vect) {
     atmega_wraps++;
 }
 
-/* Sets the timers: noise canceller, rising edges, an eighth of the processor's clock, and only the overflow
+/* Sets both timers: noise canceller on, rising edges, an eighth of the processor's clock, only the overflow
  * interrupt. */
 void atmega_time_base_start(void) {
     GTCCR = _BV(TSM) | _BV(PSRSYNC);
@@ -35,7 +36,8 @@ void atmega_time_base_start(void) {
 uint32_t atmega_ticks(void) {
     const uint16_t now = TCNT4;
     uint32_t base = base_ticks;
-    if ((TIFR4 & _BV(TOV4)) != 0 && now < 0x8000U) { /* wrapped, but not counted yet */
+    /* the wrap has happened but is not counted yet */
+    if ((TIFR4 & _BV(TOV4)) != 0 && now < 0x8000U) {
         base += TICKS_PER_WRAP;
     }
     return base + now / ATMEGA_COUNTS_PER_TICK;
@@ -48,13 +50,13 @@ uint32_t board_ticks(void) {
     return ticks;
 }
 
-/* The number of wraps since the instant follows from the lowest bytes of both wrap counts. */
+/* Converts an interrupt's time to ticks. The lowest bytes of both wrap counts give the number of wraps since then. */
 uint32_t atmega_ticks_of(atmega_instant at) {
     const uint8_t before = atmega_hold();
     const uint32_t base = base_ticks;
     const uint8_t wraps = atmega_wraps;
     atmega_go_on(before);
-    const int8_t ago = (int8_t)(wraps - at.wraps); /* -1: this wrap is not counted yet */
+    const int8_t ago = (int8_t)(wraps - at.wraps); /* -1: the last wrap is not counted yet */
     return base - (uint32_t)((int32_t)ago * (int32_t)TICKS_PER_WRAP) +
            at.count / ATMEGA_COUNTS_PER_TICK;
 }

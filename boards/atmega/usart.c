@@ -1,6 +1,5 @@
 /* usart.c: the console on USART 0, 115,200 baud at double speed (117,647: 2.1 % fast; DS 22.11), 8 bits, no parity.
- * Interrupts fill and empty rings in both directions. After a fault, or before other parts have started, the console
- * polls. */
+ * Interrupts use a ring for each direction. After a fault, or before other parts have started, the console polls. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -8,17 +7,17 @@
 #define BAUD 115200UL
 #define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL)
 
-/* Sizes are powers of two that divide 256, so that indices wrap correctly. A control step of 2 ms takes at most 24
- * bytes. */
+/* Sizes of the rings: powers of two that divide 256, so that indices wrap correctly. At most 24 bytes come in a control
+ * step of 2 ms. */
 #define IN_BYTES 64U
 #define OUT_BYTES 64U
 
 static volatile char in[IN_BYTES];
-static volatile uint8_t in_head; /* written by the interrupt only */
+static volatile uint8_t in_head; /* only the interrupt changes it */
 static volatile uint8_t in_tail;
 static volatile char out[OUT_BYTES];
 static volatile uint8_t out_head;
-/* used by the interrupt, and by code that has disabled the interrupt */
+/* Only the interrupt uses it, or code that has disabled the interrupt. */
 static volatile uint8_t out_tail;
 static volatile bool lost;
 
@@ -40,7 +39,7 @@ static void keep(char byte) {
     }
 }
 
-/* An overrun, damaged or dropped byte becomes a zero: a line with a zero is not executed. */
+/* A zero replaces an overrun, a damaged byte or a dropped one: a line with a zero is not executed. */
 ISR(USART0_RX_vect) {
     const uint8_t status = UCSR0A;
     const char byte = (char)UDR0;
@@ -83,8 +82,8 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* The transmitter is ready within a byte's time, 87 us. The wait is bounded, so that a dead device does not hang the
- * program. */
+/* Waits until the transmitter is ready, which takes at most a byte's time, 87 us. The wait is bounded, so that a dead
+ * device does not hang the program. */
 static void send(char byte) {
     for (uint16_t i = 0; i < 10000U && (UCSR0A & _BV(UDRE0)) == 0; i++) {
     }
@@ -96,7 +95,7 @@ void hal_console_write(const char *bytes, unsigned count) {
         atmega_usart_start();
     }
     const uint8_t before = atmega_hold();
-    for (; out_tail != out_head; out_tail++) { /* bytes that were queued before go first */
+    for (; out_tail != out_head; out_tail++) { /* bytes that were queued before go out first */
         send(out[out_tail % OUT_BYTES]);
     }
     for (unsigned i = 0; i < count; i++) {

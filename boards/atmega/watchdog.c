@@ -1,15 +1,15 @@
 /* watchdog.c: the chip's watchdog (DS 12.4), which resets the chip. In a reset the pins float, so the drive is off. The
- * watchdog's oscillator has 128 kHz, within 15 %: a reset never comes before the timeout, and always within 2.4
- * timeouts. */
+ * watchdog's oscillator has 128 kHz with an error of at most 15 %: a reset comes after the timeout, at the latest after
+ * 2.4 timeouts. */
 #include "hal/watchdog.h"
 
 #include "atmega.h"
 #include "boards/avr/stack.h"
 
-#define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks, 16 ms, less 13 % */
-#define LONGEST 9U                     /* doublings: 8 s */
+#define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks, 16 ms, minus 13 % */
+#define LONGEST 9U                     /* maximum number of doublings: 8 s */
 
-/* May be called again with another timeout. */
+/* Another call with another timeout is allowed. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint8_t twice = 0;
     while (twice < LONGEST && SHORTEST_TICKS << twice < timeout_ticks) {
@@ -18,7 +18,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     atmega_watch(twice);
 }
 
-/* Called once per control step. This function also checks the stack, for which the chip has no hardware. */
+/* This function also checks the stack, for which the chip has no hardware. */
 void hal_watchdog_kick(void) {
     if (!avr_stack_is_whole()) {
         atmega_fault(ATMEGA_FAULT_STACK, 0);

@@ -1,4 +1,4 @@
-# atmega2560: Microchip's ATmega2560, as simavr plays it, at 16 MHz.
+# atmega2560: Microchip's ATmega2560, emulated by simavr, at 16 MHz.
 BOARD_MCU      := atmega2560
 BOARD_FLASH    := 256K
 BOARD_RAM      := 8K

@@ -1,4 +1,4 @@
-# atmega328p: Microchip's ATmega328P, as simavr plays it, at 16 MHz.
+# atmega328p: Microchip's ATmega328P, emulated by simavr, at 16 MHz.
 BOARD_MCU      := atmega328p
 BOARD_FLASH    := 32K
 BOARD_RAM      := 2K

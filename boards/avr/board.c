@@ -1,5 +1,5 @@
-/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets): the first USART, and an end
- * that the emulator recognizes. The C library's start-up code has initialized memory. */
+/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets): the first USART, and a
+ * program's end that the emulator recognizes. The C library's start-up code has initialized the memory. */
 #include "boards/board.h"
 
 #include <avr/interrupt.h>
@@ -11,7 +11,7 @@
 const char *const board_name = BOARD_NAME;
 
 #define BAUD 115200UL
-#define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL) /* divisor at double speed */
+#define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL) /* divisor for double speed */
 
 void board_start(void) {
     UBRR0 = BAUD_DIVISOR;
@@ -20,7 +20,8 @@ void board_start(void) {
 }
 
 void hal_console_write(const char *bytes, unsigned count) {
-    if ((UCSR0B & _BV(TXEN0)) == 0) { /* without board_start() the program must not hang silently */
+    /* the program must not hang silently if it omits board_start() */
+    if ((UCSR0B & _BV(TXEN0)) == 0) {
         board_start();
     }
     for (unsigned i = 0; i < count; i++) {
@@ -48,8 +49,8 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
 
 bool board_converse(void) { return true; }
 
-/* The exit code is in the first general purpose register when the processor sleeps with its interrupts off;
- * boards/avr/run/avr_run.c reads it there. On silicon the processor only sleeps. */
+/* Puts the exit code into the first general purpose I/O register and sleeps with interrupts off.
+ * boards/avr/run/avr_run.c reads the code there. On silicon the processor only sleeps. */
 _Noreturn void board_exit(int code) {
     GPIOR0 = (uint8_t)code;
     cli();

@@ -1,5 +1,5 @@
-/* clock.c: the board's clock on AVR's sixteen-bit timer; an interrupt counts the timer's overflows. Programs that do
- * not use this clock do not link this file: they have no interrupt, and their steps always take the same number of
+/* clock.c: the board's clock on the AVR's sixteen-bit timer; an interrupt counts the timer's overflows. Programs
+ * without this clock do not link this file: they have no interrupt, so their steps always take the same number of
  * cycles. */
 #include "boards/board.h"
 
@@ -15,14 +15,14 @@ ISR(TIMER1_OVF_vect) { overflows++; }
 /* The first call starts the timer. */
 uint32_t board_ticks(void) {
     if (TCCR1B == 0) {
-        TCCR1B = _BV(CS11) | _BV(CS10); /* a count every 64 clocks */
+        TCCR1B = _BV(CS11) | _BV(CS10); /* one count every 64 clocks */
         TIMSK1 = _BV(TOIE1);
     }
     const uint8_t before = SREG;
     cli();
     uint16_t low = TCNT1;
     uint16_t high = overflows;
-    if ((TIFR1 & _BV(TOV1)) != 0) { /* wrapped, but not counted yet */
+    if ((TIFR1 & _BV(TOV1)) != 0) { /* the wrap has happened but is not counted yet */
         low = TCNT1;
         high++;
     }

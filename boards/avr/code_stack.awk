@@ -1,11 +1,13 @@
-# code_stack.awk: the worst stack of an AVR's program by its code, since that compiler (gcc 5) writes no call graphs.
+# code_stack.awk: computes the worst stack of an AVR's program from its code, because that compiler (gcc 5) writes no call
+# graphs.
 #
-# Input: lines "pointer CALLER CALLEE..." (pointers.rows), then `avr-objdump -d` of the image. Variables: root, where to begin;
-# address, bytes of a return address. Prints, as stack.awk does, "stack BYTES", "path A > B", and on recursion "recursion NAME", and
-# then fails. As there, a call through a pointer without a row may reach every function that is not called by name.
+# Input: lines "pointer CALLER CALLEE..." (pointers.rows), then `avr-objdump -d` of the image. Variables: root, the first
+# function; address, the bytes of a return address. Like stack.awk, the program prints "stack BYTES" and "path A > B"; on
+# recursion it prints "recursion NAME" and fails. A call through a pointer without a row may reach every function that is not
+# called by name.
 #
-# A function's frame: its pushes, and its subtraction from the frame pointer between reading and writing the stack pointer. Each
-# of its calls counts with the whole frame. A jump at the end of a function replaces the function.
+# A function's frame is its pushes, and its subtraction from the frame pointer between reading and writing the stack pointer.
+# Each call of the function counts with the whole frame. A jump at the end of a function replaces the function.
 function hex(digits,    i, n) {
     n = 0
     for (i = 1; i <= length(digits); i++) { n = 16 * n + index("0123456789abcdef", substr(digits, i, 1)) - 1 }
@@ -13,7 +15,7 @@ function hex(digits,    i, n) {
 }
 function number(text) { return text ~ /^0x/ ? hex(tolower(substr(text, 3))) : text + 0 }
 
-# Bytes from `at` downwards, without the return address; fills next_of[] with the deepest way on.
+# Returns the bytes of stack from `at` downwards, without the return address. next_of[] gets the deepest path.
 function depth(at,    i, deep, best) {
     if (at in known) { return known[at] }
     if (at in busy) { print "recursion " at; failed = 1; return 0 }

@@ -1,12 +1,11 @@
-# family.mk: the emulator of this family's programs, and its gate.
-# AVR programs run on simavr, which counts cycles.
+# family.mk: the emulator of this family's programs (simavr, which counts cycles), and its gate.
 build/avr_run: boards/avr/run/avr_run.c
 	@$(call need,$(CC))
 	@mkdir -p $(@D)
 	$(say) LINK $@
 	$(Q)$(CC) -std=c11 $(WARN) -O2 -o $@ $< -lsimavr -lelf
 
-# --- AVR: the table in flash, and equal bits, in every dialect; from C++, too ------------------------
+# --- AVR: tables in flash, and equal bits, in every dialect of C and C++ ---
 FAMILY_GATES += avr
 .PHONY: gate-avr
 gate-avr: build/whirl $(GEN)/.stamp

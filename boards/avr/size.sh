@@ -1,12 +1,13 @@
 #!/bin/sh
-# size.sh: flash, memory and worst stack of images of an AVR, whose compiler writes no call graphs: from their code.
+# size.sh: flash, RAM and worst stack of images of an AVR. Their compiler writes no call graphs, so the stack comes from
+# their code.
 #
-#   BOARD=atmega2560 CC=avr-gcc FLAGS="-Os" SIZE=avr-size NM=avr-nm OBJDUMP=avr-objdump FLASH_MOST=262144 MEMORY_TOP=0x802200 \
-#   size.sh figures.csv ELF...
+#     BOARD=atmega2560 CC=avr-gcc FLAGS="-Os" SIZE=avr-size NM=avr-nm OBJDUMP=avr-objdump FLASH_MOST=262144 MEMORY_TOP=0x802200 \
+#     size.sh figures.csv ELF...
 #
-# Appends rows to figures.csv and prints a table, as mk/size/size.sh does. `computed` is the deepest path from the start, an interrupt on it
-# (interrupts do not nest) with its return address, three bytes. Fails on recursion, on too much flash, and if the memory between
-# the variables and MEMORY_TOP is too small for the stack.
+# Appends rows to figures.csv and prints a table, as mk/size/size.sh does. `computed` is the deepest path from the start,
+# plus an interrupt on it (interrupts do not nest) with its return address of three bytes. Fails on recursion, on too much
+# flash, and if the RAM between the variables and MEMORY_TOP is too small for the stack.
 set -eu
 here=$(dirname "$0")
 root=$here/../..
@@ -16,7 +17,7 @@ figures_into "$1"
 shift
 status=0
 
-# worst_stack ROOT: answers of code_stack.awk, to $work/stack.
+# worst_stack ROOT: writes the answers of code_stack.awk to $work/stack.
 worst_stack() {
     { sed '/^#/d; s/^/pointer /' "$root/mk/size/pointers.rows" && cat "$work/code"; } |
         awk -v root="$1" -v address=3 -f "$here/code_stack.awk" >"$work/stack" || status=1

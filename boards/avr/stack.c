@@ -1,5 +1,5 @@
-/* stack.c: measures the used part of the stack on an AVR. The stack may use all memory after the variables; no hardware
- * guards it. */
+/* stack.c: measures the used part of the stack on an AVR. The stack may use all memory between the variables and the
+ * end of memory; no hardware guards it. */
 #include "stack.h"
 
 #include <avr/io.h>

@@ -23,7 +23,8 @@ void uart_start(void) {
     REGISTER(UART_CTRL) = UART_CTRL_TX_ENABLE | UART_CTRL_RX_ENABLE;
 }
 
-/* The transmitter is never ready before it is switched on. A program must not hang silently if it omits board_start(). */
+/* A program must not hang silently if it omits board_start(): the transmitter is never ready before it is switched
+ * on. */
 void uart_write(const char *bytes, unsigned count) {
     if ((REGISTER(UART_CTRL) & UART_CTRL_TX_ENABLE) == 0) {
         uart_start();

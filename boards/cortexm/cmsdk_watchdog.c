@@ -1,7 +1,6 @@
 /* cmsdk_watchdog.c: hal/watchdog.h on Arm's CMSDK APB watchdog (Cortex-M System Design Kit Technical Reference Manual,
- * 4.4), as on the MPS2 boards. This watchdog resets the processor. It counts down twice: at the end of the first count
- * it requests an interrupt, which is the NMI on these boards; at the end of the second, after twice the timeout, it
- * resets. */
+ * 4.4), as on the MPS2 boards. This watchdog counts down twice. At the end of the first count it requests an interrupt,
+ * which is the NMI on these boards. At the end of the second, after twice the timeout, it resets the processor. */
 #include "cortexm.h"
 
 #include "hal/clock.h"

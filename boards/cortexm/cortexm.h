@@ -1,4 +1,4 @@
-/* cortexm.h: declarations shared by the parts of the Cortex-M family. Boards of the family are data only:
+/* cortexm.h: declarations shared by the parts of the Cortex-M family. A board of the family is data only:
  * boards/NAME/board_data.h (registers), board.ld (memory) and board.mk (flags and source list). */
 #ifndef BOARDS_CORTEXM_H
 #define BOARDS_CORTEXM_H
@@ -12,28 +12,28 @@
 /* System control space, the same on every Armv7-M core (Armv7-M Architecture Reference Manual,
  * B3.2). Armv6-M lacks the FPU and the fault status registers. */
 #define SCB_VTOR 0xE000ED08U  /* address of the vector table */
-#define SCB_AIRCR 0xE000ED0CU /* asks for a reset */
+#define SCB_AIRCR 0xE000ED0CU /* requests a reset */
 #define SCB_AIRCR_RESET 0x05FA0004U
 #define SCB_SHCSR 0xE000ED24U /* enables the three configurable faults */
 #define SCB_CFSR 0xE000ED28U  /* cause of a configurable fault */
 #define SCB_HFSR 0xE000ED2CU  /* cause of a hard fault */
 #define SCB_MMFAR 0xE000ED34U /* address of a MemManage fault, if CFSR marks it valid */
 #define SCB_BFAR 0xE000ED38U  /* address of a bus fault, if CFSR marks it valid */
-#define MPU_TYPE 0xE000ED90U  /* number of regions, or 0 */
+#define MPU_TYPE 0xE000ED90U  /* number of regions; 0: no memory protection unit */
 #define MPU_CTRL 0xE000ED94U
-#define SCB_CPACR 0xE000ED88U /* coprocessor access: the FPU is 10 and 11 */
+#define SCB_CPACR 0xE000ED88U /* coprocessor access; the FPU is coprocessors 10 and 11 */
 
-/* The console's device, which has one driver file for each chip family. uart_start() may be called again at any time,
- * also from the fault handler before other parts are up. */
+/* Start the console's device. Another call is allowed at any time, also from the fault handler before other parts are
+ * up. */
 void uart_start(void);
 void uart_write(const char *bytes, unsigned count);
 
-/* The device of the free-running clock. */
+/* Start the device of the free-running clock. */
 void timer_start(void);
 
 /* Vectors that a program may handle by a function on_NAME(). A vector without such a function is a fault. X(exception,
- * NAME) lists the core's vectors. BOARD_VECTOR_ROWS of board_data.h lists those of the chip's drivers, X(interrupt,
- * NAME). The four fault vectors are reserved: the motor must be off before any other code runs. */
+ * NAME) lists the core's vectors. In board_data.h, BOARD_VECTOR_ROWS lists the vectors of the chip's drivers:
+ * X(interrupt, NAME). The four fault vectors are reserved: the motor must be off before any other code runs. */
 #define CORTEXM_VECTOR_ROWS(X) \
     X(2, nmi) \
     X(11, svcall) \
@@ -45,18 +45,18 @@ CORTEXM_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 BOARD_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 #undef CORTEXM_DECLARE_VECTOR
 
-/* The vector of every unhandled exception. Never returns. It first makes the stores in the list BOARD_SAFE_ROWS
- * (board_data.h), X(address, value), which cut the power of the board's outputs. */
+/* The handler of every exception without one of its own. Never returns. It first makes the stores in the list
+ * BOARD_SAFE_ROWS (board_data.h), X(address, value), which switch the board's outputs off. */
 void board_fault(void);
 
 typedef struct board_fault_facts {
-    uint32_t exception; /* its number */
-    uint32_t sp;        /* stack pointer; if it was invalid, pc and lr are not known */
+    uint32_t exception; /* number of the exception */
+    uint32_t sp;        /* stack pointer; if it was invalid, pc and lr are unknown */
     uint32_t pc;
     uint32_t lr;
     uint32_t cfsr; /* copy of SCB_CFSR */
     uint32_t hfsr;
-    uint32_t address; /* address without response, if cfsr marks it valid */
+    uint32_t address; /* address that did not respond, if cfsr marks it valid */
     uint32_t stack;   /* a board_stack_state */
 } board_fault_facts;
 
@@ -66,19 +66,19 @@ typedef enum board_stack_state {
     BOARD_STACK_ASTRAY
 } board_stack_state;
 
-/* A fault's facts in words: " HardFault, PC 0x... LR 0x... ... (bus error)". */
+/* Adds a fault's facts in words: " HardFault, PC 0x... LR 0x... ... (bus error)". */
 void board_fault_words(wh_text *text, const board_fault_facts *facts);
 
-/* The end of a fault: demo.c prints and ends the emulator, flashed.c stores a record and resets. */
+/* Ends a program after a fault: demo.c prints and ends the emulator, flashed.c stores a record and resets. */
 _Noreturn void board_fault_ends(const board_fault_facts *facts);
 
-/* Sets up the chip's clocks before the variables are initialized. So board_clock_start() uses no variables, and every
- * wait is bounded. On chips with clocks to set up, its result is in board_clock_is, in memory that the start-up code
- * does not clear. */
+/* Sets up the chip's clocks. It runs before the variables are initialized, so it uses no variables, and every wait is
+ * bounded. On chips with clocks to set up, the result is in board_clock_is, in memory that the start-up code does not
+ * clear. */
 typedef enum board_clock {
-    BOARD_CLOCK_CRYSTAL,  /* the board's crystal */
-    BOARD_CLOCK_FALLBACK, /* the crystal does not oscillate: the chip's own oscillator */
-    BOARD_CLOCK_GIVEN     /* there is no clock to set up: an emulator */
+    BOARD_CLOCK_CRYSTAL,  /* the crystal of the board */
+    BOARD_CLOCK_FALLBACK, /* the chip's own oscillator, because the crystal does not oscillate */
+    BOARD_CLOCK_GIVEN     /* an emulator, which has no clock to set up */
 } board_clock;
 void board_clock_start(void);
 extern board_clock board_clock_is;

@@ -1,33 +1,34 @@
-# cortexm.mk: settings shared by the boards of this family. A board.mk sets these, and then includes this file:
+# cortexm.mk: settings shared by the boards of this family. A board.mk sets these variables, and then includes this file:
 #
-#   BOARD_MACHINE  its name in QEMU
-#   BOARD_CPU      the flags that name the processor
-#   BOARD_MATH     further flags
-#   BOARD_SECONDS  processor seconds that the emulator may take for a program
-#   BOARD_TIMING   the core whose cycles mk/count/thumb_cycles.h estimates, if any
-#   BOARD_WATCHDOG its hal/watchdog.h, if programs may use its hardware (tests/boards/watchdog.c); may be missing
-#   BOARD_SUITES   `none`: the portable suites are too large for it; may be missing
-#   BOARD_WHEN     the target that includes the board: `test`, `check` or `all` (mk/board.mk)
+#     BOARD_MACHINE  the board's name in QEMU
+#     BOARD_CPU      the flags that name the processor
+#     BOARD_MATH     further flags
+#     BOARD_SECONDS  processor seconds that the emulator may take for a program
+#     BOARD_TIMING   the core whose cycles mk/count/thumb_cycles.h estimates, if any
+#     BOARD_WATCHDOG the board's hal/watchdog.h, if programs may use its hardware (tests/boards/watchdog.c); may be missing
+#     BOARD_SUITES   `none`: the portable suites are too large for the board; may be missing
+#     BOARD_WHEN     the target that includes the board: `test`, `check` or `all` (mk/board.mk)
 #
-# This sets
+# This file sets
 #
-#   BOARD_DEPS     the folder of boards/ whose packages.sh names its tools
-#   BOARD_CC       compiler; BOARD_NM, BOARD_SIZE, BOARD_OBJCOPY, BOARD_OBJDUMP its tools
-#   BOARD_CFLAGS   everything for compiling (BOARD_CPU included), warnings excepted
-#   BOARD_LDFLAGS  everything for linking, before the objects
-#   BOARD_LDLIBS   after the objects
-#   BOARD_SOURCES  the board's own code, to be linked with every program
-#   BOARD_LINK     its hal/link.h, for programs with a remote plant (may be missing)
-#   BOARD_TIDY     clang-tidy's flags for these sources
-#   BOARD_EMULATOR the emulator's command
-#   BOARD_RUN_BY   the emulator's path, if it is built from sources here (missing: it is installed)
-#   BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs it within BOARD_SECONDS; console on stdout,
-#                  exit status the program's; more emulator options may be appended
-#   BOARD_SERIAL   $(call BOARD_SERIAL,program.elf) runs it until it is ended, its console a pseudo-terminal that the
-#                  emulator names (may be missing)
+#     BOARD_DEPS     the folder of boards/ whose packages.sh names the family's tools
+#     BOARD_CC       the compiler; BOARD_NM, BOARD_SIZE, BOARD_OBJCOPY, BOARD_OBJDUMP: its tools
+#     BOARD_CFLAGS   all flags for compiling (BOARD_CPU included), except for warnings
+#     BOARD_LDFLAGS  all flags for linking, before the objects
+#     BOARD_LDLIBS   flags after the objects
+#     BOARD_SOURCES  the board's own code, which every program links
+#     BOARD_LINK     the board's hal/link.h, for programs with a remote plant (may be missing)
+#     BOARD_TIDY     clang-tidy's flags for these sources
+#     BOARD_EMULATOR the emulator's command
+#     BOARD_RUN_BY   the emulator's path, if it is built from sources here (missing: it is installed)
+#     BOARD_EMULATE  $(call BOARD_EMULATE,program.elf) runs a program within BOARD_SECONDS, with the console on
+#                    stdout and the program's exit status; more emulator options may be appended
+#     BOARD_SERIAL   $(call BOARD_SERIAL,program.elf) runs a program until it is ended, with the console on a
+#                    pseudo-terminal that the emulator names (may be missing)
 #
-# Another family requires its own inputs and sets the same variables. No rules here: paths are from the repository's root. Rules
-# independent of BOARD, for its tools, its tests' programs and its gate, are in its family.mk.
+# Another family requires its own inputs and sets the same variables. This file has no rules: its paths are relative to the
+# repository's root. A family's family.mk has the rules that do not depend on BOARD: for its tools, its tests' programs and
+# its gate.
 $(call board_needs,BOARD_MACHINE BOARD_CPU BOARD_SECONDS,: it stands before the include of boards/cortexm/cortexm.mk)
 BOARD_DEPS     := cortexm
 BOARD_CROSS    := arm-none-eabi-

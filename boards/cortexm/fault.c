@@ -10,8 +10,8 @@ void board_fault_report(const uint32_t *frame, uint32_t exception);
                      : \
                      : "i"(address), "i"(value));
 
-/* SP points to the stacked frame (this program uses only the main stack). The handler has its own stack, because the
- * old one is unusable after an overflow. */
+/* Passes SP, which points to the stacked frame, to the handler in C (this program uses only the main stack). The
+ * handler has its own stack, because the old one is unusable after an overflow. */
 __attribute__((naked)) void board_fault(void) {
     BOARD_SAFE_ROWS(SAFE_STORE)
     __asm__ volatile("cpsid i\n\t"
@@ -28,8 +28,7 @@ __attribute__((naked)) void board_fault(void) {
 CORTEXM_VECTOR_ROWS(WEAK_VECTOR)
 BOARD_VECTOR_ROWS(WEAK_VECTOR)
 
-/* Bit of CFSR on Armv8-M: the stack pointer would have passed MSPLIM. No frame was then stacked at the stack
- * pointer. */
+/* Bit of CFSR on Armv8-M: the stack pointer would have passed MSPLIM. There is then no frame at the stack pointer. */
 #define STACK_LIMIT_PASSED (1U << 20)
 
 #define CFSR_MEMORY_ADDRESS (1U << 7)
@@ -57,7 +56,7 @@ __attribute__((used)) _Noreturn void board_fault_report(const uint32_t *frame, u
         facts.stack = BOARD_STACK_OVERFLOW;
     } else if (at + 8U * sizeof *frame > (uintptr_t)board_stack_top) {
         facts.stack = BOARD_STACK_ASTRAY;
-    } else { /* r0-r3, r12, lr, pc, xpsr */
+    } else { /* the frame: r0-r3, r12, lr, pc, xpsr */
         facts.lr = frame[5];
         facts.pc = frame[6];
     }

@@ -1,4 +1,4 @@
-/* flashed.c: the end of a program on a real board: the program never ends. A fault is recorded and the processor
+/* flashed.c: the end of a program on a real board, which never ends: after a fault, the processor records it and
  * restarts. A program that cannot continue stops with the motor off. */
 #include "boards/board.h"
 #include "hal/motor.h"

@@ -15,7 +15,6 @@ static uint32_t crc_of_fault(void) {
 
 static bool fault_holds(void) { return fault.crc == crc_of_fault(); }
 
-/* Make the present content of the record valid. */
 static void seal(void) {
     board_kept_settle();
     fault.crc = crc_of_fault();
@@ -33,7 +32,7 @@ void board_kept_fault(const board_fault_facts *facts, uint32_t ticks) {
     seal();
 }
 
-/* Writes only if there is a record to drop: a reset at nearly any instant then finds the memory intact. */
+/* Writes only if there is a record to drop, so that a reset at nearly any instant finds the memory intact. */
 bool board_kept_take_fault(board_fault_record *record) {
     const bool held = fault_holds();
     const bool there = held && fault.facts.exception != 0;
@@ -41,7 +40,7 @@ bool board_kept_take_fault(board_fault_record *record) {
         *record = fault;
     }
     if (!held) {
-        fault.faults = 0; /* the number of faults restarts only without an earlier record */
+        fault.faults = 0; /* without a valid record, the count of faults restarts */
     }
     if (there || !held) {
         fault.facts.exception = 0;

@@ -10,10 +10,11 @@ typedef void (*vector)(void);
 #define CORE_ROW(number, name) [(number)] = on_##name,
 #define CHIP_ROW(number, name) [16 + (number)] = on_##name,
 
-/* The table below first fills a range with the fault handler; later rows deliberately override it. */
+/* In the table below, the first row fills a range with the fault handler, and later rows override parts of it. */
 #pragma GCC diagnostic ignored "-Woverride-init"
 
-/* Sixteen system vectors, then the chip's interrupts. The fault handler serves all vectors without a row of their own. */
+/* Sixteen system vectors, then the chip's interrupts. The fault handler serves all vectors without a row of their
+ * own. */
 __attribute__((section(".vectors"), used)) static const vector vectors[16 + BOARD_INTERRUPTS] = {
     [2 ... 16 + BOARD_INTERRUPTS - 1] = board_fault,
     [0] = (vector)(uintptr_t)board_stack_top,
@@ -27,11 +28,11 @@ static void enable_fpu(void) {
 #endif
 }
 
-/* Use the table above: a loader in ROM may have set its own. */
+/* Makes the processor use the table above: a loader in ROM may have set its own table. */
 static void take_vectors(void) {
 #if __ARM_ARCH >= 7
     REGISTER(SCB_VTOR) = (uint32_t)(uintptr_t)vectors;
-    REGISTER(SCB_SHCSR) |= 7U << 16; /* separate vectors for usage, bus and memory faults */
+    REGISTER(SCB_SHCSR) |= 7U << 16; /* gives usage, bus and memory faults separate vectors */
     __asm__ volatile("dsb" ::: "memory");
 #endif
 }

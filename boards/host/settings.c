@@ -1,5 +1,5 @@
-/* settings.c: hal/settings.h in a file: RIG_SETTINGS names it (default build/rig.settings). Written data are on the
- * disk when the call returns. */
+/* settings.c: hal/settings.h in a file, named by RIG_SETTINGS (default build/rig.settings). When a call returns, its
+ * data are on the disk. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "hal/settings.h"

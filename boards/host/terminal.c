@@ -1,5 +1,5 @@
-/* terminal.c: a pseudo-terminal instead of a board's serial line: any terminal program opens its other end.
- * RIG_TTY names a link to it (default build/rig.tty), which is removed when the program ends, also by Ctrl-C. */
+/* terminal.c: a pseudo-terminal instead of a board's serial line: any terminal program opens its other end. RIG_TTY
+ * names a link to it (default build/rig.tty), which is removed when the program ends, also after Ctrl-C. */
 #define _XOPEN_SOURCE 700
 
 #include <errno.h>
@@ -16,12 +16,12 @@
 #include "boards/board.h"
 
 static int line = -1;
-/* kept open, so that the line exists with or without a program at the other end */
+/* kept open, so that the line also exists while no program is at the other end */
 static int other_end = -1;
 static const char *link_name;
 static char own_terminal[64];
 
-/* Called by exit() and by signal handlers, so it uses only functions allowed there. A link that leads to another
+/* exit() and signal handlers call this, so it uses only functions that are allowed there. A link that leads to another
  * terminal belongs to a newer program and stays. */
 static void remove_link(void) {
     if (link_name != NULL) {

@@ -1,6 +1,5 @@
-# mps2-an385-m0: code for a Cortex-M0 on the emulated Cortex-M3 of application note 385, which runs all of its
-# instructions. A real Cortex-M0 has no memory protection unit and faults on words that are not aligned; this one has,
-# and does not.
+# mps2-an385-m0: code for a Cortex-M0 on the emulated Cortex-M3 of application note 385, which runs all of its instructions.
+# Unlike this Cortex-M3, a real Cortex-M0 has no memory protection unit, and faults on words that are not aligned.
 BOARD_MACHINE  := mps2-an385
 BOARD_CPU      := -mcpu=cortex-m0 -mthumb
 BOARD_MATH     :=

@@ -1,4 +1,4 @@
-# mps2-an385: Arm MPS2 with application note 385, Cortex-M3 without FPU: all scenes take QEMU minutes.
+# mps2-an385: Arm MPS2 with application note 385, Cortex-M3 without FPU: QEMU needs minutes for all scenes.
 BOARD_MACHINE  := mps2-an385
 BOARD_CPU      := -mcpu=cortex-m3 -mthumb
 BOARD_MATH     :=

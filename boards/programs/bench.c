@@ -1,6 +1,7 @@
-/* bench.c: the program whose instructions are counted: single steps of every generated scene.
+/* bench.c: counts the instructions of single steps of every generated scene.
  *
- * The same source runs on every board under the counting plugin and on the PC under callgrind (count_rows.sh). It only prints the intervals' meanings on the console:
+ * The same source runs on every board under the counting plugin and on the PC under callgrind (count_rows.sh). The
+ * program itself only prints the meaning of the counted intervals on the console:
  *
  *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST have one step each, or, if METHOD ends in "-ahead",
  *                                            STEPS_A_CALL steps
@@ -10,7 +11,7 @@
  *
  * With BENCH_SMALL=1 it omits the language's functions and the processor's own count, for small memories.
  *
- * Interval 0 is empty. On a board an interval holds the call too (loading the arguments and the branch); callgrind
+ * Interval 0 is empty. On a board an interval includes the call (loading the arguments and the branch); callgrind
  * counts the called function alone. */
 #include "boards/programs/counted.h"
 #include "boards/programs/step_cycles.h"
@@ -24,7 +25,7 @@
 #ifndef BENCH_SMALL
 #define BENCH_SMALL 0
 #endif
-#define STEPS_A_CALL 100U /* the divisor in mk/count/figures.awk */
+#define STEPS_A_CALL 100U /* mk/count/figures.awk divides by the same number */
 #define COUNTED_PAIRS 64U
 
 static unsigned intervals;
@@ -86,7 +87,7 @@ static const struct {
     const char *name;
     wh_real (*one)(wh_real x);
     wh_real (*two)(wh_real x, wh_real y);
-    wh_real scale;  /* factor of arguments from -1 to 1 */
+    wh_real scale;  /* multiplies an argument from -1 to 1 */
     wh_real offset; /* added to the scaled argument */
 } functions[] = {
     {"wh_exp", wh_exp, NULL, WH_R(20.0), WH_R(0.0)},
@@ -143,7 +144,7 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
-/* Counts the steps of a scene that does many in one call (ahead.h). */
+/* Counts the steps of a scene that does many steps in one call (ahead.h). */
 static wh_status count_ahead(const wh_scene *scene, wh_state *state) {
     const unsigned first = intervals;
     wh_status status = WH_OK;

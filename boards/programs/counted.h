@@ -1,5 +1,5 @@
 /* counted.h: for programs whose instructions are counted: the functions that begin and end a counted interval, memory
- * for any scene, and lines of words on the console. For one file of a program. */
+ * for any scene, and lines of text on the console. Only one file of a program may include it. */
 #ifndef BOARDS_PROGRAMS_COUNTED_H
 #define BOARDS_PROGRAMS_COUNTED_H
 
@@ -12,12 +12,11 @@ static uint64_t memory[WH_SCENE_WORDS];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* These functions only return: the plugin counts between their addresses. The operands differ so that the compiler does
- * not merge them. */
+/* These functions only return: the plugin counts the instructions from one to the other. The operands differ so that
+ * the compiler does not merge the functions. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
-/* A line "WORD NAME ...". */
 static char line_bytes[160];
 static wh_text line;
 
@@ -43,7 +42,7 @@ static void line_end(void) {
     hal_console_write(line.bytes, line.length);
 }
 
-/* Prints that the intervals `first` to `last` belong to this method; `more` is appended to the method's name. */
+/* Prints that the intervals `first` to `last` belong to this method. `more` is appended to the method's name. */
 static inline void say_counted(const char *name, const char *method, const char *more,
                                unsigned first, unsigned last) {
     line_begin("count", name);

@@ -1,9 +1,9 @@
-/* firstlight.c: first light of a board. It runs five scenes to their end, then two seconds of the rig's control loop at
- * rest and the console's self-test. It prints all results as one record on the console (core/light_fields.h,
+/* firstlight.c: first light of a board. The image runs five scenes to their end, then two seconds of the rig's control
+ * loop at rest and the console's self-test. It prints all results as one record on the console (core/light_fields.h,
  * docs/firstlight.md).
  *
  * The motor is never enabled: the image has no call of hal_motor_start() (checked by boards/check_image.sh). On real
- * hardware it prints the record again for each typed line; in an emulator it ends. */
+ * hardware the image prints the record again for each typed line; in an emulator it ends. */
 #include "core/light_fields.h"
 
 #include "boards/board.h"
@@ -12,7 +12,7 @@
 #include "core/text.h"
 #include "core/version.h"
 
-/* 1: the board has the rig's hardware. 0: the fields of the rig are `none`. */
+/* 1: the board has the rig's hardware. 0: it has not, and the fields of the rig are `none`. */
 #ifndef LIGHT_HARDWARE
 #define LIGHT_HARDWARE 0
 #endif
@@ -38,12 +38,11 @@ _Static_assert(SCENES == 5U, "five scenes");
 #define MEMORY_OF(scene) uint64_t scene[scene##_MEMORY_WORDS];
 static union { WH_LIGHT_SCENES(MEMORY_OF) } scene_memory;
 
-/* Results of a scene's run. */
 typedef struct run {
     uint64_t hash;
     uint64_t steps;
     wh_status status;
-    uint32_t least, median, most; /* cycles */
+    uint32_t least, median, most; /* cycles of a step */
 } run;
 static run runs[SCENES];
 static bool counts_cycles;
@@ -63,8 +62,6 @@ static void run_scene(const wh_scene *scene, run *to) {
     to->median = step_cycles_median(&cycles);
     to->most = cycles.most;
 }
-
-/* --- the record ------------------------------------------------------------------------------------------------- */
 
 static char line_bytes[200];
 static wh_text line;
@@ -86,7 +83,7 @@ static void line_hex(uint64_t number, unsigned digits) {
     line_word("0x");
     wh_text_add_hex(&line, number, digits);
 }
-/* Ends a line. The CRC has a line feed for it; the terminal gets a carriage return before the line feed. */
+/* Ends a line. The CRC gets only a line feed; the terminal gets a carriage return, too. */
 static void line_end(void) {
     wh_text_add_char(&line, '\n');
     crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);
@@ -153,10 +150,8 @@ static void say_stack(void) {
     line_end();
 }
 
-/* --- the rig at rest ---------------------------------------------------------------------------------------------- */
-
 #if LIGHT_HARDWARE
-#define PERIODS 1000U /* two seconds: a rotor is known to rest after 1.5 */
+#define PERIODS 1000U /* two seconds: a rotor without pulses for 1.5 s is at rest */
 
 typedef struct range {
     int32_t least;
@@ -169,7 +164,7 @@ static void range_take(range *r, int32_t value) {
 }
 
 static struct {
-    const char *why_not; /* the reason why the rig's hardware did not start; NULL: it started */
+    const char *why_not; /* reason why the rig's hardware did not start; NULL: it started */
     range period_ticks;
     range period_cycles;
     unsigned samples;
@@ -254,7 +249,7 @@ static void say_load(void) {
     }
     line_end();
     line_begin("supply");
-    if (rest.samples > 0) { /* the hardware has one converter for load and supply, so it works */
+    if (rest.samples > 0) { /* the supply has the same converter as the load, so it works */
         wh_text_add_char(&line, ' ');
         wh_text_add_fixed(&line, seen.inputs.supply_V, 2);
         line_word("V");
@@ -295,7 +290,7 @@ static void say_rest(void) {
     }
 }
 
-/* True if a received byte ends a line. Noise on an open line seldom does. */
+/* True if a received byte ends a line. Noise on an open line seldom contains such a byte. */
 static bool line_end_typed(void) {
     char typed[16];
     bool ended = false;
@@ -319,7 +314,7 @@ static void say_rest(void) {
 
 static void say_record(void) {
     line_begin("");
-    line_end(); /* ends noise before the record */
+    line_end(); /* ends a line of noise before the record */
     crc = 0;
     line_begin(WH_LIGHT_BEGIN);
     line_end();
@@ -344,7 +339,7 @@ int main(void) {
     watch_rest();
     for (;;) {
         say_record();
-        (void)line_end_typed(); /* drops bytes that came while the record was printed */
+        (void)line_end_typed(); /* drops the bytes that came during the record */
         do {
             hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);
         } while (!line_end_typed());

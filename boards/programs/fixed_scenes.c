@@ -1,4 +1,4 @@
-/* fixed_scenes.c: scenes.c of scenes in fixed point (`whirl derive --as c --number fixed`). */
+/* fixed_scenes.c: the same program as scenes.c, for scenes in fixed point (`whirl derive --as c --number fixed`). */
 #define SCENES_FIXED 1
 #include "boards/programs/to_the_end.h"
 

@@ -1,5 +1,5 @@
-/* obey.h: passes the controller's commands to the motor, and reads the stop input. Included by the rig's programs and
- * by tests of them. */
+/* obey.h: passes the controller's commands to the motor, and reads the stop input. For the rig's programs and their
+ * tests. */
 #ifndef PROGRAMS_OBEY_H
 #define PROGRAMS_OBEY_H
 
@@ -9,12 +9,12 @@
 #include "hal/motor.h"
 #include "hal/stop.h"
 
-/* 0: a program that never drives the motor; it has no call of hal_motor_start(). */
+/* 0 marks a program that never drives the motor: it has no call of hal_motor_start(). */
 #ifndef RIG_DRIVES
 #define RIG_DRIVES 1
 #endif
 
-/* True if stop is pressed, or was pressed for less than a control step and has cut the drive by itself. */
+/* True if stop is pressed, or if a press shorter than a control step has cut the drive. */
 static inline bool stop_was_pressed(bool watchdog_has_cut) {
     return hal_stop_pressed() || (!watchdog_has_cut && (hal_motor_status() & HAL_MOTOR_CUT) != 0);
 }
@@ -24,14 +24,15 @@ _Static_assert((int)HAL_STOP_EITHER == (int)WH_STOP_BY_EITHER &&
                    (int)HAL_STOP_DRIVE == (int)WH_STOP_BY_DRIVE,
                "one list of who asks for stop");
 
-/* The source of the stop, if stop_was_pressed(). After a short press the source is unknown: only the cut shows it. */
+/* Returns the source of the stop, if stop_was_pressed(). After a short press the source is unknown: only the cut shows
+ * it. */
 static inline wh_stop_by stop_was_by(void) {
     return hal_stop_pressed() ? (wh_stop_by)hal_stop_source_now() : WH_STOP_BY_EITHER;
 }
 
-/* *drives tells whether the last command drove the motor; it is false at first. The motor is started only at the first
- * of successive driving commands. After an interrupt has switched it off, or stop has prevented a start, the motor
- * restarts only after a command that does not drive. */
+/* Passes a command to the motor. *drives shows whether the last command drove the motor; it is false at first. Only the
+ * first of successive driving commands starts the motor. If an interrupt has switched the motor off, or stop has
+ * prevented a start, the motor restarts only after a command that does not drive. */
 static inline void obey(const wh_rig_command *command, bool *drives) {
     if (command->way != WH_MOTOR_DRIVES) {
         hal_motor_off(command->way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
@@ -41,7 +42,7 @@ static inline void obey(const wh_rig_command *command, bool *drives) {
 #if RIG_DRIVES
     if (!*drives) {
         *drives = true;
-        (void)hal_motor_start(); /* if the start fails, the next step's inputs have the reason */
+        (void)hal_motor_start(); /* if the start fails, the inputs of the next step show why */
     }
     hal_motor_set_voltage(command->volts);
 #else

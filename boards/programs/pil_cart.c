@@ -1,8 +1,8 @@
 /* pil_cart.c: a controller that holds a rod upright on a cart (docs/plants/cart.whirl), for `whirl pil`. It reads two
- * encoders every millisecond and a light barrier in the middle of the rail, and drives a motor. State feedback puts the
- * poles of the linear system at -6, -6, -2 and -2 per second, by hand (docs/pil.md). The force is a sum of angle,
- * position and their rates, which are smoothed differences of counts. Exit status 0: the rod is upright in the middle
- * after ten seconds; 1: it is not; 2: no plant. */
+ * encoders every millisecond and a light barrier in the middle of the rail, and drives a motor. The force is a sum of
+ * angle, position and their rates, which are smoothed differences of counts. Its gains, computed by hand, put the poles
+ * of the linear system at -6, -6, -2 and -2 per second (docs/pil.md). Exit status 0: after ten seconds the rod is
+ * upright in the middle; 1: it is not; 2: no plant. */
 #include "boards/board.h"
 #include "core/text.h"
 #include "hal/frames/turns.h"
@@ -17,10 +17,10 @@
 #define M_PER_COUNT 1e-5f
 #define PUSH_MAX_N 20.0f
 #define BARRIER_M 0.005f
-#define UPRIGHT_RAD 0.02f /* upright: below this angle */
+#define UPRIGHT_RAD 0.02f /* the rod counts as upright below this angle */
 #define MIDDLE_M 0.03f
 
-/* Gains of the force, in N/rad, N*s/rad, N/m, N*s/m. */
+/* Gains of the force, in N/rad, N s/rad, N/m, N s/m. */
 #define GAIN_ANGLE 20.725f
 #define GAIN_ANGLE_RATE 3.281f
 #define GAIN_PLACE 2.2026f

@@ -1,5 +1,5 @@
 /* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`.
- * The other side cannot detect the end of the program, so it gets a message. */
+ * The program at the other end cannot detect the end of this one, so it gets a message. */
 #include "boards/board.h"
 #include "hal/frames/rig_frames.h"
 #include "hal/link.h"
@@ -7,7 +7,7 @@
 static _Noreturn void tell_and_exit(int status) {
     uint8_t heard;
     hal_frames_end(status);
-    (void)hal_link_read(&heard, 1); /* the other side has read the message */
+    (void)hal_link_read(&heard, 1); /* a byte shows that the other side has read the message */
     board_exit(status);
 }
 

@@ -1,5 +1,5 @@
-/* pil_rig.c: the rig's firmware (rig.c) on simulated hardware: `whirl pil` (docs/pil.md). The control software is that
- * of the image for real boards; only the HAL differs. */
+/* pil_rig.c: the rig's firmware (rig.c) on simulated hardware: `whirl pil` (docs/pil.md). Only the HAL differs from the
+ * image for real boards. */
 #define HAL_VIRTUAL 0
 #define HAL_FRAMES 1
 #include "rig.c" // NOLINT(bugprone-suspicious-include): the same program

@@ -1,9 +1,10 @@
-/* rig.c: the firmware of the eccentric-mass rig, the same on every board. The controller of core/rig/rig.h on the
- * hardware of hal/. Without a console it gives the orders of one test run itself: `arm` as soon as the rotor rests,
- * `start` at 330 rpm; then it reports. After a reset other than power-on, and after a stop, it gives no orders. Exit
- * status 0: done. 1: the guard tripped, stop was pressed, the processor was reset, or an order or the result was
- * refused; the report gives the reason. 2: not started, because the hardware does not answer or the arithmetic is not
- * IEEE 754's. */
+/* rig.c: the firmware of the eccentric-mass rig, the same on every board: the controller of core/rig/rig.h on the
+ * hardware of hal/. Without a console the program itself gives the orders of one test run: `arm` as soon as the rotor
+ * rests, `start` at 330 rpm; then it reports. After a reset other than power-on, and after a stop, it gives no orders.
+ *
+ * Exit status 0: done. 1: the guard tripped, stop was pressed, the processor was reset, or an order or the result was
+ * refused; the report gives the reason. 2: not started, because the hardware does not answer or the arithmetic differs
+ * from IEEE 754. */
 #include "core/rig/rig.h"
 
 #include <stddef.h>
@@ -21,17 +22,17 @@
 #include "rig_control.h"
 #include "rig_report.h"
 
-/* 1: the rig is on a carriage, with an operator's dials (pil_carriage.c). */
+/* 1 if the rig is on a carriage, with an operator's dials (pil_carriage.c). */
 #ifndef RIG_CARRIAGE
 #define RIG_CARRIAGE 0
 #endif
-/* 1: the set-point and the compensated part of gravity are set by dials (pil_dialled.c). */
+/* 1 if dials set the set-point and the compensated part of gravity (pil_dialled.c). */
 #ifndef RIG_DIALLED
 #define RIG_DIALLED 0
 #endif
 #if RIG_CARRIAGE
 static wh_carriage carriage;
-static float displacement_m; /* of the carriage, from the measurement */
+static float displacement_m; /* measured amplitude of the carriage */
 #endif
 
 /* The set-point of the run. */
@@ -39,20 +40,20 @@ static float displacement_m; /* of the carriage, from the measurement */
 #define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
 #endif
 
-/* 1: the run ends in a free swing, which gives the sensors' positions. */
+/* 1 if the run ends in a free swing, which gives the sensors' positions. */
 #ifndef RIG_SWINGS
 #define RIG_SWINGS 0
 #endif
 
-/* Number of off commands to the motor before the program ends. */
+/* Number of times that the motor gets the off command before the program ends. */
 #define LAST_ORDERS 10U
 
-/* Limit of the wait for rest before `arm`: the rotor may have been turning before the reset. */
+/* Longest wait for rest before `arm`: the rotor may have been turning before the reset. */
 #define PATIENCE_TICKS (120U * HAL_TICKS_PER_S)
 
 static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
 
-/* Sends notes to the plant, for the evaluation of a run in the loop (docs/pil.md). */
+/* Sends notes to the plant's side, which evaluates the run by them (docs/pil.md). */
 static void tell(void) {
 #if HAL_FRAMES
     const wh_measured *force = &rig.result.force;
@@ -91,10 +92,10 @@ static void put_state(uint32_t started_ticks) {
 }
 
 #if RIG_CARRIAGE || RIG_DIALLED
-/* Limit of the wait for the dials' readings: one may be late or lost. */
+/* Longest wait for the dials' readings, of which one may be late or lost. */
 #define DIALS_MOST_TICKS (20U * HAL_DIAL_TICKS)
 
-/* Waits for the dials. Returns false if they have no readings. */
+/* Waits for the dials. Returns false if their readings do not come. */
 static bool wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
     for (uint32_t waited = 0;
@@ -124,7 +125,7 @@ static bool take_dials(wh_rig_config *config) {
 #elif RIG_DIALLED
 static bool take_dials(wh_rig_config *config) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
-        return true; /* no orders will be given, and a trip must be reported at once */
+        return true; /* no orders will follow, and a trip must be reported at once */
     }
     if (!wait_for_dials()) {
         return false;
@@ -157,8 +158,8 @@ static void put_plant_hash(void) {
 }
 #endif
 
-/* The program acts as the operator: `arm` once the rotor rests, then `start`. It gives no orders to a rig that was reset
- * or stopped: a person must check the rig first. */
+/* The program acts as the operator: `arm` when the rotor rests, then `start`. If the rig was reset or stopped, it gives
+ * no orders: a person must check the rig first. */
 typedef enum operator_step {
     WAITS_FOR_REST,
     HAS_ARMED,
@@ -168,7 +169,7 @@ typedef enum operator_step {
     STOP_SILENT /* the stop input has no reading */
 } operator_step;
 
-/* The stop input may get its first reading late. The reading counts if it comes before the rig is armed. */
+/* Evaluates the stop input. Its first reading may be late: it must come before the program arms. */
 static void look_at_stop(operator_step *at, bool rests) {
     if (!hal_stop_pressed()) {
         return;
@@ -180,7 +181,7 @@ static void look_at_stop(operator_step *at, bool rests) {
     }
 }
 
-/* One step of the operator. Returns true when the operator waits for nothing more. */
+/* Does one step of the operator. Returns true if the operator waits for nothing more. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
     const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
     look_at_stop(at, rests);
@@ -197,7 +198,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     case HAS_ARMED:
         *at = HAS_STARTED;
         (void)wh_rig_post(&rig, WH_EVENT_START, target_radps);
-        return rig.state != WH_RIG_ARMED; /* refused: the operator waits no longer */
+        return rig.state != WH_RIG_ARMED; /* `arm` was refused: the operator does not wait */
     case HAS_STARTED: break;
     case WAS_RESET:
     case WAS_STOPPED:
@@ -206,7 +207,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     return (rig.state == WH_RIG_IDLE && !wh_swing_works(&rig.swing)) || rig.answer != WH_ALLOWED;
 }
 
-/* The control loop, until the run is over. Returns the operator's last step. */
+/* Runs the control loop until the run is over. Returns the operator's last step. */
 static operator_step run(const wh_rig_config *config) {
     const uint32_t started = hal_clock_ticks();
     uint32_t due = started;
@@ -232,7 +233,7 @@ static operator_step run(const wh_rig_config *config) {
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
-    /* Repeats the off command, because the line to the motor may lose orders. A controller that is late does not wait
+    /* The off command is repeated, because the line to the motor may lose orders. A late controller does not wait
      * between them. */
     for (unsigned i = 0; i < LAST_ORDERS; i++) {
         hal_motor_off(HAL_MOTOR_COAST);
@@ -241,7 +242,7 @@ static operator_step run(const wh_rig_config *config) {
     return operator_at;
 }
 
-/* Reports why nothing was started. */
+/* Reports why the program did not start. */
 static void refuse(const char *why) {
     put("NOT STARTED: ");
     put(why);
@@ -263,7 +264,6 @@ static void put_supply(float supply_V) {
     hal_console_write(text.bytes, text.length);
 }
 
-/* Prints how the run ended. */
 static void put_end(operator_step ended) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         put(hal_reset_cause() == HAL_RESET_WATCHDOG ? "RESET by the watchdog" : "RESET");

@@ -1,5 +1,5 @@
-/* rig_control.h: the rig's controller on the hal_ functions: the control step of every program of the rig. Included
- * once by each such program. */
+/* rig_control.h: the rig's controller on the hal_ functions: the control step of every program of the rig. Each such
+ * program includes it once. */
 #ifndef PROGRAMS_RIG_CONTROL_H
 #define PROGRAMS_RIG_CONTROL_H
 
@@ -20,7 +20,8 @@
 #include "rig_own.h"
 #include "trip_memory.h"
 
-/* 1: the model simulates the rig's hardware (hal/virtual). 0: another HAL, of a real board or of frames. */
+/* 1: the model simulates the rig's hardware (hal/virtual). 0: the program has another HAL, of a real board or of
+ * frames. */
 #ifndef HAL_VIRTUAL
 #define HAL_VIRTUAL 1
 #endif
@@ -41,10 +42,10 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
                    (int)HAL_LOAD_REPEATED == (int)WH_LOAD_REPEATED,
                "one list of a sample's states");
 
-#define CONTROL_TICKS 2000U /* 500 Hz, as wh_rig_standard.step_s */
+#define CONTROL_TICKS 2000U /* 500 Hz, the same as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-/* Most samples in a step, and in a step with a pulse; further ones wait for the next step. A small chip's build may set
- * less. */
+/* Maximum number of samples in a step, and in a step with a pulse; more samples wait for the next step. A small chip's
+ * build may set smaller numbers. */
 #ifndef RIG_SAMPLES_MOST
 #define RIG_SAMPLES_MOST 2U
 #endif
@@ -54,19 +55,19 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 _Static_assert(RIG_SAMPLES_MOST <= WH_STEP_SAMPLES, "all are seen");
 
-/* Static, not on the stack: it contains the samples of a turn. */
+/* Static and not on the stack, because it contains the samples of a turn. */
 static wh_rig rig;
 static trip_memory memory;
 static wh_step_inputs seen; /* the inputs of the last control step */
-static bool drives;         /* obey.h */
+static bool drives;         /* true if the last command drove the motor (obey.h) */
 
 /* Reads new edges and samples into `seen`, as many as one step may process. */
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* At most one pulse per step, and before it the end of one: a storm of edges must not delay the step. The other
-     * edges wait, with valid time stamps. If a sample had to wait because of a pulse, the next step reads the sample
-     * first. */
+    /* A step takes at most one pulse, and before it the end of one, because a storm of edges must not delay the step.
+     * The other edges wait, with valid time stamps. If a sample had to wait because of a pulse, the next step reads the
+     * sample first. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;
@@ -96,7 +97,7 @@ static void look(void) {
     seen.inputs.stop_by = stop_was_by();
 }
 
-/* A separate function, so that its stack is free again when the console runs. */
+/* Does a control step. It is a separate function, so that its stack is free again when the console runs. */
 WH_CALLED static void control(const wh_rig_config *config) {
     look();
 #if HAL_FRAMES
@@ -116,7 +117,7 @@ WH_CALLED static void control(const wh_rig_config *config) {
     obey(&command, &drives);
     trip_memory_keep(&memory, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
-    /* kicked also when tripped: a watchdog that resets would restart everything */
+    /* Also kicked after a trip: a watchdog that resets would restart everything. */
     hal_watchdog_kick();
 }
 
@@ -130,16 +131,16 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Start the hardware, and check that the arithmetic is IEEE 754's. The check is compiled with the model's file, which
- * has the compiler flags of the whole image. Returns the reason for a failure, for wh_text_add(), with the motor off;
- * or NULL. */
+/* Starts the hardware, and checks that the arithmetic is that of IEEE 754. The check is compiled with the model's file,
+ * which has the compiler flags of the whole image. Returns NULL; or the reason for a failure, for wh_text_add(), and
+ * then the motor is off. */
 static const char *why_not_started(void) {
     if (hal_clock_start() != HAL_STARTED) {
         return why_no_hardware();
     }
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        /* a literal, so that the other texts of wh_status are not linked */
+        /* A text of its own, because wh_status_text() would link all texts. */
         return "compiled or set up for other arithmetic than IEEE 754";
     }
     return NULL;

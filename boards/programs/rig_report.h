@@ -17,7 +17,7 @@ static inline void put(const char *words) {
     hal_console_write(text.bytes, text.length);
 }
 
-/* A line "name value unit", the value with its decimals. */
+/* Prints a line "name value unit", the value with `decimals` decimals. */
 static inline void put_value(const char *name, float value, unsigned decimals, const char *unit) {
     char bytes[96];
     wh_text text;
@@ -36,7 +36,7 @@ static inline void put_value(const char *name, float value, unsigned decimals, c
     hal_console_write(text.bytes, text.length);
 }
 
-/* A line of a force: newtons, and pounds-force in brackets. */
+/* Prints a line with a force in newtons and, in brackets, in pounds-force. */
 static inline void put_force(const char *name, float force_N) {
     char bytes[96];
     wh_text text;
@@ -47,7 +47,7 @@ static inline void put_force(const char *name, float force_N) {
     put_value(name, force_N, 2, text.bytes);
 }
 
-/* A line of a value with its interval. */
+/* Prints a line with the half-width of the interval of the value above. */
 static inline void put_interval(const char *name, float half, unsigned decimals, const char *unit) {
     char bytes[32];
     wh_text text;
@@ -68,7 +68,7 @@ static inline void put_verdict(const wh_measured *force) {
     }
 }
 
-/* Prints the turns if the speed did not settle or stay. */
+/* Prints the mean and the range of the speeds of the last turns. */
 static inline void put_turns(const wh_run *run) {
     if (run->turns < WH_RUN_TURNS) {
         return;
@@ -83,7 +83,7 @@ static inline void put_turns(const wh_run *run) {
     put_value("  between the slowest and fastest", (most - least) * RPM_PER_RADPS, 2, "rpm");
 }
 
-/* A run's measurement, with the formula's value at a nominal speed. */
+/* Prints a run's measurement, and the formula's force at a nominal speed. */
 static inline void put_result(const wh_rig_config *config, const wh_rig_result *result,
                               float nominal_radps) {
     const float formula_N = config->measure.rotor.unbalance_kgm * nominal_radps * nominal_radps;
@@ -124,7 +124,7 @@ static inline void put_place(const char *name, const wh_swung *swung, unsigned s
     put_interval("  known to within", swung->half_rad[sensor] * WH_RIG_DEG_PER_RAD, 2, "deg");
 }
 
-/* Prints the sensors' positions found from the free swing, if the run ended in one. */
+/* If the run ended in a free swing, prints the sensors' positions found from it. */
 static inline void put_swung(const wh_swung *swung) {
     if (swung->why == WH_SWING_NONE) {
         return;
@@ -138,7 +138,7 @@ static inline void put_swung(const wh_swung *swung) {
     }
 }
 
-/* Prints the carriage's values, with the formula's value for a fixed mount. */
+/* Prints the carriage's values, and the formula's force on a fixed mount. */
 static inline void put_carriage(const wh_rig_config *config, const wh_carriage *carriage,
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;

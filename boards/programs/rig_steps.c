@@ -1,7 +1,7 @@
 /* rig_steps.c: the cost of each control step of the rig's run, without the hardware's part.
  *
- * The firmware's loop (rig.c) on the virtual rig, for several runs. Each step reads its pulses and samples first; then
- * the controller, which processes them, is counted. Interval 0 is empty. Prints on the console
+ * It is the firmware's loop (rig.c) on the virtual rig, for several runs. Each step first reads its pulses and samples.
+ * Only the controller's work on them is counted. Interval 0 is empty. Prints on the console:
  *
  *     run NAME FIRST LAST TURNS QUALITY    a run's intervals, and its measurement */
 #include <stddef.h>
@@ -19,21 +19,22 @@
 #define CONTROL_TICKS UINT32_C(2000)
 #define STEPS_MOST 60000U
 
-/* rig_fixed of core/models/eccentric.whirl, in control steps (mk/whirl.mk). */
+/* The observer's model: scene rig_fixed of core/models/eccentric.whirl, with the control step as its step
+ * (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
 static wh_rig rig;
 static wh_rig_config config;
 static unsigned intervals = 1;
 
-/* The faults that are planted in the middle of the record. */
+/* A run, with the faults that are injected in the middle of the record. */
 typedef struct trial {
     const char *name;
     float target_rpm;
     unsigned lose_pulses[2];
     unsigned lose_samples;
-    float noise; /* largest noise of the load, counts, in either direction */
-    bool fed;    /* gravity is compensated, although this is not needed */
+    float noise; /* largest noise of the load, in counts of either sign */
+    bool fed;    /* gravity is compensated even if the set-point does not need it */
     bool swings; /* the run ends in a free swing, which is evaluated */
 } trial;
 
@@ -56,7 +57,7 @@ static int32_t noise_of(float counts) {
     return (int32_t)(counts * ((float)(int32_t)seed / 2147483648.0f));
 }
 
-static bool drives; /* obey.h */
+static bool drives; /* true if the last command drove the motor (obey.h) */
 
 static void control(const trial *tried) {
     hal_slot_edge pulse;
@@ -103,7 +104,7 @@ static bool run(const trial *tried) {
     wh_rig_start(&config, &rig, hal_clock_ticks(), NULL);
     hal_watchdog_start(10U * CONTROL_TICKS);
     unsigned recorded = 0;
-    unsigned ordered = 0; /* number of orders given: `arm`, then `start` */
+    unsigned ordered = 0; /* number of orders given so far: `arm`, then `start` */
     bool over = false;
     for (unsigned i = 0; i < STEPS_MOST && !over; i++) {
         if (ordered == 0 && rig.guard.quiet) {

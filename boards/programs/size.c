@@ -1,6 +1,6 @@
-/* size.c: the smallest firmware around one scene, to measure its size: it steps, and computes the outputs. Built once
- * for each scene, with PRICE_SCENE as its name, and the scene's header included first. Its memory suffices for float
- * and double, compensated or not. The program is linked, never run. */
+/* size.c: the smallest firmware around one scene, to measure its size: it steps, and computes the outputs. It is built
+ * once for each scene, with PRICE_SCENE as the scene's name, and with the scene's header included first. Its memory
+ * suffices for float and double, compensated or not. The program is linked, never run. */
 #include "boards/board.h"
 #include "core/scene.h"
 

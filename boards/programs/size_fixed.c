@@ -1,13 +1,11 @@
-/* size_fixed.c: the smallest firmware around one scene in fixed point, to measure its size: it steps (size.c is the
- * same for reals).
- *
- * Built once for each scene, with FIXED_SCENE as its name, and the scene's header included first. It is linked, never
- * run. */
+/* size_fixed.c: the smallest firmware around one scene in fixed point, to measure its size (size.c does this for
+ * reals). It is built once for each scene, with FIXED_SCENE as the scene's name, and with the scene's header included
+ * first. The program is linked, never run. */
 #include "boards/board.h"
 #include "core/fixed_scene.h"
 
 #ifndef FIXED_SCENE
-int main(void) { return 1; } /* built without a scene */
+int main(void) { return 1; } /* the program was built without a scene */
 #else
 #define JOIN(scene, kind) scene##kind
 #define OF(scene, kind) JOIN(scene, kind)

@@ -1,5 +1,5 @@
 /* station.c: the rig's firmware with a console (core/station): the user gives the orders. The program never ends. If
- * the model simulates the hardware (hal/virtual), the model's time follows the clock's. */
+ * the model simulates the hardware (hal/virtual), the model's time follows the board's clock. */
 #include "core/station/station.h"
 
 #include "boards/board.h"
@@ -12,7 +12,7 @@
 #include "rig_report.h"
 #include "rig_settings.h"
 
-/* Bytes read from the console in a control step: at 115,200 baud 23 bytes come and go. */
+/* Maximum number of bytes read from the console in a control step. At 115,200 baud 23 bytes come in a step. */
 #define BYTES_A_STEP 32U
 
 static wh_station station;
@@ -37,7 +37,7 @@ static void tell_reset(void) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         const unsigned count = hal_reset_words(words, sizeof words);
         put("\r\n"
-            "# reset: "); /* the line feed ends any line in progress */
+            "# reset: "); /* the line feed ends a line in progress */
         hal_console_write(words, count);
         put("\r\n");
     }
@@ -48,8 +48,8 @@ static void tell_reset(void) {
 }
 
 #if HAL_VIRTUAL
-/* Waits for a control period of the board's clock. After a long delay (a debugger, a laptop that slept) the next period
- * begins now. */
+/* Waits for the next control period of the board's clock. After a long delay (a debugger, a laptop that slept) the next
+ * period begins now. */
 static void keep_time(uint32_t *due_ticks) {
     const uint32_t period_ticks = board_ticks_per_s / (HAL_TICKS_PER_S / CONTROL_TICKS);
     *due_ticks += period_ticks;
@@ -60,7 +60,8 @@ static void keep_time(uint32_t *due_ticks) {
 }
 #endif
 
-/* The time of the next step. After a long delay, such as a sector's erase, the steps go on from now without catching up. */
+/* Returns the time of the next step. After a long delay, for example the erase of a sector, steps are not made up
+ * for. */
 static uint32_t next_step(uint32_t due_ticks) {
     const uint32_t now = hal_clock_ticks();
     const bool late = (int32_t)(now - due_ticks) > (int32_t)WATCHDOG_TICKS;

@@ -1,7 +1,6 @@
-/* to_the_end.h: runs scenes to their end and prints the hash of their last state, a line each (scenes.c). Built with
- * SCENES_FIXED=1 for scenes in fixed point (fixed_scenes.c).
- *
- * SCENE_STEPS_MOST ends every scene after that many steps, for slow machines. */
+/* to_the_end.h: runs scenes to their end and prints the hash of each scene's last state on a line (scenes.c).
+ * SCENES_FIXED=1: the scenes are in fixed point (fixed_scenes.c). SCENE_STEPS_MOST, if defined, ends every scene after
+ * this number of steps, for slow machines. */
 #ifndef BOARDS_PROGRAMS_TO_THE_END_H
 #define BOARDS_PROGRAMS_TO_THE_END_H
 
@@ -57,7 +56,7 @@ static inline void run_to_the_end(const a_scene *scene) {
     hal_console_write(text.bytes, text.length);
 }
 
-/* Returns the program's exit status. */
+/* Runs all scenes. Returns the program's exit status. */
 static inline int run_all_to_the_end(void) {
     board_start();
     for (unsigned i = 0; i < wh_scene_count; i++) {

@@ -1,5 +1,5 @@
-/* trip_memory.h: the record of a trip through a reset (hal/reset.h): the trip is latched again at the start, and the
- * record is written when it changes. */
+/* trip_memory.h: keeps the record of a trip through a reset (hal/reset.h). At the start the trip is latched again. When
+ * the record changes, it is remembered. */
 #ifndef PROGRAMS_TRIP_MEMORY_H
 #define PROGRAMS_TRIP_MEMORY_H
 
@@ -15,7 +15,7 @@ typedef struct trip_memory {
     wh_trip_record record;
 } trip_memory;
 
-/* wh_rig_start() with the remembered record: the rig starts idle, or tripped as before the reset. */
+/* Does what wh_rig_start() does, with the remembered record: the rig starts idle, or tripped as before the reset. */
 static inline void trip_memory_start(trip_memory *memory, const wh_rig_config *config, wh_rig *rig,
                                      uint32_t now_ticks) {
     uint8_t bytes[HAL_REMEMBER_BYTES];
@@ -23,7 +23,7 @@ static inline void trip_memory_start(trip_memory *memory, const wh_rig_config *c
     wh_rig_start(config, rig, now_ticks, tripped ? &memory->record : NULL);
 }
 
-/* Call it after each control step. */
+/* Call this after each control step. */
 static inline void trip_memory_keep(trip_memory *memory, const wh_rig *rig) {
     const wh_trip_record *record = &rig->record;
     if (record->trip != memory->record.trip || record->ticks != memory->record.ticks) {

@@ -1,11 +1,11 @@
-/* whole_run.c: counts every step of a scene's run, from its start to its end: a few steps do not show the cost of steps
- * with events. Prints on the console
+/* whole_run.c: counts every step of a scene's run, from its start to its end, because a few steps do not show the cost
+ * of steps with events. Prints on the console:
  *
- *     run NAME STEPS       all steps were made; the intervals from number 1 on have one step each, number 0 is empty
+ *     run NAME STEPS       all steps were made; interval 0 is empty, and each interval from 1 on has one step
  *     stack NAME BYTES     deepest stack of the program during those steps
  *     failed NAME STATUS   a step failed
  *
- * RUN_EVERY intervals count as one (count_plugin.c, every=), so that many empty ones come first. */
+ * RUN_EVERY intervals count as one (count_plugin.c, every=), so that many empty intervals come first. */
 #include "boards/programs/counted.h"
 #include "core/scene.h"
 

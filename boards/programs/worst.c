@@ -1,8 +1,8 @@
-/* worst.c: the most instructions of a step of a scene with contacts, over random states.
+/* worst.c: the largest number of instructions of a step of a scene with contacts, over random states.
  *
  * Every scene with stops, friction, holds or crossings runs WORST_STEPS steps. Every RUN steps its state is randomized:
- * angles anywhere, rates times a random factor from -2 to 2, inputs times one from -4 to 4. Positions move by up to the
- * distance of some steps, and the contacts' modes are determined again. All of this runs WORST_SEEDS times, with
+ * any angles, rates times a random factor from -2 to 2, inputs times a random factor from -4 to 4. Positions move by up
+ * to the distance of some steps, and the contacts' modes are determined again. All of this runs WORST_SEEDS times, with
  * different random numbers. The counter records the largest interval of a scene and seed (count_plugin.c,
  * every=WORST_STEPS). Prints the lines of bench.c on the console, and before them
  *
@@ -20,7 +20,7 @@
 
 static uint32_t seed;
 
-/* The next number of a sequence of 32-bit numbers (Marsaglia, Xorshift RNGs, 2003). */
+/* Returns the next number of a sequence of 32-bit numbers (Marsaglia, Xorshift RNGs, 2003). */
 static uint32_t next(void) {
     seed ^= seed << 13;
     seed ^= seed >> 17;
@@ -28,7 +28,7 @@ static uint32_t next(void) {
     return seed;
 }
 
-/* A random number between -size and size. */
+/* Returns a random number between -size and size. */
 static wh_real within(wh_real size) {
     return size * ((wh_real)(int32_t)next() / WH_R(2147483648.0));
 }
@@ -66,7 +66,7 @@ static void say_declared(const char *name, const wh_scene_bound *most) {
 
 static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
     wh_state state;
-    seed = first_seed * 2654435761U; /* different sequences from the start */
+    seed = first_seed * 2654435761U; /* sequences of different seeds differ from the start */
     for (unsigned i = 0; i < WORST_STEPS; i++) {
         if (i % 8192U == 0 && wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
             return false;
@@ -77,7 +77,7 @@ static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
         wh_count_begin();
         const wh_status status = wh_scene_step(scene, &state);
         wh_count_end();
-        if (status != WH_OK) { /* the random state was too far outside the possible ones */
+        if (status != WH_OK) { /* the random state was impossible */
             (void)wh_scene_start(scene, &state, memory, sizeof memory);
         }
     }

@@ -1,5 +1,5 @@
-/* board.c: board.h on the RISC-V family, with the devices of QEMU's machine `virt`. These are a 16550 UART, the timer
- * of the core-local interruptor, and the register that ends the emulator (SiFive's test finisher). */
+/* board.c: board.h on the RISC-V family, with the devices of QEMU's machine `virt`: a 16550 UART, the timer of the
+ * core-local interruptor, and the register that ends the emulator (SiFive's test finisher). */
 #include "riscv.h"
 
 #include "boards/board.h"
@@ -9,7 +9,7 @@ const uint32_t board_ticks_per_s = BOARD_TICKS_PER_S;
 
 #define BYTE_REGISTER(address) (*(volatile uint8_t *)(uintptr_t)(address))
 
-/* 16550: registers of a byte each (National Semiconductor PC16550D). */
+/* Registers of the 16550, one byte each (National Semiconductor PC16550D). */
 #define UART_DATA BYTE_REGISTER(BOARD_UART + 0U)
 #define UART_INTERRUPTS BYTE_REGISTER(BOARD_UART + 1U)
 #define UART_LINE_CONTROL BYTE_REGISTER(BOARD_UART + 3U)
@@ -57,7 +57,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
 
 bool board_converse(void) { return true; }
 
-/* The low word of mtime, which runs from reset. */
+/* Returns the low word of mtime, which counts from reset on. */
 uint32_t board_ticks(void) { return REGISTER(BOARD_TIMER); }
 
 _Noreturn void board_exit(int code) {

@@ -1,5 +1,5 @@
 /* guard.c: the protected strip below the stack, by physical memory protection (RISC-V Privileged Architecture, 3.7). A
- * locked entry without rights also applies to machine mode, until the next reset. Chips without this protection ignore
+ * locked entry without rights also restricts machine mode, until the next reset. Chips without this protection ignore
  * the writes and have no guard. */
 #include "riscv.h"
 

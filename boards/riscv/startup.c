@@ -20,7 +20,7 @@ static void enable_fpu(void) {
 #if defined(__riscv_flen)
     const uint32_t state_initial = 1U << 13; /* mstatus.FS */
     __asm__ volatile("csrs mstatus, %0" : : "r"(state_initial) : "memory");
-    CSR_WRITE("fcsr", 0); /* round to nearest */
+    CSR_WRITE("fcsr", 0); /* rounds to nearest */
 #endif
 }
 

@@ -1,4 +1,4 @@
-# rv32imac: QEMU's machine `virt` as an RV32IMAC, without FPU: all scenes take QEMU minutes.
+# rv32imac: QEMU's machine `virt` as an RV32IMAC, without FPU: QEMU needs minutes for all scenes.
 BOARD_MACHINE  := virt
 BOARD_CPU      := -march=rv32imac -mabi=ilp32 -misa-spec=2.2
 BOARD_MATH     :=

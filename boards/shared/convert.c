@@ -1,6 +1,6 @@
 /* convert.c: 64-bit integers to float, rounded to nearest, ties to even. The compiler calls these two functions by
- * name. The versions in its support library, if not written in assembler (RISC-V, Cortex-M0), use double-precision
- * arithmetic, which this firmware does not link. */
+ * name. If its support library has no version in assembler (RISC-V, Cortex-M0), the library's version uses
+ * double-precision arithmetic, which this firmware does not link. */
 #include <stdint.h>
 
 #if defined(__ARM_EABI__)
@@ -27,8 +27,8 @@ float FROM_UNSIGNED(uint64_t number) {
     if (high == 0) {
         return (float)(uint32_t)number;
     }
-    /* The 32 bits from the leading one. A float keeps 24 of them. Lower bits only decide between two neighbours, so one
-     * sticky bit in the lowest place suffices. */
+    /* The 32 bits from the leading one on. A float keeps 24 of them. Lower bits only decide between two neighbours, so
+     * one sticky bit in the lowest place suffices. */
     const unsigned shift = 32U - (unsigned)__builtin_clz(high);
     const uint64_t below = number & ((UINT64_C(1) << shift) - 1U);
     const uint32_t lost = below != 0 ? 1U : 0U;

@@ -6,7 +6,7 @@
 
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
-/* Access to a register; on the PC, tests replace it and see every access in its order (tests/chip). */
+/* Access to a register. On the PC, tests replace it and see every access in order (tests/chip). */
 #ifndef BOARD_REGISTERS_FAKED
 #define BOARD_REGISTERS_FAKED 0
 #endif
@@ -23,21 +23,21 @@ extern uint32_t board_stack_limit[]; /* lowest word of the stack */
 extern uint32_t board_stack_top[];   /* one past the highest word of the stack */
 extern uint32_t board_fault_stack_top[];
 
-/* Size of the strip below the stack, which is aligned to its size, as memory protection units require. */
+/* Size of the strip below the stack. The strip is aligned to its size, because memory protection units require it. */
 #define BOARD_STRIP_BYTES 256U
 
-/* Protect the strip, so that accesses to it fault, if the chip can do that (guard.c of each family). The startup code
- * calls it once. */
+/* Protect the strip, if the chip can: accesses to it then fault (guard.c of each family). The start-up code calls this
+ * once. */
 void board_guard_stack(void);
 
-/* The number of words from `low` up to `high`: two symbols of the linker script. C considers them two objects, so
+/* Returns the number of words from `low` up to `high`, two symbols of the linker script. For C they are two objects, so
  * pointers to them must not be subtracted. */
 static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
     return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
 }
 
-/* Copy the initial values of initialized variables from flash and clear the other variables. Call it before any C code
- * with variables. */
+/* Copy the initial values of initialized variables from flash, and clear the other variables. Call it before any C code
+ * that uses variables. */
 static inline void board_fill_memory(void) {
     extern uint32_t board_data_load[];
     extern uint32_t board_data_start[];

@@ -1,9 +1,9 @@
-/* remembered.c: bytes that survive a reset (hal/reset.h), in memory that is never cleared: two copies, of which the
- * older is overwritten.
+/* remembered.c: bytes that survive a reset (hal/reset.h), in memory that is never cleared. There are two copies; a
+ * write replaces the older one.
  *
- * At power-on the memory has random content, or, after a short power failure, the old one: the caller drops it after a
- * power-on. A valid copy ends with the CRC-32 of its bytes: random content passes once in 4e9. A reset in the middle of
- * writing corrupts one copy, and the other has the earlier bytes. */
+ * At power-on the memory has random content, or, after a short power failure, the old content: after a power-on the
+ * caller drops it. A valid copy ends with the CRC-32 of its bytes: random content passes once in 4e9. A reset in the
+ * middle of a write corrupts one copy, and the other has the earlier bytes. */
 #include "remembered.h"
 
 #include <stddef.h>
@@ -11,7 +11,7 @@
 #include "core/frame.h"
 #include "hal/reset.h"
 
-/* As few bytes as possible: an 8-bit processor needs 150 cycles for each in the CRC. */
+/* A copy has as few bytes as possible: in the CRC, an 8-bit processor needs 150 cycles for each byte. */
 typedef struct remembered {
     uint8_t sequence; /* the sequence numbers of the two copies differ by one */
     uint8_t count;
@@ -20,7 +20,7 @@ typedef struct remembered {
 } remembered;
 
 BOARD_KEPT static remembered slots[2];
-/* separate from the copies, because it is written every control step */
+/* Not in the copies, because it is written in every control step. */
 BOARD_KEPT static uint32_t kept_state;
 
 static uint32_t crc_of(const remembered *slot) {
@@ -32,7 +32,7 @@ static bool holds(const remembered *slot) {
     return slot->count <= HAL_REMEMBER_BYTES && slot->crc == crc_of(slot);
 }
 
-/* The newer valid copy, or NULL. */
+/* Returns the newer valid copy, or NULL. */
 static const remembered *newest(void) {
     const remembered *found = NULL;
     for (const remembered *slot = slots; slot < slots + 2; slot++) {

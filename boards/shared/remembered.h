@@ -11,7 +11,7 @@
 /* Start value of the CRCs in that memory. With it, a memory of zeros is invalid. */
 #define BOARD_KEPT_CRC_START 0x52494721U
 
-/* A barrier: stores to that memory are neither delayed beyond this call nor moved before it. */
+/* A barrier: the compiler moves no store to that memory across this call. */
 static inline void board_kept_settle(void) {
 #if defined(__arm__)
     __asm__ volatile("dmb" ::: "memory");
@@ -23,10 +23,10 @@ static inline void board_kept_settle(void) {
 /* True if hal_recall() has bytes to return. */
 bool board_remembers(void);
 
-/* After a power-on: hal_recall() returns no bytes until the next hal_remember(). */
+/* Call this after a power-on: hal_recall() then returns no bytes until the next hal_remember(). */
 void board_forget(void);
 
-/* The last argument of hal_reset_mark(). */
+/* Returns the last argument of hal_reset_mark(). */
 uint32_t board_kept_state(void);
 
 #endif

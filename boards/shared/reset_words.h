@@ -9,10 +9,11 @@
 typedef struct board_fault_when {
     uint32_t ticks;  /* time of the fault; the board's clock restarts at each start */
     uint32_t state;  /* last argument of hal_reset_mark() */
-    uint32_t faults; /* faults since power-on, including this one */
+    uint32_t faults; /* number of faults since power-on, including this one */
 } board_fault_when;
 
-/* Implemented by each family: adds the words of the fault that hal_reset_cause() reports, and returns its time. */
+/* Adds the words of the fault that hal_reset_cause() reports, and returns its time. Each family implements this
+ * function. */
 board_fault_when board_fault_told(wh_text *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* rig_time.c: the time of hal/clock.h from board_ticks(), and the lateness of waits. */
+/* rig_time.c: the time of hal/clock.h from board_ticks(), and the delays of waits. */
 #include "rig_time.h"
 
 #include "boards/board.h"

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Does the clock advance within some microseconds? Waiting for a stopped clock would never end. */
+/* True if the clock advances within some microseconds. Waiting for a stopped clock would never end. */
 bool board_ticks_go_on(void);
 
 #endif

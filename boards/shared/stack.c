@@ -1,4 +1,4 @@
-/* stack.c: the used part of the stack (board.h), from the remains of a pattern. */
+/* stack.c: measures the used part of the stack (board.h): the part in which the pattern is gone. */
 #include "boards/shared/metal.h"
 
 #include "boards/board.h"

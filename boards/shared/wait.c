@@ -1,4 +1,4 @@
-/* wait.c: board.h's waiting, by polling. */
+/* wait.c: the wait functions of board.h, by polling. */
 #include "boards/board.h"
 
 void board_wait_until(uint32_t ticks) {

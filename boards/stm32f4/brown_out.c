@@ -1,5 +1,5 @@
-/* brown_out.c: the supply voltage below which the chip stays in reset (RM0090, 3.9.10 and 5.2.2): 2.7 V, required for
- * 168 MHz and the flash. An option byte, written only if it differs: once in a chip's life. */
+/* brown_out.c: sets the supply voltage below which the chip stays in reset (RM0090, 3.9.10 and 5.2.2) to 2.7 V, which
+ * 168 MHz and the flash require. It is an option byte, written only if it differs: once in a chip's life. */
 #include "stm32f4.h"
 
 void stm32f4_brown_out_start(void) {
@@ -9,8 +9,7 @@ void stm32f4_brown_out_start(void) {
     }
     reg_store(FLASH_OPTKEYR, FLASH_OPTKEY1);
     reg_store(FLASH_OPTKEYR, FLASH_OPTKEY2);
-    reg_change(FLASH_OPTCR, FLASH_OPTCR_BOR_LEV,
-               FLASH_OPTCR_BOR_LEV_3); /* keeps the other bits unchanged */
+    reg_change(FLASH_OPTCR, FLASH_OPTCR_BOR_LEV, FLASH_OPTCR_BOR_LEV_3); /* keeps the other bits */
     reg_set(FLASH_OPTCR, FLASH_OPTCR_OPTSTRT);
     (void)stm32f4_flash_rests();
     reg_set(FLASH_OPTCR, FLASH_OPTCR_OPTLOCK);

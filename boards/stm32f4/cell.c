@@ -1,14 +1,14 @@
 /* cell.c: load cell and supply by the chip's 12-bit converter (RM0090, 13 and 10).
  *
- * Timer 3 starts 32,000 conversions of the pair a second. DMA stores them, and interrupts when half of its memory is
- * full: 64 pairs, 2 ms. A sample is their mean. Its time stamp is the middle of their times, so it has no delay. A
- * sample is delivered when the next mean is known, because the correction of a mean's attenuation needs both neighbours
- * (hal/averaged.h). One count of the converter is 109 mN. The error of a mean of 64 is 1.7 mN with noise of half a
- * count; the unit of a sample is 6.8 mN.
+ * Timer 3 starts 32,000 pairs of conversions per second: load, supply. DMA stores them, and interrupts when half of its
+ * memory is full: 64 pairs, 2 ms. A sample is the mean of 64 conversions. Its time stamp is the middle of their times,
+ * so it has no delay. A sample is delivered when the next mean is known, because the correction of a mean's attenuation
+ * needs both neighbours (hal/averaged.h). One count of the converter is 109 mN. The error of a mean of 64 is 1.7 mN
+ * with noise of half a count; the unit of a sample is 6.8 mN.
  *
- * The amplifier's output without force is half of the reference. Near either end it is saturated. If a whole sample is
- * near the lower end, a wire is broken: a resistor then pulls the pin down, except for its leakage and for charge of
- * the other input in the converter. */
+ * Without force, the amplifier's output is half of the reference. Near either end the amplifier is saturated. If all
+ * counts of a sample are near the lower end, a wire is broken. A resistor then pulls the pin down, except for its
+ * leakage and for charge of the other input in the converter. */
 #include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -23,19 +23,19 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* Time from the middle of the samples to the interrupt after the last pair: half of the pairs minus half of one, plus 5
- * us. Two conversions take 9 us, and the force is sampled for the first 4 us. */
+/* Time from the middle of the samples to the interrupt after the last pair: half of the pairs minus half of one pair,
+ * plus 5 us. The two conversions of a pair take 9 us, and the force is sampled in the first 4 us. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
-/* STM32F405's data sheet, table 67. */
+/* Highest clock of the converter (STM32F405's data sheet, table 67). */
 #define ADC_HZ_MOST 36000000U
 
 #define FULL 4095U
 #define MIDDLE 2048
 #define RAIL (FULL / 64U)       /* margin in which no amplifier is linear: 52 mV */
-#define OPEN_BELOW (FULL / 16U) /* 0.2 V */
+#define OPEN_BELOW (FULL / 16U) /* an input below 0.2 V is not connected */
 
-/* If a conversion is above this, the supply's mean is not valid. */
+/* If a conversion is above this limit, the mean of the supply is not valid. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_V_PER_COUNT ((float)BOARD_SUPPLY_FULL_mV / 1000.0f / (float)FULL)
 _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
@@ -44,21 +44,20 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
 
 #define SAMPLES_KEPT 8U
 
-/* Status that marks a missing mean; the converter itself never has this status. */
+/* This status marks a missing mean. The converter itself never has this status. */
 #define NO_MEAN HAL_LOAD_REPEATED
 
-/* In memory that DMA reaches, which core-coupled memory is not (RM0090, 2.3.1). */
+/* The conversions. DMA cannot reach core-coupled memory, so they are not there (RM0090, 2.3.1). */
 static volatile uint16_t pair[2][PAIRS][2];
 static hal_load_sample kept_samples[SAMPLES_KEPT];
 static stm32f4_ring_counts sample_counts;
 static const stm32f4_ring samples = {&sample_counts, kept_samples, SAMPLES_KEPT,
                                      sizeof *kept_samples};
-static volatile uint32_t supply_sum; /* UINT32_MAX: a conversion was at the converter's end */
+static volatile uint32_t supply_sum; /* UINT32_MAX: a conversion was above SUPPLY_END */
 
-/* the last mean */
 static hal_load_sample last;
 static int32_t before_last; /* counts of the mean before the last one */
-static bool last_follows;   /* no mean is missing between the last two */
+static bool last_follows;   /* the last two means are successive */
 
 static void start_dma(void) {
     stm32f4_clock_on(RCC_PART(RCC_AHB1ENR, RCC_AHB1ENR_DMA2));
@@ -73,7 +72,7 @@ static void start_dma(void) {
     reg_store(DMA2_S0CR, settings | DMA_CR_EN);
 }
 
-/* 84 clocks of 21 MHz for the sampling and 12 for the conversion: 4.6 us each; 12 us at 8 MHz, the fallback's. */
+/* 84 clocks of 21 MHz for the sampling and 12 for the conversion: 4.6 us. At the fallback's 8 MHz: 12 us. */
 static inline void sample_for(unsigned input) {
     stm32f4_field(input < 10U ? ADC1_SMPR2 : ADC1_SMPR1, 3U, input % 10U, ADC_SMP_84);
 }
@@ -83,7 +82,8 @@ static void start_converter(void) {
     stm32f4_pin_is(BOARD_CELL_PIN, PIN_ANALOGUE);
     stm32f4_pin_is(BOARD_SUPPLY_PIN, PIN_ANALOGUE);
     if (stm32f4_clocks_now()->usart_Hz > 2U * ADC_HZ_MOST) {
-        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4); /* at reset it is half of APB2's clock */
+        /* after a reset the converter's clock is half of APB2's */
+        reg_store(ADC_CCR, ADC_CCR_ADCPRE_4);
     }
     sample_for(BOARD_CELL_INPUT);
     sample_for(BOARD_SUPPLY_INPUT);
@@ -117,7 +117,7 @@ static bool follows(const hal_load_sample *before, const hal_load_sample *sample
            passed > PAIRS_TICKS / 2U && passed < PAIRS_TICKS + PAIRS_TICKS / 2U;
 }
 
-/* Deliver the last mean, corrected with `mean`, which follows it, as a sample. */
+/* Delivers the last mean as a sample, corrected with `mean`, which follows it. */
 static void hand_on(const hal_load_sample *mean) {
     const bool mean_follows = follows(&last, mean);
     if (last.status != NO_MEAN) {
@@ -132,7 +132,8 @@ static void hand_on(const hal_load_sample *mean) {
     last_follows = mean_follows;
 }
 
-/* 64 counts of 12 bits are 18 bits: four to one of hal/loadcell.h's. */
+/* Averages a half of DMA's memory. The sum of 64 counts of 12 bits has 18 bits: four of its units are one count of
+ * hal/loadcell.h. */
 static void average(unsigned half, uint32_t ticks) {
     uint32_t sum = 0;
     uint32_t supply = 0;
@@ -143,7 +144,8 @@ static void average(unsigned half, uint32_t ticks) {
         sum += count;
         supply += pair[half][i][1];
         beyond = beyond || pair[half][i][1] > SUPPLY_END;
-        clipped = clipped || count - RAIL > FULL - 2U * RAIL; /* at either end */
+        /* true if a count is near either end */
+        clipped = clipped || count - RAIL > FULL - 2U * RAIL;
     }
     supply_sum = beyond ? UINT32_MAX : supply;
     const hal_load_sample mean = {.ticks = ticks,
@@ -155,8 +157,8 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&mean);
 }
 
-/* DMA's position tells which half is complete, and when: a delayed interrupt takes the newest half and computes the
- * time stamp of that half. */
+/* DMA's position shows which half is complete, and since when. If the interrupt is late, it takes the newest half and
+ * that half's time stamp. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);

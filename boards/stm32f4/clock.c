@@ -13,8 +13,8 @@ _Static_assert(BOARD_CRYSTAL_HZ / BOARD_PLL_M * BOARD_PLL_N == PLL_OUT_Hz &&
 _Static_assert(BOARD_PLL_N >= 50U && BOARD_PLL_N <= 432U && BOARD_PLL_M >= 2U && BOARD_PLL_M <= 63U,
                "RM0090, 7.3.2");
 
-/* Limits of waiting, as numbers of polls of a flag, which take some ten cycles each at 16 MHz. The chip's own
- * oscillator starts in 4 us, a switch takes a few clocks, the phase-locked loop 0.3 ms, a crystal some milliseconds. */
+/* Longest waits, as numbers of polls of a flag. A poll takes some ten cycles at 16 MHz. The chip's own oscillator
+ * starts in 4 us, a switch takes a few clocks, the phase-locked loop 0.3 ms, a crystal some milliseconds. */
 #define SOON 2000U
 #define PATIENTLY 40000U
 
@@ -33,8 +33,8 @@ void stm32f4_clock_on(unsigned part) {
     (void)reg_load(enable);
 }
 
-/* Run the core on the chip's own oscillator, after any loader in ROM or failed crystal. An emulator without this unit
- * reads zeros, which no chip does: then there is no clock to set up. */
+/* Makes the core run on the chip's own oscillator, because a loader in ROM may have changed the clock, or the crystal
+ * has failed. Returns false in an emulator without this unit, which reads zeros: it has no clock to set up. */
 static bool to_own_oscillator(void) {
     reg_set(RCC_CR, RCC_CR_HSION);
     if (!stm32f4_comes(RCC_CR, RCC_CR_HSIRDY, RCC_CR_HSIRDY, SOON)) {
@@ -45,7 +45,8 @@ static bool to_own_oscillator(void) {
     reg_clear(RCC_CR, RCC_CR_PLLON | RCC_CR_CSSON);
     (void)stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, 0, SOON);
     reg_clear(RCC_CR, RCC_CR_HSEON);
-    (void)stm32f4_comes(RCC_CR, RCC_CR_HSERDY, 0, SOON); /* six cycles of the crystal (7.3.1) */
+    /* takes six cycles of the crystal (7.3.1) */
+    (void)stm32f4_comes(RCC_CR, RCC_CR_HSERDY, 0, SOON);
     reg_clear(RCC_CR, RCC_CR_HSEBYP);
     reg_store(RCC_CFGR, 0);
     reg_store(RCC_CIR, 0);
@@ -76,8 +77,8 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, SOON)) {
         return fall_back();
     }
-    /* five wait states, for 168 MHz at 2.7 V (3.5.1), set before the core runs that fast; no prefetch, because revision
-     * A has a defect */
+    /* Five wait states, for 168 MHz at 2.7 V (3.5.1), set before the core runs that fast. No prefetch, because revision
+     * A of the chip has a defect. */
     const uint32_t wait_states = 5U;
     reg_store(FLASH_ACR, FLASH_ACR_ICEN | FLASH_ACR_DCEN | wait_states);
     if (!stm32f4_comes(FLASH_ACR, FLASH_ACR_LATENCY, wait_states, SOON)) {
@@ -88,7 +89,8 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_PLL, SOON)) {
         return fall_back();
     }
-    /* if the crystal stops, the break of the timer acts at once, then the NMI, which is a fault (7.2.7) */
+    /* If the crystal stops, the timer's break switches the motor off at once. Then comes the NMI, which is a fault
+     * (7.2.7). */
     reg_set(RCC_CR, RCC_CR_CSSON);
     return BOARD_CLOCK_CRYSTAL;
 }
@@ -103,7 +105,7 @@ const stm32f4_clocks *stm32f4_clocks_now(void) {
         [BOARD_CLOCK_FALLBACK] = {.timer1_Hz = 16000000U,
                                   .timers_Hz = 16000000U,
                                   .usart_Hz = 16000000U},
-        /* QEMU's timers count nanoseconds */
+        /* QEMU's timers count nanoseconds. */
         [BOARD_CLOCK_GIVEN] = {.timer1_Hz = PLL_OUT_Hz / 2U,
                                .timers_Hz = 1000000000U,
                                .usart_Hz = PLL_OUT_Hz / 4U},

@@ -1,8 +1,9 @@
-# family.mk: tests of flashed images in the emulator (tests/boards/f405.sh): the same code except for sensors, which it does not have.
+# family.mk: tests of flashed images in the emulator (tests/boards/f405.sh). Their code is that of a real board, except for
+# the sensors, which the emulator does not have.
 ifneq ($(filter boards/stm32f4/%,$(BOARD_FLASHED)),)
-# Excluded from link-time optimisation: functions that the compiler itself calls, and the start-up code. main() might be inlined
-# into the latter, and use variables or the FPU before they are set up. Objects from a compiler cache lack their call graphs,
-# from which mk/size/size.sh computes the stack.
+# Excluded from link-time optimisation: functions that the compiler itself calls, and the start-up code. main() might be
+# inlined into the start-up code, and use variables or the FPU before they are set up. Objects from a compiler cache lack
+# their call graphs, from which mk/size/size.sh computes the stack.
 apart := $(addprefix $(B)/$(FLASHED)/boards/,shared/mem.o cortexm/startup.o)
 $(apart): FILE_FLAGS += -fno-lto
 $(apart): export CCACHE_DISABLE := 1

@@ -18,14 +18,14 @@ static uint32_t address_of(unsigned slot, unsigned at) {
     return FIRST_ADDRESS + SECTOR_BYTES * slot + at;
 }
 
-/* Waits for the end of the operation in progress. Returns its result. */
+/* Waits until the operation in progress ends. Returns its result. */
 static hal_settings_result ended(void) {
     return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0
                ? HAL_SETTINGS_DONE
                : HAL_SETTINGS_FAILED;
 }
 
-/* Unlocks the flash for these bytes, if they exist and the flash is idle. */
+/* Unlocks the flash for these bytes. Returns an error if they do not exist or if the flash is busy. */
 static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
     if (!within(slot, at, count)) {
         return HAL_SETTINGS_OUTSIDE;
@@ -35,7 +35,7 @@ static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
     }
     reg_store(FLASH_KEYR, FLASH_KEY1);
     reg_store(FLASH_KEYR, FLASH_KEY2);
-    reg_store(FLASH_SR, FLASH_SR_ERRORS); /* errors of an earlier operation */
+    reg_store(FLASH_SR, FLASH_SR_ERRORS); /* clears the errors of an earlier operation */
     return HAL_SETTINGS_DONE;
 }
 
@@ -61,7 +61,7 @@ hal_settings_result hal_settings_erase(unsigned slot) {
     return result;
 }
 
-/* Writes words; the bytes of the last word after `count` stay 0xFF. */
+/* Writes whole words. The bytes of the last word after `count` stay 0xFF. */
 hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
                                        unsigned count) {
     hal_settings_result result = at % 4U == 0 ? opened(slot, at, count) : HAL_SETTINGS_OUTSIDE;
@@ -73,7 +73,7 @@ hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t
         uint32_t word = UINT32_MAX;
         __builtin_memcpy(&word, bytes + i, count - i < 4U ? count - i : 4U);
         reg_store(address_of(slot, at + i), word);
-        board_kept_settle(); /* before reading the status */
+        board_kept_settle(); /* completes the store before the status is read */
         result = ended();
     }
     reg_store(FLASH_CR, FLASH_CR_LOCK);

@@ -1,12 +1,12 @@
 /* motor.c: the drive stage. TIM1's channel 1 is a PWM of 20 kHz on its complementary output alone (RM0090, 17.3 and
- * table 94). The enable is on a pin, and the break input takes both stop and the drive stage's fault.
+ * table 94). The enable is on a pin, and the break input receives both stop and the drive stage's fault.
  *
- * The break (active low, pulled down: a broken wire counts as pressed) clears MOE without software, and so does a
- * stopped crystal. The output then has its idle level, low. MOE cannot be set while the break is active. A lock-up of
- * the core does not clear MOE on this chip; the watchdog acts in that case.
+ * The break input is active low, with a pull-down: a broken wire counts as pressed. A break clears MOE without
+ * software, and so does a stopped crystal. The output then has its idle level, low. MOE cannot be set while the break
+ * is active. A lock-up of the core does not clear MOE on this chip; the watchdog acts in that case.
  *
  * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). Other families' manuals say that the outputs are
- * then disabled; for the F4 this is unproven, and an output could stay high. So the watchdog keeps running in that
+ * then disabled. For the F4 this is not proved, and an output could stay high. So the watchdog keeps running in that
  * case, and resets the chip. */
 #include "hal/motor.h"
 
@@ -17,14 +17,14 @@
 #define PWM_Hz 20000U
 #define TIM1_FUNCTION 1U
 
-static uint32_t whole;        /* the compare value at which the output is always on */
+static uint32_t whole;        /* compare value at which the output is always on */
 static volatile bool driving; /* started and not yet off, even while stop keeps MOE clear */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* the pin is low */
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
-    /* lets the watchdog run on; a debugger sets this bit, and it survives resets */
+    /* The watchdog keeps running while the core is halted. A debugger sets this bit, and the bit survives resets. */
     reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
@@ -42,10 +42,11 @@ void stm32f4_motor_start(void) {
     driving = false;
 }
 
-/* The motor was started and the hardware has cleared MOE. This is permanent: no hardware sets MOE again (AOE is 0). */
+/* True if the motor was started and the hardware has cleared MOE. This is permanent: no hardware sets MOE again (AOE is
+ * 0). */
 static bool is_cut(void) { return driving && (reg_load(TIM_BDTR(TIM1)) & TIM_BDTR_MOE) == 0; }
 
-/* NaN and a missing supply give 0. */
+/* Returns the compare value of a voltage. NaN and a missing supply give 0. */
 static uint32_t compare_of(float volts) {
     const float supply_V = hal_motor_supply_V();
     if (!(volts > 0.0f) || !(supply_V > 0.0f)) {
@@ -55,10 +56,10 @@ static uint32_t compare_of(float volts) {
 }
 
 unsigned hal_motor_start(void) {
-    /* a hal_motor_off() from an interrupt waits until stm32f4_go_on() */
+    /* A hal_motor_off() in an interrupt waits until stm32f4_go_on(). */
     const uint32_t before = stm32f4_hold();
     if (!driving) {
-        driving = true; /* set even if stop keeps MOE clear: the motor then counts as cut */
+        driving = true; /* even if stop keeps MOE clear: the motor then counts as cut */
         reg_store(TIM_CCR(TIM1, 1U), 0);
         if (!hal_stop_pressed() && (reg_load(TIM_SR(TIM1)) & TIM_SR_BIF) == 0) {
             stm32f4_pin_set(BOARD_PIN_ENABLE, true);
@@ -69,10 +70,10 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* Sets the voltage. Without MOE it has no effect, and after a start it begins at 0. */
+/* Without MOE the voltage has no effect. After a start it begins at 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
-/* Clears the output first, by a store, which is also the first one after a fault (BOARD_SAFE_ROWS). From now on any
+/* The first store clears the output; it is also the first store after a fault (BOARD_SAFE_ROWS). After this call any
  * press of stop, however short, prevents a start. */
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);

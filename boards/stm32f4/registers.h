@@ -1,4 +1,4 @@
-/* registers.h: access to the chip's registers beyond boards/shared/metal.h. */
+/* registers.h: access to the chip's registers, in addition to boards/shared/metal.h. */
 #ifndef BOARDS_STM32F4_REGISTERS_H
 #define BOARDS_STM32F4_REGISTERS_H
 
@@ -6,15 +6,16 @@
 
 #if BOARD_REGISTERS_FAKED
 uint32_t reg_address(volatile void *memory);
-/* Switch interrupts off, and back to the state before (stm32f4.h). */
+/* Switch interrupts off; the next function restores the earlier state (stm32f4.h). */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 #else
-/* A memory address for DMA. */
+/* Returns the address of memory for DMA. */
 static inline uint32_t reg_address(volatile void *memory) { return (uint32_t)(uintptr_t)memory; }
 #endif
 
-/* The bits of `mask` become `bits`, the others stay. Not safe against an interrupt that does the same. */
+/* Sets the bits of `mask` in a register to those of `bits`; the other bits stay. Not safe if an interrupt changes the
+ * same register. */
 static inline void reg_change(uint32_t address, uint32_t mask, uint32_t bits) {
     reg_store(address, (reg_load(address) & ~mask) | bits);
 }

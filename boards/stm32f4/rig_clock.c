@@ -1,5 +1,5 @@
-/* rig_clock.c: the start of the rig's hardware, and the source of its clock (the time itself is in
- * boards/shared/rig_time.c). */
+/* rig_clock.c: the start of the rig's hardware, and the source of its clock. (boards/shared/rig_time.c has the time
+ * itself.) */
 #include "hal/clock.h"
 
 #include "boards/board.h"
@@ -12,7 +12,7 @@ _Static_assert((int)BOARD_CLOCK_CRYSTAL == (int)HAL_CLOCK_CRYSTAL &&
                    (int)BOARD_CLOCK_GIVEN == (int)HAL_CLOCK_PLAYED,
                "one list of what it runs on");
 
-/* The motor is started first: it is off from here on, even if later parts fail. */
+/* Starts the motor's part first, so that the motor is off even if later parts fail. */
 hal_start hal_clock_start(void) {
     stm32f4_motor_start();
     stm32f4_reset_start();

@@ -1,11 +1,11 @@
-/* rm0090.h: the STM32F405's registers used by the drivers here. Sections are those of ST's reference manual RM0090,
- * revision 19; interrupts of its table 62. */
+/* rm0090.h: the STM32F405's registers that the drivers use. Section numbers, and table 62 of the interrupts, are those
+ * of ST's reference manual RM0090, revision 19. */
 #ifndef BOARDS_STM32F4_RM0090_H
 #define BOARDS_STM32F4_RM0090_H
 
 /* Power controller, 5.4. */
 #define PWR_CR 0x40007000U
-#define PWR_CR_VOS (1U << 14) /* scale 1: above 144 MHz */
+#define PWR_CR_VOS (1U << 14) /* scale 1, required above 144 MHz */
 
 /* Reset and clock control, 7.3. */
 #define RCC 0x40023800U
@@ -67,23 +67,23 @@
 #define FLASH_OPTKEY1 0x08192A3BU
 #define FLASH_OPTKEY2 0x4C5D6E7FU
 #define FLASH_SR 0x40023C0CU
-/* operation, protection, alignment, size, sequence; writing a one clears the bit */
+/* Error bits: operation, protection, alignment, size, sequence. Writing a one clears a bit. */
 #define FLASH_SR_ERRORS 0xF2U
 #define FLASH_SR_BSY (1U << 16)
 #define FLASH_CR 0x40023C10U
 #define FLASH_CR_PG (1U << 0)
 #define FLASH_CR_SER (1U << 1)
 #define FLASH_CR_SNB(sector) ((sector) << 3)
-#define FLASH_CR_PSIZE_32 (2U << 8) /* from 2.7 V */
+#define FLASH_CR_PSIZE_32 (2U << 8) /* allowed from 2.7 V on */
 #define FLASH_CR_STRT (1U << 16)
 #define FLASH_CR_LOCK (1U << 31)
 #define FLASH_OPTCR 0x40023C14U
 #define FLASH_OPTCR_OPTLOCK (1U << 0)
 #define FLASH_OPTCR_OPTSTRT (1U << 1)
 #define FLASH_OPTCR_BOR_LEV (3U << 2)
-#define FLASH_OPTCR_BOR_LEV_3 (0U << 2) /* 2.7 V and more */
+#define FLASH_OPTCR_BOR_LEV_3 (0U << 2) /* reset below 2.7 V */
 
-/* General purpose ports, 8.4. A pin is one number: port times 16 and its number there. */
+/* General purpose ports, 8.4. A pin is one number: 16 times its port (A is 0) plus its number in the port. */
 #define PIN(port, number) ((unsigned)((port) - 'A') * 16U + (number))
 #define GPIO_MODER(port) (0x40020000U + 0x400U * (port) + 0x00U)
 #define GPIO_PUPDR(port) (0x40020000U + 0x400U * (port) + 0x0CU)
@@ -97,7 +97,7 @@
 #define EXTI_RTSR 0x40013C08U
 #define EXTI_PR 0x40013C14U
 
-/* DMA controller 2, 10.5: stream 0, whose channel 0 is ADC1's. */
+/* DMA controller 2, 10.5. ADC1 uses channel 0 of stream 0. */
 #define DMA2_LISR 0x40026400U
 #define DMA2_LIFCR 0x40026408U
 #define DMA2_S0_ALL_FLAGS 0x3DU
@@ -143,26 +143,27 @@
 #define TIM_CR1(timer) ((timer) + 0x00U)
 #define TIM_CR1_CEN (1U << 0)
 #define TIM_CR1_ARPE (1U << 7)
-#define TIM_CR1_CKD_4 (2U << 8) /* filters sample at a quarter of the timer's clock */
+#define TIM_CR1_CKD_4 (2U << 8) /* the filters sample at a quarter of the timer's clock */
 #define TIM_CR2(timer) ((timer) + 0x04U)
 #define TIM_CR2_MMS_UPDATE (2U << 4)
 #define TIM_CR2_OIS1N (1U << 9)
 #define TIM_DIER(timer) ((timer) + 0x0CU)
 #define TIM_SR(timer) ((timer) + 0x10U)
-#define TIM_SR_CCIF(channel) (1U << (channel)) /* channels 1 ... 4 */
+#define TIM_SR_CCIF(channel) (1U << (channel)) /* for channels 1 to 4 */
 #define TIM_SR_CCOF(channel) (1U << (8U + (channel)))
 #define TIM_SR_BIF (1U << 7)
 #define TIM_EGR(timer) ((timer) + 0x14U)
 #define TIM_EGR_UG (1U << 0)
-#define TIM_CCMR(timer, half) ((timer) + 0x18U + 4U * (half)) /* channels 1 and 2; 3 and 4 */
+/* half 0: channels 1 and 2; half 1: 3 and 4 */
+#define TIM_CCMR(timer, half) ((timer) + 0x18U + 4U * (half))
 #define TIM_CCMR_OC1M_PWM_1 (6U << 4)
 #define TIM_CCMR_CAPTURE 1U                /* captures the channel's own input */
-#define TIM_CCMR_CAPTURE_OTHER 2U          /* captures the pair's other input, filtered */
-#define TIM_CCMR_FILTER_SLOWEST (15U << 4) /* 8 samples at a 32nd of the rate */
+#define TIM_CCMR_CAPTURE_OTHER 2U          /* captures the other input of the channel's pair */
+#define TIM_CCMR_FILTER_SLOWEST (15U << 4) /* 8 samples at 1/32 of the sampling rate */
 #define TIM_CCER(timer) ((timer) + 0x20U)
 #define TIM_CCER_CC1NE (1U << 2)
 #define TIM_CCER_CCE(channel) (1U << (4U * ((channel)-1U)))
-#define TIM_CCER_CCP(channel) (2U << (4U * ((channel)-1U))) /* falling edges */
+#define TIM_CCER_CCP(channel) (2U << (4U * ((channel)-1U))) /* captures falling edges */
 #define TIM_CNT(timer) ((timer) + 0x24U)
 #define TIM_PSC(timer) ((timer) + 0x28U)
 #define TIM_ARR(timer) ((timer) + 0x2CU)
@@ -171,7 +172,7 @@
 #define TIM_BDTR_LOCK_2 (2U << 8)
 #define TIM_BDTR_OSSI (1U << 10)
 #define TIM_BDTR_OSSR (1U << 11)
-#define TIM_BDTR_BKE (1U << 12) /* active low: BKP is 0 */
+#define TIM_BDTR_BKE (1U << 12) /* active low, because BKP is 0 */
 #define TIM_BDTR_MOE (1U << 15)
 
 /* Independent watchdog, 21.4. */
@@ -199,7 +200,7 @@
 #define USART_CR1_TXEIE (1U << 7)
 #define USART_CR1_UE (1U << 13)
 
-/* Debug support, 38.16: units that stop while the core is halted. */
+/* Debug support, 38.16: peripherals that stop while the core is halted. */
 #define DBGMCU_APB1_FZ 0xE0042008U
 #define DBGMCU_APB1_FZ_IWDG (1U << 12)
 #define DBGMCU_APB2_FZ 0xE004200CU
@@ -214,7 +215,8 @@
     X(56, dma2_stream0) \
     X(71, usart6)
 
-/* The core's interrupt controller (Armv7-M Architecture Reference Manual, B3.4): enable, and priorities a byte each. */
+/* The core's interrupt controller (Armv7-M Architecture Reference Manual, B3.4): enable bits, and one byte of priority
+ * for each interrupt. */
 #define NVIC_ISER(word) (0xE000E100U + 4U * (word))
 #define NVIC_IPR(word) (0xE000E400U + 4U * (word))
 #define NVIC_ICER(word) (0xE000E180U + 4U * (word))

@@ -1,7 +1,7 @@
 /* slots.c: the slot sensors on two inputs of timer 2, which stores the time of an edge in hardware (RM0090, 18.3.5),
- * after a filter of 12 us. Channels 1 and 2, 3 and 4 are pairs, in which each channel can use both inputs (18.3.6). The
- * input's own channel captures rising edges, the other channel of the pair the falling ones, so that the end of a pulse
- * never overwrites its beginning. The interrupt only copies the times. */
+ * after a filter of 12 us. Channels 1 and 2 are a pair, and so are 3 and 4. Each channel of a pair can use both inputs
+ * (18.3.6). The input's own channel captures rising edges, and the other channel of the pair captures the falling ones:
+ * so the end of a pulse never overwrites its begin. The interrupt only copies the times. */
 #include "hal/slots.h"
 
 #include "pulses.h"
@@ -20,7 +20,7 @@ static const uint8_t inputs[2] = {BOARD_SLOT_CHANNELS};
 #define IN_OTHER_PAIRS(...) OTHER_PAIRS(__VA_ARGS__)
 _Static_assert(IN_OTHER_PAIRS(BOARD_SLOT_CHANNELS), "each sensor takes a pair of channels");
 
-/* The channel that captures this end of a sensor's pulses. */
+/* Returns the channel that captures this end of a sensor's pulses. */
 static unsigned channel_of(unsigned sensor, hal_slot_end end) {
     return ((inputs[sensor] - 1U) ^ (unsigned)end) + 1U;
 }
@@ -42,8 +42,8 @@ void stm32f4_slots_start(void) {
     stm32f4_interrupt(TIM2_IRQ);
 }
 
-/* Simultaneous captures are stored in order of time. Reading a capture clears its flag; the channel's other flag shows
- * an overrun. */
+/* Stores simultaneous captures in the order of their times. Reading a capture clears its flag; the channel's other flag
+ * shows an overrun. */
 void on_tim2(void) {
     const uint32_t status = reg_load(TIM_SR(TIM2));
     hal_slot_edge seen[4];
@@ -73,7 +73,8 @@ void on_tim2(void) {
     }
 }
 
-/* Taking an edge makes room again. Captures that remain from a storm may be of any age, so they are dropped. */
+/* Taking an edge makes room. If capture had paused, it restarts, and captures that remain from a storm are dropped:
+ * they may be of any age. */
 bool hal_slots_take(hal_slot_edge *edge) {
     const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {

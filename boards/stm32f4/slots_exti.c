@@ -1,6 +1,6 @@
 /* slots_exti.c: the slot sensors as plain external interrupts (RM0090, 12.2), for pins without a timer capture, and for
- * QEMU, which has no capture. The time is read when the interrupt is entered, so it is late by the latency, some
- * microseconds. There is no filter. Lines 0 and 1, for any BOARD_SLOT_PINS. */
+ * QEMU, which has no capture. The time is read when the interrupt begins, so it is late by the latency, some
+ * microseconds. There is no filter. The file always uses lines 0 and 1 of port A, and ignores BOARD_SLOT_PINS. */
 #include "hal/slots.h"
 
 #include "boards/board.h"
@@ -23,7 +23,7 @@ void stm32f4_slots_start(void) {
     stm32f4_interrupt(EXTI1_IRQ);
 }
 
-/* QEMU requests the interrupt at both edges, but only a rising edge is pending. */
+/* Handles an interrupt. QEMU requests it at both edges, but only a rising edge is pending. */
 static void see(uint8_t sensor) {
     const uint32_t ticks = board_ticks();
     if ((reg_load(EXTI_PR) & 1U << sensor) == 0) {

@@ -1,4 +1,4 @@
-/* stm32f4.h: declarations shared by the drivers of the STM32F405. A board's data, crystal and pins, are in its
+/* stm32f4.h: declarations shared by the drivers of the STM32F405. The board's data (crystal, pins) are in its
  * board_data.h. */
 #ifndef BOARDS_STM32F4_H
 #define BOARDS_STM32F4_H
@@ -10,8 +10,8 @@
 #include "registers.h"
 #include "rm0090.h"
 
-/* Clocks after board_clock_start(), Hz (RM0090, 7.2, figure 21): timers on a bus with a divided clock run at twice that
- * clock. */
+/* Clocks after board_clock_start(), Hz (RM0090, 7.2, figure 21). If a bus has a divided clock, its timers run at twice
+ * the bus clock. */
 typedef struct stm32f4_clocks {
     uint32_t timer1_Hz; /* clock of TIM1, on APB2 */
     uint32_t timers_Hz; /* clock of TIM2 and TIM3, on APB1 */
@@ -19,26 +19,27 @@ typedef struct stm32f4_clocks {
 } stm32f4_clocks;
 const stm32f4_clocks *stm32f4_clocks_now(void);
 
-/* The number of a peripheral: the index of its bit among the clock enable registers. Those of the ports come first. */
+/* Number of a peripheral: the index of its bit among the clock enable registers. The ports have the first numbers. */
 #define RCC_PART(enable, bit) (((enable)-RCC_AHB1ENR) * 8U + (unsigned)__builtin_ctz(bit))
 
-/* Enable the peripheral's clock; it runs when this returns (RM0090, 7.3.14; ES0182, 2.1.13). */
+/* Enable the peripheral's clock. The clock runs when the call returns (RM0090, 7.3.14; ES0182, 2.1.13). */
 void stm32f4_clock_on(unsigned part);
 
-/* Returns true as soon as the bits of `mask` equal `wanted`, or false after `looks` polls of some ten cycles each. */
+/* Wait until the bits of `mask` in a register equal `wanted`. Returns false if they do not after `looks` polls of some
+ * ten cycles each. */
 bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
 /* A pin's mode and pull resistor. */
 #define PIN_INPUT 0U
 #define PIN_OUTPUT 1U
-#define PIN_ALTERNATE(function) (2U | (function) << 4) /* 0 ... 15 */
+#define PIN_ALTERNATE(function) (2U | (function) << 4) /* functions 0 to 15 */
 #define PIN_ANALOGUE 3U
 #define PULL_UP (1U << 2)
 #define PULL_DOWN (2U << 2)
 
-/* Set a pin's mode; also enables the port's clock. */
+/* Set a pin's mode, and enable the port's clock. */
 void stm32f4_pin_is(unsigned pin, unsigned what);
-/* Set a pin's level by one store: may be called from a fault handler. */
+/* Set a pin's level by one store, which a fault handler may do. */
 WH_INLINE void stm32f4_pin_set(unsigned pin, bool high) {
     reg_store(GPIO_BSRR(pin / 16U), 1U << (pin % 16U + (high ? 0U : 16U)));
 }
@@ -46,14 +47,15 @@ static inline bool stm32f4_pin_is_high(unsigned pin) {
     return (reg_load(GPIO_IDR(pin / 16U)) >> (pin % 16U) & 1U) != 0;
 }
 
-/* Set a field of an array of fields to `value`. The fields have `bits` bits, begin at register `first`, and lie within
- * one register each. */
+/* Set field `number` of an array of fields to `value`. The array begins at register `first`; each field has `bits` bits
+ * and lies within one register. */
 void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t value);
 
-/* Enable an interrupt of the chip. All have one priority: they do not interrupt each other, and faults interrupt all. */
+/* Enable an interrupt of the chip. All have the same priority: they do not interrupt each other, and faults interrupt
+ * all. */
 void stm32f4_interrupt(unsigned number);
 
-/* Switch interrupts off until stm32f4_go_on(). Returns the state before. */
+/* Switch interrupts off until stm32f4_go_on(). Returns the interrupt state before the call. */
 static inline uint32_t stm32f4_hold(void) {
 #if BOARD_REGISTERS_FAKED
     return reg_hold();
@@ -71,13 +73,13 @@ static inline void stm32f4_go_on(uint32_t before) {
 #endif
 }
 
-/* Wait until the flash interface is idle; false if it stays busy. An erase takes less than two seconds, at any speed of
- * this loop. */
+/* Wait until the flash interface is idle. Returns false if it stays busy. An erase takes less than two seconds, at any
+ * speed of this loop. */
 static inline bool stm32f4_flash_rests(void) {
     return stm32f4_comes(FLASH_SR, FLASH_SR_BSY, 0, 100000000U);
 }
 
-/* The starts of the parts of the rig's hardware, called by hal_clock_start() (rig_clock.c). */
+/* Start the parts of the rig's hardware. hal_clock_start() calls these functions (rig_clock.c). */
 void stm32f4_motor_start(void);
 void stm32f4_reset_start(void);
 void stm32f4_slots_start(void);

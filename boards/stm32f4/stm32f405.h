@@ -1,6 +1,5 @@
-/* stm32f405.h: data common to all boards with an STM32F405; a board's own data are crystal and pins.
- * The complement of TIM1's channel 1 is on PB13: on each of these boards that pin is on a header, and so are PB14 and
- * PA6, TIM1's break. */
+/* stm32f405.h: data common to all boards with an STM32F405. Crystal and pins are a board's own data. The complement of
+ * TIM1's channel 1 is on PB13. Each of these boards has this pin on a header, and also PB14 and PA6, TIM1's break. */
 #ifndef BOARDS_STM32F405_H
 #define BOARDS_STM32F405_H
 
@@ -18,15 +17,15 @@
 #define BOARD_PIN_ENABLE PIN('B', 14)
 #define BOARD_PIN_BREAK PIN('A', 6)
 
-/* States of TIM1's outputs (motor.c); without MOE they have their idle level, low. */
+/* States of TIM1's outputs (motor.c). Without MOE the outputs have their idle level, low. */
 #define BOARD_MOTOR_BDTR (TIM_BDTR_LOCK_2 | TIM_BDTR_OSSI | TIM_BDTR_OSSR | TIM_BDTR_BKE)
 
-/* The divider before the supply's input: 33 V gives the converter's largest value. The highest intended supply is 30
- * V. */
+/* Supply voltage that the divider at the supply's input reduces to the converter's largest value. The highest intended
+ * supply is 30 V. */
 #define BOARD_SUPPLY_FULL_mV 33000U
 #define BOARD_SUPPLY_MOST_mV 31500U
 
-/* A fault's first stores (boards/cortexm/fault.c): TIM1's outputs to their idle level, then the enable low. */
+/* The first stores after a fault (boards/cortexm/fault.c): TIM1's outputs to their idle level, then the enable low. */
 #define BOARD_SAFE_ROWS(X) \
     X(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR) \
     X(GPIO_BSRR(BOARD_PIN_ENABLE / 16U), 1U << (BOARD_PIN_ENABLE % 16U + 16U))

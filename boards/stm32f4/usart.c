@@ -1,7 +1,7 @@
-/* usart.c: the console on serial interface 6, 115,200 baud, 8 bits, no parity (RM0090, 30). An interrupt fills and
- * empties rings in both directions. After a fault, or before other parts have started, the console polls.
+/* usart.c: the console on serial interface 6, 115,200 baud, 8 bits, no parity (RM0090, 30). An interrupt uses a ring
+ * for each direction. After a fault, or before other parts have started, the console polls.
  *
- * The writer feeds the transmitter while it is ready; the interrupt sends the other bytes. So bytes also leave if an
+ * While the transmitter is ready, the writer feeds it; the interrupt sends the other bytes. So bytes also go out if an
  * empty transmitter raises no interrupt (QEMU 7.2). */
 #include "boards/board.h"
 
@@ -12,8 +12,8 @@
 #define USART6_IRQ 71U
 #define USART6_FUNCTION 8U
 
-/* Sizes are powers of two, so that indices wrap correctly. A control step of 2 ms takes at most 23 bytes. In each step
- * the console writes only as many as there is room for: its answers wait in its own buffer. */
+/* Sizes of the rings: powers of two, so that indices wrap correctly. At most 23 bytes come in a control step of 2 ms.
+ * In each step the console writes only as many bytes as there is room for: its answers wait in its own buffer. */
 #define IN_BYTES 128U
 #define OUT_BYTES 128U
 
@@ -21,10 +21,10 @@ static char in_bytes[IN_BYTES];
 static stm32f4_ring_counts in_counts;
 static const stm32f4_ring in = {&in_counts, in_bytes, IN_BYTES, 1};
 static char out_bytes[OUT_BYTES];
-/* out_counts.taken is used by the interrupt, and by code that has disabled the interrupt */
+/* Only the interrupt uses out_counts.taken, or code that has disabled the interrupt. */
 static stm32f4_ring_counts out_counts;
 static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
-static bool lost; /* bytes were lost; used by the interrupt only */
+static bool lost; /* bytes were lost; only the interrupt uses it */
 
 void uart_start(void) {
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_USART6));
@@ -35,7 +35,7 @@ void uart_start(void) {
     stm32f4_interrupt(USART6_IRQ);
 }
 
-/* Send waiting bytes while the transmitter takes them. Returns true if more are waiting. */
+/* Sends waiting bytes while the transmitter takes them. Returns true if bytes still wait. */
 static bool feed(void) {
     uint8_t byte;
     while ((reg_load(USART_SR) & USART_SR_TXE) != 0) {
@@ -47,8 +47,9 @@ static bool feed(void) {
     return out_counts.put != out_counts.taken;
 }
 
-/* Reading the status, then the data, clears both flags (30.6.1). Bytes after this one are lost by an overrun, or if
- * the FIFO is full. One zero before the next byte stands for them. A line with a zero is not executed. */
+/* Stores received bytes. Reading the status, then the data, clears both flags (30.6.1). If bytes are lost after this
+ * one, by an overrun or because the ring is full, a zero before the next byte replaces them. A line with a zero is not
+ * executed. */
 static void fetch(void) {
     for (unsigned i = 0; i < IN_BYTES; i++) {
         const uint32_t status = reg_load(USART_SR);
@@ -57,7 +58,7 @@ static void fetch(void) {
         }
         char byte = (char)(reg_load(USART_DR) & 0xFFU);
         if ((status & (USART_SR_FE | USART_SR_NF)) != 0 && byte != HAL_CONSOLE_STOP) {
-            byte = 0; /* a damaged byte: wrong speed, a plug, noise */
+            byte = 0; /* a byte damaged by a wrong speed, a plug or noise */
         }
         if (lost) {
             lost = !stm32f4_ring_put(&in, "");
@@ -99,8 +100,8 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* The transmitter is ready within a byte's time, 87 us. The wait is bounded, so that a dead device does not hang the
- * program. */
+/* Waits until the transmitter is ready, which takes at most a byte's time, 87 us. The wait is bounded, so that a dead
+ * device does not hang the program. */
 static void send(char byte) {
     (void)stm32f4_comes(USART_SR, USART_SR_TXE, USART_SR_TXE, 100000U);
     reg_store(USART_DR, (uint8_t)byte);
@@ -113,7 +114,7 @@ void uart_write(const char *bytes, unsigned count) {
     const uint32_t before = stm32f4_hold();
     for (;;) {
         char byte;
-        if (!stm32f4_ring_take(&out, &byte)) { /* bytes that were queued before go first */
+        if (!stm32f4_ring_take(&out, &byte)) { /* bytes that were queued before go out first */
             if (count-- == 0) {
                 break;
             }

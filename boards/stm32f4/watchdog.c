@@ -1,6 +1,6 @@
 /* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip. In a reset the drive is off. The watchdog's
- * oscillator has 17 to 47 kHz: a reset never comes before the timeout, and always within 2.8 timeouts. It goes on while
- * a debugger halts the core (motor.c). */
+ * oscillator has 17 to 47 kHz: a reset comes after the timeout, at the latest after 2.8 timeouts. The watchdog keeps
+ * running while a debugger halts the core (motor.c). */
 #include "hal/watchdog.h"
 
 #include "hal/clock.h"
@@ -9,16 +9,16 @@
 #define FASTEST_KHZ 47U
 #define TICKS_PER_MS (HAL_TICKS_PER_S / 1000U)
 #define LONGEST 4095U
-#define DIVIDERS 7U /* by 4, 8, ... 256 */
+#define DIVIDERS 7U /* dividers 4, 8, ... 256 */
 
-/* Clocks of the fastest oscillator, rounded up. In two parts, because one product would need the library's 64-bit
- * division: 750 bytes of flash for this only. */
+/* Returns the clocks of the fastest oscillator, rounded up. In two parts, because one product would need the library's
+ * 64-bit division: 750 bytes of flash for this only. */
 static uint32_t clocks_in(uint32_t ticks) {
     const uint32_t rest = FASTEST_KHZ * (ticks % TICKS_PER_MS);
     return FASTEST_KHZ * (ticks / TICKS_PER_MS) + (rest + TICKS_PER_MS - 1U) / TICKS_PER_MS;
 }
 
-/* May be called again with another timeout, even just before the watchdog resets the chip. */
+/* Another call with another timeout is allowed, even just before the watchdog resets the chip. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint32_t counts = clocks_in(timeout_ticks) / 4U;
     uint32_t divider = 0;
@@ -31,7 +31,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     reg_store(IWDG_KR, IWDG_KR_UNLOCK);
     reg_store(IWDG_PR, divider);
     reg_store(IWDG_RLR, counts < LONGEST ? counts + 1U : LONGEST);
-    /* both values need up to five clocks of the watchdog, 300 us, to take effect (21.4.4) */
+    /* Both values take effect after up to five clocks of the watchdog, 300 us (21.4.4). */
     (void)stm32f4_comes(IWDG_SR, UINT32_MAX, 0, 100000U);
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
 }

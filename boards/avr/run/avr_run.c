@@ -1,19 +1,19 @@
-/* avr_run.c: run an AVR program on simavr, which counts the processor's cycles.
+/* avr_run.c: runs an AVR program on simavr, which counts the processor's cycles.
  *
  *     avr_run mcu=atmega328p hz=16000000 [counts=FILE [every=N]] PROGRAM.elf
  *
  * The output of the program's first USART goes to standard output. The program ends by sleeping with its interrupts
- * off; its exit status is the byte in GPIOR0 (boards/avr/board.c). 125: simavr cannot run it; 123: it crashed, or its
- * stack ran into its variables, which these chips do not detect.
+ * off; its exit status is the byte in GPIOR0 (boards/avr/board.c). Exit status 125: simavr cannot run the program. 123:
+ * the program crashed, or its stack ran into its variables, which these chips do not detect.
  *
  * FILE gets the log of count_plugin.c, for a program with wh_count_begin() and wh_count_end()
- * (boards/programs/counted.h), and, besides the instructions, the cycles:
+ * (boards/programs/counted.h), and also the cycles:
  *
- *     interval NUMBER INSTRUCTIONS             from the return of wh_count_begin() to that of wh_count_end(), both left out
+ *     interval NUMBER INSTRUCTIONS             from the return of wh_count_begin() to that of wh_count_end(), both excluded
  *     cycles NUMBER CYCLES                     of the same interval
- *     sums NUMBER HOW-MANY INSTRUCTIONS CYCLES with every=N, N above 1: N intervals count as one, which has the largest of each,
- *                                              and these sums
- *     unfinished INSTRUCTIONS                  if it ended inside an interval
+ *     sums NUMBER HOW-MANY INSTRUCTIONS CYCLES with every=N, N above 1: N intervals count as one, which has the largest of
+ *                                              each number; the sums are these
+ *     unfinished INSTRUCTIONS                  if the program ended inside an interval
  *     intervals TOTAL                          always the last line
  *
  * The cycles are those of the data sheet's instruction set, exact for these chips: no caches, no wait states. */
@@ -31,8 +31,8 @@
 
 #define CANNOT_RUN 125
 #define WENT_WRONG 123
-#define GPIOR0 0x3EU          /* data address, on both chips */
-#define MEMORY_BASE 0x800000U /* added to data addresses in ELF files */
+#define GPIOR0 0x3EU          /* address in data memory, on both chips */
+#define MEMORY_BASE 0x800000U /* ELF files add this to addresses in data memory */
 
 static _Noreturn void fail(const char *what) {
     fprintf(stderr, "avr_run: %s\n", what);
@@ -45,7 +45,7 @@ static void on_byte(struct avr_irq_t *irq, uint32_t value, void *data) {
     putchar((int)(value & 0xFFU));
 }
 
-/* simavr logs every section it loads; only errors are shown. */
+/* Shows only errors: simavr also logs every section that it loads. */
 static void on_log(avr_t *avr, const int level, const char *format, va_list arguments) {
     (void)avr;
     if (level <= LOG_ERROR) {
@@ -107,7 +107,7 @@ static uint32_t address_of(const elf_firmware_t *firmware, const char *name) {
     return 0;
 }
 
-/* The processor with the program in its flash. */
+/* Returns the processor with the program in its flash. */
 static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     memset(firmware, 0, sizeof *firmware);
     if (elf_read_firmware(all->program, firmware) != 0) {
@@ -119,14 +119,14 @@ static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     }
     firmware->frequency = all->hz;
     avr_load_firmware(avr, firmware);
-    uint32_t flags = 0; /* no copy to simavr's own console, and no sleep while the program polls */
+    uint32_t flags = 0; /* no copy to simavr's own console; no sleep while the program polls */
     avr_ioctl(avr, AVR_IOCTL_UART_SET_FLAGS('0'), &flags);
     avr_irq_register_notify(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT),
                             on_byte, NULL);
     return avr;
 }
 
-/* The end of the variables, or 0 if the program does not define it. */
+/* Address of the end of the variables, or 0 if the program does not define it. */
 static uint32_t end_of_variables;
 
 static uint32_t stack_pointer(const avr_t *avr) {
@@ -139,12 +139,14 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
     exit(WENT_WRONG);
 }
 
-/* The stack pointer is set byte by byte, with the interrupt flag in between: for two instructions it may be invalid. */
+/* A program sets the stack pointer in two bytes, with the interrupt flag in between: for two instructions it may be
+ * invalid. */
 #define TORN_INSTRUCTIONS 2U
 
-/* One instruction. False when the program has ended. */
+/* Executes one instruction. Returns false if the program has ended. */
 static bool step(avr_t *avr) {
-    static unsigned low = 0; /* instructions so far with the stack pointer among the variables */
+    /* successive instructions with the stack pointer among the variables */
+    static unsigned low = 0;
     const int state = avr_run(avr);
     if (state == cpu_Crashed) {
         went_wrong(avr, "crashed");
@@ -159,7 +161,7 @@ static bool step(avr_t *avr) {
     return state != cpu_Done;
 }
 
-/* Intervals that count as one: the largest values, and sums. */
+/* Intervals that count as one: their largest values, and their sums. */
 typedef struct group {
     uint64_t members;
     uint64_t instructions, cycles;
@@ -233,10 +235,11 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
 int main(int argc, char **argv) {
     const settings all = read_arguments(argc, argv);
     avr_global_logger_set(on_log);
-    (void)setvbuf(stdout, NULL, _IOLBF, BUFSIZ); /* also for a program that does not end */
+    /* line by line, so that a hanging program's output shows */
+    (void)setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
     elf_firmware_t firmware;
     avr_t *avr = load(&all, &firmware);
-    avr->run_cycle_limit = 1; /* one instruction a call */
+    avr->run_cycle_limit = 1; /* one instruction per call */
     const uint32_t end = address_of(&firmware, "_end");
     end_of_variables = end > MEMORY_BASE ? end - MEMORY_BASE : 0;
     if (all.counts != NULL) {
