@@ -19,7 +19,6 @@
 extern "C" {
 #endif
 
-/* Kinds of frames. */
 enum {
     WH_FRAME_HELLO = 1,
     WH_FRAME_ORDERS = 2,
@@ -124,7 +123,6 @@ typedef struct wh_reset {
     uint8_t remembered[WH_REMEMBER_MAX];
 } wh_reset;
 
-/* Largest size of each payload. */
 #define WH_ORDERS_BYTES (22U + 4U * WH_SIGNALS_MAX)
 #define WH_RESET_BYTES (1U + WH_REMEMBER_MAX)
 #define WH_READINGS_BYTES (3U + 5U * WH_EDGES_MAX + 10U * WH_SAMPLES_MAX)

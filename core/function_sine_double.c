@@ -67,7 +67,6 @@ static wh_pair in_radians(uint64_t *word) {
     return wh_pair_of(product.high, product.low + (high * half_pi.low + low * half_pi.high));
 }
 
-/* Reduces a finite angle that is not negative. */
 static turned reduced(double rad) {
     if (rad <= QUARTER_OF_PI) {
         return (turned){{rad, 0.0}, 0};

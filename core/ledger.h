@@ -100,7 +100,6 @@ WH_INLINE wh_real *wh_ledger_most(const wh_ledger_form *form, const wh_state *st
     return state->ledger + 2U * form->entries + (unsigned)form->accounts - 1U;
 }
 
-/* Exchange input k of form->input with its stored value. */
 WH_INLINE void wh_ledger_exchange(const wh_ledger_form *form, const wh_state *state, unsigned k) {
     wh_real *kept = wh_ledger_kept(form, state);
     const wh_real input = state->input[form->input[k]];
@@ -127,7 +126,6 @@ static inline void wh_ledger_last_levels(const wh_ledger_form *form, const wh_st
     }
 }
 
-/* Sum of an account's entries since the start, in the account's unit. */
 static inline wh_real wh_ledger_sum(const wh_ledger_form *form, const wh_state *state,
                                     unsigned account) {
     wh_real sum = WH_R(0.0);

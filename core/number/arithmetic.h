@@ -33,7 +33,6 @@ typedef struct wh_probes {
 #define wh_probe WH_NAME(wh_probe)
 extern const wh_probes wh_probe;
 
-/* Indices of the results. */
 typedef enum wh_probed {
     WH_PROBED_PRODUCT, /* not 0 if products are not rounded before a sum: contraction, x87 */
     WH_PROBED_ORDER,   /* not 0 if a sum is reordered */
@@ -50,7 +49,6 @@ typedef enum wh_probed {
     WH_PROBED_COUNT
 } wh_probed;
 
-/* Computes the results; for wh_scene.arithmetic. */
 static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     const volatile wh_probes *probe = &wh_probe;
     const wh_real squared = probe->factor;

@@ -57,7 +57,6 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 /* Damping of the mean speed over a turn: the slope of the torque line plus 0.001 N m s for the bearings. */
 #define WH_RIG_DAMPING_NMS (WH_RIG_STALL_NM / WH_RIG_NO_LOAD_RADPS + WH_R(0.001))
 
-/* Supply voltage of the torque line above. */
 #define WH_RIG_RATED_V WH_R(24.0)
 
 #define WH_RIG_GRAVITY_MPS2 WH_R(9.80665)

@@ -72,7 +72,6 @@ void wh_normal_add(wh_normal *normal, const wh_real row[WH_NORMAL_UNKNOWNS], wh_
 void wh_normal_factor(wh_normal *normal);
 void wh_normal_solve(wh_normal *normal);
 
-/* Returns the standard deviation of an unknown, after the factorization. */
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
 
 /* === the rotor =============================================================================== */
@@ -245,7 +244,6 @@ void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 
-/* True while pulses remain to be evaluated. */
 WH_INLINE bool wh_swing_works(const wh_swing *swing) { return swing->result.why == WH_SWING_WORKS; }
 
 /* If sensor 1 was found out of place, this makes a good result doubtful, because the result's phase has the same

@@ -27,7 +27,6 @@ typedef struct wh_compensation {
     wh_real part; /* the present factor of the fade-in, from 0 to 1; initially 0 */
 } wh_compensation;
 
-/* The configuration for the rig of eccentric.whirl. */
 #define WH_COMPENSATION_STANDARD \
     { \
         .weight_Nm = WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2, .stall_Nm = WH_RIG_STALL_NM, \

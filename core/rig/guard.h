@@ -196,8 +196,7 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     if (pulses->alternate < alternate) {
         return;
     }
-    /* One early pulse may be a disturbance. Two early pulses show that the rotor is that fast. */
-    /* no later pulse can reject the last one */
+    /* no later pulse can reject the last one: a single early pulse may be a disturbance */
     const bool sure = !pulses->waits || pulses->fast > 0;
     /* One early pulse may be a disturbance. If the load vanishes, the speed rises. Both at once are a trip. */
     const bool climbs =
@@ -252,7 +251,6 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     }
 }
 
-/* True if load samples still arrive. */
 WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard *guard,
                                    uint32_t now_ticks) {
     /* signed: a time stamp may be later than the time at which the step read the timer */
@@ -260,7 +258,6 @@ WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard
            config->load_silence_max_s * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Returns the reason in words, for consoles, by wh_text_add(). */
 const char *wh_trip_text(wh_trip reason);
 
 #ifdef __cplusplus

@@ -364,7 +364,6 @@ static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
 #endif
 }
 
-/* Evaluates sensor 2's pulse. Returns true when this is finished. */
 static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_lockin_turn *turn = &lockin->next;
     if (!turn->second_seen || !is_steady(lockin, STILL_PART)) {
@@ -385,7 +384,6 @@ static bool correct(const wh_rotor_config *rotor, wh_lockin *lockin) {
 #endif
 }
 
-/* Computes the result of the turn. Returns true when the result is finished. */
 static bool end(const wh_cell_config *cell, wh_lockin *lockin) {
     if (lockin->piece == 0) {
         end_sums(lockin);

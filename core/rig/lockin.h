@@ -179,7 +179,6 @@ typedef struct wh_lockin {
     /* number of samples that were not used, because they were not ok or came out of order */
     uint32_t refused;
 
-    /* The turn that is being evaluated. */
     wh_lockin_turn next;
     uint16_t next_equal;
     wh_real part_per_tick;
@@ -237,7 +236,6 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves);
 
-/* Returns in words why a turn does not count. */
 const char *wh_turn_text(wh_turn_fault fault);
 
 #ifdef __cplusplus

@@ -117,7 +117,6 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
     if (!wh_lockin_work(&config->rotor, &config->cell, &measure->lockin, halves)) {
         return;
     }
-    /* Only turns that lie entirely within the record count. */
     const wh_lockin_turn *turn = &measure->lockin.turn;
     const bool begins_within = (int32_t)(turn->begin_ticks - measure->begin_ticks) >= 0;
     if (begins_within && wh_measure_lasts(measure, turn->begin_ticks + turn->turn_ticks)) {

@@ -121,7 +121,6 @@ void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsig
 void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,
                        uint32_t now_ticks);
 
-/* True if `ticks` is within the record. */
 bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks);
 
 /* Call this in each control step after the record's time until it returns true. Then the record's last turn is

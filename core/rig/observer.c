@@ -9,7 +9,6 @@
 
 const wh_observer_config wh_observer_standard = WH_OBSERVER_STANDARD;
 
-/* Returns the difference of two phases, -pi ... pi. */
 static wh_real signed_rad(wh_phase difference) {
 #if WH_DOUBLE
     const double turns = difference / WH_RIG_TWO_PI;

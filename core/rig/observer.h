@@ -121,7 +121,6 @@ void wh_observer_forget(wh_observer *observer);
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks);
 wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks);
 
-/* Returns the speed at the last step. */
 wh_real wh_observer_speed_radps(const wh_observer *observer);
 
 /* Returns the drive at which this motor makes no torque: the argument for wh_observer_step() while the motor coasts. */

@@ -77,7 +77,6 @@ typedef struct wh_run {
     wh_drive drive;
 } wh_run;
 
-/* Inputs and outputs of a run's step. */
 typedef struct wh_run_scene {
     const wh_run_config *config;
     const wh_measure_config *measuring;
@@ -132,7 +131,6 @@ typedef struct wh_setpoint {
 } wh_setpoint;
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 
-/* Returns the motor voltage for a steady speed. */
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
 /* Returns the phase in words, for consoles, by wh_text_add(). The number WH_PHASES stands for a motor that is off and

@@ -9,8 +9,6 @@
 extern "C" {
 #endif
 
-/* === sine and cosine of an angle ============================================================= */
-
 WH_SHARED wh_wave wh_wave_at(wh_phase phase) {
     wh_wave both;
     wh_sincos(phase, &both.sine, &both.cosine);
@@ -18,8 +16,6 @@ WH_SHARED wh_wave wh_wave_at(wh_phase phase) {
 }
 
 WH_SHARED wh_wave wh_wave_of(wh_real rad) { return wh_wave_at(wh_phase_from_rad(rad)); }
-
-/* === amplitude and phase from a cosine and a sine component ================================== */
 
 #define wh_polar WH_NAME(wh_polar)
 #define wh_polar_begin WH_NAME(wh_polar_begin)

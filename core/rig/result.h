@@ -138,7 +138,6 @@ typedef struct wh_measured {
 #define WH_UNCALIBRATED_PART WH_R(0.005)
 #define WH_UNCALIBRATED_RAD (WH_R(0.5) / WH_RIG_DEG_PER_RAD)
 
-/* True if the calibration uncertainties of amplitude and phase were both entered. */
 WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
     return config->amplitude_floor > WH_R(0.0) && config->phase_floor_rad > WH_R(0.0);
 }
@@ -187,7 +186,6 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
  * for none. */
 wh_real wh_student(uint32_t freedom);
 
-/* Returns the reason in words, for consoles, by wh_text_add(). */
 const char *wh_why_text(wh_why why);
 const char *wh_quality_text(wh_quality quality);
 

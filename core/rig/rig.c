@@ -99,7 +99,6 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
                                    .supply_V = inputs->supply_V};
 }
 
-/* Decides whether a run at this speed uses gravity compensation. */
 static WH_CALLED void choose_feed(const wh_rig_config *config, wh_rig *rig, wh_real target_radps) {
     rig->fed =
         config->feeds == WH_COMPENSATION_ALWAYS ||
@@ -214,7 +213,6 @@ static void finds(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     (void)happens(config, rig, inputs, &order);
 }
 
-/* Handles the orders from outside only. */
 static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     for (unsigned i = 0; i < rig->orders; i++) {
         const wh_rig_order *order = &rig->order[i];
@@ -313,7 +311,6 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     }
 }
 
-/* Returns the part of the voltage that compensates gravity, V. */
 static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     if (!rig->fed || !wh_run_is_closed(&rig->run)) {
         rig->compensation.part = WH_R(0.0);
@@ -506,7 +503,6 @@ static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
 
 static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
                            const wh_rig_inputs *inputs, wh_real target_radps) {
-    /* Gravity compensation allows lower set-points. */
     const bool can_feed = config->feeds != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
     const bool feeds = can_feed && (config->feeds == WH_COMPENSATION_ALWAYS ||
                                     target_radps < config->guard.target_min_radps);

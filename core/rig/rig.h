@@ -50,7 +50,6 @@ bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned l
 /* The source of a stop request. EITHER: the drive stage's fault and the stop contacts share a line. */
 typedef enum wh_stop_by { WH_STOP_BY_EITHER, WH_STOP_BY_INPUT, WH_STOP_BY_DRIVE } wh_stop_by;
 
-/* A control step's inputs other than pulses, samples and orders. */
 typedef struct wh_rig_inputs {
     uint32_t now_ticks;
     wh_real supply_V;
@@ -187,14 +186,12 @@ unsigned wh_rig_stage(const wh_rig *rig);
 #define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
 unsigned wh_rig_shown_stage(const wh_rig *rig);
 
-/* Returns the words for a stage of either function. */
 const char *wh_rig_stage_text(unsigned stage);
 
 /* Sets *speed_radps to the mean speed of the last whole turn, or 0 at rest. Returns false if the speed is unknown:
  * before the first turn, or if the rotor swings (its pulses do not alternate). */
 bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
-/* Returns the seconds since the result was finished. */
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
 /* Returns the guard's trip, or its likely cause if that is known, in the step that trips. Part of wh_rig_step(). */

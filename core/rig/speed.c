@@ -9,7 +9,6 @@ static wh_real seconds(uint32_t ticks) {
     return (wh_real)ticks * (WH_R(1.0) / (wh_real)WH_RIG_TICKS_PER_S);
 }
 
-/* Returns the mean speed over `quarters` quarter turns in `ticks` > 0. */
 static wh_real radps(uint32_t quarters, uint32_t ticks) {
     return (wh_real)quarters * (WH_RIG_TWO_PI / (wh_real)QUARTERS) / seconds(ticks);
 }
@@ -18,7 +17,6 @@ void wh_speed_start(wh_speed *speed, wh_real impossible_radps) {
     *speed = (wh_speed){.impossible_radps = impossible_radps};
 }
 
-/* Restarts the count of quarter turns at this sensor's position. */
 static void begin(wh_speed *speed, unsigned sensor) {
     speed->running = true;
     speed->quarter = sensor;

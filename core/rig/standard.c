@@ -91,7 +91,6 @@ const wh_rig_config wh_rig_standard = {
     .host_loss_stops = true,
 };
 
-/* Returns the voltage at which the motor gives this torque at this speed. */
 static wh_real volts_for(const wh_rig_motor *motor, wh_real torque_Nm, wh_real speed_radps) {
     return motor->rated_V * (torque_Nm / motor->stall_Nm + speed_radps / motor->no_load_radps);
 }

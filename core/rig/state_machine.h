@@ -77,7 +77,6 @@ typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refu
 #undef WH_RIG_STATE_NAME
 #undef WH_REFUSAL_NAME
 
-/* The result of an event in a state. */
 typedef struct wh_rig_transition {
     wh_rig_state next;  /* the next state, if no other condition refuses the event */
     wh_refusal refusal; /* WH_ALLOWED, or the reason; `next` is then the present state */
@@ -92,7 +91,6 @@ typedef struct wh_rig_transition {
 /* Look up the table. An unknown event or state gives a refusal. */
 wh_rig_transition wh_rig_transition_of(wh_rig_state state, wh_rig_event event);
 
-/* Return the words for consoles, by wh_text_add(). */
 const char *wh_rig_state_text(wh_rig_state state);
 const char *wh_rig_event_text(wh_rig_event event);
 const char *wh_refusal_text(wh_refusal refusal);

@@ -44,7 +44,6 @@ void wh_turn_angle_compensate(wh_turn_angle *angle, bool fed, wh_real stall_Nm_p
     }
 }
 
-/* Adds the term of twice the angle, for a carriage that moves. */
 static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real yields = config->yields_kgm2;
     const wh_real mean = angle->inertia_kgm2 - WH_R(0.5) * yields;

@@ -115,8 +115,6 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
     }
 }
 
-/* --- range of a setting ---------------------------------------------------------------------------------------- */
-
 /* Returns the value as permanent memory stores it. */
 static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
 
@@ -176,7 +174,6 @@ static bool has_motor(const wh_conf *conf) {
 static const uint8_t of_motor[] = {WH_CONF_damping, WH_CONF_gain,         WH_CONF_gain_integral,
                                    WH_CONF_spin_up, WH_CONF_supply_least, WH_CONF_supply_most};
 
-/* Sets the program's own configuration, scaled to the motor of the settings. */
 static void begin_with_motor(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     conf->own(c);
@@ -315,8 +312,6 @@ wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
     }
     return known ? wh_conf_set(conf, id, value) : WH_STATION_CONF_VALUE;
 }
-
-/* --- all settings ------------------------------------------------------------------------------------------- */
 
 void wh_conf_default(wh_conf *conf) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {

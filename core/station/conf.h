@@ -78,7 +78,6 @@ void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_s
 /* Returns the row of a setting. If constants stay in flash (core/number/flash.h), the row is copied to *room. */
 const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
-/* Returns the setting with this name, or WH_CONF_COUNT. */
 wh_conf_id wh_conf_find(const char *name);
 
 /* Return the setting's name; the words for its values, and its unit, as items of lists (answer.h); and its

@@ -282,7 +282,6 @@ static unsigned do_help(request *r) {
 
 static unsigned typed(const wh_line *line) { return line->ended ? 0 : line->length; }
 
-/* Takes the next line from the received bytes, if it is complete. */
 static wh_line_event next_line(wh_station *station) {
     char byte;
     while (wh_ring_peek(&station->in, &byte, 1) == 1U) {

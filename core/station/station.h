@@ -29,7 +29,6 @@
 extern "C" {
 #endif
 
-/* The argument texts of commands, for their rows below. */
 #define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 
 /* The commands: X(name, maximum number of words after it, arguments, words) */
@@ -122,7 +121,6 @@ static inline unsigned wh_station_peek(const wh_station *station, char *bytes, u
     return (unsigned)wh_ring_peek(&station->out, bytes, room);
 }
 
-/* Remove `count` bytes that were sent. */
 static inline void wh_station_drop(wh_station *station, unsigned count) {
     wh_ring_drop(&station->out, count);
 }

@@ -7,7 +7,6 @@
 #define HEAD_BYTES WH_STORE_HEAD_BYTES
 #define WITH_ITS_CRC 0x2144DF1CU /* the CRC-32 of any record that ends in its own CRC */
 
-/* Reads a number of four bytes. */
 static uint32_t get(const uint8_t *bytes) {
     return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }

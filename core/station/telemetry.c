@@ -16,7 +16,6 @@
 _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "frames are short");
 #define NONE_16 0xFFFFU
 
-/* The ring that gets the bytes, and the rig that they describe. */
 typedef struct sight {
     wh_tel *tel;
     const wh_rig_config *config;
@@ -335,7 +334,6 @@ const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i) {
 
 /* === the console's command `tel` ============================================================= */
 
-/* Parts of the schema of the channel `run`. */
 #define SPEED "speed[rpm]:u2:0.02"
 #define DRIVE ",drive[V]:u2:0.001"
 #define SCALE_DECIMALS 12U
@@ -472,7 +470,6 @@ static wh_station_error set_format(wh_tel *tel, const wh_cell_config *cell, cons
     return WH_STATION_FINE;
 }
 
-/* Sets the ring's trigger, or begins to send the ring (`read`). */
 static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer) {
     const unsigned what = wh_list_find(TRIGGERS "|"
                                                 "read",
