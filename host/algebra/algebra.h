@@ -62,8 +62,6 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
 /* Negative if x comes before y, 0 if they are equal, else positive. */
 int poly_order(const poly *x, const poly *y);
 
-/* --- questions (poly.c) -------------------------------------------------------------------------*/
-
 /* x + y, or 0 if the sum is only the round-off of decimals. */
 double coefficient_sum(double x, double y);
 /* Is p a sum of at least two terms, made of positions, parameters and numbers only, without rates and functions? */

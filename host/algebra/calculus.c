@@ -5,7 +5,7 @@
 #include "host/algebra/algebra.h"
 #include "host/algebra/poly.h"
 
-/* === slopes =================================================================================== */
+/* === derivatives of functions ================================================================= */
 
 static const poly *negative(algebra *a, const poly *p) { return poly_scale(a, p, -1.0); }
 static const poly *square(algebra *a, const poly *p) { return poly_mul(a, p, p); }
@@ -44,7 +44,7 @@ const poly *function_slope(algebra *a, function_id function, int which, const po
     return a->zero;
 }
 
-/* === the number of a poly ===================================================================== */
+/* === evaluation =============================================================================== */
 /* The value of an atom, for checks and constants. Runs use operation lists instead. */
 
 static double atom_value(const atom *x, poly_value *value, void *context) {

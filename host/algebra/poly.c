@@ -217,7 +217,7 @@ const poly *sum_close(algebra *a, poly_sum *s) {
     return made;
 }
 
-/* === one object for equal things ============================================================== */
+/* === interning ================================================================================ */
 
 /* Limit of the work of a derivation, in bytes: some 500 MB, or half a minute. An arm of six joints without zero lengths
  * needs 0.42e9. */
@@ -286,8 +286,6 @@ static unsigned next_id(algebra *a, intern_table *table, size_t bytes) {
     count_bytes(a, bytes + 48);
     return (unsigned)table->count++;
 }
-
-/* --- opening and closing -------------------------------------------------------------------------*/
 
 algebra *algebra_new(void) {
     algebra *a = alloc(1, sizeof *a);

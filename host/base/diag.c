@@ -48,7 +48,8 @@ enum {
 };
 
 typedef struct entry {
-    const source *source; /* only compared: may dangle after diag_error() returns */
+    /* only compared, because it may be gone after diag_error() has returned */
+    const source *source;
     int file_order;
     char file[FILE_SIZE];
     int line;

@@ -21,7 +21,7 @@ typedef struct maker {
     const equations *equations;
     int *input;   /* [inputs of the mechanism] number in the image, or -1 */
     int *let;     /* [lets of the mechanism] node, or -1 */
-    known *table; /* [table_size] by address */
+    known *table; /* [table_size] hash table, by address */
     size_t entered;
     size_t table_size; /* a power of two, or 0 */
 } maker;

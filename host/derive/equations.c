@@ -111,7 +111,7 @@ static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
 contact_laws *contact_laws_make(algebra *a, const instance *inst) {
     const mechanism *m = inst->mechanism;
     const int own = inst->scene != NULL ? inst->scene->when_count : 0;
-    const int most = 2 * m->contact_count + own; /* a crossing for each friction */
+    const int most = 2 * m->contact_count + own; /* room for a crossing for each friction */
     contact_laws *laws = alloc(1, sizeof *laws);
     laws->law = alloc(most, sizeof *laws->law);
     laws->sets = alloc(most, sizeof *laws->sets);
@@ -219,7 +219,7 @@ const poly *forces_power(algebra *a, const statement_force *forces, int count, t
     return sum;
 }
 
-/* === questions to finished equations ========================================================== */
+/* === access to finished equations ============================================================= */
 
 place equations_kinetic_place(const instance *inst) {
     const mechanism *m = inst->mechanism;

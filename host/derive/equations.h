@@ -27,7 +27,7 @@ typedef struct contact_law {
 } contact_law;
 
 typedef struct contact_set {
-    const poly **value; /* one for each of from->sets */
+    const poly **value; /* [from->set_count] values that a crossing sets */
 } contact_set;
 
 typedef struct contact_laws {
@@ -82,8 +82,9 @@ typedef struct equations {
     unknown *unknowns; /* [count] */
     const poly **mass; /* [count * count] row by row */
     double
-        mass_blur; /* relative error of the accelerations by the rounding of mass[], at the best of the tried states */
-    folding folding;        /* folding of the file's numbers */
+        /* relative error of the accelerations from the rounding of mass[], at the best of the tried states */
+        mass_blur;
+    folding folding;        /* constant folding of the file's numbers */
     const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
     const poly **potential; /* [count] dV/dq; for a system all other terms, moved to the left */
     const poly **applied;   /* [count] Q - dF/dq'; zero for a system */

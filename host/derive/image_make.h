@@ -5,8 +5,6 @@
 #include "host/derive/equations.h"
 #include "host/image/image.h"
 
-/* === one image ================================================================================ */
-
 /* The purpose of an image. An image to run also has the expressions that may be undefined, in the spelling of the
  * file, so that a message can quote the failed one (host/check/nonfinite.h). */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN } image_use;

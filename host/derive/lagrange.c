@@ -481,7 +481,7 @@ static bool derive_lagrange(equations *e, diags *errors) {
     return true;
 }
 
-/* --- systems given outright ----------------------------------------------------------------------*/
+/* --- systems given by equations -----------------------------------------------------------------*/
 
 static int highest_order(const poly *p, const symbol *s) {
     for (int order = 8; order > 0; order--) {

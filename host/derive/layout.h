@@ -36,8 +36,8 @@ typedef struct layout {
     int coordinates;  /* integrated coordinates, angles included (second order) */
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */
-    int inputs;       /* [inputs] number of each input in the mechanism */
-    int *input;       /* [inputs] number in the mechanism */
+    int inputs;       /* the mechanism's own and those of the active effects */
+    int *input;       /* [inputs] number of each input in the mechanism */
     component *angle; /* [angles] */
     component *real;  /* [reals] */
     /* [unknown] coordinate number in the scene's order, or -1 (second order) */

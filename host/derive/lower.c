@@ -92,7 +92,7 @@ typedef struct family {
     trig trig;                   /* TRIG_COS: c_k cos 2kx; TRIG_SIN: c_k sin 2kx */
     int last;                    /* largest k */
     double coefficient[INDICES]; /* c_k */
-    int member[INDICES];         /* the poly's term, or -1 */
+    int member[INDICES];         /* number of the poly's term with c_k, or -1 */
     int members;
 } family;
 
@@ -291,9 +291,9 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
-    WAVE_DOUBLE,    /* 2 p */
-    WAVE_SUM,       /* p + q */
-    WAVE_DIFFERENCE /* p - q */
+    WAVE_DOUBLE,    /* the angle 2 p */
+    WAVE_SUM,       /* the angle p + q */
+    WAVE_DIFFERENCE /* the angle p - q */
 } wave_rule;
 
 struct wave {
@@ -670,7 +670,7 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
             return;
         }
     }
-    if (p->count == FACTORS_MAX) { /* never observed */
+    if (p->count == FACTORS_MAX) { /* has never been observed */
         const int last = FACTORS_MAX - 1;
         const int first = op_list_power(l->list, p->powers[last].node, p->powers[last].exponent);
         const int more = op_list_power(l->list, node, exponent);

@@ -58,7 +58,7 @@ typedef struct ledger_lists {
 
 typedef struct program {
     layout layout;
-    int count;   /* unknowns */
+    int count;   /* number of unknowns */
     int outputs; /* the mechanism's, then value and rate of each conserved coordinate */
     conservation *conserved;
     /* Second order: result[i] is the acceleration of scene coordinate i. First order: the derivative of component i,
@@ -72,14 +72,14 @@ typedef struct program {
     bool
         ledger_asked; /* requested by `with ledger` or --stabilized; else the ledger only balances the run */
     const poly *integral; /* the energy integral if it is not T + V, else NULL: see equations.h */
-    /* For the host's balance: the highest derivatives (by unknown). For a mechanism then T, V, input power, loss power,
-     * the momenta (by unknown) and the integral, if any. */
+    /* Results for the host's balance: the highest derivatives (by unknown). If the mechanism has energies, also T, V,
+     * input power, loss power, the momenta (by unknown), and the integral if it is not T + V. */
     op_list *books;
 } program;
 
-/* `conserve` [count] names the coordinates to recover from their momentum, or is NULL. Returns NULL after an error,
- * which is reported to `errors`, such as too many components, a momentum that is not conserved, or a constant that is
- * not finite. */
+/* Makes the lists of an instance. `conserve` [count] names the coordinates to recover from their momentum, or is
+ * NULL. Returns NULL after an error, which is reported to `errors`, such as too many components, a momentum that is
+ * not conserved, or a constant that is not finite. */
 program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
                       diags *errors);
 /* Replaces the step's functions of one angle by table look-ups (tables.h). If that is impossible, returns false and

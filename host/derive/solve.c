@@ -388,7 +388,7 @@ typedef struct arrangement {
     bool scaled;
     bool rescaled; /* rescale the equations after symbolic elimination */
     bool hinged;   /* eliminate unknowns on hinges first, in the order below */
-    int lead;      /* the sine that is evaluated first: lower.h */
+    int lead;      /* rank of the angle that is evaluated first (lower.h) */
     /* unknown that is eliminated symbolically; -1: none; -2: all with a constant diagonal */
     int first;
     int order[COORDINATES_MAX]; /* order of elimination */
@@ -401,7 +401,7 @@ typedef struct arranged {
     const poly **mass;  /* [n * n] */
     const poly **force; /* [n] */
     int hinges;
-    const poly **across; /* [hinges * (n + 1)] of hinge_eliminate() */
+    const poly **across; /* [hinges * (n + 1)] `across` of hinge_eliminate() for each hinge */
     double *inverse;     /* [hinges] factor of the products of across */
     double *scale;       /* [n] scale of each row and column */
     bool *gone;          /* [n] eliminated symbolically */

@@ -448,7 +448,7 @@ typedef struct finding {
     symmetries *found;
     double *known; /* [columns * columns] orthonormal rows: the symmetries found */
     int count;     /* number of these rows */
-    double *basis; /* [columns * columns] scratch */
+    double *basis; /* [columns * columns] working memory */
 } finding;
 
 /* Finds new symmetries that meet all conditions. Returns the number of all symmetries that meet them. */

@@ -15,7 +15,7 @@
 #include "host/derive/equations.h"
 
 typedef struct symmetry {
-    const poly **shift;   /* [count] A q + b */
+    const poly **shift;   /* [count] components of A q + b */
     const poly *momentum; /* P, with the parameters as symbols */
     const poly *stored;   /* dV; zero if the potential energy has the symmetry, too */
     bool conserved;       /* no energy, force or contact changes P */

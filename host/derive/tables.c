@@ -97,7 +97,7 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
         case OP_SQRT: value[i] = turn_function_of(FN_SQRT, x, y); break;
         case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
-        case OP_PHASE:  /* has no value */
+        case OP_PHASE:  /* a phase has no value */
         case OP_LINEAR: /* the operations from here on do not occur in such lists */
         case OP_RATE:
         case OP_INPUT:
@@ -525,7 +525,7 @@ typedef struct tabling {
     refusal *why;
     int *turns;               /* [angles] factors of the phase that is looked up */
     int *multiple;            /* [coefficients->count] multiple of that phase */
-    coefficient *coefficient; /* [count] of the products, result after result */
+    coefficient *coefficient; /* [count] coefficients of the products, result by result */
     int count;
     int *table; /* [tables] operations of the coefficients' list */
     int tables;

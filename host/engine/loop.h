@@ -36,7 +36,7 @@ typedef struct loop {
 
 typedef enum loop_end {
     LOOP_DONE,
-    LOOP_FAILED, /* the step's status has the reason */
+    LOOP_FAILED, /* a step failed: the reason is in loop_run()'s *status */
     LOOP_ENOUGH, /* the callback see() returned false */
     LOOP_INTERRUPTED,
     LOOP_SPENT /* the budget is empty */

@@ -12,8 +12,9 @@ typedef struct rounding_values {
     const double *phase_rad; /* [t->angles] */
     const double *angle_rad; /* [t->angles] */
     double
-        least; /* float's smallest normal number: smaller results have this absolute error, and results above float's largest
-                * number an infinite one; 0: neither underflow nor overflow */
+        /* float's smallest normal number, or 0. If it is not 0, smaller results have this absolute error, and results
+         * above float's largest number an infinite one. */
+        least;
 } rounding_values;
 
 /* Computes bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in

@@ -56,7 +56,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
     return text;
 }
 
-/* === can it start? ============================================================================ */
+/* === checks of the start ====================================================================== */
 
 /* If a start lies beyond a stop by less than this, in m or rad, that is only round-off of the conversion of units. */
 #define ROUNDING 1e-9
@@ -125,8 +125,8 @@ static int rate_taken(const image *im) {
     return -1;
 }
 
-/* Returns false, and reports the reason, if rates matter: the stages of a composition have none, so accelerations,
- * contacts and the balance must not depend on rates. */
+/* Returns false, and reports the reason, if accelerations, contacts or the balance depend on rates. The stages of a
+ * composition have no rates. */
 static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];

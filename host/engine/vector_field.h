@@ -16,8 +16,9 @@ typedef struct vector_field {
     double *value; /* results of the list IMAGE_BOOKS at the last state */
     double *input;
     int *
-        next; /* [n] the component that is the slope of this one; or -1 - unknown, if the slope is that unknown's highest
-                * derivative */
+        /* [n] the component that is the slope of component i. If the slope is the highest derivative of an unknown, it
+         * is -1 - unknown. */
+        next;
 } vector_field;
 
 vector_field *vector_field_open(const image *im, const engine_kind *kind);

@@ -1,4 +1,4 @@
-/* c_fixed.c: the file around the list: formats, start, one step written out as engine_fixed.c does it. */
+/* c_fixed.c: a scene in fixed point as C: the list, the formats, the start, and a step as engine_fixed.c makes it. */
 #include "host/fixed/c_fixed.h"
 
 #include <inttypes.h>

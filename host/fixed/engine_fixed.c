@@ -8,7 +8,7 @@
 #include "host/fixed/fixed_plan.h"
 #include "host/number/functions.h"
 
-/* === fixed loss =============================================================================== */
+/* === round-off of a run ======================================================================= */
 /* The round-off of a run in fixed point: each step is compared with the same step of RK4 in double from the same
  * state. The difference of the increments is lost. Its sum since the start is reported (host/check/slow.h). */
 

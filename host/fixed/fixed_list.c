@@ -398,7 +398,7 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 /* Interval arithmetic is done for each cell of the turn angles separately. Over a whole turn at once, every
  * denominator could be zero. */
 
-/* Cells per turn, and cells of all turn angles together. */
+/* Limits of the cells per turn, and of the cells of all turn angles together. */
 enum {
     CELLS_LEAST = 4,
     CELLS = 64,

@@ -13,10 +13,10 @@
 /* === the ranges that components and inputs of a scene keep to ================================= */
 
 /* Fills range[reals + inputs], components first, with the declared ranges. An undeclared range comes from a reference
- * run of the scene in double with the scene's method. Its far end is twice the value that is farthest from zero in that
- * run. Its near end is half the value nearest to zero if all values have one sign. If the value is always zero, the
- * range is -1 to 1. Returns false if the run failed, which is reported, or was interrupted. `progress`: show the
- * progress on standard error. */
+ * run of the scene in double with the scene's method. Each end of the range is twice the run's extreme value. But if
+ * all values have one sign, the end near zero is half the value nearest to zero; if that value is zero, the range is
+ * symmetric. If the value is always zero, the range is -1 to 1. Returns false if the run failed, which is reported,
+ * or was interrupted. `progress`: show the progress on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
 /* Largest number of binary digits of a value. FIXED_DIGITS: values of the list; twice a value still fits, with its
@@ -24,7 +24,7 @@ bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progre
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
-    FIXED_CONSTANT, /* number, or its value as an operand */
+    FIXED_CONSTANT, /* a constant */
     FIXED_LINEAR,   /* leaf `index` */
     FIXED_RATE,
     FIXED_INPUT,
@@ -64,7 +64,7 @@ typedef struct fixed_op {
     const int *turns; /* FIXED_PHASE: factors, owned by the image's list */
     double offset_rad;
     uint32_t offset;
-    double value;    /* FIXED_CONSTANT; FIXED_SAME: the power of two, with its sign */
+    double value;    /* FIXED_CONSTANT: the value; FIXED_SAME: the power of two, with its sign */
     enclosure range; /* range of the possible values */
     int bits;        /* binary digits after the point */
     bool used;

@@ -1,4 +1,4 @@
-/* fixed_plan.c: from an image to its step in fixed point. */
+/* fixed_plan.c: the plan of a scene's step in fixed point. */
 #include "host/fixed/fixed_plan.h"
 
 #include <math.h>
@@ -12,7 +12,8 @@
 static const char refused_part[] =
     "--number float; or put it into an effect, and leave that out: --without EFFECT";
 
-/* Returns false, and reports the reason, for contacts, a ledger, noise, and other methods and settings. */
+/* Returns false, and reports the reason, if the scene has contacts, a ledger or noise, or another method or
+ * setting. */
 static bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
     if (op_list_has(im->list[IMAGE_OBSERVE], OP_NOISE)) {

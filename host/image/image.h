@@ -181,7 +181,8 @@ typedef struct image_contact {
     int kind;         /* wh_contact_kind */
     const char *word; /* word of the statement: "stop", "hold", ... */
     const char *
-        undefined; /* parts that may be undefined: "the condition of this hold, or what it holds," */
+        /* parts that may be undefined: "the condition of this hold, or its expression," */
+        undefined;
     int direction;
     int pin;
     int first_set;
@@ -222,7 +223,7 @@ typedef struct image_ledger {
     int *input;         /* [inputs] indices of the image's inputs */
 } image_ledger;
 
-/* --- blame lists --------------------------------------------------------------------------------- */
+/* --- expressions for messages -------------------------------------------------------------------- */
 
 /* The expressions of the file, operation by operation, in the spelling of the file, so that a message can point at the
  * undefined part. They are not folded. An expression that occurs twice is entered twice. */
@@ -230,7 +231,7 @@ typedef enum diagnostics_code {
     DIAGNOSTICS_NUMBER, /* number */
     DIAGNOSTICS_STATE,  /* derivative b of unknown a */
     DIAGNOSTICS_INPUT,  /* input a of the image */
-    DIAGNOSTICS_SAME,   /* node a, with a name */
+    DIAGNOSTICS_SAME,   /* the value of node a */
     DIAGNOSTICS_ADD,
     DIAGNOSTICS_SUB,
     DIAGNOSTICS_MUL,
@@ -265,7 +266,7 @@ typedef struct image_blame {
     diagnostics_question *question; /* [questions]: those of terms, of sets, then of contacts */
     int questions;
     int terms; /* number of energies, losses, forces, equations, and their derivatives */
-    int sets;  /* values that crossings set */
+    int sets;  /* number of values that crossings set */
 } image_blame;
 
 /* --- a step as a matrix ------------------------------------------------------------------------------*/
@@ -299,7 +300,7 @@ typedef struct image {
     double until_s;
 
     wh_form form;
-    int count;        /* unknowns */
+    int count;        /* number of unknowns */
     int coordinates;  /* integrated coordinates, angles included (second order) */
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */

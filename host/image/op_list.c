@@ -66,13 +66,14 @@ static function_id function_of(op_code code) {
     return code == OP_CALL ? FUNCTION_NONE : (function_id)f;
 }
 
-/* --- entering ------------------------------------------------------------------------------------*/
+/* --- entering operations ------------------------------------------------------------------------*/
 
 static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
-/* Hashes of models use this number for an operation without a function. It is fixed since there were 14 functions. */
+/* Hashes of models use this number for an operation without a function: the number of functions when hashes were
+ * introduced. It must not change. */
 #define HASHED_NO_FUNCTION UINT64_C(14)
 
 uint64_t op_list_op_hash(const op_list *t, const op *o) {
@@ -376,7 +377,7 @@ int op_list_call(op_list *t, function_id function, int a, int b) {
     case OP_IS_UNARY: return op_list_unary(t, code, a);
     case OP_IS_BINARY: return enter_op(t, code, a, b);
     case OP_IS_CALL: return enter(t, (op){.code = code, .function = function, .a = a, .b = b});
-    case OP_IS_CONSTANT: /* no function */
+    case OP_IS_CONSTANT: /* these kinds compute no function */
     case OP_IS_LEAF:
     case OP_IS_CELL:
     case OP_IS_LOOKUP:

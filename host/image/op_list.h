@@ -140,7 +140,7 @@ typedef struct op_list {
     int count;
     int room;
     int angles; /* number of turn angles, and length of each array `turns` */
-    int *index; /* hash index of ops */
+    int *index; /* hash table of the operations */
     int index_size;
     int *result; /* operation numbers of the list's results */
     int results;

@@ -1,4 +1,4 @@
-/* op_list_scaling.c: the search for factors that bring float's constants close to their exact values. */
+/* op_list_scaling.c: the search for factors with which constants that are rounded to float have smaller errors. */
 #include "host/image/op_list_scaling.h"
 
 #include <math.h>
@@ -422,7 +422,8 @@ static int make(const multiplied *m, int i) {
         second = taken(m, o->b, times);
         return op_list_sub(m->to, taken(m, o->a, times), second);
     case OP_MUL:
-        return op_list_is_constant(m->from, o->a, &number) ? -1 /* constant */ : make_product(m, i);
+        /* entered at each use */
+        return op_list_is_constant(m->from, o->a, &number) ? -1 : make_product(m, i);
     case OP_DIV: return make_product(m, i);
     case OP_NEG:
     case OP_ABS: return op_list_unary(m->to, o->code, taken(m, o->a, times));
@@ -464,7 +465,8 @@ op_list *op_list_multiplied(const op_list *t, const double *times) {
 
 enum { SIZES = 3, STATES = 6 };
 
-/* Sizes of rates and other leaves that are no positions: at rest forces and torques matter, at high speed only the rates. */
+/* Sizes of rates and of other leaves except positions: at rest forces and torques matter, at high speed only the
+ * rates. */
 static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
 
 /* Returns an artificial value, from -1 to 1, of this leaf in this state. */
@@ -598,7 +600,7 @@ double op_list_bias(const op_list *t, const op_list *like) {
 /* === the search for numbers that suit float =================================================== */
 
 enum {
-    LONGEST = 250, /* most operations of an examined list */
+    LONGEST = 250, /* most operations of a list that is examined */
     FIVES = 6,     /* largest exponents of the primes 5, 3 and 7 */
     THREES = 3,
     SEVENS = 1,
@@ -608,12 +610,11 @@ enum {
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 
-#define CLEARLY 0.5 /* the bias of a clearly better list, as a part of the bias so far */
-#define LESS 0.99   /* the same for a better list */
+/* a list is clearly better if its bias is at most this part of the bias so far */
+#define CLEARLY 0.5
+#define LESS 0.99 /* a list is better if its bias is at most this part of the bias so far */
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
-
-/* --- one list -------------------------------------------------------------------------------------------------*/
 
 /* The best list so far. */
 typedef struct scaling_search {
@@ -627,7 +628,7 @@ typedef struct scaling_search {
     int64_t tried; /* total operations of tried lists */
 } scaling_search;
 
-/* x to the e: whole powers as products, which are exact here. */
+/* Returns x^e. Small whole powers are computed as products, which are exact for the numbers that are tried. */
 static double power(double x, double e) {
     if (e == number_floor(e) && fabs(e) <= 4.0) {
         double product = 1.0;

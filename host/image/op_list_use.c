@@ -96,8 +96,8 @@ static void op_list_needs_free(op_list_needs *n) {
 
 /* The times at which a sequence of operations uses each value of the list. */
 typedef struct wanted {
-    int *first; /* [ops + 1]: start of a value's times in time[] */
-    int *time;  /* positions in the sequence; for results after its end */
+    int *first; /* [ops + 1]: index in time[] of the first use of each value */
+    int *time;  /* positions in the sequence that use the value; a result is used after the end */
     int *next;  /* [ops]: index of the next time */
 } wanted;
 
@@ -435,7 +435,7 @@ void op_list_order(op_list *t) {
     op_list_needs_free(&n);
 }
 
-/* === existing sums ============================================================================ */
+/* === sums with a common part ================================================================== */
 /* Replaces a + 2 b by (a + b) + b if the list already has a + b, which saves a product. Kinetic energies produce such
  * pairs: a chain of two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
 

@@ -344,7 +344,7 @@ static contact_statement contact_begun(const parser *in, const statement_word *w
         .kind = (contact_kind)word->kind, .effect = in->effect, .at = in->statement_at};
 }
 
-/* The quantity of a stop or a hold must depend on a coordinate. */
+/* Reports a stop or a hold whose quantity does not depend on a coordinate. */
 static void check_moves(parser *in, place at, const expr *value, const char *what) {
     if ((value->uses & USES_UNKNOWNS) == 0 && !value->dim.unknown) {
         diag_error(in->diags, at, NULL, "%s must depend on a coordinate", what);

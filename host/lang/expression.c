@@ -283,7 +283,7 @@ static const expr *expr_name(parser *in, const token *name) {
     made->symbol = &found->symbol;
     while (made->symbol->kind == SYM_LET && plain.primes > 0) {
         if (made->symbol->value == NULL || made->symbol->dim.unknown) {
-            return unknown_value(made); /* reported */
+            return unknown_value(made); /* the error was already reported */
         }
         made->symbol = let_rate(in, made->symbol, name);
         if (made->symbol == NULL) {

@@ -45,11 +45,11 @@ typedef struct lexer {
     diags *diags;
 } lexer;
 
-/* `source` must outlive the lexer. Its text must end with a zero byte outside its length. */
+/* `source` must outlive the lexer. Its text must end with a zero byte after the `length` bytes. */
 lexer lexer_start(const source *source, diags *diags);
 token lexer_next(lexer *in);
 
-/* The place `bytes` bytes after `from` in its text. */
+/* Returns the place `bytes` bytes after `from` in its text. */
 place place_after(place from, size_t bytes);
 
 #endif

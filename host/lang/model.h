@@ -132,7 +132,7 @@ typedef struct contact_statement {
      * hold acts (coordinates, no rates). when: left - right (rates allowed). friction: NULL. */
     const expr *value;
     const symbol *coordinate;    /* friction: the coordinate whose motion it opposes; else NULL */
-    const expr *restitution;     /* stop: 0 to 1 */
+    const expr *restitution;     /* stop: restitution, 0 to 1 */
     const expr *static_friction; /* friction: coefficients, 0 <= kinetic <= static */
     const expr *kinetic_friction;
     const expr *normal; /* friction: normal force [N]; below zero counts as zero */
@@ -256,10 +256,10 @@ typedef struct overrides {
     const char *until; /* the end of the scene, or NULL */
     const char
         *name;    /* replaces the scene's or mechanism's name, or NULL; must outlive the instance */
-    bool balance; /* balance contacts inside the run even without `with ledger` */
+    bool balance; /* balance contacts during the run, also without `with ledger` */
 } overrides;
 
-/* The range in SI numbers: low < high. */
+/* A range in SI numbers, with low < high. */
 typedef struct range_value {
     const symbol *symbol;
     int primes;
@@ -270,7 +270,7 @@ typedef struct range_value {
 
 typedef struct instance {
     const mechanism *mechanism;
-    const scene *scene; /* balance contacts during the run, also without `with ledger` */
+    const scene *scene; /* NULL for a bare mechanism */
     const char *name;   /* the scene's name, the mechanism's, or overrides.name */
     bool *with;         /* [effect_count] */
     const bool
@@ -284,7 +284,7 @@ typedef struct instance {
     const expr ***start_given; /* NULL: not given, so the start is 0 */
     /* [coordinate_count][order] value, rate, ...: SI; order is at least 2 */
     double **start;
-    place **start_at;   /* like start: the place of the value; no source for a default */
+    place **start_at;   /* [coordinate_count][order] place of each start; no source for a default */
     int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
     range_value *range; /* [range_count] */
     int range_count;

@@ -15,7 +15,7 @@ typedef struct named {
     symbol symbol;       /* must be first: a symbol's address is also that of its `named` */
     bool is_placeholder; /* used but not declared; reported */
     bool is_open;        /* the parser is reading its declaration */
-    int mark;            /* number of the last visit, for walks and duplicates */
+    int mark;            /* number of the last walk, or scene, that visited the symbol */
     place mark_at;
     struct named *rate; /* let: its time derivative, if an expression has named it */
     struct named *next; /* next entry in the same slot */
@@ -64,7 +64,7 @@ typedef struct draft {
     bool *with;
     bool *conserve;
     builder *of;
-    int number;       /* the scene's number, from 1; symbols that the scene sets get this number */
+    int number;       /* the scene's number, from 2; the symbols that it sets get this `mark` */
     bool has_content; /* has a statement other than `use` */
     place step_at;    /* line 0: no step yet */
     place until_at;

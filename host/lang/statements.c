@@ -155,7 +155,7 @@ bool read_equation(parser *in, const statement_word *word) {
     return parser_end_statement(in, "the equation");
 }
 
-/* === which statement comes next =============================================================== */
+/* === checks of a complete mechanism =========================================================== */
 
 /* If `in` is NULL, raises the order of each state to its highest derivative in an equation. Otherwise reports a higher
  * derivative in an output. Each let is visited once. EXPR_HEIGHT_MAX bounds the recursion. */
@@ -383,7 +383,7 @@ static bool read_scene(parser *in, const statement_word *word) {
     return true;
 }
 
-/* --- which statement ----------------------------------------------------------------------------*/
+/* --- choice of the reader ----------------------------------------------------------------------*/
 
 #define READER(id, text, stands, rules, reader, kind, form) [WORD_##id] = reader,
 static statement_reader *const readers[] = {BODY_WORD_ROWS(READER)};
@@ -458,7 +458,7 @@ void read_file(parser *in) {
     }
 }
 
-/* === a text from its first to its last byte =================================================== */
+/* === the whole text =========================================================================== */
 
 static void parse_all(parser *in, place start) {
     read_file(in);

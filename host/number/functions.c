@@ -208,6 +208,6 @@ double number_centred(double x, double y) {
     return wh_signed(rest, wh_bits(x) >> 63 != 0);
 }
 
-/* --- sizes --------------------------------------------------------------------------------------- */
+/* --- the smaller and the larger number ----------------------------------------------------------- */
 double number_least(double a, double b) { return b < a || wh_is_nan(a) ? b : a; }
 double number_most(double a, double b) { return b > a || wh_is_nan(a) ? b : a; }

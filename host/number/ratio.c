@@ -25,7 +25,8 @@ uint128 uint128_minus(uint128 a, uint128 b) {
 static uint128 product(uint64_t a, uint64_t b) {
     const uint64_t half = UINT32_MAX;
     const uint64_t low = (a & half) * (b & half);
-    const uint64_t cross = (a >> 32) * (b & half) + (low >> 32); /* fits: (2^32 - 1)^2 + 2^32 */
+    /* at most (2^32 - 1)^2 + 2^32, which fits */
+    const uint64_t cross = (a >> 32) * (b & half) + (low >> 32);
     const uint64_t other = (a & half) * (b >> 32) + (cross & half);
     return (uint128){(a >> 32) * (b >> 32) + (cross >> 32) + (other >> 32),
                      (other << 32) | (low & half)};

@@ -35,7 +35,7 @@ static bool can_be_replaced(const char *name, struct stat *there) {
     return S_ISREG(there->st_mode) && there->st_nlink == 1 && access(name, W_OK) == 0;
 }
 
-/* `in_place`: fopen()'s mode for a file that cannot be replaced. */
+/* Opens NAME.part; or `name` itself, with fopen()'s mode `in_place`, if that file cannot be replaced. */
 static FILE *open_part(const char *name, const char *in_place) {
     struct stat there;
     if (!can_be_replaced(name, &there)) {

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Set by the first SIGINT or SIGTERM. A second one ends the program at once, even while it waits. */
+/* Set by the first SIGINT or SIGTERM. A second one ends the program at once, also while it waits. */
 extern volatile sig_atomic_t interrupted;
 
 /* Catches interrupts from now on. A read or write that is interrupted continues, so that no record is cut. */

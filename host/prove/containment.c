@@ -274,7 +274,7 @@ containment_found containment_run(const containment_wish *w) {
 
 void containment_free(containment_found *h) { free(h->state); }
 
-/* === in words ================================================================================= */
+/* === results in words ========================================================================= */
 
 enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
 

@@ -15,7 +15,7 @@ typedef struct containment_wish {
     const image *image;
     const engine_kind *kind;
     double tolerance;
-    const double *within; /* [states] SI; 0: the tolerance times the range */
+    const double *within; /* [states] allowed errors, SI; 0: the tolerance times the range */
     double products_most; /* limit on products of enclosures; 0: no limit */
     /* Called at the start and at the end of each step that the tube reaches, with the enclosure of the exact motion,
      * exact[states], and the run, SI. May be NULL. */
@@ -68,7 +68,7 @@ typedef struct containment_found {
 containment_found containment_run(const containment_wish *w);
 void containment_free(containment_found *h);
 
-/* === in words ================================================================================= */
+/* === results in words ========================================================================= */
 
 void containment_print(FILE *out, const containment_found *h, const containment_wish *w);
 

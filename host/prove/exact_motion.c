@@ -10,7 +10,7 @@ typedef struct making {
     reader_symbols symbols;
     graph *graph;
     const instance *instance;
-    int count; /* unknowns */
+    int count; /* number of unknowns */
     int states;
     int *matrix; /* [count * count] matrix M of M x = f */
     int *force;  /* [count] f */

@@ -399,7 +399,7 @@ int graph_without(graph *g, int a, int first) {
     return found;
 }
 
-/* === reader =================================================================================== */
+/* === conversion of a model's expressions ====================================================== */
 
 static int refused(reader_symbols *s, const expr *at, const char *what) {
     diag_error(s->errors, at->at,

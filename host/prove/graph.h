@@ -68,7 +68,7 @@ int graph_slope(graph *g, int a, int variable);
 /* Returns `a` with 0 in place of the variables from `first` on. */
 int graph_without(graph *g, int a, int first);
 
-/* === reader =================================================================================== */
+/* === conversion of a model's expressions ====================================================== */
 /* Conversion of a model's expressions to nodes of a graph. Parameters, inputs and starts are exact decimals, not doubles. */
 
 typedef struct reader_symbols {

@@ -141,8 +141,8 @@ bool guest_start(guest *g, const guest_wish *wish) {
         fprintf(stderr, "whirl pil: error: no pipe can be made: %s\n", strerror(errno));
         return false;
     }
-    signal(SIGPIPE, SIG_IGN); /* a write error reports a dead guest */
-    fflush(stdout);           /* the guest's console is the same file */
+    signal(SIGPIPE, SIG_IGN); /* so that a write to a dead guest fails, and does not end Whirl */
+    fflush(stdout);           /* the guest's console writes to the same file */
     const pid_t parent = getpid();
     g->pid = fork();
     if (g->pid == 0) {
