@@ -1,5 +1,5 @@
-/* test_near_zero.c: precision of small differences, also in float: powers of sums and of sines are not expanded into
- * large terms that cancel. */
+/* test_near_zero.c: small differences must have full precision, also in float: powers of sums and of sines are not
+ * expanded into large terms that cancel. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -7,7 +7,8 @@
 
 /* === near zero ================================================================================ */
 
-/* Number of roundings in an evaluation, half a unit each: of constants, the distance, powers and the sum of the factors. */
+/* Number of roundings in an evaluation, of half a unit each: of constants, the distance, powers and the sum of the
+ * factors. */
 #define ROUNDINGS 16.0
 
 static double worst_float;
@@ -19,7 +20,7 @@ static void show_worst(const char *what) {
     worst_float = worst_double = 0.0;
 }
 
-/* Relative error of an output at the start. The closed form uses the start rounded to float. */
+/* Relative error of an output at the start. `want` is the closed form for a start that is rounded to float. */
 static double error_of(const motion *m, const char *output, double want) {
     const double error = fabs(motion_value(m, output) / want - 1.0);
     double *worst = m->kind == &engine_float ? &worst_float : &worst_double;
@@ -55,12 +56,12 @@ TEST(near_zero, stiffening_springs_near_their_rest) {
             snprintf(start, sizeof start, "s = %.17g", s);
             motion_open_text(&m, springs, how);
             const double wall = 1e6 * stretch * stretch * stretch;
-            /* r is 0: between the masses the spring is stretched by s - 1 */
+            /* r is 0, so the spring between the masses is stretched by s - 1 */
             const double between = 1e6 * (s - 1.0) * (s - 1.0);
             TEST_ASSERT_TRUE(error_of(&m, "push", wall) <= ROUNDINGS * half);
             TEST_ASSERT_TRUE(error_of(&m, "left", -wall - between) <= ROUNDINGS * half);
             motion_close(&m);
-            /* the opposite sign: s - r - b near 0 */
+            /* now s - r - b is near 0 */
             snprintf(start, sizeof start, "s = %.17g", (double)(float)(1.0 + distances[i]));
             motion_open_text(&m, springs, how);
             const double near = (double)(float)(1.0 + distances[i]) - 1.0; /* exact */
@@ -71,10 +72,10 @@ TEST(near_zero, stiffening_springs_near_their_rest) {
     show_worst("springs");
 }
 
-/* As the bound above, for the sixth power of a sine; the argument is rounded twice and the sine once. */
+/* Number of roundings for the sixth power of a sine: the argument is rounded twice, the sine once. */
 #define WAVE_ROUNDINGS 48.0
 
-/* Two arms on one shaft; the inertia has a pole of order four or six when they lie along it. */
+/* Two arms on one shaft. If they are in line with the shaft, the inertia has a pole of order four or six. */
 static const char poles[] = "mechanism poles\n"
                             "coordinate th [rad]\n"
                             "coordinate ph [rad]\n"
@@ -85,7 +86,7 @@ static const char poles[] = "mechanism poles\n"
                             "output spin = ph''\n"
                             "scene at { start th' = 0.01 [rad/s], ph' = 2 [rad/s] }\n";
 
-/* (d/dt) of J w^(2n) ph' is the torque, and J th'' = n J w^(2n-1) dw/dth ph'^2. */
+/* The torque is (d/dt) of J w^(2n) ph', and J th'' = n J w^(2n-1) dw/dth ph'^2. */
 static void check_pole(const char *wave, int n, double th, double w, double slope, stepping how) {
     char text[512];
     char start[64];
@@ -95,12 +96,12 @@ static void check_pole(const char *wave, int n, double th, double w, double slop
     motion m;
     motion_open_text(&m, text, how);
     const double half = how.kind == &engine_float ? (double)FLT_EPSILON / 2.0 : DBL_EPSILON / 2.0;
-    /* error of the double sine near its table's angles (tests/core/test_sine.c) */
+    /* error of the double sine near the angles of its table (tests/core/test_sine.c) */
     const double sine = how.kind == &engine_float ? 0.0 : 2.0 * n * 1.4e-16 / w;
     const double tilt = n * pow(w, 2 * n - 1) * slope * 4.0;
     const double spin = 1e-9 / (0.3 * pow(w, 2 * n)) - 2.0 * n * slope / w * 0.01 * 2.0;
     TEST_ASSERT_TRUE(error_of(&m, "tilt", tilt) <= WAVE_ROUNDINGS * half + sine);
-    /* the two parts of spin cancel little here */
+    /* the two parts of `spin` cancel only little here */
     TEST_ASSERT_TRUE(error_of(&m, "spin", spin) <= 2.0 * (WAVE_ROUNDINGS * half + sine));
     motion_close(&m);
 }
@@ -108,7 +109,7 @@ static void check_pole(const char *wave, int n, double th, double w, double slop
 TEST(near_zero, powers_of_sines_near_their_poles) {
     for (int n = 2; n <= 3; n++) {
         for (int bits = 16; bits <= 28; bits += 4) {
-            /* a multiple of 2^-32 turns: exact, also in float */
+            /* a multiple of 2^-32 turns, which is exact in float, too */
             const double off = ldexp(2.0 * acos(-1.0), bits - 32);
             check_pole("sin", n, off, sin(off), cos(off), IN_FLOAT);
             check_pole("sin", n, off, sin(off), cos(off), IN_DOUBLE);
@@ -119,10 +120,10 @@ TEST(near_zero, powers_of_sines_near_their_poles) {
 }
 
 /* === tiny sizes =============================================================================== */
-/* Motions of nanometres and less with a force that is a difference near 1: sqrt(1 + 2*y/L) - 1. Double has no digits
- * of y below 1e-16 L. There a run and its half-step twin have the same wrong slopes and may agree. The force is
- * nearly linear, so the reference is the closed form. A trusted run must be right, and a run with enough digits must
- * be trusted. */
+/* Motions of nanometres or less, with a force that is a difference near 1: sqrt(1 + 2*y/L) - 1. Double has no digits
+ * of y below 1e-16 L. Then a run and its run with half the step have the same wrong slopes and may agree. The force
+ * is nearly linear, so the reference is a closed form. A trusted run must be right, and a run with enough digits
+ * must be trusted. */
 
 static const char *const laws[] = {"sqrt(1 + 2*y/L) - 1",
                                    "exp(y/L) - 1",
@@ -138,15 +139,15 @@ typedef struct tiny_case {
     const char *law;
     double length_m;
     double start_m;
-    double swing_radps; /* rate of the linearized motion */
-    double damping;     /* relative to critical */
+    double swing_radps; /* natural frequency */
+    double damping;     /* relative to critical damping */
     double step_s;
     double end_s;
 } tiny_case;
 
 static tiny_case draw(dice *d, unsigned i) {
     tiny_case c = {.law = laws[i % LAWS]};
-    /* the start relative to the length */
+    /* start divided by length */
     const double part = pow(10.0, dice_between(d, -17.5, -7.0));
     c.start_m = pow(10.0, dice_between(d, -15.5, -7.5)) * (dice_one_of(d, 2) == 0 ? 1.0 : -1.0);
     c.length_m = fabs(c.start_m) / part;
@@ -174,7 +175,7 @@ static double closed_form(const tiny_case *c, double time_s) {
 
 static double off_by(const tiny_case *c, const char *csv) {
     double most = 0.0;
-    double value[2]; /* the time, and y */
+    double value[2]; /* time and y */
     for (const char *row = csv; (row = said_row(row, 2, value)) != NULL;) {
         most = fmax(most, fabs(value[1] - closed_form(c, value[0])) / fabs(c->start_m));
     }
@@ -217,8 +218,8 @@ static void hold(const char *number) {
 TEST(tiny_sizes, in_float) { hold("float"); }
 TEST(tiny_sizes, in_double) { hold("double"); }
 
-/* A start is checked by its form. With nested parts, 40 to 90 deep, the number of visits would be two to the depth if each
- * part were visited again. */
+/* The form of a start is checked. With parts nested 40 to 90 deep, the check must visit each part once; else the
+ * number of visits would be two to the power of the depth. */
 TEST(tiny_sizes, starts_of_parts_of_parts) {
     static const char *const ways[] = {"%s%u = p%u*p%u\n", "%s%u = p%u/p%u\n",
                                        "%s%u = -p%u*p%u^2\n", "%s%u = p%u^2/-p%u\n"};

@@ -1,5 +1,5 @@
-/* test_noise_measures.c: noise depends only on an output's name, the seed and the step, in records and in sweeps,
- * however the measures are grouped. Mechanisms and lists of measures are generated. */
+/* test_noise_measures.c: noise must depend only on the output's name, the seed and the step, in records and in
+ * sweeps, whatever other measures there are. Mechanisms and lists of measures are generated. */
 #include "derived.h"
 
 #include "host/engine/engine.h"
@@ -9,11 +9,11 @@ enum { OUTPUTS = 6, MEASURES_MAX = 12, STEPS = 25 };
 
 typedef struct made_up {
     char text[4000];
-    bool noisy[OUTPUTS]; /* the scene has noise */
+    bool noisy[OUTPUTS]; /* does the scene have noise? */
 } made_up;
 
-/* Outputs o0, o1, ... of a pendulum on a carriage. Some have noise, of the mechanism or of an effect the scene may
- * name. */
+/* Writes outputs o0, o1, ... of a pendulum on a carriage. Some have noise, either in the mechanism or in an effect
+ * that the scene may use. */
 static made_up make_up(uint64_t *seed) {
     made_up m = {.text = "mechanism noisy\ncoordinate th [rad]\ncoordinate x [m]\n"
                          "parameter l = 0.7 [m]\n"
@@ -51,7 +51,7 @@ static made_up make_up(uint64_t *seed) {
     return m;
 }
 
-/* Every output of `of` after every step: [STEPS + 1][count]. */
+/* Records every output after every step: [STEPS + 1][count]. */
 static double *record(const mechanism *of, const scene *in, const engine_kind *kind) {
     diags *errors = diags_new();
     instance *inst = instance_make(of, in, NULL, errors);
@@ -80,7 +80,7 @@ static double *record(const mechanism *of, const scene *in, const engine_kind *k
     return all;
 }
 
-/* A measure and its formula: factor * output a + output b. */
+/* A measure of the formula factor * output a + output b. */
 typedef struct wanted {
     char text[60];
     double factor;
@@ -138,7 +138,8 @@ static void compare(const made_up *m, const mechanism *of, const scene *in, cons
     free(recorded);
 }
 
-/* The standard deviation of a record with the effect, compared with that of a record without it, proves that there is noise. */
+/* There must be noise: the standard deviation of a record with the effect is compared with that of a record without
+ * it. */
 static void expect_noise(const made_up *m, const mechanism *of, const scene *in) {
     scene bare = *in;
     mechanism quiet = *of;

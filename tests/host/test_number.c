@@ -1,4 +1,5 @@
-/* test_number.c: number functions of the host, compared with the C library's, which are exact here. Seeds are fixed. */
+/* test_number.c: number functions of the host, compared with those of the C library, which are exact here. Seeds are
+ * fixed. Also integers of 128 bits, and times as fractions. */
 #include "bits.h"
 #include "command.h"
 #include "derived.h"
@@ -8,7 +9,7 @@
 
 #define MANY 400000
 
-/* Any bits, small and large integers, halves and their neighbours. */
+/* Any bits, small and large integers, halves, and their neighbours. */
 static double any(void) {
     const double half = 0.5 * (double)((int64_t)scattered() >> (scattered() % 64U));
     switch (scattered() % 4U) {
@@ -66,7 +67,7 @@ static void test_exponents(void) {
     }
 }
 
-/* A zero remainder has the sign of x; glibc's remainder() has not. */
+/* A remainder of zero has the sign of x; that of glibc's remainder() has not. */
 static void expect_remainders(double x, double y) {
     const double nearest = remainder(x, y);
     expect_same("remainder", number_remainder(x, y), fmod(x, y), x, y);
@@ -80,7 +81,7 @@ static void test_remainders(void) {
         const double y = any();
         expect_remainders(x, y);
     }
-    for (int i = 0; i < MANY; i++) { /* multiples of a half */
+    for (int i = 0; i < MANY; i++) { /* multiples of 1/2 */
         const double y = (double)(1 + scattered() % 1000U);
         const double x = 0.5 * y * (double)((int64_t)(scattered() % 2000U) - 1000);
         expect_remainders(x, y);
@@ -105,7 +106,7 @@ static void test_sizes(void) {
     TEST_ASSERT_TRUE(signbit(number_least(-0.0, 0.0)));
 }
 
-/* NaN propagates; sign() gives 1, 0 and -1. */
+/* The functions of the language: NaN must give NaN; sign() must give 1, 0 and -1. */
 static void test_language(void) {
     const double no_number = (double)NAN;
     for (int f = 0; f < FUNCTIONS; f++) {
@@ -118,14 +119,14 @@ static void test_language(void) {
     TEST_ASSERT_TRUE(number_call(FN_SIGN, -3.0, 0.0) == -1.0);
     TEST_ASSERT_TRUE(number_call(FN_SIGN, 0.0, 0.0) == 0.0);
     TEST_ASSERT_TRUE(number_call(FN_ABS, -3.0, 0.0) == 3.0);
-    TEST_ASSERT_TRUE(number_call(FN_ATAN2, 1.0, 0.0) == 0x1.921fb54442d18p0); /* y first */
+    TEST_ASSERT_TRUE(number_call(FN_ATAN2, 1.0, 0.0) == 0x1.921fb54442d18p0); /* y comes first */
     TEST_ASSERT_TRUE(number_call(FN_ATAN2, 0.0, -1.0) == 0x1.921fb54442d18p1);
     TEST_ASSERT_TRUE(number_call(FN_EXP, 0.0, 0.0) == 1.0);
     TEST_ASSERT_TRUE(number_call(FN_LOG, 1.0, 0.0) == 0.0);
     TEST_ASSERT_TRUE(number_sine(0.0) == 0.0 && number_cosine(0.0) == 1.0);
 }
 
-/* Integers of 128 bits, compared with the compiler's type. Hosts without that type leave this out. */
+/* Integers of 128 bits, compared with the compiler's type. Without that type, these tests are left out. */
 enum { NUMBERS = 40000 };
 
 static uint64_t seed = 20261123;
@@ -167,10 +168,10 @@ static void test_the_compilers_own(void) {
 }
 #endif
 
-/* Times as fractions (host/number/ratio.h): the fraction for a decimal, and how often one time fits into another. The
- * reference counts in integers, including halves. */
+/* Times as fractions (host/number/ratio.h): the fraction of a decimal number, and how often one time fits into
+ * another. The reference counts in integers, including halves. */
 static bool same_ratio(whole_ratio r, uint64_t of, uint64_t in) {
-    return r.numerator * in == of * r.denominator; /* both products are below 2^64 */
+    return r.numerator * in == of * r.denominator; /* both below 2^64 */
 }
 
 static void test_decimals_and_fractions_are_themselves(void) {
@@ -191,7 +192,7 @@ static void test_decimals_and_fractions_are_themselves(void) {
     TEST_ASSERT_TRUE(ratio_of(0.0).numerator == 0 && ratio_of((double)NAN).numerator == 0);
 }
 
-/* A double's fraction is within 2^-51 of it; out of range, of the nearer end. */
+/* A double's fraction must be within 2^-51 of it. A double out of range must give the nearer end of the range. */
 static void test_nothing_is_far_off(void) {
     dice d = dice_of("ratio", 72);
     for (unsigned k = 0; k < 4000U; k++) {
@@ -214,7 +215,7 @@ static void test_counts_are_nearest(void) {
     for (unsigned k = 0; k < 4000U; k++) {
         whole_ratio whole = {dice_one_of(&d, 1U << 20), 1U + dice_one_of(&d, 1U << 10)};
         const whole_ratio part = {1U + dice_one_of(&d, 1U << 10), 1U + dice_one_of(&d, 1U << 10)};
-        if (k % 2U == 0) { /* an integer plus a half, and neighbours */
+        if (k % 2U == 0) { /* an integer plus a half, and its neighbours */
             const uint64_t halves = 1U + dice_one_of(&d, 2000);
             whole =
                 (whole_ratio){halves * part.numerator * 1000U + k % 3U, 2000U * part.denominator};

@@ -1,5 +1,6 @@
-/* test_number_text.c: decimals are read as the closest double, and hexadecimal numbers are exact. The reference is
- * strtod() and printf("%a") of glibc, which round correctly. WHIRL_NUMBERS sets the number of texts of each kind. */
+/* test_number_text.c: decimal numbers must be read as the closest double, hexadecimal numbers exactly. The
+ * references are strtod() and printf("%a") of glibc, which round correctly. WHIRL_NUMBERS=N sets the number of texts
+ * of each kind. Also UTF-8. */
 #include <fenv.h>
 
 #include "bits.h"
@@ -20,7 +21,8 @@ static int count_of(int least) {
 
 static int draw(int bound) { return (int)(random_bits(&seed) % (unsigned)bound); }
 
-/* Side of the closest double on which the number lies: strtod() rounding down and up gives its neighbours. */
+/* On which side of the closest double is the number? strtod() gives the number's neighbours if it rounds down and
+ * up. */
 static int side_of(const char *text, double closest) {
     fesetround(FE_DOWNWARD);
     const double down = strtod(text, NULL);
@@ -86,7 +88,8 @@ TEST(number_text, doubles_again) {
     }
 }
 
-/* The exact middle of two doubles, in full, and numbers next to it that differ near the last digit or far after it. */
+/* Checks the exact middle of two doubles with all its digits, and numbers that differ from it in the last digit or
+ * far after it. */
 static void around_middle(uint64_t lower_bits) {
     char text[TEXT];
     const long double lower = (long double)of_bits(lower_bits);
@@ -104,7 +107,7 @@ static void around_middle(uint64_t lower_bits) {
     agrees(beside);
     last -= text[last] == '.' ? 1 : 0;
     snprintf(beside, sizeof beside, "%s", text);
-    beside[last]++; /* a tie: 5 follows an even digit */
+    beside[last]++; /* just above the tie */
     agrees(beside);
     beside[last] = (char)(text[last] - 1);
     if (text[last] > '0') {
@@ -143,7 +146,7 @@ TEST(number_text, places_and_ends) {
     }
     agrees("");
     char text[TEXT];
-    snprintf(text, TEXT, "0.%0*d", 400, 1); /* zeros that only set the place */
+    snprintf(text, TEXT, "0.%0*d", 400, 1); /* leading zeros */
     agrees(text);
     snprintf(text, TEXT, "1%0*de-1400", 1400, 0);
     agrees(text);
@@ -161,7 +164,7 @@ static void hex_agrees(uint64_t bits) {
     char *end;
     const double back = strtod(hex_write(value, text), &end);
     TEST_ASSERT_TRUE_MESSAGE(bits_of(back) == bits && *end == '\0', text);
-#ifdef __GLIBC__ /* other libraries normalise subnormals */
+#ifdef __GLIBC__ /* other libraries normalise subnormal numbers */
     char wanted[64];
     snprintf(wanted, sizeof wanted, "%a", value);
     TEST_ASSERT_EQUAL_STRING(wanted, text);
@@ -187,10 +190,11 @@ TEST(number_text, hexadecimal) {
     TEST_ASSERT_EQUAL_STRING("nan", hex_write(of_bits(~UINT64_C(0)), text));
 }
 
-/* All pairs of first bytes, followed by the limits of their ranges, in texts of any length. Compared with arithmetic:
- * the code point, and whether its spelling is the shortest. */
+/* UTF-8: all pairs of first bytes, then bytes at the limits of their ranges, in texts of any length. Compared with
+ * arithmetic: the code point, and whether it has its shortest spelling. */
 
-/* Bytes of a printable code point; 0 for surrogates, values above the last one, and controls above ASCII. */
+/* Number of bytes of a printable code point; 0 for surrogates, values above the last code point, and controls above
+ * ASCII. */
 static unsigned shortest(uint32_t point) {
     if (point > 0x10ffffU || (point >= 0xd800U && point <= 0xdfffU) ||
         (point >= 0x80U && point <= 0x9fU)) {

@@ -1,21 +1,19 @@
-/* test_octave.c: files for Octave: where values may become complex, and both forms, parsed line by line. Their slopes are
- * the accelerations of the operation lists. Also LaTeX. */
+/* test_octave.c: files for Octave: where values could become complex, and both forms, which are read line by line.
+ * Their slopes must be the accelerations of the operation lists. Also LaTeX. */
 #include "command.h"
 #include "formula.h"
 #include "latex.h"
 #include "mechanism.h"
 #include "printed.h"
 
-/* --- the value of printed LaTeX ----------------------------------------------------------------------*/
-
-/* Evaluates the LaTeX that the program prints, with error bounds, as a number plus multiples of the
- * highest derivatives. latex.h only checks that it compiles. */
+/* Evaluates the LaTeX that the program prints, with error bounds, as a number plus multiples of the highest
+ * derivatives. latex.h only checks that LaTeX compiles. */
 
 enum { LATEX_UNKNOWNS = 16, LATEX_PLACES = 1 + LATEX_UNKNOWNS };
 
 /* The number is value[0] + sum value[1 + i] * (highest derivative of unknown i). off[] bounds its errors:
- * - of printed numbers: show_as_fraction() replaces a number within 1e-13 of a fraction;
- * - of sums: the algebra treats a cancellation below 1e-14 of the parts as zero;
+ * - of printed numbers, because show_as_fraction() replaces a number that is within 1e-13 of a fraction;
+ * - of sums, because the algebra treats a cancellation below 1e-14 of the parts as zero;
  * - round-off, also of libm's functions.
  *
  * Slopes carry the errors on (running error analysis, as in host/engine/rounding.h). */
@@ -24,12 +22,12 @@ typedef struct latex_number {
     double off[LATEX_PLACES];
 } latex_number;
 
-/* The symbol with these letters ("theta", "m", "mass"), index ("1", "" without one; "_" for LaTeX's "\_") and number of
- * dots. Returns false if unknown. */
+/* Finds a symbol by its letters ("theta", "m", "mass"), its index ("1"; "" if there is none; "_" for LaTeX's "\_")
+ * and its number of dots. Returns false if there is no such symbol. */
 typedef bool latex_lookup(void *context, const char *stem, const char *index, int primes,
                           latex_number *found);
 
-/* Relative errors of a printed number, a sum, a product and a function value. */
+/* Relative errors of a printed number, a sum, a product and the value of a function. */
 #define PRINTED 1e-13
 #define ADDED (1e-14 + DBL_EPSILON)
 #define ROUNDED DBL_EPSILON
@@ -48,8 +46,6 @@ typedef struct reader {
 
 static latex_number sum(reader *r);
 
-/* --- numbers ----------------------------------------------------------------------------------------*/
-
 static latex_number latex_constant(double value, double off) {
     latex_number n = {.value = {value}, .off = {off}};
     return n;
@@ -63,7 +59,7 @@ static latex_number fail(reader *r, const char *problem) {
 }
 
 static latex_number fail_named(reader *r, const char *problem, const char *name) {
-    static char about[160]; /* until the next one */
+    static char about[160]; /* valid until the next problem */
     if (r->problem == NULL) {
         snprintf(about, sizeof about, "%s: '%s'", problem, name);
     }
@@ -116,7 +112,7 @@ static latex_number over(reader *r, latex_number a, latex_number b) {
     return a;
 }
 
-/* Change of f if x changes by `off`, from a difference. Only its size is used. */
+/* How much f changes if x (which = 0) or y changes by `off`, from a difference. Only the absolute value is used. */
 static double carried(double (*f)(double, double), double x, double y, int which, double off) {
     const double step = 1e-6 * (1.0 + fabs(which == 0 ? x : y));
     const double more = which == 0 ? f(x + step, y) : f(x, y + step);
@@ -147,8 +143,6 @@ static latex_number power(reader *r, const latex_number *base, const latex_numbe
     const double by_e = whole || value == 0.0 ? 0.0 : fabs(value * log(x)) * exponent->off[0];
     return latex_constant(value, by_x + by_e + CALLED * fabs(value));
 }
-
-/* --- functions --------------------------------------------------------------------------------------*/
 
 static double sign_of(double x) { return (double)(x > 0.0) - (double)(x < 0.0); }
 
@@ -194,8 +188,6 @@ static const function *function_called(const char *name) {
     return NULL;
 }
 
-/* --- reading ----------------------------------------------------------------------------------------*/
-
 static void skip(reader *r) {
     while (*r->at == ' ') {
         r->at++;
@@ -225,7 +217,7 @@ static latex_number braced(reader *r) {
     return inside;
 }
 
-/* Reads letters and digits up to the brace; "\_" is "_". An index of letters is in \mathrm. */
+/* Reads letters and digits up to the closing brace, with "_" for "\_". An index made of letters is in \mathrm. */
 static void braced_name(reader *r, char *name) {
     int length = 0;
     need(r, "{");
@@ -246,7 +238,7 @@ static void braced_name(reader *r, char *name) {
     need(r, "}");
 }
 
-/* A command's name without its backslash, which has been read; "" without one. */
+/* Reads a command's name; the backslash is the present character. The name is "" if no letters follow. */
 static void command(reader *r, char *name) {
     int length = 0;
     r->at++;
@@ -274,7 +266,7 @@ static void letters(reader *r, char *stem) {
     }
 }
 
-/* Reads what follows a symbol's letters: its index, and more than two dots as ^{(3)}. */
+/* Reads the rest of a symbol after its letters: its index, and three or more dots as ^{(3)}. */
 static latex_number symbol_with(reader *r, const char *stem, int primes) {
     char index[NAME_MAX_LENGTH + 1] = "";
     latex_number found;
@@ -296,7 +288,7 @@ static latex_number symbol_with(reader *r, const char *stem, int primes) {
     return found;
 }
 
-/* A call, perhaps with its exponent before the argument. An argument without parentheses is one symbol. */
+/* Reads a function call. An exponent may stand before the argument; an argument without parentheses is one symbol. */
 static latex_number called(reader *r, const char *name) {
     const function *f = function_called(name);
     if (f == NULL) {
@@ -357,7 +349,7 @@ static latex_number after_command(reader *r) {
     return called(r, name);
 }
 
-/* {x}_{1}^{(3)}: more than two dots. Otherwise the base of a power in braces. */
+/* Reads {x}_{1}^{(3)}, a symbol with three or more dots, or else the base of a power in braces. */
 static latex_number group(reader *r) {
     const char *from = r->at;
     char stem[NAME_MAX_LENGTH + 1];
@@ -381,7 +373,7 @@ static latex_number group(reader *r) {
 
 static latex_number number(reader *r) {
     char *end;
-    double value = strtod(r->at, &end); /* no e: that is written \cdot 10^{} */
+    double value = strtod(r->at, &end); /* no "e": exponents are printed as \cdot 10^{} */
     r->at = end;
     if (take(r, "\\cdot 10^{")) {
         value *= pow(10.0, (double)strtol(r->at, &end, 10));
@@ -441,9 +433,9 @@ static latex_number sum(reader *r) {
     return value;
 }
 
-/* Evaluates from `text` up to '&', '\\' or the end of the line; *end points there. For forms that the program never
- * prints, such as a product of two highest derivatives, the value is NaN, *problem the reason and *end its place.
- * Otherwise *problem is NULL. It is valid until the next call. */
+/* Evaluates from `text` up to '&', '\\' or the end of the line; *end: that place. Some forms are never printed, such
+ * as a product of two highest derivatives: then the value is NaN, *problem the reason, valid until the next call,
+ * and *end its place. Otherwise *problem is NULL. */
 static latex_number latex_value(const char *text, const char **end, const char **problem,
                                 latex_lookup *lookup, void *context) {
     reader r = {text, NULL, lookup, context};
@@ -461,7 +453,7 @@ static latex_number latex_value(const char *text, const char **end, const char *
 
 enum { STATES = 10, RESULTS_MAX = 128 };
 
-/* Functions that may be undefined for real arguments: Octave would continue with complex values. */
+/* If a function may be undefined for a real argument, Octave would go on with complex values. */
 TEST(octave, files_stay_real) {
     static const struct {
         const char *call;
@@ -486,8 +478,6 @@ TEST(octave, files_stay_real) {
         derived_free(&d);
     }
 }
-
-/* --- the form with names ------------------------------------------------------------------------------------------*/
 
 typedef struct named_value {
     char name[80];
@@ -522,7 +512,7 @@ static void name_value(named_file *f, const char *name, double value) {
     f->row[f->count++].value = value;
 }
 
-/* x = A \ b, by elimination with partial pivoting; elements without a line are 0. */
+/* Solves A x = b by elimination with partial pivoting. A missing element counts as 0. */
 static void solve_named(named_file *f, const char *x, const char *A, const char *b, int n) {
     long double m[UNKNOWNS][UNKNOWNS + 1];
     long double solved[UNKNOWNS];
@@ -545,7 +535,7 @@ static void solve_named(named_file *f, const char *x, const char *A, const char 
     }
 }
 
-/* Runs a file with n equations and `components` components in all. */
+/* Runs the lines of a file with n equations. slope[components] receives the slopes. */
 static void run_named(const char *what, const char *text, named_file *f, int n, int components,
                       double *slope) {
     for (const char *line = strstr(text, "\n  ") + 1; strncmp(line, "  ", 2) == 0;
@@ -593,7 +583,7 @@ static void run_named(const char *what, const char *text, named_file *f, int n, 
     }
 }
 
-/* The head's comments: the components of y in order, and where they start. */
+/* Checks the comments at the head of a file: the components of y in sequence, and their start values. */
 static void check_head(const derived *d, const char *text) {
     const char *names = strstr(text, "\n% y = (");
     const char *starts = strstr(text, "\n% [T, Y] = ode45(@");
@@ -620,8 +610,8 @@ static void check_head(const derived *d, const char *text) {
     TEST_ASSERT_EQUAL_STRING_LEN("], options);", starts, 12);
 }
 
-/* "I_r = 0.01125; % [kg*m^2] = M_r*R^2/2: ...": the formula after the unit, given with --set, has that value. Returns
- * the count. */
+/* Checks lines such as "I_r = 0.01125; % [kg*m^2] = M_r*R^2/2: ...": with --set, the formula after the unit must
+ * give the printed value. Returns the number of such lines. */
 static int check_written(const derived *d, const char *text) {
     int checked = 0;
     const mechanism *m = d->instance->mechanism;
@@ -660,9 +650,10 @@ static int check_written(const derived *d, const char *text) {
     return checked;
 }
 
-static int written; /* values with a formula */
+static int written; /* number of values with a formula */
 
-/* dy(y) of a file against the lists of the image at random states. Returns whether any state was compared. */
+/* Compares the slopes dy(y) of a file with the lists of the image, at random states. Returns whether any state could
+ * be compared. */
 static bool compare_form(const char *name, derived *d, language form) {
     const equations *e = d->equations;
     char *text = printed(d, form);
@@ -753,17 +744,18 @@ TEST(octave, both_forms_compute_the_same) {
 }
 
 /* === latex runs =============================================================================== */
-/* The printed LaTeX is the model that runs. At random states the printed equations (latex_value()) are solved for the
- * highest derivatives. These, and the printed closed forms, are compared with the operation list in double. The
- * tolerance follows from the state: printed digits and round-off, carried through the formulas and the inverse matrix.
- * Covers every built-in scene, tests/mechanisms and generated mechanisms; PRINTED_MECHANISMS=N takes N of these. */
+/* The printed LaTeX must be the model that runs. At random states, the printed equations (latex_value()) are solved
+ * for the highest derivatives. These, and the printed closed forms, are compared with the operation list in double.
+ * The tolerance follows from the printed digits and from round-off, carried through the formulas and the inverse
+ * matrix. Every built-in scene, tests/mechanisms and generated mechanisms are tested; PRINTED_MECHANISMS=N sets the
+ * number of the latter. */
 
 enum { LATEX_RUNS_STATES = 3, SEED = 78, LATEX_RUNS_RESULTS_MAX = 256 };
 
-/* A comparison with a larger relative tolerance shows nothing, so the value does not count as compared. */
+/* A value with a larger relative tolerance shows nothing and does not count as compared. */
 #define TELLING 1e-6
 
-/* factor on error bounds, for products of errors, which the slopes omit */
+/* Factor on the error bounds, because the slopes leave out products of errors. */
 #define SLACK 2.0
 
 typedef struct comparison {
@@ -773,10 +765,10 @@ typedef struct comparison {
     state_values s;
     double runs[UNKNOWNS]; /* highest derivatives by the operation list */
     double off[UNKNOWNS];  /* error bounds of the values */
-    int asked;             /* number of highest derivatives, over all states */
-    int compared;          /* number of values with a useful tolerance */
-    int closed;            /* number of them that are printed in closed form */
-    double nearest;        /* largest error relative to its bound */
+    int asked;             /* highest derivatives, in all states */
+    int compared;          /* values with a small enough tolerance */
+    int closed;            /* compared values from printed closed forms */
+    double nearest;        /* largest error, divided by its bound */
 } comparison;
 
 static int cases_compared;
@@ -786,9 +778,7 @@ static int cases_blocks;
 static int cases_wide;
 static double cases_nearest;
 
-/* --- the printed equations ---------------------------------------------------------------------------*/
-
-/* "theta" and "1" match theta1 and theta_1; "mass" and "" match mass. */
+/* Is `name` the name with these letters and index? "theta" and "1" fit theta1 and theta_1; "mass" and "" fit mass. */
 static bool is_called(const char *name, const char *stem, const char *index) {
     const size_t length = strlen(stem);
     const char *rest = name + length;
@@ -825,7 +815,7 @@ static bool symbol_here(void *context, const char *stem, const char *index, int 
         }
     }
     for (int i = 0; i < m->let_count && primes == 0;
-         i++) { /* check_lets() reads their definitions */
+         i++) { /* check_lets() reads the lets' definitions */
         if (is_called(m->lets[i]->name, stem, index)) {
             const poly *value = poly_from_expr(e->algebra, m->lets[i]->value);
             void *s = (void *)(uintptr_t)&c->s;
@@ -847,7 +837,7 @@ static latex_number read_side(comparison *c, const char *text, const char **end)
     return n;
 }
 
-/* Reads "LEFT &= RIGHT \\"; returns the next line. */
+/* Reads "LEFT &= RIGHT \\". Returns the next line. */
 static const char *read_line(comparison *c, const char *line, latex_number *left,
                              latex_number *right) {
     const char *end;
@@ -858,8 +848,6 @@ static const char *read_line(comparison *c, const char *line, latex_number *left
     TEST_ASSERT_EQUAL_INT_MESSAGE('\n', *end, c->name);
     return end + 1;
 }
-
-/* --- solving -----------------------------------------------------------------------------------------*/
 
 static bool hold_against(comparison *c, int i, double printed_value, double bound) {
     const double apart = fabs(printed_value - c->runs[i]);
@@ -882,7 +870,7 @@ static const char *check_equations(comparison *c, const char *line) {
     long double a[UNKNOWNS][UNKNOWNS];
     long double inverse[UNKNOWNS][UNKNOWNS];
     double b[UNKNOWNS];
-    double off[UNKNOWNS]; /* bound of A x - b at the list's x */
+    double off[UNKNOWNS]; /* bound on A x - b at the list's x */
     for (int i = 0; i < n; i++) {
         latex_number left;
         latex_number right;
@@ -948,9 +936,7 @@ static void check_lets(comparison *c, const char *text) {
     }
 }
 
-/* --- the operation list ----------------------------------------------------------------------------- */
-
-/* The highest derivatives of a step at the state. Returns false if one is not finite. */
+/* Computes the highest derivatives at the state. Returns false if one of them is not finite. */
 static bool run_there(comparison *c) {
     const image *im = c->image;
     const op_list *t = im->list[IMAGE_STEP];
@@ -980,13 +966,13 @@ static bool run_there(comparison *c) {
     return finite;
 }
 
-/* The text between begin{align} and end{align} compiles and fits the page. A long sine inside nested parentheses
- * cannot be broken, so a few generated equations are wider. */
+/* The text between begin{align} and end{align} must compile and fit the page. A long sine in nested parentheses
+ * cannot be broken into lines, so a few generated equations may be wider. */
 static void check_widths(const char *name, const char *text) {
     enum {
         LINE = 345,
         PAPER = 455
-    }; /* pt: line width of LaTeX's article at 10 pt, and of A4 with margins of an inch */
+    }; /* in pt: lines of LaTeX's article, and A4 with margins of 1 inch */
     static const char begin[] = "\\begin{align}";
     for (const char *at = text; (at = strstr(at, begin)) != NULL;) {
         at += strlen(begin);

@@ -1,6 +1,6 @@
-/* test_order.c: reordering of operation lists for few live values. Operations and bits stay the same, operands come
- * first, and the number of stores and loads decreases, to the minimum if that is known. WHIRL_CASES: number of random
- * lists. */
+/* test_order.c: operation lists are reordered so that few values are alive. Operations and bits must stay the same,
+ * operands must come before their uses, and there must be fewer stores and loads; if the minimum is known, that
+ * minimum. WHIRL_CASES=N sets the number of random lists. Also splitting of sums. */
 #include "test.h"
 
 #include "host/base/alloc.h"
@@ -14,7 +14,7 @@
 
 enum { ANGLES = 5, LEAVES = 12, STATES = 3, SIZE_MOST = 900, RESULTS_MOST = 12 };
 
-/* An earlier value; late ones are likelier. */
+/* Draws an earlier value. The latest forty values are likelier. */
 static int some_value(dice *d, const int *value, int values) {
     const int near = values < 40 ? values : 40;
     const bool anywhere = dice_one_of(d, 3) == 0;
@@ -22,7 +22,7 @@ static int some_value(dice *d, const int *value, int values) {
     return value[values - 1 - (int)back];
 }
 
-/* A sine or cosine of angles, of a value, or of both. */
+/* Draws a sine or cosine of angles, of a value, or of both. */
 static int some_wave(dice *d, op_list *t, const int *value, int values) {
     double multiple[ANGLES];
     const bool turns = dice_one_of(d, 4) > 0;
@@ -34,7 +34,7 @@ static int some_wave(dice *d, op_list *t, const int *value, int values) {
     return op_list_unary(t, dice_one_of(d, 2) > 0 ? OP_SIN : OP_COS, phase);
 }
 
-/* Any function of the language, including new ones. */
+/* Draws any function of the language. */
 static int some_call(dice *d, op_list *t, int a, int b) {
     const function_id function = (function_id)dice_one_of(d, FUNCTIONS);
     return op_list_call(t, function, a, function_arguments(function) == 2 ? b : -1);
@@ -76,7 +76,7 @@ static op_list *some_list(dice d) {
         t->result[i] = some_value(&d, value, values);
     }
     free(value);
-    if (dice_one_of(&d, 4) > 0) { /* otherwise some operations are unused */
+    if (dice_one_of(&d, 4) > 0) { /* else some operations are unused */
         op_list_prune(t);
     }
     return t;
@@ -88,7 +88,7 @@ static int by_size(const void *x, const void *y) {
     return (left > right) - (left < right);
 }
 
-/* A hash of each operation's computation, sorted. *phases is one hash of all phases, in order. */
+/* Returns the sorted hashes of what each operation computes. *phases: one hash of all phases, in sequence. */
 static uint64_t *computed_by(const op_list *t, uint64_t *phases) {
     uint64_t *sum = alloc((int64_t)t->count + 1, sizeof *sum);
     int operand[2];
@@ -172,8 +172,8 @@ TEST(order, random_lists_compute_the_same) {
     TEST_ASSERT_TRUE(moved > 0);
 }
 
-/* The sum of n squares, all squares first. The minimum is one load per leaf. In the entered order, squares beyond 20
- * registers are stored and loaded again; the last register makes the next square. */
+/* The sum of n squares, with all squares first. The minimum is one load for each leaf. In the entered sequence, the
+ * squares that do not fit 20 registers are stored and loaded again. */
 TEST(order, squares_are_summed_as_they_come) {
     for (int n = 1; n <= 200; n++) {
         op_list *t = op_list_new(0, 1);
@@ -196,7 +196,8 @@ TEST(order, squares_are_summed_as_they_come) {
 }
 
 /* === pieces =================================================================================== */
-/* A sum is split before it is lowered: half angles are restored if that saves a term. The value does not change. */
+/* A sum is split into pieces before its operations are made. Half angles are restored if this saves a term. The
+ * value must not change. */
 
 enum { VARIABLES = 2 };
 
@@ -226,8 +227,8 @@ static double pieces_value(const piece *pieces, int count, double at[VARIABLES])
     return sum;
 }
 
-/* sin(w)^(2p) cos(w)^(2q) and its slope, for w = 2u - v, and times 0.3 v. Each is one piece if the slope is one
- * product, else two. */
+/* 0.3 sin(w)^(2p) cos(w)^(2q) with w = 2u - v, its product with v, and its slope. Each must give one piece, or two
+ * if the slope is a sum of two products. */
 TEST(pieces, even_powers_come_back) {
     for (int p = 0; p <= 8; p++) {
         for (int q = 0; p + q <= 8; q++) {
@@ -273,7 +274,7 @@ TEST(pieces, other_rows_stay_as_they_are) {
         poly_add(a, poly_sub(a, poly_scale(a, one, 3.0), poly_scale(a, two, 4.0)), four);
     piece pieces[8];
     TEST_ASSERT_EQUAL_INT(1, pieces_of(a, row, pieces));
-    /* one more small term remains at the pole, so nothing cancels below it */
+    /* another small term remains at the pole, so nothing cancels below that term */
     const poly *more = poly_add(a, row, poly_number(a, 1e-12));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, more, pieces));
     /* 3 - 4 cos a + cos 2a = 8 sin(a/2)^4, but a turn angle has no half */
@@ -287,7 +288,7 @@ TEST(pieces, other_rows_stay_as_they_are) {
     for (int i = 0; i < 3; i++) {
         TEST_ASSERT_TRUE(pieces[i].sines + pieces[i].cosines <= 1);
     }
-    /* the products would cancel elsewhere, or there would be more of them */
+    /* products would cancel elsewhere, or there would be more of them */
     const poly *tall = poly_sub(a, poly_cos(a, poly_scale(a, u, 16.0)), one);
     const poly *few = poly_add(a, tall, poly_scale(a, poly_sub(a, two, one), 1e-3));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, few, pieces));
@@ -337,10 +338,9 @@ TEST(pieces, pieces_have_the_sums_value) {
     TEST_ASSERT_GREATER_THAN_INT(500, powers);
 }
 
-/* Fourth powers and squares of one wave, each times another factor. */
+/* A fourth power and a square of one wave, each times another factor. */
 TEST(pieces, each_of_several_comes_back) {
-    for (unsigned which = 0; which < 64;
-         which++) { /* three factors, each absent, a square or a fourth power */
+    for (unsigned which = 0; which < 64; which++) { /* absent, a square or a fourth power */
         algebra *a = algebra_new();
         const poly *u = poly_symbol(a, &variables[0], 0);
         const poly *v = poly_symbol(a, &variables[1], 0);
@@ -366,10 +366,10 @@ TEST(pieces, each_of_several_comes_back) {
     }
 }
 
-/* Sines of angles that contain sines, in any order of definition. */
+/* Sines of angles that contain sines, defined in any sequence. */
 enum { MECHANISMS = 300, PIECES_STATES = 3 };
 
-/* Sums, differences and multiples of a few angles, with and without a sine inside. */
+/* Writes a sum, difference or multiple of a few angles, with or without a sine inside. */
 static void angle(FILE *to, int depth, uint64_t *seed) {
     static const char *const simple[] = {"q", "x", "(q + n)", "(q - x)", "(2*q)", "(x + n)"};
     static const char *const before[] = {"(", "(", "sin(", "exp(sin("};
@@ -388,7 +388,7 @@ static void angle(FILE *to, int depth, uint64_t *seed) {
     fputs(after[which], to);
 }
 
-/* The list's accelerations solve the equations. Returns the number of regular states. */
+/* The list's accelerations must solve the equations. Returns the number of states without singularity. */
 static int check(const derived *d, uint64_t *seed) {
     const equations *e = d->equations;
     int checked = 0;

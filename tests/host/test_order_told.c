@@ -1,6 +1,6 @@
-/* test_order_told.c: output of `whirl run` (summary, warnings, hints) is independent of the order of declarations.
- * Random scenes for every kind of warning have coordinates of very different size and run in all orders. Words must be
- * equal, and numbers too, except for reordered sums. */
+/* test_order_told.c: the output of `whirl run` (summary, warnings, hints) must not depend on the sequence of
+ * declarations. There are random scenes for every kind of warning, with coordinates of very different size; they run
+ * in all sequences. Words must be equal, and numbers, too, except for sums that are rounded in another sequence. */
 #include "command.h"
 #include "host/cli/commands.h"
 
@@ -8,16 +8,16 @@ static dice die;
 
 enum { DECLARED_MOST = 4, WORDS_MOST = 6, LINES_MOST = 80, TEXT_SIZE = 2000 };
 
-/* In the texts, a number after @ is replaced by a random one within a tenth of it. */
+/* A scene. In its texts, a number after @ is replaced by a random number within a tenth of it. */
 typedef struct told_scene {
-    const char *told; /* required in the output */
+    const char *told; /* words that the output must have */
     const char *coordinates[DECLARED_MOST];
     const char *law;
     const char *contacts[DECLARED_MOST];
     const char *scene;
     const char *words[WORDS_MOST];
     int status;
-    double apart; /* relative tolerance for sums that float rounds in another order */
+    double apart; /* relative tolerance for sums that float rounds in another sequence */
 } told_scene;
 
 #define SPRUNG \
@@ -129,7 +129,7 @@ static size_t add(char *text, size_t at, const char *more) {
     return at + size;
 }
 
-/* The k-th permutation, in the factorial number system. */
+/* Computes permutation number k, in the factorial number system. */
 static void order_of(unsigned k, unsigned count, unsigned *place) {
     for (unsigned i = 0; i < count; i++) {
         place[i] = i;
@@ -193,13 +193,13 @@ static int compare(const void *a, const void *b) {
     return strcmp(*left, *right);
 }
 
-/* The sorted lines of the output, without lines that differ from run to run. */
+/* The lines of the output, sorted, without lines that differ from run to run. */
 static unsigned lines_of(char *text, const char *line[LINES_MOST]) {
     unsigned count = 0;
     char *rest = NULL;
     for (char *at = strtok_r(text, "\n", &rest); at != NULL; at = strtok_r(NULL, "\n", &rest)) {
         if (strncmp(at, "accuracy and cost", 17) == 0) {
-            break; /* the rest depends on float's round-off and the file's name */
+            break; /* later lines depend on float's round-off and the file's name */
         }
         if (strncmp(at, "state hash", 10) != 0 && strncmp(at, "trusted", 7) != 0) {
             TEST_ASSERT_TRUE(count < LINES_MOST);

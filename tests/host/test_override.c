@@ -1,4 +1,4 @@
-/* test_override.c: the command line's changes to a scene. */
+/* test_override.c: changes of a scene on the command line. */
 #include "parsed.h"
 #include "test.h"
 
@@ -103,7 +103,7 @@ static void test_wrong_overrides(void) {
     expect_refused(&(overrides){.until = "soon"}, "error: unknown name 'soon'");
 }
 
-/* An end before the end of the first step is refused; only `until 0` may have no step. */
+/* An end before the end of the first step is refused. Only `until 0` may have no step. */
 static void test_until_holds_a_step(void) {
     parse(sample);
     expect_refused(&(overrides){.until = "1s", .step = "3s"},
@@ -119,7 +119,7 @@ static void test_until_holds_a_step(void) {
     expect_exactly(0.3, made->until_s);
 }
 
-/* A duration other than `until` uses the scene's parameters and ignores its step. */
+/* A duration other than `until` may use the scene's parameters, and does not depend on the scene's step. */
 static void test_durations_beside_the_run(void) {
     double seconds = -1.0;
     const char *sets[] = {"lag=0.25 [ms]"};

@@ -1,4 +1,4 @@
-/* test_pil.c: processor in the loop: the dialogue with a rig, and the faults. */
+/* test_pil.c: processor in the loop: the dialogue with a rig before a recording, and faults. */
 #include "host/monitor/wire.h"
 #include "host/pil/fault.h"
 
@@ -7,8 +7,8 @@
 #include "motion.h"
 
 /* === dialogue ================================================================================= */
-/* Questions to a rig before a recording. The line may contain answers for another program, half a line, half a frame,
- * an echo, or late and repeated answers. The test's rig answers each complete line in order. */
+/* Questions to a rig before a recording. The line may have answers for another program, half a line, half a frame,
+ * an echo, or late and repeated answers. The test's rig answers each complete line in sequence. */
 
 enum { LINES = 64 };
 
@@ -18,9 +18,9 @@ typedef struct rig {
     int end;
     bool echoes;
     bool refuses_rate;
-    int heard;     /* questions */
-    char half[16]; /* a partly typed line */
-    char junk[16]; /* the end of a frame that came before the rig's first answer */
+    int heard;     /* questions received */
+    char half[16]; /* a line typed in part */
+    char junk[16]; /* the end of a frame before the rig's first answer */
 } rig;
 
 static void say(rig *r, const char *line) {
@@ -96,7 +96,7 @@ static void question(const dialogue *d, rig *r) {
     }
 }
 
-/* Lines sometimes come after the timeout, when the question has been repeated. */
+/* Some lines come after the timeout, when the question has been repeated. */
 static void converse(dialogue *link, rig *r, dice *d) {
     hear(r, "\n");
     question(link, r);
@@ -121,13 +121,13 @@ static void one_case(dice *d) {
     leave(&r, d);
     converse(&link, &r, d);
     TEST_ASSERT_TRUE(link.done);
-    /* the motor is off by the rig's own answer; stale answers have another state */
+    /* the rig's own answer says that the motor is off; older answers have another state */
     TEST_ASSERT_TRUE(link.was_off);
     TEST_ASSERT_EQUAL(r.refuses_rate, link.rate_refused);
     TEST_ASSERT_EQUAL_STRING(r.refuses_rate ? "tel rate 125: ERR 116 not so many" : "",
                              link.refused);
     TEST_ASSERT_EQUAL(10, link.asked);
-    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* the answer is for another program */
+    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* an answer for another program */
 }
 
 TEST(dialogue, it_comes_to_its_end_whatever_was_in_the_line) {
@@ -150,15 +150,15 @@ TEST(dialogue, who_is_no_rig_is_not_met) {
 }
 
 /* === fault ==================================================================================== */
-/* Faults in the loop do what their words say: missing and extra pulses and samples, inputs of the plant during a fault and
- * after it, times of orders. Also refused words. */
+/* Faults in the loop must do what their words say: missing and extra pulses and samples, the plant's inputs during a
+ * fault and after it, and times of orders. Also refused words. */
 
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 2000U
 #define READS 500 /* one second, at PERIOD_TICKS */
 #define EVENTS_MAX 9000
 
-/* A rotor at two turns a second; every input that a fault knows is also an output. */
+/* A rotor with two turns a second. Every input that a fault can change is also an output. */
 static const char *const text =
     "mechanism bench \"what may break\"\n"
     "coordinate a [rad]\n"
@@ -201,10 +201,10 @@ static const wh_hello hello = {.program = "bench",
                                .signal = signals,
                                .signals = sizeof signals / sizeof signals[0]};
 
-/* Pulses and samples within a second, and the plant's inputs at each reading. */
+/* The pulses and samples of one second, and the plant's inputs at each reading. */
 typedef struct heard {
     wh_edge edge[EVENTS_MAX];
-    double edge_s[EVENTS_MAX]; /* times of the edges as reported */
+    double edge_s[EVENTS_MAX]; /* reported times of the edges */
     int edges;
     wh_sample sample[EVENTS_MAX];
     double sample_s[EVENTS_MAX];
@@ -217,7 +217,8 @@ typedef struct heard {
 static heard well;
 static heard ill;
 
-/* The note `state` becomes 1 with the 100th orders, 2 with the 200th, and so on. */
+/* Runs the bench with the faults `words`. The note `state` becomes 1 with orders number 100, 2 with number 200, and
+ * so on. */
 static void run_with(const char *words, heard *h) {
     motion bench;
     plant on;
@@ -275,7 +276,7 @@ static int edges_of(const heard *h, int channel) {
     return count;
 }
 
-/* A healthy rotor makes two turns, which are four alternating pulses. */
+/* A healthy rotor makes two turns, which give four alternating pulses. */
 TEST(fault, edges) {
     run_with(NULL, &well);
     TEST_ASSERT_EQUAL_INT(4, well.edges);
@@ -434,7 +435,8 @@ TEST(fault, spikes) {
     TEST_ASSERT_INT_WITHIN(9, READS / 50, spikes);
 }
 
-/* During a fault, its input has the fault's value, and before and after it the healthy one. No other input changes. */
+/* During a fault, its input must have the fault's value, and before and after the fault the healthy value. No other
+ * input may change. */
 TEST(fault, inputs) {
     static const struct {
         const char *words;
@@ -460,7 +462,7 @@ TEST(fault, inputs) {
         snprintf(words, sizeof words, "%s@state=2~101ms+0.201", rows[i].words);
         run_with(words, &ill);
         for (int read = 1; read <= READS; read++) {
-            /* the 200th orders are sent at 0.398 s; the fault acts from the reading at 0.500 s to that at 0.702 s */
+            /* orders number 200 are sent at 0.398 s; the fault acts from the reading at 0.500 s to that at 0.702 s */
             const double at_s = read * 2e-3;
             const bool broken = at_s > 0.499 && at_s < 0.701;
             for (int in = 0; in < INPUTS; in++) {
@@ -492,7 +494,8 @@ TEST(fault, orders) {
                      ill.orders[300].watchdog_ticks == 77 && ill.orders[450].watchdog_ticks == 0);
 }
 
-/* If orders are lost on the line, the outputs keep their values. The next request comes at its usual time. */
+/* If orders are lost on the line, the outputs must keep their values, and the next request must come at its usual
+ * time. */
 TEST(fault, line) {
     int lost = 0;
     run_with("orders-lost=0.5", &ill);
@@ -505,8 +508,7 @@ TEST(fault, line) {
         lost += stays;
     }
     TEST_ASSERT_INT_WITHIN(60, READS / 2, lost);
-    run_with("orders-lost=1",
-             &ill); /* all orders are lost, so the outputs exist but were never set */
+    run_with("orders-lost=1", &ill); /* all orders are lost, so no output was ever set */
     for (int i = 1; i <= READS; i++) {
         TEST_ASSERT_EQUAL_UINT(2, ill.orders[i].outputs);
         TEST_ASSERT_TRUE(ill.orders[i].output[0] == 0.0f && ill.orders[i].output[1] == 0.0f);
@@ -569,7 +571,7 @@ TEST(fault, words) {
         TEST_ASSERT_TRUE(fault_read(&plan, "jam"));
     }
     TEST_ASSERT_FALSE(fault_read(&plan, "jam"));
-    for (int i = 0; i < FAULT_KINDS; i++) { /* each has its word and bounds */
+    for (int i = 0; i < FAULT_KINDS; i++) { /* each fault must have its word and bounds */
         fault_plan one = {.count = 0};
         TEST_ASSERT_TRUE(fault_read(&one, fault_rows[i].word));
         TEST_ASSERT_EQUAL_INT(i, (int)one.fault[0].kind);

@@ -1,5 +1,5 @@
 /* test_plant.c: sensors and actuators of a scene, compared with closed forms: times of edges, samples, effect of
- * orders, watchdog; and the binding of signals to quantities. */
+ * orders, watchdog. Also the binding of signals to quantities. */
 #include "derived.h"
 #include "host/pil/lockstep.h"
 #include "host/pil/plant.h"
@@ -8,7 +8,7 @@
 #define TICKS_PER_S 1000000U
 #define TURN_RAD 6.283185307179586477
 
-/* A free rotor, a spring, and a pushed mass. */
+/* A free rotor, a spring, and a mass that an input pushes. */
 static const char *const text =
     "mechanism bench \"three of them\"\n"
     "coordinate a [rad]\ncoordinate x [m]\ncoordinate y [m]\n"
@@ -52,7 +52,7 @@ static wh_signal edge(const char *name, const char *unit, float low, float high)
         .kind = WH_SIGNAL_EDGE, .name = name, .unit = unit, .low = low, .high = high};
 }
 
-/* Reads every 2 ms until `until_s`. Returns the number of edges of channel 0, in s. */
+/* Reads every 2 ms until until_s. at_s[]: times of the edges of channel 0, in s. Returns the number of edges. */
 static int edges_until(double until_s, double *at_s, int most) {
     int count = 0;
     const int reads = (int)(until_s * TICKS_PER_S / 2000.0 + 0.5);
@@ -74,7 +74,7 @@ static int edges_until(double until_s, double *at_s, int most) {
     return count;
 }
 
-/* Once a turn the angle enters the range: at the lower end if it increases, at the upper end if it decreases. */
+/* Once in a turn, the angle enters the range: at its lower end if the angle increases, else at its upper end. */
 TEST(plant, edges_of_an_angle) {
     uint64_t seed = 1;
     for (int round = 0; round < 60; round++) {
@@ -92,18 +92,18 @@ TEST(plant, edges_of_an_angle) {
         close_bench();
         const double level = (double)(speed > 0.0 ? low : high) + wish.place[0] * TURN_RAD / 360.0;
         double turns = (level - start) / TURN_RAD * (speed > 0.0 ? 1.0 : -1.0);
-        turns -= floor(turns); /* the part of a turn to the first edge */
-        const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* edges in one second */
-        TEST_ASSERT_INT_WITHIN(1, wanted, count); /* one more or less in the last moments */
+        turns -= floor(turns); /* the part of a turn before the first edge */
+        const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* edges in a second */
+        TEST_ASSERT_INT_WITHIN(1, wanted, count); /* one more or less at the end of the second */
         for (int i = 0; i < count; i++) {
             const double t = (turns + i) * TURN_RAD / fabs(speed);
-            /* the timer truncates to a tick */
+            /* the timer drops fractions of a tick */
             TEST_ASSERT_TRUE(at_s[i] <= t + 1e-9 && at_s[i] > t - 1e-6 - 1e-9);
         }
     }
 }
 
-/* x = cos(10 t) enters a range twice per period. So does an output that is twice x and has no rate. */
+/* x = cos(10 t) enters a range twice in a period. So does an output that is 2 x and has no rate. */
 TEST(plant, edges_of_a_length) {
     for (int output = 0; output < 2; output++) {
         const float low = 0.2F;
@@ -128,7 +128,7 @@ TEST(plant, edges_of_a_length) {
     }
 }
 
-/* Jitter has the given deviation, and no edge is delivered before its time. */
+/* Jitter must have the requested deviation, and no edge may come before its time. */
 TEST(plant, jitter) {
     const plant_wish wish = {.jitter_s = 20e-6, .seed = 5};
     const double speed = 100.0;
@@ -145,7 +145,7 @@ TEST(plant, jitter) {
         sum += off;
         squares += off * off;
     }
-    /* 159 edges: the mean is within four of its standard errors, the deviation within three and a half */
+    /* for 159 edges: four standard errors of the mean, and three and a half of the deviation */
     TEST_ASSERT_TRUE(fabs(sum / count) < 4.0 * 20e-6 / sqrt(count));
     TEST_ASSERT_TRUE(fabs(sqrt(squares / count) / 20e-6 - 1.0) < 0.2);
 }
@@ -160,7 +160,7 @@ static wh_signal sample(float per_count, float most, uint32_t period_ticks) {
                        .period_ticks = period_ticks};
 }
 
-/* cos(10 t) in counts, at the requested instants only, with the given delay. */
+/* cos(10 t) in counts, at the requested times only, with the requested delay. */
 TEST(plant, samples) {
     const double delays_s[] = {0.0, 150e-6, 1.3e-3};
     for (int d = 0; d < 3; d++) {
@@ -193,7 +193,8 @@ TEST(plant, samples) {
     }
 }
 
-/* Counts at both ends of a range must fit 32 bits. Samples of an accepted range reach both ends exactly. */
+/* Counts at both ends of a range must fit into 32 bits. If the range is accepted, samples must reach both ends
+ * exactly. */
 TEST(plant, ranges) {
     const plant_wish wish = {.seed = 1};
     uint64_t seed = 3;
@@ -238,7 +239,7 @@ TEST(plant, ranges) {
     TEST_ASSERT_TRUE(taken > 20 && taken < 80);
 }
 
-/* If there are more edges than a reading can hold, the newest are lost and counted. */
+/* If there are more samples than a reading can hold, the newest must be lost and counted. */
 TEST(plant, too_many) {
     const plant_wish wish = {.seed = 1};
     wh_readings r;
@@ -269,7 +270,8 @@ static void add_push(void) {
         .kind = WH_SIGNAL_OUTPUT, .name = "push", .unit = "N", .low = -2.0F, .high = 2.0F});
 }
 
-/* A push of 1 N on 1 kg acts from the first step at or after its delay. The final speed lacks that time. */
+/* A push of 1 N on 1 kg acts from the first step that does not begin before its delay. The speed at the end lacks
+ * the time before. */
 TEST(plant, late_orders) {
     for (int late = 0; late <= 1000; late += 125) {
         const plant_wish wish = {.seed = 1};
@@ -284,7 +286,7 @@ TEST(plant, late_orders) {
     }
 }
 
-/* A note belongs to no quantity of the plant and changes nothing; the outputs keep their channels. */
+/* A note belongs to no quantity of the plant and must change nothing. Outputs must keep their channels. */
 TEST(plant, notes) {
     const plant_wish wish = {.seed = 1};
     add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "state", .unit = "1"});
@@ -300,7 +302,7 @@ TEST(plant, notes) {
     close_bench();
 }
 
-/* The plant clamps outputs to the declared range. A NaN, which ends a run (lockstep.c), counts as the minimum. */
+/* The plant limits outputs to the declared range. A NaN, which ends a run (lockstep.c), counts as the lower limit. */
 TEST(plant, held_orders) {
     const float asked[] = {5.0F, -5.0F, 0.5F, NAN};
     const double taken[] = {2.0, -2.0, 0.5, -2.0};
@@ -316,7 +318,8 @@ TEST(plant, held_orders) {
     }
 }
 
-/* The watchdog is kicked only at time 0. After 10 ms and a step the push ends for good, and the report says so. */
+/* The watchdog is kicked at time 0 only. After 10 ms and one step, the push must end for good, and the report must
+ * say so. */
 TEST(plant, watchdog) {
     const plant_wish wish = {.seed = 1};
     wh_readings r;
@@ -329,7 +332,7 @@ TEST(plant, watchdog) {
         TEST_ASSERT_TRUE(plant_advance(&on, (turn + 1) * 2000.0));
         plant_read(&on, &r);
         TEST_ASSERT_EQUAL_INT(turn < 5 ? 0 : WH_READING_CUT, r.flags);
-        orders.flags = turn == 7 ? WH_ORDER_ALIVE : 0; /* the watchdog has already cut the drive */
+        orders.flags = turn == 7 ? WH_ORDER_ALIVE : 0; /* the watchdog has already cut the power */
     }
     TEST_ASSERT_TRUE(fabs(speed_of_y() - 10.05e-3) < 1e-12);
     TEST_ASSERT_TRUE(fabs(on.cut_ticks - 10050.0) < 1e-6);
@@ -368,7 +371,7 @@ TEST(plant, names) {
     close_bench();
 }
 
-/* Equal orders with different counts have equal hashes; each other field changes the hash. */
+/* Equal orders with different counts must have equal hashes. A change in any other field must change the hash. */
 TEST(plant, hash) {
     const wh_orders base = {
         .until_ticks = 1, .watchdog_ticks = 2, .flags = 1, .outputs = 2, .output = {1.0F, 2.0F}};

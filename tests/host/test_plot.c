@@ -1,4 +1,4 @@
-/* test_plot.c: the envelope of a run for its picture, the colours of its curves, and a recording's picture. */
+/* test_plot.c: the envelope of a run for its picture, the colours of the curves, and a recording's picture. */
 #include "host/io/gnuplot.h"
 #include "host/io/minmax_decimation.h"
 #include "host/monitor/recording.h"
@@ -6,9 +6,9 @@
 #include "command.h"
 
 /* === envelope ================================================================================= */
-/* The envelope of a run for its picture: generated signals of every length, compared with all their values. */
+/* The envelope of a run for its picture: random signals of every length, compared with all their values. */
 
-/* columns: the time, an oscillation with peaks of one step, an oscillation with gaps, noise */
+/* Columns: time, an oscillation with peaks of one step, an oscillation with gaps, noise. */
 enum { COLUMNS = 4 };
 
 static double *signal_of(dice *d, unsigned steps) {
@@ -54,7 +54,7 @@ TEST(envelope, short_runs_are_kept_number_by_number) {
     }
 }
 
-/* Steps per bucket: the least power of two for which all steps fit. */
+/* Steps in a bucket: the least power of two with which all steps fit. */
 static unsigned size_of(unsigned steps) {
     unsigned size = 1;
     while ((uint64_t)size * DECIMATION_ROOM < steps) {
@@ -63,7 +63,8 @@ static unsigned size_of(unsigned steps) {
     return size;
 }
 
-/* Both numbers of column i are the minimum and maximum of the steps [from, to), in order of time. */
+/* In a bucket, the two numbers of column i must be the minimum and maximum of the steps from `from` to to - 1, in
+ * the sequence of time. */
 static void check_bucket(const double *data, unsigned from, unsigned to, int i, double first,
                          double second) {
     unsigned least = UINT32_MAX;
@@ -139,9 +140,8 @@ TEST(envelope, at_every_moment_all_is_there) {
 }
 
 /* === palette ================================================================================== */
-/* Contrast and distance of the colours of pictures (host/io/gnuplot.h): WCAG 2.1's contrast ratio, and the
- * distance in CIELAB. Eyes are without and with colour blindness (Machado, Oliveira and Fernandes, 2009,
- * severity 1). */
+/* Colours of pictures (host/io/gnuplot.h): their contrast ratio by WCAG 2.1, and their distance in CIELAB, for eyes
+ * with and without colour blindness (Machado, Oliveira and Fernandes, 2009, severity 1). */
 
 #define CONTRAST 3.0
 #define APART 13.0
@@ -263,8 +263,8 @@ TEST(palette, lines_that_share_a_colour_differ_otherwise) {
 }
 
 /* === recording plot =========================================================================== */
-/* Samples that a recording stores for a plot (host/monitor/recording.h): thinned evenly, never changed, and no plot
- * without samples. */
+/* The samples that a recording stores for a plot (host/monitor/recording.h). They must be thinned evenly and never
+ * changed. Without samples there must be no plot. */
 
 static dice die;
 

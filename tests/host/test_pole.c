@@ -1,5 +1,6 @@
-/* test_pole.c: poles on a path (host/check/pole.h), for random products of powers. Exponents are integers or fractions.
- * Also zeros nearby, one-sided poles, differences that are only round-off, and divisors with two changes of sign. */
+/* test_pole.c: poles on a path (host/check/pole.h), for random products of powers with integer and fractional
+ * exponents. Also zeros nearby, one-sided poles, differences that are only round-off, and divisors that change their
+ * sign twice. */
 #include "command.h"
 #include "host/check/pole.h"
 #include "host/number/functions.h"
@@ -8,16 +9,17 @@ static dice die;
 
 enum { SIGNS = 2, VALUES = 2 };
 
-/* value[0] is smooth. value[1] = (x - zero)^zeros / |x - place|^order + beside, on one side only if `side` is not 0. */
+/* Two functions on the path x. value[0] is smooth. value[1] = (x - zero)^zeros / |x - place|^order + beside. If
+ * `side` is not 0, value[1] has the pole on one side only. */
 typedef struct drawn {
     double place;
     double order;
     double zero;
     int zeros;
     double side;
-    double beside; /* added constant */
-    bool touches;  /* the divisor touches zero at the pole instead of crossing it */
-    int asked;     /* points evaluated */
+    double beside; /* constant term */
+    bool touches;  /* the divisor touches zero at the pole and does not cross it */
+    int asked;     /* number of evaluated points */
 } drawn;
 
 static void at(void *of, double share, double *sign, double *value) {
@@ -62,8 +64,7 @@ TEST(pole, powers) {
     }
 }
 
-/* The pole is found by the function that touches zero, as accurately as its digits allow; also 1 - cos(x) as a
- * divisor. */
+/* A divisor that touches zero must be found as a pole, as accurately as its digits allow. */
 TEST(pole, what_touches) {
     static const double orders[] = {0.0, 0.3, 0.5, 0.8, 1.0, 2.0, 3.0, 4.0};
     enum { ORDERS = sizeof orders / sizeof orders[0] };
@@ -80,7 +81,7 @@ TEST(pole, what_touches) {
     }
 }
 
-/* Parabolas with a minimum below, at and above zero. */
+/* Parabolas above zero, and parabolas whose minimum is zero. */
 TEST(pole, what_may_touch) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         const double least = dice_between(&die, 0.01, 3.0) * (c % 3 == 0 ? 1.0 : 0.0);
@@ -92,7 +93,7 @@ TEST(pole, what_may_touch) {
             value[k] = size * ((share[k] - zero_at) * (share[k] - zero_at) + least);
         }
         const bool inside = zero_at > 0.0 && zero_at < 1.0;
-        /* the tangents at both ends meet below zero, so the parabola may reach it */
+        /* the tangents at both ends meet below zero, so the parabola may reach zero */
         const bool may = inside && least - zero_at * (1.0 - zero_at) < 0.0;
         if (fabs(least - zero_at * (1.0 - zero_at)) > 0.01 && fabs(zero_at - 0.5) < 0.98 &&
             fabs(fabs(zero_at - 0.5) - 0.5) > 0.01) {
@@ -101,7 +102,8 @@ TEST(pole, what_may_touch) {
     }
 }
 
-/* Each time x shrinks to a fifth, the value grows by 27 or 4.7 in turn. A pole of order 1.5 grows by 11 each time. */
+/* Each time x becomes a fifth, the value becomes 27 or 4.7 times larger, by turns. At a pole of order 1.5 it becomes
+ * 11 times larger each time. */
 static void at_leaps(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = share - d->place;
@@ -112,7 +114,7 @@ static void at_leaps(void *of, double share, double *sign, double *value) {
     value[1] = number_power(fabs(x), -1.5) * (fmod(floor(turn), 2.0) == 0.0 ? 1.0 : 2.4);
 }
 
-/* sign[1] changes its sign next to the pole, not at it. */
+/* sign[1] changes its sign beside the pole instead of at the pole. */
 static void at_shifted(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     at(of, share, sign, value);
@@ -143,7 +145,7 @@ typedef enum difference_kind {
 
 typedef struct difference {
     difference_kind which;
-    double from; /* the argument, which passes zero */
+    double from; /* the argument runs from here through zero */
     double to;
 } difference;
 
@@ -183,7 +185,7 @@ TEST(pole, what_rounding_leaves) {
     }
 }
 
-/* A function of s = a + x that touches zero at x = 0; the value has a limit or a weak pole there. */
+/* A function of s = a + x that touches zero at x = 0, where the value has a limit or a weak pole. */
 static void at_touched(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double s = d->place + (share - d->zero) * d->order;
@@ -206,7 +208,7 @@ TEST(pole, what_has_no_digits) {
     }
 }
 
-/* A divisor comes near zero and rises again: y^2 + x^2, or 1 + y^2 - cos(x), which has fewer digits there. */
+/* A divisor that comes near zero and rises again: y^2 + x^2, or 1 + y^2 - cos(x), which has fewer digits there. */
 static void at_standing(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = (share - d->place) * d->order;
@@ -226,7 +228,7 @@ TEST(pole, what_stands_off) {
     }
 }
 
-/* 1/(1 + k/x), x from below -k to above zero: 1 + k/x has the same sign at both ends. */
+/* 1/(1 + k/x) for x from below -k to above zero. 1 + k/x has the same sign at both ends. */
 static void at_twice(void *of, double share, double *sign, double *value) {
     const drawn *d = of;
     const double x = share - d->place;
@@ -241,7 +243,7 @@ TEST(pole, what_changes_twice) {
         drawn d = {.place = dice_between(&die, 0.3, 0.7),
                    .order = exp(dice_between(&die, -15.0, -1.5))};
         TEST_ASSERT_EQUAL_INT(1, pole_of(&d, at_twice, 1.0));
-        d.order = 1.0; /* the pole lies after the end of the path */
+        d.order = 1.0; /* the pole is after the end of the path */
         TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_twice, 1.0));
     }
 }
