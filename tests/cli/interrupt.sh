@@ -99,7 +99,7 @@ done
 
 # a map keeps the finished points, in words and as rows
 for signal in INT TERM; do
-    stop $signal "has_worked 150" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1e14 --csv "$scratch/m.csv"
+    stop $signal "has_worked 40" map epicyclic_from_rest --over m=1..3:1000 --over step=1..10[ms]:10 --effort 1e14 --csv "$scratch/m.csv"
     rows=$(($(wc -l <"$scratch/m.csv") - 1))
     [ "$code" -eq 130 ] && [ "$rows" -gt 0 ] && [ "$rows" -lt 10000 ]
     verdict $? "map, $signal: exit status 130, $rows rows"
@@ -114,7 +114,7 @@ mkfifo "$scratch/trusted"
 for kind in file trusted; do # `trusted` is a pipe
     rm -f "$scratch/file"
     [ $kind = file ] || cat "$scratch/trusted" >"$scratch/read" &
-    stop INT "has_worked 50" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1e14 --csv "$scratch/$kind"
+    stop INT "has_worked 25" trust epicyclic_from_rest --until 3000s --step 1ms --effort 1e14 --csv "$scratch/$kind"
     [ $code -eq 130 ] && grep -q '^whirl trust: interrupted at t = ' "$scratch/err" && [ ! -e "$scratch/file" ] && [ -p "$scratch/trusted" ]
     verdict $? "trust to a file, $kind: exit status 130, an ordinary one goes and a pipe stays"
 done
@@ -153,7 +153,8 @@ ends_soon() { # ends_soon WORD...
     { [ $code -eq 130 ] || [ $code -le 1 ]; } && { [ "$more" -le 15 ] || [ "$at" -eq 0 ]; } # 0: it had ended
     verdict $? "$*: interrupted after $at hundredths, $more more, exit status $code"
 }
-for moment in 1 2; do
+# One moment of each command; WHIRL_FULL=1: eight.
+for moment in 1 ${WHIRL_FULL:+2 3 4 5 6 7 8}; do
     ends_soon run tests/reference/stack.whirl
     ends_soon run halvorson_ground
     ends_soon sweep tests/reference/stack.whirl --over step=0.2..2[ms]:30 --measure 'max(y15)' --csv -

@@ -37,7 +37,7 @@ END
 verdict $? "a scene with roots"
 if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     for flags in "-mcpu=cortex-m0 -O2 -ffreestanding" "-mcpu=cortex-m3 -O0" "-mcpu=cortex-m3 -Os -DWH_DOUBLE=1" \
-        "-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard -O0"; do
+        ${WHIRL_FULL:+"-mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mfloat-abi=hard -O0"}; do
         arm-none-eabi-gcc $flags -mthumb -std=c11 -ffp-contract=off -I. -nostdlib -r -o "$scratch/all.o" \
             "$scratch/roots.c" core/*.c 2>"$scratch/err"
         verdict $? "compiled with $flags"

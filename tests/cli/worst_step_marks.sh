@@ -11,7 +11,7 @@ verdict $? "a table of them, with what a step of each may evaluate"
 
 # An AVR or Arm assembler takes the marks; the Arm one is what the counter runs.
 if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
-    for scene in ball_bounces carriage_stop; do
+    for scene in carriage_stop ${WHIRL_FULL:+ball_bounces}; do
         arm-none-eabi-gcc -mcpu=cortex-m4 -mthumb -std=c11 -I. -include boards/programs/mark.h -c "$scratch/all/$scene.c" \
             -o "$scratch/marked.o" 2>"$scratch/err" &&
             arm-none-eabi-objcopy -O binary --set-section-flags .wh_marks=alloc -j .wh_marks "$scratch/marked.o" \
