@@ -44,7 +44,7 @@ typedef enum fixed_code {
 
 typedef struct fixed_operand {
     int op;
-    int shift;      /* right shift of a sum, left shift of a product */
+    int shift;      /* bits: right shift of a sum's operand, left shift of a product's */
     int32_t number; /* value of a constant, already shifted */
 } fixed_operand;
 

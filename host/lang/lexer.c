@@ -48,8 +48,8 @@ static bool is_letter(int c) {
 static bool is_digit(int c) { return c >= '0' && c <= '9'; }
 
 /* Reports a carriage return within a line. Lines end with a line feed, optionally after a carriage return. A lone
- * carriage return would hide the text after it when the file is displayed. After a #, a file whose lines end with it
- * would be one comment. */
+ * carriage return would hide the text after it when the file is displayed. If all lines ended in
+ * it, a # would turn the rest of the file into a comment. */
 static void check_line_ends(const lexer *in) {
     const source *text = in->at.source;
     const char *at = text->text + in->at.offset;

@@ -14,8 +14,8 @@
 #define SYMBOL_KIND_ROWS(X) \
     X(COORDINATE, "a coordinate") /* generalized coordinate: may carry primes */ \
     X(STATE, "a state")           /* unknown of a system given by equations: may carry primes */ \
-    X(PARAMETER, "a parameter")   /* constant of a run; value from an expression of constants */ \
-    X(INPUT, "an input")   /* may change while running; value from an expression of constants */ \
+    X(PARAMETER, "a parameter")   /* constant during a run; its expression is constant */ \
+    X(INPUT, "an input")   /* may change during a run; its first value is a constant expression */ \
     X(LET, "a let")        /* shorthand for its expression */ \
     X(OUTPUT, "an output") /* computed for records; may be used by later outputs */ \
     X(RECORD, "an output") /* the recorded output, noise included: in measures only */

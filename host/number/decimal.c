@@ -45,8 +45,8 @@ enum {
      * 2^-1074 and becomes zero; one with a larger exponent becomes infinity. */
     PLACE_LEAST = -324,
     PLACE_MOST = 308,
-    /* 5^1106 has 2569 bits, a number of 781 digits has 2595. The shorter of two numbers is shifted to the length of
-     * the longer one plus one bit. */
+    /* Words of the largest number: 5^1106 has 2569 bits, 781 digits have 2595. The shorter of two numbers is shifted to
+     * the length of the longer one plus one bit. */
     WORDS = 84,
     FIVES = 13, /* 5^13 is the largest power of 5 in a word */
     QUOTIENT_BITS = 64,
