@@ -1,5 +1,5 @@
-/* test_price.c: the cost of operation lists, for expressions whose least cost is known. Also extrapolation and trials.
- * Other suites test the values. */
+/* test_price.c: the cost of operation lists for expressions whose least cost is known. Other suites test their
+ * values. Also extrapolation, and trials of settings. */
 #include "test.h"
 
 #include "host/base/alloc.h"
@@ -14,7 +14,8 @@
 
 /* === price ==================================================================================== */
 
-/* Number of operations and of sine-cosine pairs for one output of seven numbers x0 ... x6 and two angles a and b. */
+/* Number of operations, and of pairs of sine and cosine, for one output. The names are seven numbers x0 ... x6 and
+ * two angles a and b. */
 typedef struct price {
     int operations;
     int waves;
@@ -48,9 +49,7 @@ static void expect(price got, int operations, int waves, const char *what) {
     TEST_ASSERT_TRUE_MESSAGE(got.operations <= operations && got.waves <= waves, line);
 }
 
-/* --- sums and products ------------------------------------------------------------------------------------- */
-
-/* Horner's scheme: a product and a sum per power. */
+/* Horner's scheme needs a product and a sum for each power. */
 TEST(price, polynomials_take_two_operations_a_power) {
     for (int degree = 1; degree <= 9; degree++) {
         char sum[400] = "1";
@@ -80,7 +79,7 @@ TEST(price, equal_coefficients_are_taken_out) {
     }
 }
 
-/* The algebra expands a product of nested sums, and the operation list must cost no more than the nested form. */
+/* The algebra expands a product of nested sums. The operation list must still cost no more than the nested form. */
 TEST(price, factors_are_taken_out_again) {
     expect(price_of("x0*(2*x1 + 3*x2)"), 4, 0, "one factor");
     expect(price_of("x0*(2*x1 + x2*(3*x3 + 5*x4))"), 7, 0, "a factor inside");
@@ -91,7 +90,6 @@ TEST(price, factors_are_taken_out_again) {
     expect(price_of("x0*x1 + x0*x2 + x0*x3"), 3, 0, "no coefficients");
 }
 
-/* A function that occurs twice is computed once. */
 TEST(price, what_is_the_same_is_computed_once) {
     static const char *const of[] = {"exp(x0)",    "sqrt(x0)",    "atan2(x0, x1)", "abs(x0)",
                                      "log(x0*x1)", "max(x0, x1)", "sin(x0*x1)"};
@@ -101,8 +99,6 @@ TEST(price, what_is_the_same_is_computed_once) {
         expect(price_of("x4 + 5*%s + 3*x2*%s", of[i], of[i]), one.operations + 4, one.waves, of[i]);
     }
 }
-
-/* --- sines --------------------------------------------------------------------------------------------------- */
 
 TEST(price, sines_of_multiples_follow_from_one) {
     uint64_t seed = 19;
@@ -115,7 +111,7 @@ TEST(price, sines_of_multiples_follow_from_one) {
         }
         expect(price_of("%s", sum), 40, 1, sum);
     }
-    /* also inside functions */
+    /* sines inside functions count, too */
     expect(price_of("exp(sin(a)) + 3*exp(cos(2*a))"), 40, 1, "sines inside functions");
     expect(price_of("atan2(sin(2*a), x0 + cos(a)) + x1*sqrt(3 + sin(3*a))"), 40, 1, "sines inside");
     expect(price_of("sin(x0*sin(2*a)) + x1*cos(a)"), 40, 2, "a sine inside a sine");
@@ -125,7 +121,7 @@ TEST(price, sines_of_multiples_follow_from_one) {
     expect(price_of("3*cos(a - b) + 5*sin(a) + cos(b)"), 11, 2, "a difference of angles");
 }
 
-/* Powers of sines stay powers if their expansion into sums would lose digits and cost more. */
+/* Powers of sines must stay powers if an expansion into sums would lose digits and cost more. */
 TEST(price, powers_of_sines_are_put_back) {
     for (int n = 1; n <= 7; n++) {
         char what[60];
@@ -143,9 +139,8 @@ TEST(price, powers_of_sines_are_put_back) {
     expect(price_of("x0*(1 - cos(2*a)) + x1*(1 + cos(4*b))"), 9, 2, "squares beside each other");
 }
 
-/* --- equations ----------------------------------------------------------------------------------------------- */
-
-/* Operations of a step of n equations. All entries of matrix and right side are distinct states, except entry `number`. */
+/* Operations of a step of n equations. All coefficients and right sides are different states, except coefficient
+ * `number`, which is 3. */
 static int price_of_system(int n, int number) {
     char text[4000] = "mechanism m\n";
 #define PUT(...) snprintf(text + strlen(text), sizeof text - strlen(text), __VA_ARGS__)
@@ -170,8 +165,8 @@ static int price_of_system(int n, int number) {
     return operations;
 }
 
-/* Up to three equations are solved by Cramer's rule. Each further one costs an elimination: divide a column, subtract its
- * row, substitute back. */
+/* Up to three equations are solved by Cramer's rule. Each further equation costs an elimination: divide a column,
+ * subtract the row from each other row, and substitute back. */
 TEST(price, equations_are_eliminated_one_by_one) {
     int last = 0; /* three equations: four determinants with common parts */
     for (int n = 1; n <= 6; n++) {
@@ -183,16 +178,16 @@ TEST(price, equations_are_eliminated_one_by_one) {
     }
 }
 
-/* In two equations, a coefficient that is a number is the pivot, wherever it is; no determinant is needed. Forward: a
- * quotient, twice a product and a difference, a quotient; back: a product, a difference, a quotient. */
+/* If a coefficient of two equations is a number, it must be the pivot, wherever it is. No determinant is needed.
+ * Forward: a quotient, a product and a difference twice, a quotient; back: a product, a difference, a quotient. */
 TEST(price, a_number_is_the_pivot) {
     for (int at = 0; at < 4; at++) {
         TEST_ASSERT_LESS_OR_EQUAL_INT(9, price_of_system(2, at));
     }
 }
 
-/* The cost does not depend on the decimals of parameters. Values equal up to round-off are one number; a value within
- * round-off of a simple fraction is that fraction. */
+/* The cost must not depend on the decimals of parameters. Values that differ by round-off count as one number, and a
+ * value near a simple fraction counts as that fraction. */
 TEST(price, decimals_cost_nothing) {
     uint64_t seed = 23;
     int least = 1000;
@@ -217,15 +212,15 @@ TEST(price, decimals_cost_nothing) {
 }
 
 /* === price control ============================================================================ */
-/* y' = linear y + square y^2, extrapolated over two spans by `columns` columns: value, and number of steps. A step is
- * at most 3 times and at least a fifth of the previous one. It is chosen for 0.9 of the tolerance, and the last two
- * steps share the remaining time. At a pole no step is small enough. */
+/* y' = linear y + square y^2, extrapolated over two spans with `columns` columns: the value and the number of steps.
+ * A step is between a fifth and three times the one before, and is chosen for 0.9 of the tolerance. The last two
+ * steps share the remaining time. At a pole, no step is small enough. */
 TEST(price_control, steps_of_one_equation) {
     static const struct {
         double linear, square, start;
         int columns;
         double tolerance, span[2];
-        int tries; /* 0: ends at the pole */
+        int tries; /* number of steps; 0: ends at the pole */
     } rows[] = {
         {-1.0, 0.0, 1.0, 2, 1e-3, {1.0, 1.0}, 8},   {-1.0, 0.0, 1.0, 2, 1e-9, {1.0, 0.3}, 411},
         {-6.0, 0.0, 0.5, 3, 1e-6, {2.0, 1.5}, 29},  {-6.0, 0.0, 2.0, 6, 1e-10, {0.1, 3.0}, 15},
@@ -267,10 +262,10 @@ TEST(price_control, steps_of_one_equation) {
 }
 
 /* === price dearest ============================================================================ */
-/* Cost of a setting in trials (host/study/trial.h): the maximum over all places, finer steps where a coarse one
+/* The cost of a setting in trials (host/study/trial.h): the maximum over all places, finer steps if a coarse step
  * fails, and settings without an image. */
 
-/* Three motions of different cost; only the last is linear. */
+/* Three motions of different cost. Only the last one is linear. */
 static const char *const springs[] = {
     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 9 [N/m]*x^2/2\n"
     "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s]\n"
@@ -331,13 +326,13 @@ TEST(price_dearest, the_dearest_of_all_places) {
             known += c.instructions_worst.most > 0.0;
         }
         TEST_ASSERT_TRUE(known >= 2);
-        /* without sines, table lookup is no separate setting */
+        /* without sines, a table of sines is not a setting of its own */
         setting lookup = s[0];
         lookup.image.angles = ANGLES_LOOKUP;
         bool own = true;
         const cost none = trial_cost(&p.trial, &lookup, (deviation_pace){5, 1}, &own);
         TEST_ASSERT_TRUE(!own && none.instructions.basis == COST_NOT_KNOWN);
-        /* nor leapfrog with a damper */
+        /* leapfrog is not possible with a damper */
         const setting leapfrog = priced_setting(WH_LEAPFROG, &engine_float);
         (void)trial_cost(&p.trial, &leapfrog, (deviation_pace){5, 1}, &own);
         TEST_ASSERT_FALSE(own);
@@ -345,15 +340,13 @@ TEST(price_dearest, the_dearest_of_all_places) {
     }
 }
 
-/* --- finer steps -----------------------------------------------------------------------------------------*/
-
 static double longest_s;
 static bool none_longer(const setting *s, double step_s) {
     (void)s;
     return step_s <= longest_s;
 }
 
-/* A trial in fixed point asks three times for a step a tenth as long. */
+/* If fixed point is not possible with a step, the trial must try up to three times a tenth of the step. */
 TEST(price_dearest, finer_steps_are_asked_for) {
     static const struct {
         deviation_pace from;
@@ -379,7 +372,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
         TEST_ASSERT_EQUAL_INT(rows[i].asked, p.asked - asked);
         TEST_ASSERT_EQUAL_INT(rows[i].own, own);
         if (own) {
-            /* stored for this step, and asked for with another one */
+            /* the result is stored for this step only */
             asked = p.asked;
             const trial_result r = trial_run(&p.trial, &in_fixed, rows[i].at);
             TEST_ASSERT_TRUE(r.ran);
@@ -391,7 +384,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
                             (deviation_pace){rows[i].at.steps * 2, rows[i].at.records});
             TEST_ASSERT_EQUAL_INT(asked + 2, p.asked);
         }
-        /* no other setting asks for an image */
+        /* a setting in float must ask for one image only */
         const setting rk4 = priced_setting(WH_RK4, &engine_float);
         longest_s = 1e-9;
         asked = p.asked;
@@ -403,7 +396,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
     }
 }
 
-/* To find ranges needs a run, so a finer step is skipped if its run would take too long. */
+/* To find ranges, the scene must run. A finer step is skipped if its run would take too long. */
 TEST(price_dearest, no_finer_step_than_may_be_planned) {
     const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
     priced p;
@@ -422,12 +415,12 @@ TEST(price_dearest, no_finer_step_than_may_be_planned) {
     priced_close(&p);
 }
 
-/* Accepts a matrix only if its step is below longest_s. */
+/* Refuses a matrix if its step is longest_s or longer. */
 static bool no_long_matrix(const setting *s, double step_s) {
     return s->image.matrix == MATRIX_NONE || step_s < longest_s;
 }
 
-/* If a matrix's step is too long, the price at the scene's step counts. */
+/* If a matrix is not possible with a long step, the price with the scene's own step counts. */
 TEST(price_dearest, matrices_are_priced_by_a_step_that_they_take) {
     priced p;
     priced_open(&p, springs, 1);

@@ -1,5 +1,5 @@
-/* test_price_front.c: rows of error against price (host/study/price_table.h). Sorting and Pareto front are compared
- * with all pairs of random rows. Also the steps tried, counted prices, and motions. */
+/* test_price_front.c: rows of error and price (host/study/price_table.h). Sorting and Pareto front are compared with
+ * all pairs of random rows. Also the steps that are tried, counted prices, and motions. */
 #include <unistd.h>
 
 #include "host/base/alloc.h"
@@ -25,14 +25,15 @@ static bool comes_before(const table_row *a, const table_row *b) {
              (a->result.error == b->result.error && a->pace.steps < b->pace.steps)));
 }
 
-/* Does a dominate b? It must be no dearer and no less accurate; of two equal rows, the earlier one dominates. */
+/* Does row a dominate row b? It must be neither dearer nor less accurate. Of two equal rows, the one with fewer
+ * steps dominates. */
 static bool beats(const table_row *a, const table_row *b) {
     return a->price.value <= b->price.value && a->result.error <= b->result.error &&
            (a->price.value < b->price.value || a->result.error < b->result.error ||
             a->pace.steps < b->pace.steps);
 }
 
-/* There are few distinct values, so that many rows tie. */
+/* The rows have few different values, so that many rows tie. */
 TEST(price_front, drawn_rows_are_sorted_and_their_front_is_marked) {
     dice d = dice_of("price_front", 1);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 20000)); n++) {
@@ -66,7 +67,7 @@ TEST(price_front, drawn_rows_are_sorted_and_their_front_is_marked) {
     }
 }
 
-/* The paces tried are 50, 20, 10, 5, 2 records a step, then 1, 2, 5, 10, ... steps a record, up to 5e7. */
+/* The tried paces are 50, 20, 10, 5 and 2 records in a step, then 1, 2, 5, 10, ... steps in a record, up to 5e7. */
 TEST(price_front, the_ladder_goes_down_by_one_two_five) {
     double length = 100.0;
     const table_wish w = {.rate_Hz = 0.0};
@@ -76,7 +77,7 @@ TEST(price_front, the_ladder_goes_down_by_one_two_five) {
         const double next = (double)p.records / (double)p.steps;
         TEST_ASSERT_TRUE(p.records == 1 || p.steps == 1);
         TEST_ASSERT_TRUE(p.records != 0 && p.steps != 0);
-        /* the next shorter step: half of 1, 2 and 10, two fifths of 5 */
+        /* the next shorter step is two fifths of 5, and half of 1, 2 and 10 */
         const double digit = length / pow(10.0, floor(log10(length * 1.000001)));
         const double part = digit > 4.0 && digit < 6.0 ? 0.4 : 0.5;
         TEST_ASSERT_TRUE(fabs(next / (length * part) - 1.0) < 1e-9);
@@ -88,7 +89,7 @@ TEST(price_front, the_ladder_goes_down_by_one_two_five) {
     TEST_ASSERT_TRUE(table_pace(&w, 28, &p) && p.steps == 50000000);
 }
 
-/* With a record rate, the numbers of steps in a time of 1/rate_Hz rise from rung to rung, and begin with 1 to 10. */
+/* With a record rate, the number of steps in 1/rate_Hz begins with 1, 2, ..., 10 and rises with each pace. */
 TEST(price_front, substeps_rise_as_they_are_told) {
     for (uint64_t periods = 1; periods < 6; periods++) {
         const table_wish w = {.rate_Hz = 7.0, .periods = periods};
@@ -108,9 +109,8 @@ TEST(price_front, substeps_rise_as_they_are_told) {
 }
 
 /* === price measured =========================================================================== */
-/* Counted prices (host/study/price_table.h) and choices by them (choice.h), in a made-up source tree (made_up_tree.h). */
-
-/* --- can it be counted? ----------------------------------------------------------------------------------*/
+/* Counted prices (host/study/price_table.h), and choices that use them (choice.h), in a made-up source tree
+ * (made_up_tree.h). */
 
 TEST(price_measured, what_is_missing_is_told) {
     static const struct {
@@ -152,8 +152,6 @@ TEST(price_measured, what_is_missing_is_told) {
     tree_leave();
 }
 
-/* --- steps -----------------------------------------------------------------------------------------------*/
-
 #define SPRING(k) \
     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = " k " [N/m]*x^2/2\n" \
     "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n"
@@ -176,8 +174,6 @@ static table table_of(table_row row[2], const setting *s, deviation_pace pace, i
     return (table){.row = row, .count = 2, .why = ""};
 }
 
-/* --- whole runs ------------------------------------------------------------------------------------------*/
-
 enum { COLUMNS = 13, PLACES = 3 };
 
 static void write_run(const char *file, const char *board, const double v[COLUMNS]) {
@@ -195,7 +191,8 @@ static void expect_most(double each_least, double each_most, double most, cost_b
     TEST_ASSERT_TRUE(f->value == (basis == COST_RANGE ? 0.0 : most));
 }
 
-/* The row for all places has the maximum of each column, the sum of steps, and a bound if every place has one. */
+/* The row for all places must have the maximum of each column and the sum of the steps. It must have a bound if
+ * every place has a bound. */
 TEST(price_measured, whole_runs_are_the_most_of_all_places) {
     static const char *const files[] = {"row0", "row1", "row2"};
     static const char *const boards[] = {"mps2-an386", "mps2-an500", "atmega328p"};
@@ -212,7 +209,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
             double v[PLACES][COLUMNS] = {{0}};
             double most[COLUMNS] = {0};
             double steps = 0.0;
-            const int unbounded = i < 4 ? i - 1 : -1; /* place without a bound; -1: none */
+            const int unbounded = i < 4 ? i - 1 : -1; /* the place without a bound; -1: none */
             for (int k = 0; k < PLACES; k++) {
                 for (int c = 2; c < COLUMNS; c++) {
                     v[k][c] = c == 5 && k == unbounded ? 0.0 : 1 + dice_one_of(&d, 5000);
@@ -247,7 +244,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
             TEST_ASSERT_NOT_NULL(strstr(asked, "place=0"));
             TEST_ASSERT_NOT_NULL(strstr(asked, "place=2"));
         }
-        /* a row that is too short, too long, or of another board; one place fails */
+        /* rows that are too short, too long, or of another board: the place fails */
         static const char *const bad[] = {"%s,f,1,1,1,1,1,1,1,e,1,1\n",
                                           "%s,f,1,1,1,1,1,1,1,e,1,1,1,1\n",
                                           "x%s,f,1,1,1,1,1,1,1,e,1,1,1\n"};
@@ -267,15 +264,14 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
     }
 }
 
-/* --- a table's front -------------------------------------------------------------------------------------*/
-
 static void count_progress(void *context, int done, int of) {
     (void)done;
     (void)of;
     ++*(int *)context;
 }
 
-/* The predictions are 100, 200, ...; when counted, the first costs more than all others. Refused rows are removed. */
+/* The predicted costs are 100, 200, ... When counted, the first setting costs more than all others. Rows that cannot
+ * be counted are removed. */
 TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
     priced p;
     priced_open(&p, springs, 1);
@@ -297,7 +293,7 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
             row[i].price.value = 100.0 * (i % 4 + 1) * (i == 4 ? 25.0 : 50.0);
             row[i].price.basis = COST_ESTIMATED;
         }
-        row[3].result.error = 0.5; /* no setting of the front, and never counted */
+        row[3].result.error = 0.5; /* not on the front, so it is never counted */
         table made = {.row = row, .count = 5, .why = ""};
         table_sort(&made);
         int told = 0;
@@ -331,10 +327,8 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
     priced_close(&p);
 }
 
-/* --- choices -----------------------------------------------------------------------------------------------*/
-
-/* Six settings by three steps have prices. Counting only the chosen rows gives the same choice as counting all, if no
- * prediction is too high. */
+/* Six settings with three steps each have prices. Counting the chosen rows only must give the same choice as
+ * counting all, unless a prediction is too high. */
 TEST(price_measured, choices_are_as_if_all_was_counted) {
     dice d = dice_of("price_measured choices", 23);
     priced p;
@@ -418,14 +412,12 @@ TEST(price_measured, choices_are_as_if_all_was_counted) {
 }
 
 /* === price motion ============================================================================= */
-/* The reference (host/study/reference_run.h) compared with closed forms and its order; deviations
- * (deviation_measure()) with the test's own loop. Long motions: test_price_reference.c. */
+/* The reference (host/study/reference_run.h) is compared with closed forms and its order, and deviation_measure()
+ * with a loop of the test. test_price_reference.c has long motions. */
 
 static const char *const spring =
     "mechanism m\ncoordinate x [mm]\noutput twice [mm] = 2*x\nT = 1 [kg]*x'^2/2\n"
     "V = 16 [N/m]*x^2/2\nscene s { start x = 250 [mm]; step 10 [ms]; until 1 [s] }\n";
-
-/* --- the reference, and runs against it ------------------------------------------------------------------*/
 
 static reference *reference_of(const image *im, int count) {
     const reference_wish w = {.image = im, .spacing = {1, 20}, .records = count, .operations = 1e8};
@@ -448,7 +440,7 @@ TEST(price_motion, deviations_are_the_largest_of_all_records) {
             im->settings.method = methods[n / 4 % 3];
             im->step = (whole_ratio){pace.records, 20 * pace.steps};
             im->step_s = (double)pace.records / (20.0 * (double)pace.steps);
-            /* the same steps and the error at each record; stops early at a useless error */
+            /* the same steps, and the error at each record; ends early if the error is too large to be useful */
             const double give_up = column < 0 ? 0.3 : 90.0;
             void *run = kind->start(im);
             double worst = -1.0;
@@ -520,7 +512,7 @@ TEST(price_motion, the_step_with_most_evaluations_is_told) {
     const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
                                           (deviation_of_what){-1, 1.0});
     TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
-    /* 20 evaluations more: of accelerations at 19 records, of contacts at the first; d.evaluations omits them */
+    /* 20 evaluations more: accelerations at 19 records, contacts at the first; d.evaluations leaves them out */
     const double evaluations = d.operations / of.image->list[IMAGE_STEP]->count;
     TEST_ASSERT_TRUE(evaluations == (double)before + 20.0);
     TEST_ASSERT_TRUE(fabs(d.evaluations - (double)before / 0.9) < 1e-6);

@@ -1,5 +1,5 @@
-/* test_price_reference.c: the reference of `whirl price` compared with closed forms in long double, and its functions
- * with libm. The reference shares no code with the runs it judges. */
+/* test_price_reference.c: the reference of `whirl price`, compared with closed forms in long double, and its
+ * functions with libm. The reference shares no code with the runs that it judges. */
 #include "derived.h"
 
 #include "host/study/reference_run.h"
@@ -19,7 +19,7 @@ typedef struct long_case {
     function_id function;
     long double (*library)(long double);
     double low, high;
-    double allowed; /* largest error, in units of the last place of long double */
+    double allowed; /* allowed error, in units of the last place of long double */
 } long_case;
 
 static const long_case long_cases[] = {
@@ -64,7 +64,7 @@ TEST(price_reference, functions_of_two) {
     }
     printf("  atan2 off by %.3g, powers by %.3g units\n", worst_angle, worst_power);
     TEST_ASSERT_TRUE(worst_angle <= 6.0);
-    TEST_ASSERT_TRUE(worst_power <= 200.0); /* |exponent log(base)| units */
+    TEST_ASSERT_TRUE(worst_power <= 200.0); /* in units of |exponent log(base)| */
 }
 
 TEST(price_reference, functions_at_their_edges) {
@@ -103,7 +103,7 @@ static long double at(const reference *r, int record, const char *name) {
     return r->row[(size_t)record * (size_t)r->columns + (size_t)column];
 }
 
-/* x(t) and its rate of m x'' + c x' + k x = 0 from x0, v0, underdamped. Stiffness and damping are powers of two,
+/* x(t) and x'(t) of m x'' + c x' + k x = 0, underdamped, from x0 and v0. Stiffness and damping are powers of two,
  * because the algebra rounds other constants by 1e-16. */
 TEST(price_reference, damped_springs) {
     uint64_t seed = 73;
@@ -169,7 +169,7 @@ TEST(price_reference, pendulums_keep_their_energy) {
     TEST_ASSERT_TRUE(worst <= 500.0 * (double)LDBL_EPSILON);
 }
 
-/* A double pendulum thrown high is chaotic: the higher, the shorter the horizon. */
+/* A double pendulum that is thrown high is chaotic. The horizon must be shorter if it is thrown higher. */
 TEST(price_reference, chaos_cuts_the_horizon) {
     derived d = derived_surely(derived_builtin("thomson_b"), "thomson_b");
     const reference_wish wish = {

@@ -1,5 +1,5 @@
-/* test_price_settings.c: priced settings (host/study/trial.h): their number, order, and options, read back.
- * Also reference rows and trials. */
+/* test_price_settings.c: the settings that have a price (host/study/trial.h): their number, sequence and options.
+ * Also the rows of the reference, and trials. */
 #include "host/cli/options.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/os/system.h"
@@ -11,8 +11,8 @@
 
 /* === price settings =========================================================================== */
 
-/* Three number formats by every method; sines are rotated, looked up or in one of six tables, or the step is one of two
- * matrices. Also fixed point. */
+/* Every method with three number types: sines are rotated, looked up, or in one of six tables, or the step is one of
+ * two matrices. In addition fixed point. */
 TEST(price_settings, there_are_all_and_each_once) {
     const int count = setting_count();
     TEST_ASSERT_EQUAL_INT(3 * (WH_METHODS * (2 + 6) + 2) + 1, count);
@@ -44,7 +44,7 @@ TEST(price_settings, there_are_all_and_each_once) {
     TEST_ASSERT_EQUAL_INT(3 * WH_METHODS, looked_up);
 }
 
-/* Reads a setting as the command line of `whirl run` does. */
+/* Reads a setting in the way that `whirl run` reads its command line. */
 static setting read_back(const char *text, int *count) {
     char copy[SETTING_TEXT];
     char *words[16];
@@ -90,14 +90,12 @@ TEST(price_settings, options_say_the_setting_and_no_more) {
 }
 
 /* === price states ============================================================================= */
-/* Rows of the reference (host/study/reference_run.h) and of fine steps; the columns and horizon of a reference, and
- * their report. Compared with records of a run, closed forms and a loop over the rows. */
+/* Rows of the reference (host/study/reference_run.h) and of fine steps; the columns and the horizon of a reference,
+ * and its description. Compared with records of a run, closed forms and a loop over the rows. */
 
 enum { COMPONENTS = 3 * IMAGE_COMPONENTS_MAX };
 
-/* --- rows ------------------------------------------------------------------------------------------------*/
-
-/* Recovered coordinates, other units than SI, angles, inputs, outputs of each. */
+/* The models have recovered coordinates, other units than SI, angles, inputs, and outputs of each of these. */
 static const char *const models[] = {
     "thomson_a_conserved",
     "thomson_plane_conserved",
@@ -110,7 +108,7 @@ static const char *const models[] = {
     ("mechanism m\nstate y\nstate z\nequation 1 [s^2]*y'' + y*z = 1\nequation 1 [s]*z' + z = y\n"
      "output sum = y + z\nscene s { start y = 2; step 1 [ms]; until 1 [s] }\n")};
 enum { MODELS = sizeof models / sizeof models[0] };
-/* Numbers after a row, which must not be overwritten. */
+/* Number of values after a row. They must not be overwritten. */
 enum { BEHIND = 4000 };
 
 static derived model_of(int n) {
@@ -164,13 +162,12 @@ TEST(price_states, rows_are_the_records_of_a_run) {
     TEST_ASSERT_TRUE(recovered >= 4);
 }
 
-/* --- fine steps ------------------------------------------------------------------------------------------*/
-
 static const char *const flight =
     "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
     "scene s { start x = 0.3 [m], x' = 0.1 [m/s]; step 1 [ms]; until 1 [s] }\n";
 
-/* Flight without a force: the only error is round-off, which compensated sums carry with any settings of the scene. */
+/* A flight without force has no error but round-off. Fine steps must use compensated sums, whatever the scene's
+ * settings. */
 TEST(price_states, fine_steps_keep_what_is_rounded_off) {
     derived d = derived_surely(derived_scene(flight, "s"), flight);
     const reference_wish w = {.image = d.image, .spacing = {1, 3}, .records = 4, .operations = 1e9};
@@ -183,12 +180,13 @@ TEST(price_states, fine_steps_keep_what_is_rounded_off) {
         TEST_ASSERT_TRUE(fabsl(row[3 * i + 1] - x) <= 1.5e-16L);
         TEST_ASSERT_TRUE(row[3 * i + 2] == (long double)0.1);
     }
-    TEST_ASSERT_EQUAL_INT(WH_EULER, d.image->settings.method); /* the scene's own are unchanged */
+    /* the scene's own settings are unchanged */
+    TEST_ASSERT_EQUAL_INT(WH_EULER, d.image->settings.method);
     records_close(shape);
     derived_free(&d);
 }
 
-/* The solution of y' = y^2 from y = 1/t diverges at time t, so the records end before t. */
+/* The solution of y' = y^2 from y = 1/t is infinite at time t, so the records must end before t. */
 TEST(price_states, fine_steps_end_with_the_motion) {
     for (int tenths = 2; tenths <= 9; tenths++) {
         char text[300];
@@ -212,9 +210,7 @@ TEST(price_states, fine_steps_end_with_the_motion) {
     }
 }
 
-/* --- the reference ---------------------------------------------------------------------------------------*/
-
-/* Largest values by a loop. Outputs and columns that stay zero do not count. */
+/* Compares the largest value of each column with that of a loop. Outputs, and columns that stay zero, do not count. */
 static void expect_columns(const reference *r) {
     for (int k = 1; k < r->columns; k++) {
         long double largest = 0.0L;
@@ -239,14 +235,14 @@ typedef struct kind_row {
     const char *text;
     double operations;
     reference_kind kind;
-    int least, most; /* least and greatest number of records */
-    const char *how; /* words in the kind's description; NULL: any */
-    const char *why; /* words in the reason for an early end; NULL: no reason */
+    int least, most; /* bounds on the number of records */
+    const char *how; /* part of the description; NULL: any */
+    const char *why; /* part of the reason for an early end; NULL: no reason */
 } kind_row;
 
 #define SCENE(start) "scene s { " start "step 1 [ms]; until 1 [s] }\n"
 static const kind_row kind_rows[] = {
-    /* smooth, and small */
+    /* small and smooth motions */
     {"mechanism m\ncoordinate x [m]\noutput twice [m] = 2*x\nT = 1 [kg]*x'^2/2\n"
      "V = 40 [N/m]*x^2/2\n" SCENE("start x = 0.02 [m];"),
      1e8, REFERENCE_EXTRAPOLATED, 20, 20, "extrapolation of order 12", NULL},
@@ -261,14 +257,14 @@ static const kind_row kind_rows[] = {
      REFERENCE_NONE, 0, 20, NULL, "nothing moves"},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n" SCENE("start x = 2 [m];"), 1e8,
      REFERENCE_EXTRAPOLATED, 20, 20, NULL, NULL},
-    /* a scene with a contact, and one with a jump that no short step passes */
+    /* a contact; a jump that no short step passes */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
      "stop x >= 0 [m] restitution 0.5\n" SCENE("start x = 0.5 [m];"),
      1e7, REFERENCE_FINE_STEPS, 1, 20, "rk4 in double with compensated sums", ""},
     {"mechanism m\nstate y\nstate z\nequation y' = 1 [1/s]*atan2(z - 0.47, -1)\n"
      "equation z' = 1 [1/s]\n" SCENE("start y = 1000;"),
      1e7, REFERENCE_FINE_STEPS, 20, 20, "a reference that shares the core's step", NULL},
-    /* the allowed operations do not suffice, so the reference ends early */
+    /* too few operations are allowed, so the reference ends early */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 4000 [N/m]*x^2/2\n" SCENE(
          "start x = 0.02 [m];"),
      6000.0, REFERENCE_EXTRAPOLATED, 1, 19, NULL, "the reference took too long after "}};
@@ -290,7 +286,7 @@ TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
                                       : LONG_IS_LONGER                  ? 1e-12
                                                                         : 1e-9));
         expect_columns(r);
-        reference_cut(r, r->records + 1); /* cuts nothing */
+        reference_cut(r, r->records + 1); /* must change nothing */
         expect_columns(r);
         reference_cut(r, r->records / 2);
         expect_columns(r);
@@ -300,7 +296,7 @@ TEST(price_states, references_are_of_the_kind_that_can_be_trusted) {
     reference_free(NULL);
 }
 
-/* A root at zero has an unbounded slope, so its round-off has no bound. Errors must still be relative to the values. */
+/* A root at zero has an infinite slope, so its round-off has no bound. Errors must still be relative to the values. */
 TEST(price_states, a_root_at_zero_does_not_hide_errors) {
     dice d = dice_of("price_states", 451);
     for (int n = 0; n < 6; n++) {
@@ -340,14 +336,12 @@ TEST(price_states, references_are_stopped) {
 }
 
 /* === price trials ============================================================================= */
-/* Trials of settings (host/study/trial.h): steps as exact fractions; worst error and highest cost over places,
- * compared with each place alone. */
-
-/* --- steps and times -----------------------------------------------------------------------------------*/
+/* Trials of settings (host/study/trial.h): steps as exact fractions, and the worst error and highest cost over all
+ * places, compared with each place alone. */
 
 typedef unsigned __int128 wide;
 
-/* Euclid's algorithm by subtraction, because the program's uses remainders. */
+/* Have a and b no common divisor? Euclid's algorithm by subtraction, because the program uses remainders. */
 static bool have_no_divisor(uint64_t a, uint64_t b) {
     while (a != b && a != 0 && b != 0) {
         while (a > b && b != 0) {
@@ -367,7 +361,7 @@ static uint64_t drawn_up_to(dice *d, unsigned bits) {
                    ((UINT64_C(1) << (1U + dice_one_of(d, bits))) - 1U);
 }
 
-/* The step is spacing * records / steps in lowest terms, or the nearest double if 64 bits do not suffice. */
+/* The step must be spacing * records / steps in lowest terms. If 64 bits are too few, it must be the nearest double. */
 TEST(price_trials, steps_are_exact) {
     dice d = dice_of("price_trials steps", 11);
     int exact = 0;
@@ -403,7 +397,7 @@ TEST(price_trials, steps_are_exact) {
     TEST_ASSERT_TRUE(exact > 300 && rounded > 30);
 }
 
-/* No decimal with fewer digits is the same fraction. */
+/* No decimal number with fewer digits may be the same fraction. */
 TEST(price_trials, times_have_as_few_digits_as_they_can) {
     dice d = dice_of("price_trials times", 12);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 100000)); n++) {
@@ -429,9 +423,7 @@ TEST(price_trials, times_have_as_few_digits_as_they_can) {
     }
 }
 
-/* --- scenes ----------------------------------------------------------------------------------------------*/
-
-/* A spring and a pendulum, in mm and degrees, with different numbers and operations. */
+/* A spring and a pendulum in mm and degrees. The places differ in numbers and operations. */
 static const char *const places[] = {
     "mechanism m\ncoordinate x [mm]\ncoordinate a [deg]\noutput twice [mm] = 2*x\n"
     "output heard [mm] = x\nnoise heard deviation 1 [mm] seed 1\n"
@@ -466,13 +458,13 @@ TEST(price_trials, operations_are_those_of_all_places) {
     char text[TRIAL_TIME];
     TEST_ASSERT_EQUAL_STRING("0.5", trial_until(&p.trial, text));
     const double most = trial_operations(&p.trial, &in_fixed, fine);
-    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine)); /* without a limit */
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine)); /* no limit is set */
     p.trial.planned_most = most;
     TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
     p.trial.planned_most = most * 0.999;
     TEST_ASSERT_TRUE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
     p.trial.planned_most = 1.0;
-    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &rk4, fine)); /* needs no ranges */
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &rk4, fine)); /* float needs no ranges */
     p.trial.planned_most = -1.0;
     TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
     bool own = false;
@@ -484,13 +476,11 @@ TEST(price_trials, operations_are_those_of_all_places) {
     priced_close(&p);
 }
 
-/* --- which component ------------------------------------------------------------------------------------*/
-
 TEST(price_trials, errors_have_the_unit_of_what_is_asked) {
     static const struct {
         const char *of;
         const char *unit;
-        double si; /* an error of 1 `unit`, in SI */
+        double si; /* an error of 1 `unit` in SI units */
     } rows[] = {{NULL, "", 1.0},       {"x", "mm", 1e-3},
                 {"x'", "mm/s", 1e-3},  {"a", "deg", 0.017453292519943295},
                 {"twice", "mm", 1e-3}, {"a'", "deg/s", 0.017453292519943295}};
@@ -510,9 +500,7 @@ TEST(price_trials, errors_have_the_unit_of_what_is_asked) {
     }
 }
 
-/* --- the horizon -----------------------------------------------------------------------------------------*/
-
-/* y' = y^2 from y(0) ends at 1/y(0). */
+/* y' = y^2 becomes infinite at 1/y(0). */
 TEST(price_trials, the_horizon_is_that_of_the_place_that_ends_first) {
     static const double from[] = {0.5, 1.25, 0.8};
     for (int turn = 0; turn < 3; turn++) {
@@ -530,7 +518,7 @@ TEST(price_trials, the_horizon_is_that_of_the_place_that_ends_first) {
         TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 150, NULL));
         TEST_ASSERT_TRUE(p.trial.reliable);
         TEST_ASSERT_EQUAL_INT((4 - turn) % 3, p.trial.worst);
-        /* 0.8 s: the pole itself is record 40 */
+        /* 0.8 s: the pole is at record 40 */
         TEST_ASSERT_TRUE(p.trial.records >= 37 && p.trial.records < 40);
         for (int k = 0; k < 3; k++) {
             TEST_ASSERT_EQUAL_INT(p.trial.records, p.trial.reference[k]->records);
@@ -551,8 +539,6 @@ TEST(price_trials, of_places_as_long_the_worst_agrees_least) {
     }
     priced_close(&p);
 }
-
-/* --- errors ----------------------------------------------------------------------------------------------*/
 
 static trial_result each_by_itself(priced *p, const setting *s, deviation_pace pace,
                                    double tolerated, int *looked_at) {
@@ -599,7 +585,7 @@ TEST(price_trials, errors_are_the_worst_of_all_places) {
                 priced_setting(methods[dice_one_of(&d, 4)],
                                dice_one_of(&d, 2) == 0 ? &engine_float : &engine_double);
             const deviation_pace pace = {1, i % 3 == 0 ? 5 : 1};
-            /* make the references claim larger errors than they have */
+            /* sets larger errors in the references than they have */
             for (int k = 0; k < 3; k++) {
                 reference *r = p.trial.reference[k];
                 for (int c = 1; c < r->columns; c++) {
@@ -613,7 +599,8 @@ TEST(price_trials, errors_are_the_worst_of_all_places) {
             int looked_at;
             const trial_result r = trial_run(&p.trial, &s, pace);
             const trial_result want = each_by_itself(&p, &s, pace, p.trial.tolerated, &looked_at);
-            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked); /* a useless result is the last */
+            /* a result that is not useful must be the last */
+            TEST_ASSERT_EQUAL_INT(looked_at, p.asked - asked);
             TEST_ASSERT_TRUE(r.ran && r.usable == want.usable && r.bound == want.bound);
             TEST_ASSERT_TRUE(r.error == want.error && r.point == want.point);
             TEST_ASSERT_TRUE(r.column == want.column && r.evaluations == want.evaluations);

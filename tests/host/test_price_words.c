@@ -1,5 +1,5 @@
-/* test_price_words.c: printed prices and choices (host/study/price_table.h, choice.h): made-up rows as text, CSV and JSON,
- * compared with price_words.txt. */
+/* test_price_words.c: printed prices and choices (host/study/price_table.h, choice.h): made-up rows as text, CSV and
+ * JSON, compared with price_words.txt. */
 #include "caught.h"
 #include "command.h"
 #include "host/base/alloc.h"
@@ -19,9 +19,7 @@ static void begin(priced *p, const char *const *texts, int points, const char *o
     TEST_ASSERT_TRUE(priced_begin(p, "mps2-an386", spacing, RECORDS, of));
 }
 
-/* --- printed ---------------------------------------------------------------------------------------------*/
-
-/* The output from `from` on, without lines that depend on the digits of long double. */
+/* Copies a text, beginning with the words `from`, without lines that depend on the digits of long double. */
 static void copy_text(FILE *out, const char *name, int n, char *text, const char *from) {
     fprintf(out, "=== %s %d\n", name, n);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, from), from);
@@ -118,7 +116,7 @@ static void print_choice(FILE *out, const char *name, int n, const priced *p, co
 static void print_answers(FILE *out) {
     static const struct {
         cost_basis cycles;
-        int smallest; /* row of the smallest setting; -1: none */
+        int smallest; /* the row of the smallest setting; -1: none */
         double rate_Hz, clock_Hz;
         counted_run run;
         bool no_cycles;
@@ -152,7 +150,7 @@ static void print_answers(FILE *out) {
     }
 }
 
-/* Answers without a setting that meets all limits. Bit i of `there`: the i-th of four near answers exists. */
+/* Prints answers for requests that no setting meets. Bit i of there[n] says whether near answer i exists. */
 static void print_remedies(FILE *out) {
     static const unsigned there[] = {15, 14, 13, 11, 9, 8, 0, 4};
     for (int n = 0; n < 8; n++) {
@@ -196,9 +194,7 @@ TEST(price_words, prices_and_choices_are_printed_as_before) {
     free(all.text);
 }
 
-/* --- fields, fronts, nothing -------------------------------------------------------------------------------*/
-
-/* RFC 4180: quoted fields parse to the original, and quotes appear only where needed. */
+/* By RFC 4180, quoted fields must be read as the original text. Quotes may appear only if they are needed. */
 TEST(price_words, fields_come_back) {
     static const char pieces[] = "abc \",\r\n\"x";
     dice d = dice_of("price_words fields", 33);
@@ -231,7 +227,7 @@ TEST(price_words, fields_come_back) {
     }
 }
 
-/* Returns the text after `what`, which must occur once. */
+/* Returns the text after `what`, which must occur exactly once. */
 static const char *behind(const char *text, const char *what) {
     const char *at = strstr(text, what);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what);
@@ -239,7 +235,7 @@ static const char *behind(const char *text, const char *what) {
     return at + strlen(what);
 }
 
-/* The cheapest and the most accurate row are among them. */
+/* The shown rows must include the cheapest and the most accurate one. */
 TEST(price_words, at_most_twelve_rows_of_a_front_are_shown) {
     dice d = dice_of("price_words fronts", 36);
     priced p;
@@ -291,7 +287,7 @@ TEST(price_words, tables_of_nothing_say_why) {
     table made = {.unpriced = 3, .why = "a reason"};
     char *text = table_of_nothing(&p.trial, &made);
     (void)behind(text, "\nno setting has a row: 0 settings; 3 without a price here: a reason\n");
-    /* z rests and has no relative error; the two references agree as reported */
+    /* z is at rest and has no relative error; the two references must agree as reported */
     (void)behind(text, "\n  left out    zero except for round-off: z, z'\n");
     const char *at = behind(text, "the two agree within ");
     double number;

@@ -1,27 +1,25 @@
-/* test_prove_drawn.c: tubes of `whirl prove` for random mechanisms. Masses on arms have decimal parameters that
- * doubles cannot hold, and references of 113 bits by d'Alembert's equations. A coefficient wrong by a millionth, or
- * by 1e-12, must leave the tube. Linkages with springs, dampers and drives have references in long double. */
+/* test_prove_drawn.c: tubes of `whirl prove` for random mechanisms. Masses on arms have decimal parameters that no
+ * double equals, and references in 113 bits by d'Alembert's equations. If a coefficient is wrong by 1e-6 or 1e-12,
+ * the reference must leave the tube. Linkages with springs, dampers and drives have references in long double. */
 #include "command.h"
 #include "derived.h"
 #include "host/prove/containment.h"
 #include "linkage.h"
 #include "quad_arms.h"
 
-/* --- a tube beside its reference ---------------------------------------------------------------------*/
+/* Compares a proved enclosure of a motion (a tube, host/prove/containment.h) with a reference of 113 bits, record by
+ * record. */
 
-/* Compares a proved enclosure of a motion (a tube, host/prove/containment.h) with a 113-bit reference, record
- * by record. */
-
-/* The reference, integrated together with the tube, and the result of the comparison. */
+/* The reference, which is integrated beside the tube, and the result of the comparison. */
 typedef struct beside {
     quad_slopes *slopes;
     const void *of;
     quad step_s;
-    quad state[QUAD_STATES]; /* in the tube's order */
+    quad state[QUAD_STATES]; /* in the tube's sequence */
     uint64_t records;
-    uint64_t outside; /* first record with a state outside the tube; 0: no such record */
-    double widest;    /* width of the tube, while inside */
-    /* least distance of the reference from an end of its interval, divided by the width */
+    uint64_t outside; /* first record with a state outside the tube; 0: none */
+    double widest;    /* largest width of the tube while the state is inside */
+    /* least distance of the reference from an end of its interval, divided by the interval's width */
     double nearest;
 } beside;
 
@@ -54,7 +52,7 @@ static void see(void *told, uint64_t step, const enclosure *exact, const double 
     }
 }
 
-/* Runs scene `name` of the text by `kind` and compares it with its tube. */
+/* Runs scene `name` of the text with this engine, and compares its tube with the reference. */
 static containment_found beside_hold(const char *text, const char *name, const engine_kind *kind,
                                      beside *b) {
     derived d = derived_surely(derived_scene(text, name), text);
@@ -97,7 +95,7 @@ typedef struct drawn_arms {
 #define SAY(...) \
     (d->length += (size_t)snprintf(d->text + d->length, sizeof d->text - d->length, __VA_ARGS__))
 
-/* A body at the end of a chain of arms: speeds and height, as text and numbers. */
+/* Draws a body at the end of a chain of arms: its speeds and height, as text and as numbers. */
 static void draw_body(drawn_arms *d, dice *die, int b) {
     const int angles = d->arms.coordinates - (d->arms.carriage >= 0 ? 1 : 0);
     quad_body *body = &d->arms.body[b];
@@ -148,7 +146,7 @@ static void draw_scene(drawn_arms *d, dice *die) {
     SAY("; step 2 [ms]; until %g [s] }\n", few_or_all(0, 1) == 1 ? 0.6 : 0.12);
 }
 
-/* Two or three coordinates, the last possibly a carriage. */
+/* Draws two or three coordinates, of which the last may be a carriage. */
 static void draw_arms(drawn_arms *d, dice *die) {
     char number[16];
     const int angles = 1 + (int)dice_one_of(die, 2);
@@ -221,7 +219,7 @@ TEST(prove_drawn, drawn_arms) {
         to_the_end += end == CONTAINMENT_AT_END ? 1 : 0;
         widest = fmax(widest, b.widest);
         nearest = fmin(nearest, b.nearest);
-        /* a shorter scene suffices: the wrong coefficient shows soon or not at all */
+        /* a short scene is enough: a wrong coefficient shows soon or never */
         char *until = strstr(d.text, "until ");
         snprintf(until, sizeof d.text - (size_t)(until - d.text), "until 0.03 [s] }\n");
         const double sign = k % 2 == 0 ? 1.0 : -1.0;
@@ -241,7 +239,7 @@ TEST(prove_drawn, drawn_arms) {
 #endif
 }
 
-/* The energies by jets in long double. Their parameters are doubles, so the tube contains only round-off. */
+/* Slopes of a linkage, from its energies in long double. Its parameters are doubles, so the tube has only round-off. */
 static void linkage_slopes(const void *of, const quad *state, quad *to) {
     const linkage *l = of;
     long double q[LINKAGE_BODIES];

@@ -1,6 +1,6 @@
-/* test_ranges_swept.c: random axes of a sweep (host/study/grid.h): linear or geometric values in counting order,
- * and the changes of each point. An error names its option and leaves the grid unchanged. Also the CSV
- * file of a resumed sweep. */
+/* test_ranges_swept.c: random axes of a sweep (host/study/grid.h): linear or geometric values in counting sequence,
+ * and the changes of each point. An error must name its option and leave the grid as it was. Also the CSV file of a
+ * sweep that is resumed. */
 #include "test.h"
 
 #include <sys/wait.h>
@@ -50,8 +50,6 @@ static const char *blank(void) {
     return one_of(blanks, 5);
 }
 
-/* --- values --------------------------------------------------------------------------------------------------*/
-
 enum { AXES_MOST = 4, NAMES = 9 };
 
 static const struct {
@@ -77,7 +75,7 @@ typedef struct drawn_axis {
     bool is_log;
 } drawn_axis;
 
-/* Appends an axis to the grid as text, with 17 digits, which are exact. */
+/* Appends an axis to the grid as a text with 17 digits, which are exact for doubles. */
 static void add_axis(drawn_axis *a) {
     char text[200];
     const double sign = names[a->name].column[1] == 't' ? 1.0 : dice_one_of(&die, 2) - 0.5;
@@ -136,7 +134,7 @@ static void expect_point(const drawn_axis *axes, int count, uint64_t point, cons
     TEST_ASSERT_EQUAL_UINT64(0, rest);
 }
 
-/* A point's changes: each swept number to the bit, the others as on the command line. */
+/* The changes of a point must have each swept number to the bit, and the other changes as on the command line. */
 static void expect_changes(const drawn_axis *axes, int count, uint64_t point, const double *value) {
     static const char *const sets[] = {"mm=7"};
     static const char *const old[] = {"M=8", "M=9"};
@@ -197,7 +195,7 @@ TEST(ranges_swept, values) {
     }
 }
 
-/* Shards of any grid are exact fractions of the points, without gaps. */
+/* The shards of any grid must be exact fractions of its points, without gaps. */
 TEST(ranges_swept, shards) {
     for (unsigned c = 0; c < dice_cases(200); c++) {
         grid any = {.points = (uint64_t)exp(dice_between(&die, 0.0, log(1e12)))};
@@ -215,8 +213,6 @@ TEST(ranges_swept, shards) {
         }
     }
 }
-
-/* --- mistakes --------------------------------------------------------------------------------------------------*/
 
 static const char no_range[] = " is not NAME=FROM..TO:COUNT\n";
 static const char three_dots[] = " has three dots in a row\n";
@@ -318,7 +314,7 @@ TEST(ranges_swept, mistakes) {
     }
 }
 
-/* A bare number is refused if and only if the declared unit is not SI. */
+/* A number without a unit must be refused if the declared unit is not SI, and only then. */
 TEST(ranges_swept, bare_numbers) {
     static const struct {
         const char *text;
@@ -343,9 +339,7 @@ TEST(ranges_swept, bare_numbers) {
     }
 }
 
-/* --- swept and set twice --------------------------------------------------------------------------------------- */
-
-/* A swept name cannot be set too, with or without blanks; names with the same beginning can. */
+/* A name that is swept cannot be set as well, with or without blanks. A name with the same beginning can be set. */
 TEST(ranges_swept, given_twice) {
     static const char *const swept[] = {"m=1..2:2", "mm=1..2:2", "theta=1..2:2", "theta'=1..2:2",
                                         "step=1..2:2"};
@@ -392,8 +386,8 @@ TEST(ranges_swept, given_twice) {
 SUITE(ranges_swept) { die = dice_of("ranges_swept", 61); }
 
 /* === sheet ==================================================================================== */
-/* A sweep's CSV file (host/study/session.h): created, resumed after truncation anywhere, restarted, or refused
- * unchanged if another sweep's. Compared with the test's own text. */
+/* The CSV file of a sweep (host/study/session.h): created, resumed after it was cut off anywhere, restarted, or
+ * refused and left unchanged because it is from another sweep. Compared with the test's own text. */
 
 enum { ROWS_MOST = 12, TEXT = 2000, PATH = 120 };
 
@@ -405,7 +399,7 @@ static char path_beside[PATH + 20];
 typedef struct drawn_sheet {
     resumable_csv_settings settings;
     char whole[TEXT];
-    size_t end[ROWS_MOST + 1]; /* end of the header, then of each row */
+    size_t end[ROWS_MOST + 1]; /* offset of the header's end, then of each row's end */
     bool failed[ROWS_MOST];
 } drawn_sheet;
 
@@ -462,7 +456,7 @@ static void expect_file(const char *name, const char *text, size_t length) {
 
 static bool exists(const char *name) { return access(name, F_OK) == 0; }
 
-/* Writes the first `length` bytes of the CSV file, and the whole settings file beside it. */
+/* Writes the first `length` bytes of the CSV file, and the whole file of settings beside it. */
 static void leave(size_t length) {
     put_file(path, d.whole, length);
     put_file(path_beside, fingerprint, strlen(fingerprint));
@@ -481,11 +475,11 @@ static void expect_gone_on(unsigned rows) {
     TEST_ASSERT_TRUE(sh.out != NULL && sh.is_file);
     TEST_ASSERT_EQUAL_UINT64(rows, sh.rows);
     TEST_ASSERT_EQUAL_UINT64(failed, sh.failed);
-    expect_file(path, d.whole, d.end[rows]); /* the torn row is gone, the header is there */
+    expect_file(path, d.whole, d.end[rows]); /* the incomplete row is gone, the header is there */
     expect_file(path_beside, fingerprint, strlen(fingerprint));
     fputs(d.whole + d.end[rows], sh.out);
     TEST_ASSERT_TRUE(resumable_csv_close(&sh));
-    TEST_ASSERT_TRUE(resumable_csv_close(&sh)); /* a second close has no effect */
+    TEST_ASSERT_TRUE(resumable_csv_close(&sh)); /* a second close must do nothing */
     expect_file(path, d.whole, strlen(d.whole));
 }
 
@@ -504,7 +498,7 @@ static void expect_refused(const char *text, size_t length, const char *beside, 
              path, why);
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
-    /* the error is printed once */
+    /* the error must be printed once */
     TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told);
     TEST_ASSERT_EQUAL_INT(EXIT_BAD_INPUT, code);
     TEST_ASSERT_NULL(sh.out);
@@ -526,14 +520,14 @@ static void close_folder(void) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, rmdir(folder), "something else was left there");
 }
 
-/* A file is resumed after it was truncated at any byte, mostly near line ends. */
+/* A file that was cut off at any byte, often near the end of a line, must be resumed. */
 TEST(sheet, gone_on_with) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(5, 3)); c++) {
         draw_sheet();
         unsigned rows = 0;
         for (size_t length = 0; length <= strlen(d.whole); length++) {
-            const char *at = d.whole + length; /* end of the truncated file */
+            const char *at = d.whole + length; /* end of the part that is left */
             const bool ends = strchr("\r\n", *at) != NULL || (length > 0 && at[-1] == '\n');
             if (dice_one_of(&die, ends ? 3 : 25) > 0) {
                 continue;
@@ -548,7 +542,7 @@ TEST(sheet, gone_on_with) {
     close_folder();
 }
 
-/* If one byte of any row has changed, the file counts as that of another sweep. */
+/* If one byte of any row has changed, the file must count as that of another sweep. */
 TEST(sheet, rows_of_others) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
@@ -567,10 +561,10 @@ TEST(sheet, rows_of_others) {
                 "x \0\""[dice_one_of(&die, 4)];
             break;
         case 2: at[swept] = ';'; break;
-        case 3: /* a field more */
+        case 3: /* one field too many */
             memmove(at + swept + 1, at + swept, strlen(at + swept) + 1);
             break;
-        default: /* a row more */
+        default: /* one row too many */
             snprintf(at, sizeof text - d.end[row], "%s", d.whole + d.end[row]);
             snprintf(text + strlen(text), 40, "%u,0.%u,1\r\n", (unsigned)d.settings.rows / 3U + 1U,
                      (unsigned)d.settings.rows % 3U);

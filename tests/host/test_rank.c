@@ -1,5 +1,5 @@
-/* test_rank.c: rank of matrices built with a known rank, in any units of rows and columns, and the round-off that
- * counts as zero. Also solving, and scenes that cannot be derived. */
+/* test_rank.c: the rank of matrices that are made with a known rank, in any units of rows and columns, and the
+ * round-off that counts as zero. Also solving, and scenes that cannot be derived. */
 #include "test.h"
 
 #include <time.h>
@@ -19,7 +19,7 @@ static double whole(uint64_t *seed, int most) {
     return (double)(random_bits(seed) % (uint64_t)(2 * most + 1)) - most;
 }
 
-/* Rank of a matrix of small integers by Bareiss' fraction-free elimination. */
+/* The rank of a matrix of small integers, by Bareiss' elimination without fractions. */
 static int exact_rank(const double *m, int n) {
     double a[MOST][MOST] = {{0.0}};
     for (int i = 0; i < n * n; i++) {
@@ -51,7 +51,7 @@ static int exact_rank(const double *m, int n) {
     return rank;
 }
 
-/* Computes m = left * right; left is n by inner, right is inner by n. */
+/* Computes m = left * right, with n by inner and inner by n numbers. */
 static void product(double *m, const double *left, const double *right, int n, int inner) {
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
@@ -109,7 +109,7 @@ TEST(rank, the_rank_does_not_hang_on_units) {
     }
 }
 
-/* [1 1; 1 1 + x]: the pivot of the second row is x. */
+/* In [1 1; 1 1 + x], the pivot of the second row is x. */
 TEST(rank, a_pivot_that_is_rounding_is_none) {
     for (int k = 0; k < 4; k++) {
         const bool symmetric = k % 2 == 0;
@@ -119,7 +119,7 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
         TEST_ASSERT_EQUAL_INT(k < 2 ? 1 : 2, rank_of(m, error, 2, symmetric));
     }
     for (int k = 0; k < 4; k++) {
-        /* a pivot counts as zero below n times the largest error of an entry: 1.4 and 1.6, for n = 2 */
+        /* a pivot counts as zero below n times the largest error of an entry; here, with n = 2, below 1.4 or 1.6 */
         const double size = k % 2 == 0 ? 1.0 : 0x1p80;
         const bool blurred = k >= 2;
         double m[4] = {2.0 * size, size, size, 2.0 * size}; /* pivots 2 and 1.5 */
@@ -132,7 +132,8 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
     TEST_ASSERT_EQUAL_INT(0, rank_of(none, error, 2, false));
 }
 
-/* B Bt + I is positive definite. With one diagonal entry of -1, or a large entry beside the diagonal, it is not. */
+/* B Bt + I is positive definite. It is not if a diagonal entry becomes -1, or an entry beside the diagonal too
+ * large. */
 TEST(rank, what_is_positive_definite) {
     uint64_t seed = 23;
     for (int round = 0; round < 1000; round++) {
@@ -157,7 +158,7 @@ TEST(rank, what_is_positive_definite) {
         memcpy(m, kept, sizeof kept);
         m[at * n + at] = -1.0;
         TEST_ASSERT_FALSE(rank_is_positive(m, n));
-        if (n > 1) { /* a 2 by 2 part with a negative determinant, its diagonal above 0 */
+        if (n > 1) { /* a 2 by 2 part with a positive diagonal and a negative determinant */
             const int other = (at + 1) % n;
             memcpy(m, kept, sizeof kept);
             const double mixed = sqrt(m[at * n + at] * m[other * n + other]) + 0.5;
@@ -167,8 +168,8 @@ TEST(rank, what_is_positive_definite) {
     }
 }
 
-/* The report shows the first equation with highest derivatives that follow from earlier ones, or with no highest
- * derivatives. */
+/* The report must show the first equation whose highest derivatives are a combination of those in earlier equations,
+ * or which has no highest derivatives. */
 TEST(rank, the_equation_that_depends_is_shown) {
     uint64_t seed = 29;
     int shown = 0;
@@ -177,7 +178,7 @@ TEST(rank, the_equation_that_depends_is_shown) {
         double m[MOST * MOST] = {0};
         const int poor =
             (int)(random_bits(&seed) %
-                  (unsigned)n); /* this row is a combination of two earlier ones, or empty */
+                  (unsigned)n); /* this row is a combination of two earlier rows, or empty */
         for (int i = 0; i < n; i++) {
             const double first = i == poor ? whole(&seed, 2) : 0.0;
             const double second = i == poor ? whole(&seed, 2) : 0.0;
@@ -210,7 +211,7 @@ TEST(rank, the_equation_that_depends_is_shown) {
                 break;
             }
         }
-        bool used = true; /* each state's rate must occur, else another error comes first */
+        bool used = true; /* each rate must occur, else another error comes first */
         for (int j = 0; j < n; j++) {
             bool in_column = false;
             for (int i = 0; i < n; i++) {
@@ -240,12 +241,10 @@ TEST(rank, the_equation_that_depends_is_shown) {
 }
 
 /* === solving ================================================================================== */
-/* The operation list solves systems of one to five equations with entries of every kind; the results satisfy the
- * equations. Also the choice of turn angles. */
+/* The operation list solves systems of one to five equations, with entries of every kind. The results must satisfy
+ * the equations. Also the choice of turn angles. */
 
-/* --- equations --------------------------------------------------------------------------------------- */
-
-/* An entry: zero, a number, or a function of the states, usually not small. */
+/* Writes an entry: zero, a number, or a function of the states, which is usually not small. */
 static void entry(FILE *to, int n, unsigned variety, uint64_t *seed) {
     const unsigned state = random_one_of(seed, (unsigned)n);
     const double number = (double)random_one_of(seed, 9) / 4.0 - 1.0;
@@ -331,8 +330,6 @@ TEST(solving, any_regular_system_is_solved) {
     }
 }
 
-/* --- long products ---------------------------------------------------------------------------------------- */
-
 TEST(solving, long_products_keep_their_value) {
     uint64_t seed = 43;
     for (int factors = 20; factors <= 40; factors++) {
@@ -359,9 +356,7 @@ TEST(solving, long_products_keep_their_value) {
     }
 }
 
-/* --- turn angles ---------------------------------------------------------------------------------------- */
-
-/* q can be a turn angle if it occurs only inside sines and tangents, with integer factors. */
+/* q can be a turn angle if it occurs only in sines and tangents, with integer factors. */
 TEST(solving, what_can_be_a_turn_angle) {
     static const struct {
         const char *text;
@@ -434,7 +429,7 @@ TEST(solving, what_can_be_a_turn_angle) {
 }
 
 /* === underivable ============================================================================== */
-/* Models that cannot be derived are refused with their place and in bounded time. */
+/* Models that cannot be derived must be refused with their place, and within bounded time. */
 
 static void expect_refused(const char *text, const char *wanted) {
     const clock_t began = clock();
@@ -446,7 +441,7 @@ static void expect_refused(const char *text, const char *wanted) {
     }
     TEST_ASSERT_NULL(d.image);
     TEST_ASSERT_TRUE(found);
-    TEST_ASSERT_TRUE(seconds < 20.0); /* bounded, also with sanitizers */
+    TEST_ASSERT_TRUE(seconds < 20.0); /* a bound that holds with sanitizers, too */
     derived_free(&d);
 }
 
@@ -483,7 +478,7 @@ TEST(underivable, kinetic_energy_must_be_positive) {
     expect_refused("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"
                    "T = 1 [kg*m^2]*(a'^2/2 + b'^2/2 + (2 + cos(a))*a'*b')\n",
                    "t.whirl:4:1: error: the kinetic energy of 'm' is negative for some motion");
-    /* for the same matrix as equations, the advice is to rewrite them */
+    /* the same matrix is accepted if it is written as equations */
     derived system =
         derived_surely(derived_text("mechanism m\nstate x\nstate y\nstate z\n"
                                     "equation 1 [s]*y' = x\nequation 1 [s]*(x' + z') = y\n"
@@ -492,7 +487,8 @@ TEST(underivable, kinetic_energy_must_be_positive) {
     derived_free(&system);
 }
 
-/* T is positive, or V is finite, only in a range of x without generic states. The start lies in it. */
+/* T is positive, or V is finite, only in a small range of x, in which no random state lies. If the start is in this
+ * range, the mechanism must be derived. */
 TEST(underivable, the_start_is_tried_too) {
     static const char *const texts[] = {
         "mechanism m\ncoordinate x [m]\n"
@@ -535,7 +531,8 @@ TEST(underivable, too_many_components) {
     free(states);
 }
 
-/* A product of sums of parameters, as in the energies of a long chain. The hint's change makes it derivable. */
+/* A product of sums of parameters, as in the energies of a long chain. With the change that the hint asks for, the
+ * mechanism must be derived. */
 TEST(underivable, a_hint_about_parameters_helps) {
     dice d = dice_of("parameters", 2);
     for (unsigned k = 0; k < 3; k++) {
@@ -584,12 +581,12 @@ TEST(underivable, expressions_that_explode_are_refused) {
                        "t.whirl:1:11: error: the equations of 'm' grow beyond what can be handled");
         free(text);
     }
-    /* little to expand and few objects, but 2^40 leaves for a traversal without memoization */
+    /* few objects, but 2^40 leaves for a traversal that visits an object again for each use */
     char *doubled = repeated(front, "let a# = exp(a@) + atan(a@)\n", 40,
                              "T = 1 [kg*m^2]*(x'^2 + y'^2)\noutput o = a40\n");
     expect_refused(doubled, "error: the equations of 'm' grow beyond what can be handled");
     free(doubled);
-    /* with each unknown at a smaller depth the algebra gets further */
+    /* with fewer nested lets, the algebra gets further */
     for (int deep = 4; deep < 12; deep++) {
         char end[96];
         snprintf(end, sizeof end, "T = 1 [kg*m^2]*(x'^2 + y'^2)*(1 + a%d^2)\n", deep);
@@ -603,7 +600,7 @@ TEST(underivable, expressions_that_explode_are_refused) {
     }
 }
 
-/* Writes a random expression of dimension length that changes with time and contains `number`. */
+/* Writes a random expression that is a length, changes with time and contains `number`. */
 static void length_of(dice *d, int depth, double number, char *to, size_t size) {
     static const char *const ways[] = {"%s + gap", "-(%s)*0.5",      "max(%s, y)",
                                        "abs(%s)",  "(%s)^2/(1 [m])", "(%s)*cos(phi)"};
@@ -620,7 +617,8 @@ static const char two[] = "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoor
                           "parameter e = 0.5\nlet gap = x - y\n"
                           "T = 1 [kg]*(x'^2 + y'^2)/2 + 1 [kg*m^2]*phi'^2/2\n";
 
-/* A comparison of an expression with itself never changes; with another number in it, it does. */
+/* An expression that is compared with itself never changes its order, so it must be refused. If one side has another
+ * number, it must be accepted. */
 TEST(underivable, nothing_is_compared_with_itself) {
     static const char *const statements[] = {
         "stop %s >= %s restitution e\n", "stop %s <= (%s) restitution e\n",

@@ -1,5 +1,5 @@
-/* test_rated.c: accuracy and cost at the end of a run, and the step of `--error`, for random scenes with known motions
- * (rated.h). */
+/* test_rated.c: the accuracy and cost that a run reports at its end, and the step that `--error` chooses, for random
+ * scenes with known motions (rated.h). */
 #include "derived.h"
 #include "host/cli/commands.h"
 #include "host/engine/start.h"
@@ -58,7 +58,8 @@ static bool read_rows(const char *text, const char *number, told *t) {
     return true;
 }
 
-/* Largest deviation of a run: of one state or, for -1, of the worst state relative to its largest value. */
+/* Largest deviation of a run: of one state in its unit; or, if state = -1, of the worst state relative to its
+ * largest value. */
 static double error_of(const rated *r, double step_s, double spacing_s, int records,
                        const long double *row, int state) {
     char step[40];
@@ -81,7 +82,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
     whole = whole && fgets(line, sizeof line, in) != NULL; /* the names of the columns */
     for (int k = 0; k <= records && whole; k++) {
         whole = fgets(line, sizeof line, in) != NULL;
-        const char *at = line + (whole ? strcspn(line, " ") : 0); /* after the time */
+        const char *at = line + (whole ? strcspn(line, " ") : 0); /* skips the time */
         for (int i = 0; i < r->states && whole; i++) {
             const long double now = row[(size_t)k * (size_t)r->states + (size_t)i];
             char *end;
@@ -93,7 +94,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
         }
     }
     fclose(in);
-    double worst = whole ? 0.0 : (double)INFINITY; /* infinite, because the run diverged */
+    double worst = whole ? 0.0 : (double)INFINITY; /* infinite if the run diverged */
     for (int i = 0; i < r->states; i++) {
         const double unit = state >= 0 ? 1.0 : largest[i];
         if (unit > 0.0 && (state < 0 || state == i)) {
@@ -103,7 +104,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
     return worst;
 }
 
-/* The time in the line `trusted`, or the end if it says so; negative if the line has no time. */
+/* The time in the line `trusted`, or the end of the run if the line says so; negative if the line has no time. */
 static double trusted_s(const char *text, const rated *r) {
     double until_s = -1.0;
     const char *at = strstr(text, "\ntrusted            ");
@@ -154,9 +155,9 @@ static void check_cost(const rated *r, const told *t) {
 }
 
 typedef struct measure {
-    unsigned compared;    /* rows with a known error */
-    unsigned at_rounding; /* rows in double limited by round-off */
-    unsigned unsaid;      /* scenes without rows */
+    unsigned compared;    /* number of rows with a known error */
+    unsigned at_rounding; /* number of rows in double at the limit of round-off */
+    unsigned unsaid;      /* number of scenes without rows */
     double worst_double, worst_float;
 } measure;
 
@@ -225,7 +226,7 @@ static void test_rows_are_right(void) {
     TEST_ASSERT_TRUE(m.compared > cases && m.unsaid * 5 <= cases);
 }
 
-/* Value of the first coordinate at the end of every step. */
+/* Largest error of the first coordinate at the end of any step. */
 static double coordinate_error(const rated *r, double step_s, double until_s) {
     const int records = (int)(until_s / step_s * (1.0 + 1e-9));
     rated of = *r;
@@ -236,7 +237,8 @@ static double coordinate_error(const rated *r, double step_s, double until_s) {
     return error;
 }
 
-/* The chosen step meets the error and twice that step does not, unless the run says that it tries no longer steps. */
+/* The chosen step must meet the requested error, and twice that step must not, unless the run says that it tries no
+ * longer steps. Returns false if no step was found. */
 static bool check_chosen(dice *d, const rated *r) {
     static const char *const names[] = {"q0", "x", "a", "r"};
     static said what;

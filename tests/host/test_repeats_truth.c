@@ -1,6 +1,7 @@
-/* test_repeats_truth.c: errors that repeat each turn: a cell that clips, has play or bends, and a torque twice a
- * turn; compared with healthy benches. The rotor is integrated finely in double (rig_orbit.c). Level, side, speed,
- * noise and seed are random. WHIRL_FULL=1 (`make rig-truth`) takes more and prints the tallies. */
+/* test_repeats_truth.c: errors that repeat in each turn: a cell that clips, has hysteresis or bends, and a torque
+ * with two periods a turn. Compared with healthy benches. The rotor is integrated finely in double (rig_orbit.c).
+ * Size, side, speed, noise and seed are random. WHIRL_FULL=1 (`make rig-truth`) does more runs and prints the
+ * tallies. */
 #include "command.h"
 #include "rig_orbit.h"
 #include "tests/scattered.h"
@@ -57,17 +58,19 @@ static void draw_error(error kind) {
 }
 
 typedef struct tally {
-    unsigned off; /* number of runs with an error above an uncalibrated bench's interval plus 1 % */
-    unsigned lies; /* of these, number marked good although the error is visible */
-    /* of these, number that no run can show (docs/rig.md, errors that a good result can hide) */
+    unsigned off;  /* runs with an error above the interval plus 1 % */
+    unsigned lies; /* of these, runs that are called good although the error shows */
+    /* of these, runs that are called good and in which no run could show the error (docs/rig.md, errors that a good
+     * result can hide) */
     unsigned hidden;
-    /* with almost no noise, the value that repeats is above 1.5 times the noisy run's limit; `missed`: yet marked good */
+    /* `seen`: runs in which, with almost no noise, the repeating value exceeds the noisy run's limit by half.
+     * `missed`: of these, runs that are called good. */
     unsigned seen;
     unsigned missed;
 } tally;
 
-/* Errors are relative to the true turn of rig_orbit.c. A torque moves the rotor itself, so the true turn includes its
- * effect. */
+/* Errors are relative to the true turn of rig_orbit.c. A torque moves the rotor itself, so the true turn contains
+ * its effect. */
 static void judge(const wh_measured *measured, tally *found) {
     const double amplitude_N = fabs((double)measured->amplitude_N - orbit.amplitude_N);
     const double phase_rad = fabs((double)measured->phase_rad - orbit.phase_rad);
@@ -75,7 +78,7 @@ static void judge(const wh_measured *measured, tally *found) {
     const double half_N =
         hypot((double)measured->amplitude_half_N, (double)WH_UNCALIBRATED_PART * orbit.amplitude_N);
     const double half_rad = hypot((double)measured->phase_half_rad, (double)WH_UNCALIBRATED_RAD);
-    const rig_noise silent = {/* some noise, because turns of a constant reading do not count */
+    const rig_noise silent = {/* some noise, because turns with a constant reading do not count */
                               .cell_N = 0.01,
                               .clips = noise.clips,
                               .play_N = noise.play_N,
@@ -137,7 +140,8 @@ TEST(repeats_truth, a_torque_twice_a_turn_is_not_good) {
     check_error(TWICE, UINT64_C(0x5eed0a34), few_or_all(usual_or(60, 20), 1000), 2, 80);
 }
 
-/* Noise and hum up to 0.3 N, jitter up to 100 us, random inertia and set-point: at most 1 % are doubtful. */
+/* Noise and hum up to 0.3 N, jitter up to 100 us, random inertia and set-point. Up to 1 % of the runs may be
+ * doubtful. */
 static void check_healthy(uint64_t seed, unsigned slower) {
     const unsigned runs = few_or_all(usual_or(400, slower > 1U ? 200 : 50), 2000);
     unsigned doubtful = 0;
@@ -161,7 +165,7 @@ static void check_healthy(uint64_t seed, unsigned slower) {
 
 TEST(repeats_truth, healthy_benches_are_good) { check_healthy(UINT64_C(0x5eed0a35), 1U); }
 
-/* A sample every 8 ms, as on an ATmega2560, gives 21 samples a turn at 360 rpm. */
+/* A sample every 8 ms, as on an ATmega2560, gives 21 samples in a turn at 360 rpm. */
 TEST(repeats_truth, healthy_benches_with_few_samples_are_good) {
     check_healthy(UINT64_C(0x5eed0a36), 4U);
 }

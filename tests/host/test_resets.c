@@ -1,5 +1,5 @@
-/* test_resets.c: `reset` and `watchdog-resets` of a plant without firmware: start and length of a reset, no outputs
- * meanwhile, and losses. */
+/* test_resets.c: `reset` and `watchdog-resets` of a plant without firmware: begin and length of a reset, no outputs
+ * during a reset, and losses. */
 #include "host/pil/fault.h"
 #include "motion.h"
 
@@ -9,7 +9,7 @@
 #define WATCHDOG_TICKS 5077U
 enum { RESETS_MAX = 600, EDGES_MAX = 100 };
 
-/* Four pulses in a second. */
+/* The rotor gives four pulses in a second. */
 static const char *const text = "mechanism bench \"a rotor of two turns a second\"\n"
                                 "coordinate a [rad]\ninput push = 0\n"
                                 "T = 1 [kg*m^2]*a'^2/2\n"
@@ -28,21 +28,21 @@ static const wh_hello hello = {.program = "bench",
                                .signals = sizeof signals / sizeof signals[0]};
 
 typedef struct heard {
-    double edge_s[EDGES_MAX]; /* times of the edges as reported */
-    /* time stamps of the edges, from a timer that starts at 0 with the processor */
+    double edge_s[EDGES_MAX]; /* reported times of the edges */
+    /* time stamps of the edges, from a timer that restarts at 0 with the processor */
     double stamp_s[EDGES_MAX];
     int edges;
     double reset_s[RESETS_MAX];
     double again_s[RESETS_MAX];
     bool starved[RESETS_MAX];
     int resets;
-    double push[READS + 1]; /* input of the plant at each reading */
+    double push[READS + 1]; /* the plant's input at each reading */
 } heard;
 
 static heard h;
 static heard well;
 
-/* Advances to until_ticks, through resets. Outputs are zero during a reset. */
+/* Advances to until_ticks, with restarts. During a reset, outputs must be zero. */
 static void go_on(plant *on, double until_ticks) {
     do {
         TEST_ASSERT_TRUE(plant_advance(on, until_ticks));
@@ -59,7 +59,8 @@ static void go_on(plant *on, double until_ticks) {
     } while (!plant_has_reached(on, until_ticks));
 }
 
-/* The i-th orders push with force i. The note `state` becomes 1 with the 100th orders, and so on. */
+/* Runs the bench with the faults `words`. Orders number i push with the force i. The note `state` becomes 1 with
+ * orders number 100, 2 with number 200, and so on. */
 static void run_with(const char *words) {
     motion bench;
     plant on;
@@ -96,7 +97,8 @@ static void run_with(const char *words) {
     motion_close(&bench);
 }
 
-/* A reset starts once, at the first step at or after its instant, also between exchanges, and ends after its length. */
+/* A reset must begin once, at the first step that does not begin before its time, even between two exchanges. It
+ * must end after its length. */
 TEST(resets, instants) {
     for (int i = 0; i < 40; i++) {
         const double at_s = 0.2 + i * 0.01037;
@@ -114,30 +116,30 @@ TEST(resets, instants) {
     TEST_ASSERT_EQUAL_INT(3, h.resets);
     TEST_ASSERT_TRUE(fabs(h.reset_s[0] - 0.499) < 1.1e-3 && fabs(h.reset_s[1] - 0.7) < 1.1e-3 &&
                      fabs(h.reset_s[2] - 0.9) < 1.1e-3);
-    run_with("reset=0.1@0.5,reset=0.1@0.55"); /* overlapping ones are one */
+    run_with("reset=0.1@0.5,reset=0.1@0.55"); /* a second reset during the first begins after it */
     TEST_ASSERT_TRUE(h.resets == 2 && h.reset_s[1] >= 0.6);
 }
 
-/* Data in transit is lost; the timer restarts. */
+/* Data on their way to the processor are lost, and the timer restarts. */
 TEST(resets, what_is_lost) {
     run_with(NULL);
     well = h;
     TEST_ASSERT_EQUAL_INT(4, well.edges);
-    run_with("edge-late=0.3,reset@0.3"); /* two are in transit */
+    run_with("edge-late=0.3,reset@0.3"); /* two edges are on their way */
     TEST_ASSERT_EQUAL_INT(2, h.edges);
     for (int i = 0; i < 2; i++) {
         TEST_ASSERT_TRUE(fabs(h.stamp_s[i] + h.again_s[0] - well.stamp_s[2 + i]) < 1.1e-6);
         TEST_ASSERT_TRUE(fabs(h.edge_s[i] - well.edge_s[2 + i] - 0.3) < 1e-9);
     }
-    run_with("reset=0.15@0.07"); /* two arrive during it */
+    run_with("reset=0.15@0.07"); /* two edges arrive during the reset */
     TEST_ASSERT_EQUAL_INT(2, h.edges);
     run_with("orders-lost=1@0.397,reset@0.4"); /* the orders before the reset are lost, too */
     TEST_ASSERT_TRUE(h.push[200] > 0.0 && h.push[210] == 0.0);
-    run_with("late=1.5ms@0.3,reset=10ms@0.401"); /* orders not yet in effect are lost */
+    run_with("late=1.5ms@0.3,reset=10ms@0.401"); /* orders that are not yet in effect are lost */
     TEST_ASSERT_TRUE(h.resets == 1 && h.push[200] > 0.0 && h.push[201] == 0.0);
 }
 
-/* Without kicks the watchdog cuts the drive, or resets the processor, which must then be restarted. */
+/* Without kicks the watchdog cuts the power, or resets the processor, which must then be restarted. */
 TEST(resets, watchdog) {
     run_with("unkicked@0.5");
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[240] > 0.0 && h.push[260] == 0.0);
@@ -147,9 +149,9 @@ TEST(resets, watchdog) {
     TEST_ASSERT_TRUE(h.resets == 1 && h.starved[0]);
     TEST_ASSERT_TRUE(h.reset_s[0] > 0.503 && h.reset_s[0] < 0.506);
     TEST_ASSERT_TRUE(fabs(h.again_s[0] - h.reset_s[0] - 3e-3) < 1e-9);
-    TEST_ASSERT_TRUE(h.push[READS] == (double)READS); /* the drive is not cut permanently */
-    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* the watchdog cuts the drive again */
+    TEST_ASSERT_TRUE(h.push[READS] == (double)READS); /* the power is not cut permanently */
+    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* the watchdog cuts the power again */
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[READS] == 0.0);
-    run_with("watchdog-resets=0,unkicked@0.5"); /* and resets again and again */
+    run_with("watchdog-resets=0,unkicked@0.5"); /* resets again and again */
     TEST_ASSERT_TRUE(h.resets > 50);
 }

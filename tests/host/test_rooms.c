@@ -1,10 +1,10 @@
-/* test_rooms.c: allocations. Leaks are found by the sanitizers, which run the other suites. */
+/* test_rooms.c: allocations. The sanitizers, which run the other suites, find leaks. */
 #include "command.h"
 #include "host/base/alloc.h"
 #include "host/base/exit.h"
 
-/* Allocations have the full size and, where promised, zeros. Impossible sizes end the program with
- * its message, however they arise. */
+/* Allocations must have the full size, and zeros if these are promised. A size that is impossible, for whatever
+ * reason, must end the program with its message. */
 enum { BYTES_MOST = 5000 };
 
 static bool all_are(const unsigned char *bytes, size_t count, unsigned char value) {
@@ -64,10 +64,10 @@ TEST(rooms, texts_of_any_length) {
     }
 }
 
-/* Half of SIZE_MAX, rounded up: twice it overflows to 0. */
+/* Half of SIZE_MAX, rounded up: twice this number overflows to 0. */
 #define HALF (SIZE_MAX / 2U + 1U)
 
-/* The address sanitizer itself ends a program that asks for an impossible size. */
+/* The address sanitizer itself ends a program that requests an impossible size. */
 #if defined(__SANITIZE_ADDRESS__)
 #define SANITIZED 1
 #elif defined(__has_feature)
@@ -103,7 +103,7 @@ static int ask(int count, char **words) {
     case 'k': made = alloc_copy("", HALF); break;
     case 'l': made = alloc(3, HALF); break;
 #endif
-    /* Streams with a write error, seen on close or before. */
+    /* streams with a write error, which shows when they are closed or before */
     case 'm': end_badly("/dev/full", "w"); break;
     case 'n': end_badly("/dev/null", "r"); break;
     default: return 0;
