@@ -46,9 +46,8 @@ extern "C" {
 #define WH_NORMAL_UNKNOWNS 7
 
 typedef struct wh_normal {
-    wh_real matrix[WH_NORMAL_UNKNOWNS]
-                  /* first the lower triangle of the matrix, then of its factor */
-                  [WH_NORMAL_UNKNOWNS];
+    /* First the lower triangle of the matrix, then of its factor. */
+    wh_real matrix[WH_NORMAL_UNKNOWNS][WH_NORMAL_UNKNOWNS];
     wh_real right[WH_NORMAL_UNKNOWNS]; /* first the right side, then the solution */
     /* Sum of the squared residuals over their variances, at the guess. The solution makes it smaller. */
     wh_real misfit;

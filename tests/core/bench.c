@@ -3,9 +3,7 @@
 
 bench bench_now;
 
-/* --- random mechanisms -------------------------------------------------------------------------------------- */
-
-/* Checks that the evaluation is at the expected state. */
+/* Notes in bench_now.astray if this evaluation is not at the expected state. */
 static void look_at(const void *model, const wh_phase *phase, const wh_real *linear,
                     const wh_real *rate, const wh_real *input) {
     const wh_contact_point *at = bench_now.at;
@@ -73,7 +71,7 @@ static void bench_forces(const void *model, const wh_phase *phase, const wh_real
     }
 }
 
-/* The account's levels: account 0 is the position of the first coordinate; account 1 + i is ten times the rate i. */
+/* Levels of the accounts: account 0 is the position of the first coordinate; account 1 + i is ten times the rate i. */
 static void bench_levels(const void *model, const wh_angle *angle, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *level) {
     (void)model;
@@ -257,8 +255,6 @@ unsigned bench_members(uint64_t *seed, uint8_t *member) {
     return count;
 }
 
-/* --- references --------------------------------------------------------------------------------------------- */
-
 wh_real bench_along(unsigned k, const wh_real *x) {
     wh_real sum = WH_R(0.0);
     for (unsigned i = 0; i < bench_now.system.coordinates; i++) {
@@ -282,7 +278,7 @@ bool bench_near(wh_real value, wh_real wanted) {
            (WH_DOUBLE ? WH_R(1e-10) : WH_R(1e-3)) * (WH_R(1.0) + WH_ABS(wanted));
 }
 
-/* Makes the rows upper triangular one by one. The arithmetic is exact, because the whole numbers are small. */
+/* Makes the rows upper triangular, one by one. The arithmetic is exact, because the whole numbers are small. */
 unsigned bench_repeats(const uint8_t *member, unsigned count, const int8_t *at) {
     double kept[BENCH_COORDS][BENCH_COORDS];
     unsigned lead[BENCH_COORDS];

@@ -17,7 +17,7 @@ static unsigned heard_length;
 
 static void period(void); /* one control step of the rig and the station */
 
-/* The rig at rest, and a station that has heard and said nothing. */
+/* Starts a rig at rest, and a station that has neither received nor sent anything. */
 static inline void console_begin(void) {
     even_start(&even);
     even_rest(&even);
@@ -38,7 +38,7 @@ static inline void hear(void) {
     heard[heard_length] = '\0';
 }
 
-/* Types a line. Returns its answer, which is one line, without the line end. */
+/* Types a line. Returns its answer, one line without its line end. */
 static inline const char *ask(const char *line) {
     heard_length = 0;
     type(line);

@@ -14,9 +14,10 @@ wh_rig_config even_config(void) {
     config.measure.cell = (wh_cell_config){.newton_per_count = WH_R(1.0) / EVEN_COUNTS_PER_N,
                                            .period_ticks = EVEN_STEP_TICKS,
                                            .raw_max = INT32_C(32767)};
-    config.measure.result.amplitude_floor = WH_R(1e-4); /* counts as calibrated */
+    /* such a small floor counts as calibrated */
+    config.measure.result.amplitude_floor = WH_R(1e-4);
     config.measure.result.phase_floor_rad = WH_R(0.01) / WH_RIG_DEG_PER_RAD;
-    /* the imitated rotor has a constant speed within a turn */
+    /* The imitated rotor has a constant speed within a turn. */
     config.measure.rotor.gravity_mps2 = WH_R(0.0);
     wh_rig_slots(&config, WH_R(0.0));
     return config;

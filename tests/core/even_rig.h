@@ -12,7 +12,7 @@
 
 #define EVEN_RPM WH_RIG_RADPS_PER_RPM
 #define EVEN_STEP_TICKS UINT32_C(2000)           /* an AVR's unsigned has 16 bits */
-#define EVEN_START_TICKS (UINT32_MAX - 5000000U) /* the timer wraps on the way */
+#define EVEN_START_TICKS (UINT32_MAX - 5000000U) /* the timer wraps during a run */
 #define EVEN_BEGIN_RPM WH_R(160.0)
 #define EVEN_TARE_RAW 5000
 #define EVEN_LOAD_N WH_R(42.0)
@@ -20,21 +20,21 @@
 #define EVEN_ALWAYS (~0U)
 #define EVEN_NEVER WH_PHASES
 
-/* The failures of a run. They begin `after_ticks` after the begin of the phase `in`. */
+/* The failures of a run. They begin `after_ticks` after the phase `in` has begun. */
 typedef struct even_failure {
     wh_rig_phase in; /* EVEN_NEVER: no failure */
     uint32_t after_ticks;
-    unsigned lose[WH_SPEED_SENSORS]; /* number of pulses that are lost, of each sensor */
+    unsigned lose[WH_SPEED_SENSORS]; /* number of pulses that each sensor loses */
     unsigned lose_samples;
-    bool swapped; /* the sensors are swapped, from the start */
+    bool swapped; /* the sensors are swapped from the start of the run */
     bool jams;    /* the rotor jams, permanently */
-    /* amplitude of a square wave that the cell shows instead of the load, counts; 0: none */
+    /* Amplitude, in counts, of a square wave that the cell shows instead of the load; 0: none. */
     int shows;
-    int creeps;                  /* drift, counts per second */
+    int creeps;                  /* drift of the cell, counts per second */
     wh_load_status status;       /* status of all samples */
-    bool adds[WH_SPEED_SENSORS]; /* one false pulse, of each sensor */
-    /* permanent: pulses are late by up to this many ticks (uniform); the speed oscillates by hunts_rpm at hunts_Hz and
-     * drifts */
+    bool adds[WH_SPEED_SENSORS]; /* each of these sensors gives one false pulse */
+    /* From the start to the end of the run: pulses are late by up to jitter_ticks (uniform). The speed oscillates by
+     * hunts_rpm at hunts_Hz, and drifts. */
     uint32_t jitter_ticks;
     wh_real hunts_rpm;
     wh_real hunts_Hz;
@@ -51,12 +51,12 @@ typedef struct even_rig {
     wh_rig_phase phase;   /* phase after the last step */
     uint32_t phase_ticks; /* time at which that phase began */
     bool turns;
-    wh_real hand_rpm; /* if not 0, a hand turns the rotor at this speed, against any motor */
+    wh_real hand_rpm; /* if not 0, a hand turns the rotor at this speed, whatever the motor does */
     uint32_t turn_ticks;
-    uint32_t from_ticks;   /* time at which the rotor's angle was 0: the begin of the turn */
+    uint32_t from_ticks;   /* time at which the present turn began */
     unsigned due_sensor;   /* sensor of the next pulse */
     uint32_t late_ticks;   /* delay of the next pulse */
-    uint32_t settle_ticks; /* start of settling */
+    uint32_t settle_ticks; /* time at which settling began */
     uint64_t seed;
 } even_rig;
 
@@ -69,16 +69,16 @@ void even_steps(even_rig *even, unsigned steps);
 
 /* Posts an order, steps, and returns the answer. */
 wh_refusal even_order(even_rig *even, wh_rig_event event, wh_real value);
-/* The same for an order that must be allowed. */
+/* Posts an order that must be allowed, and steps. */
 void even_obeys(even_rig *even, wh_rig_event event, wh_real value);
 
-/* From now on a hand turns the rotor; 0: the hand lets go, and the rotor stops. */
+/* From now on a hand turns the rotor at this speed. With 0 the hand lets go, and the rotor stops. */
 void even_turn_by_hand(even_rig *even, wh_real rpm);
 
 /* Steps until the controller knows that the rotor is at rest, so that `arm` is allowed. */
 void even_rest(even_rig *even);
 
-/* Runs from even_start() until `arm` is done, or until the tare of a run. */
+/* even_arm() runs from even_start() until `arm` is done; the next function runs until the tare of a run. */
 void even_arm(even_rig *even);
 void even_begin(even_rig *even, wh_real target_rpm, const even_failure *failure);
 
@@ -90,7 +90,7 @@ void even_go_on_until(even_rig *even, wh_rig_phase phase);
 /* Runs from even_start() to this phase of a run to 330 rpm. For WH_PHASE_OFF the order is `stop`. */
 void even_reach(even_rig *even, wh_rig_phase phase);
 
-/* A whole run; checks that the motor is off at the end. */
+/* Makes a whole run, and checks that the motor is off at the end. */
 void even_run(even_rig *even, wh_real target_rpm, const even_failure *failure);
 
 bool even_is_done(const even_rig *even);

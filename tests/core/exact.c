@@ -3,10 +3,8 @@
 
 #define STEP_S 1e-3
 
-/* --- velocities --------------------------------------------------------------------------------------------- */
-
-/* Applies impulses. Afterwards contacts in `set` have the rate target[], holds and contacts in `beside` zero, stops
- * at least zero. Returns the stops that open. */
+/* Applies impulses. Afterwards contacts in `set` have the rate target[], holds and contacts in `beside` have zero rate,
+ * and stops do not close. Returns the stops that open. */
 static unsigned strike(exact *e, unsigned set, unsigned beside, const double *target,
                        double *impulse) {
     exact_problem p = {set | beside | exact_those(e, WH_STOP, WH_ACTIVE) |
@@ -26,7 +24,7 @@ static unsigned strike(exact *e, unsigned set, unsigned beside, const double *ta
     const unsigned opens = exact_solve(e, &p, e->v, lambda);
     for (unsigned k = 0; k < exact_forced(); k++) {
         if (exact_in(p.members, k)) {
-            /* the stop is neither pushed nor opened: whether it rests depends on round-off */
+            /* This stop is neither pushed nor opened, so round-off decides whether it rests. */
             e->vague = e->vague || (!exact_in(set | beside | opens, k) && exact_is(k, WH_STOP) &&
                                     exact_size_of(lambda[k]) <= EXACT_ZERO);
             impulse[k] += lambda[k];
@@ -37,7 +35,7 @@ static unsigned strike(exact *e, unsigned set, unsigned beside, const double *ta
     return opens;
 }
 
-/* Is a flight that starts like this too short? */
+/* True if a flight that starts with this speed is too short. */
 static bool rests(exact *e, unsigned k, double speed, const double *a) {
     const int pressed = exact_sign(e, -exact_along(k, a));
     return pressed == 0
@@ -47,7 +45,7 @@ static bool rests(exact *e, unsigned k, double speed, const double *a) {
 
 static bool touched(exact *e, unsigned k) { return exact_sign(e, exact_gap(e, k)) <= 0; }
 
-/* Free stops in touch and closing, as bits. */
+/* Returns the free stops that touch and close, as bits. */
 static unsigned closing(exact *e) {
     unsigned bits = 0;
     for (unsigned k = 0; k < exact_forced(); k++) {
@@ -57,7 +55,7 @@ static unsigned closing(exact *e) {
     return bits;
 }
 
-/* Hits the free stops in `found` and all that close with them. Returns all stops that were hit. */
+/* Hits the free stops in `found` and all stops that close with them. Returns all stops that were hit. */
 static unsigned hit(exact *e, unsigned found, double *impulse) {
     double a[2];
     double force[HAND_CONTACTS];
@@ -69,7 +67,8 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
     unsigned leaving = 0;
     unsigned gone = 0;
     exact_accelerate(e, a, force);
-    for (unsigned k = 0; k < exact_forced(); k++) { /* resting stops without a force are free */
+    /* a resting stop without a force becomes free */
+    for (unsigned k = 0; k < exact_forced(); k++) {
         if (exact_in(resting, k) && hand_now.law[k].first > 0 && exact_sign(e, force[k]) <= 0) {
             e->mode[k] = WH_FREE;
         }
@@ -108,7 +107,8 @@ static unsigned hit(exact *e, unsigned found, double *impulse) {
         gone |= open && rests(e, k, exact_along(k, e->v), a) ? 1U << k : 0U;
     }
     exact_give(e, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* active stops and holds get rate zero together, without limits */
+    /* active stops and holds get rate zero together, without limits on their impulses */
+    if ((gone | leaving) != 0) {
         exact_problem p = {exact_those(e, WH_STOP, WH_ACTIVE) | exact_those(e, WH_HOLD, WH_ACTIVE),
                            {0.0},
                            {0.0},
@@ -182,9 +182,8 @@ void exact_squeeze(exact *e) {
     exact_give(e, strike(e, touched & ~open, 0, zero, impulse), WH_FREE);
 }
 
-/* --- crossings ---------------------------------------------------------------------------------------------- */
-
-/* Sets the new value. If that disturbs a resting contact, its body flies or is put back; a hold captures its new place. */
+/* Sets the value that a crossing assigns. If that disturbs a resting contact, its body flies or is put back. A hold
+ * captures its new value. */
 static void assign(exact *e, unsigned k, double *impulse) {
     const exact was = *e;
     const double zero[HAND_CONTACTS] = {0.0};
@@ -220,7 +219,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
         exact_give(e, passed, WH_FREE);
         for (unsigned l = exact_forced(); l < hand_now.system.contacts; l++) {
             const int there = exact_in(e->stands, l) ? exact_sign(e, exact_gap(e, l)) : 0;
-            /* putting bodies back has moved the crossing's value off zero */
+            /* Putting bodies back has moved this crossing's value off zero. */
             e->mode[l] = there != 0 ? there : e->mode[l];
             e->stands &= there != 0 ? ~(1U << l) : ~0U;
         }
@@ -230,7 +229,7 @@ static void assign(exact *e, unsigned k, double *impulse) {
     }
 }
 
-/* A crossing whose value has just been zero gets the side to which the value moves. */
+/* If a crossing's value has just been zero, its mode becomes the sign to which the value moves. */
 static void leave(exact *e) {
     for (unsigned k = exact_forced(); k < hand_now.system.contacts; k++) {
         const int side = exact_in(e->stands, k) ? exact_sign(e, exact_along(k, e->v)) : e->mode[k];
@@ -239,8 +238,6 @@ static void leave(exact *e) {
     }
     e->stands = 0;
 }
-
-/* --- all events of one moment ------------------------------------------------------------------------------- */
 
 static void note(exact *e, unsigned events, double at_s, const double *impulse) {
     for (unsigned k = 0; k < hand_now.system.contacts; k++) {
@@ -287,7 +284,8 @@ static unsigned happen(exact *e, unsigned events, double *impulse) {
         }
     }
     exact_give_way(e);
-    for (unsigned k = 0; k < exact_forced(); k++) { /* a fixed coordinate's rate is exactly zero */
+    /* the rate of a fixed coordinate is exactly zero */
+    for (unsigned k = 0; k < exact_forced(); k++) {
         const int pin = hand_now.contact[k].pin;
         if (pin >= 0 && exact_in(exact_holding(e), k) && exact_size_of(e->v[pin]) <= EXACT_ZERO) {
             e->v[pin] = 0.0;
@@ -318,7 +316,7 @@ void exact_start(exact *e) {
     }
     const unsigned holds = still & exact_those(e, WH_HOLD, WH_FREE);
     exact_give(e, still & ~holds, WH_ACTIVE);
-    if (still != 0) { /* contacts at rest come first, before any impact */
+    if (still != 0) { /* contacts at rest are decided first, before any impact */
         (void)happen(e, holds, impulse);
         exact_put_back(e, exact_those(e, WH_FRICTION, WH_STUCK),
                        HAND_CONTACTS); /* sticking frictions fix no position here */
@@ -327,9 +325,8 @@ void exact_start(exact *e) {
     note(e, events, 0.0, impulse);
 }
 
-/* --- motion ------------------------------------------------------------------------------------------------- */
-
-/* The first time within `left` at which g + r t + a t^2 / 2 falls below zero after being above; otherwise `left`. */
+/* Returns the first time within `left` at which g + r t + a t^2 / 2 falls from positive to negative; `left` if there is
+ * none. */
 static double falls(exact *e, double g, double r, double a, double left) {
     const double end = g + r * left + 0.5 * a * left * left;
     const int below = exact_sign(e, end);
@@ -338,7 +335,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
                             exact_size_of(a) < EXACT_ZERO && exact_holding(e) != 0);
     e->vague = e->vague || (below == 0 && begins > 0); /* the event is exactly at the step's end */
     if (below >= 0) {
-        if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that cannot be seen at the step's end */
+        if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that does not show at the step's end */
             e->vague = e->vague || exact_sign(e, g - 0.5 * r * r / a) < 0;
         }
         return left;
@@ -346,7 +343,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
     if (begins == 0 && (r < 0.0 || (exact_sign(e, r) == 0 && a < 0.0))) {
         return 0.0;
     }
-    if (begins < 0) { /* already beyond the stop: leaving is no event */
+    if (begins < 0) { /* already beyond the stop: to leave it is no event */
         if (exact_sign(e, r) <= 0) {
             e->vague = e->vague || (exact_sign(e, r) == 0 && exact_sign(e, a) == 0);
             return exact_sign(e, r) < 0 || a < 0.0 ? 0.0 : left;

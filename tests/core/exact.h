@@ -21,22 +21,23 @@ typedef struct exact {
     double x[2];
     double v[2];
     int mode[HAND_CONTACTS];
-    double energy[HAND_CONTACTS];  /* energy that each contact has given since the start */
+    /* energy that each contact has given to the bodies since the start */
+    double energy[HAND_CONTACTS];
     double impulse[HAND_CONTACTS]; /* impulse of each contact along its row since the start */
     double pushed;                 /* the scene's input */
     wh_event log[EXACT_LOG];       /* events of the last step */
     unsigned logged;
-    unsigned next;   /* bits: stops that are hit in the next round */
-    unsigned stands; /* bits: crossings just taken whose values are still zero */
-    bool vague;      /* a decision depended on round-off; from then on this is no reference */
-    bool shared;     /* contacts are redundant: the force of each one is not unique */
+    unsigned next;   /* bits: stops that the next round hits */
+    unsigned stands; /* bits: crossings of this moment whose values are still zero */
+    bool vague;      /* a decision depended on round-off: from then on the state is no reference */
+    bool shared;     /* contacts are redundant, so the force of each one is not unique */
 } exact;
 
-/* Starts at the start of hand_now, with a step of 1 ms. */
+/* Starts from the start of hand_now, with a step of 1 ms. */
 void exact_start(exact *e);
 void exact_step(exact *e);
-/* Moves bodies back from free stops that they passed, by the smallest move in the mass metric, and stops those that
- * approach a stop. */
+/* Moves bodies back from free stops that they passed, by the smallest move in the mass metric. Bodies that approach a
+ * stop get rate zero. */
 void exact_squeeze(exact *e);
 
 #endif

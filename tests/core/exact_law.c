@@ -74,7 +74,7 @@ bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double
         a[r][count] = p->target[member[r]] - exact_along(member[r], y);
     }
     for (unsigned q = 0; q < count; q++) {
-        /* each pivot must be positive; otherwise the rows are dependent */
+        /* Unless each pivot is positive, the rows are dependent. */
         if (a[q][q] < 1e-7) {
             return false;
         }
@@ -99,7 +99,8 @@ static bool good(const exact_problem *p, unsigned k, int which, double lambda, d
 
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda) {
     for (unsigned number = 0; number < 27;
-         number++) { /* the cases: each contact at its target, its low limit or its high limit */
+         /* the combinations: each contact is at its target, its low limit or its high limit */
+         number++) {
         unsigned rest = number;
         unsigned tight = 0;
         int which[HAND_CONTACTS] = {0};
@@ -135,7 +136,7 @@ unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda
                 const bool off =
                     exact_in(p->members, k) && exact_sign(e, exact_along(k, y) - p->target[k]) != 0;
                 beyond |= off ? 1U << k : 0U;
-                if (exact_in(tight, k)) { /* is it also at a limit? */
+                if (exact_in(tight, k)) { /* true if contact k is also at a limit */
                     (void)exact_sign(e, lambda[k] - p->low[k]);
                     (void)exact_sign(e, lambda[k] - p->high[k]);
                 }
@@ -145,7 +146,7 @@ unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda
             return beyond;
         }
     }
-    e->vague = true; /* dependent holds have no unique forces: no reference */
+    e->vague = true; /* dependent holds have no unique forces, so there is no reference */
     return 0;
 }
 
@@ -162,8 +163,8 @@ unsigned exact_holding(const exact *e) {
            exact_those(e, WH_FRICTION, WH_STUCK);
 }
 
-/* Accelerations and forces in the current modes; a contact that must pull pulls. Of dependent rows, the later ones get
- * no force. */
+/* Computes accelerations and forces in the current modes. A contact that would have to pull does pull. If rows are
+ * dependent, the later ones get no force. */
 void exact_accelerate(exact *e, double *a, double *force) {
     double own[2] = {0.0, 0.0};
     unsigned members = 0;
@@ -195,7 +196,7 @@ void exact_accelerate(exact *e, double *a, double *force) {
     a[1] = own[1];
 }
 
-/* Contacts above their limit: stops first, then the friction furthest above its limit. */
+/* Releases contacts above their limit: stops first, then the friction furthest above its limit. */
 void exact_give_way(exact *e) {
     for (;;) {
         double a[2];
@@ -205,7 +206,7 @@ void exact_give_way(exact *e) {
         exact_problem p = {exact_holding(e), {0.0}, {0.0}, {0.0}};
         unsigned first = 0;
         double most = 0.0;
-        exact_accelerate(e, way, force); /* all contacts are still active */
+        exact_accelerate(e, way, force); /* for this computation all contacts are still active */
         a[0] = 0.0;
         a[1] = 0.0;
         for (unsigned i = 0; i < hand_now.n; i++) {
@@ -264,7 +265,7 @@ double exact_kinetic(const exact *e) {
     return sum;
 }
 
-/* See exact_law.h. Without a `mover` the energy belongs to the first contact with an error. */
+/* If `mover` is HAND_CONTACTS, the energy belongs to the first contact with an error. */
 void exact_put_back(exact *e, unsigned but, unsigned mover) {
     const double before = exact_stored(e);
     double way[2] = {0.0, 0.0};
@@ -276,7 +277,8 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
             p.target[k] = -exact_gap(e, k);
             mover = mover < exact_forced() || mover == HAND_CONTACTS ? k : mover;
             if (pin >= 0) {
-                /* only its coordinate moves; of several contacts, the one with the largest error counts */
+                /* Only this contact's coordinate moves. Among several contacts, the one with the largest error
+                 * decides. */
                 const double by = p.target[k] / (double)hand_now.law[k].row[pin];
                 way[pin] = exact_size_of(by) > exact_size_of(way[pin]) ? by : way[pin];
             }
@@ -285,7 +287,7 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
     e->x[0] += way[0];
     e->x[1] += way[1];
     for (unsigned k = 0; k < exact_forced(); k++) {
-        /* remaining errors of contacts that depend on several coordinates */
+        /* These are the remaining errors of contacts that depend on several coordinates. */
         p.target[k] = hand_now.contact[k].pin >= 0 ? 0.0 : p.target[k] - exact_along(k, way);
     }
     way[0] = 0.0;

@@ -4,7 +4,7 @@
 
 #include "exact.h"
 
-/* Numbers below this are zero; numbers slightly above it make a decision vague (exact.h). */
+/* A smaller number counts as zero. A number slightly above makes a decision vague (exact.h). */
 #define EXACT_ZERO 1e-11
 
 /* The problem: find forces lambda that move x by M^-1 J^T lambda, so that J_k x = target[k] for each member. A stop
@@ -19,20 +19,21 @@ typedef struct exact_problem {
 #define EXACT_ENDLESS 1e9
 
 double exact_size_of(double value);
-/* The sign of a value: 1, 0 or -1. */
+/* Returns the sign of a value: 1, 0 or -1. */
 int exact_sign(exact *e, double value);
 bool exact_in(unsigned bits, unsigned k);
 
-/* hand_now's contacts with a force, as bits; and whether contact k is of this kind. */
+/* Returns hand_now's contacts with a force, as bits; the next function: true if contact k is of this kind. */
 unsigned exact_forced(void);
 bool exact_is(unsigned k, wh_contact_kind kind);
-/* Contacts of a kind in a mode, as bits. Crossings have no mode. */
+/* Returns the contacts of a kind in a mode, as bits. Crossings have no mode. */
 unsigned exact_those(const exact *e, wh_contact_kind kind, int mode);
 void exact_give(exact *e, unsigned bits, int mode);
-/* The contacts that keep J_k q' at zero, as bits. */
+/* Returns the contacts that keep J_k q' at zero, as bits. */
 unsigned exact_holding(const exact *e);
 
-/* In order: J_k x; the gap; x += M^-1 J_k^T lambda; the change of J_k x by a unit impulse of contact l. */
+/* In this order: returns J_k x; returns the gap; does x += M^-1 J_k^T lambda; returns the change of J_k x by a unit
+ * impulse of contact l. */
 double exact_along(unsigned k, const double *x);
 double exact_gap(const exact *e, unsigned k);
 void exact_push(unsigned k, double lambda, double *x);
@@ -41,14 +42,14 @@ double exact_coupled(unsigned k, unsigned l);
 /* Computes lambda[] so that the contacts in `tight` reach their targets; the lambda[] of the others are given. Returns
  * false if rows are dependent. */
 bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double *lambda);
-/* Finds the combination of limits that meets the conditions, and sets x and the members' lambda[] accordingly. Returns
- * the contacts with J x beyond target, as bits. */
+/* Finds the combination of limits that satisfies the conditions, and sets x and the members' lambda[]. Returns, as
+ * bits, the contacts with J x beyond target. */
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda);
 bool exact_repeat(const exact *e, unsigned members);
 
-/* Accelerations and forces in the current modes. A contact that would have to pull does pull. */
+/* Computes accelerations and forces in the current modes. A contact that would have to pull does pull. */
 void exact_accelerate(exact *e, double *a, double *force);
-/* A contact above its limit gives way: stops first, then the friction furthest above its limit. */
+/* Releases contacts above their limit: stops first, then the friction furthest above its limit. */
 void exact_give_way(exact *e);
 
 double exact_stored(const exact *e);

@@ -20,7 +20,7 @@ void fed_rotor_standard(fed_rotor *fed, uint64_t seed) {
         fed->observing.pulse_rad[i] = fed->kind.pulse_rad[i];
     }
     fed->rotor.seed = seed;
-    fed->rotor.ticks = UINT32_MAX - UINT32_C(2500000); /* the timer wraps on the way */
+    fed->rotor.ticks = UINT32_MAX - UINT32_C(2500000); /* the timer wraps during the run */
 }
 
 static wh_real voltage_of(const rotor_kind *kind, wh_real speed_radps) {
@@ -77,7 +77,7 @@ static void count(fed_rotor *fed) {
     }
 }
 
-/* One control step: the voltage computed at its start acts in the next one. */
+/* Does a control step. The voltage that a step computes acts in the next one. */
 static void control(fed_rotor *fed) {
     const uint32_t now = fed->rotor.ticks;
     const wh_real speed = fed->speed.known ? fed->speed.turn_radps : fed->drive.setpoint_radps;

@@ -23,14 +23,14 @@ typedef struct fed_rotor {
     wh_drive_config driving;
     wh_drive drive;
     wh_speed speed;
-    wh_real voltage; /* for the next control step, a fraction of the rated one */
+    wh_real voltage; /* voltage of the next control step, as a fraction of the rated one */
     fed_by by;
-    unsigned lose_marks; /* number of pulses that will be lost, of either sensor */
-    /* from here to sum_radps: values since fed_rotor_count() */
+    unsigned lose_marks; /* number of coming pulses that will be lost, of any sensor */
+    /* From here to sum_radps: values counted since fed_rotor_count(). */
     uint32_t steps;
-    uint32_t valid;    /* steps with a valid observer */
-    uint32_t lies;     /* steps with a valid observer whose angle has an error above FED_LIE_RAD */
-    wh_real worst_rad; /* largest error of the angle while valid */
+    uint32_t valid;    /* number of steps with a valid observer */
+    uint32_t lies;     /* steps whose observer is valid but has an error above FED_LIE_RAD */
+    wh_real worst_rad; /* largest error of the angle while the observer is valid */
     wh_real square_rad2;
     wh_real least_radps;
     wh_real most_radps;
@@ -40,20 +40,20 @@ typedef struct fed_rotor {
 
 #define FED_LIE_RAD WH_R(0.35)
 
-/* Sets the rotor and the controller as in the standard rig. Change the rotor before fed_rotor_start(), which sets it
- * turning at this speed. */
+/* Sets the rotor and the controller as in the standard rig. If you want another rotor, change it before
+ * fed_rotor_start(). That function gives the rotor its speed. */
 void fed_rotor_standard(fed_rotor *fed, uint64_t seed);
 wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm);
 
 void fed_rotor_run(fed_rotor *fed, wh_real target_rpm, wh_real time_s);
 
-/* From now on the voltage is constant: the one for this speed, without a speed drive. */
+/* From now on the voltage is constant: the voltage for this speed, without a speed drive. */
 void fed_rotor_hold(fed_rotor *fed, wh_real speed_rpm);
 
 void fed_rotor_count(fed_rotor *fed);
 
-/* Over the counted steps: RMS error of the angle while the observer is valid; half the range of the speed divided by
- * its mean. */
+/* For the counted steps: RMS error of the angle while the observer is valid. The next function returns half the range
+ * of the speed divided by its mean. */
 wh_real fed_rotor_rms_rad(const fed_rotor *fed);
 wh_real fed_rotor_ripple(const fed_rotor *fed);
 wh_real fed_rotor_mean_rpm(const fed_rotor *fed);

@@ -44,7 +44,7 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
         }
         const wh_real size = WH_ABS(result[2 * k]);
         for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
-            /* the factor is one for a value of one millimetre */
+            /* The factor is one if the value is one millimetre. */
             result[2 * k] *= size * size * WH_R(1e6);
         }
         for (unsigned i = 0; i < 2; i++) {
@@ -60,17 +60,18 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     (void)rate;
     (void)input;
     for (unsigned k = 0; k < HAND_CONTACTS;
-         k++) { /* also the invalid contacts after the last one (put_sentinels()) */
+         k++) { /* also for the invalid contacts after the last one (put_sentinels()) */
         wh_real *law = result + k * (WH_LAW_ROWS + 2 * m->n);
         law[WH_LAW_FIRST] = m->law[k].first;
         law[WH_LAW_SECOND] = m->law[k].second;
         law[WH_LAW_BIAS] = WH_R(0.0);
         if (m->contact[k].kind == WH_HOLD && m->contact[k].direction == 0 && linear != NULL &&
             m->law[k].first == WH_R(0.0)) {
-            law[WH_LAW_FIRST] = along(m, k, linear); /* as for a curved hold */
+            law[WH_LAW_FIRST] = along(m, k, linear); /* the value of a curved hold */
         } else if (m->contact[k].kind == WH_HOLD && m->contact[k].direction < 0 && linear != NULL) {
             law[WH_LAW_FIRST] =
-                along(m, k, linear) - m->law[k].offset; /* as for a hold that is moved by inputs */
+                /* the gap, for a stop or hold that inputs move */
+                along(m, k, linear) - m->law[k].offset;
         }
         for (unsigned i = 0; i < m->n; i++) {
             law[WH_LAW_ROWS + i] = m->law[k].row[i];
@@ -79,7 +80,8 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     }
 }
 
-/* A crossing reverses and halves the first rate, or sets the first coordinate. */
+/* Assigns what a crossing of this mechanism assigns: minus half of the first rate, or the place of the first
+ * coordinate. */
 static void hand_sets(const void *model, const wh_phase *phase, const wh_real *linear,
                       const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
@@ -89,7 +91,8 @@ static void hand_sets(const void *model, const wh_phase *phase, const wh_real *l
     result[0] = m->places ? m->place : WH_R(-0.5) * rate[0];
 }
 
-/* Powers of the ledger's entries: the effect of loads and springs on each momentum, and the work of the loads. */
+/* Computes the powers of the ledger's entries: the forces of loads and springs on each momentum, and the work of the
+ * loads. */
 static void hand_powers(const void *model, const wh_phase *phase, const wh_real *linear,
                         const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;
@@ -185,8 +188,7 @@ unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_
     return k;
 }
 
-/* Fills the entries after a scene's contacts with a friction that would hold the first coordinate for ever, if the core
- * read it. */
+/* Puts, after a scene's contacts, a friction that would hold the first coordinate for ever if the core read it. */
 static void put_sentinels(void) {
     for (unsigned k = hand_now.system.contacts; k < HAND_CONTACTS; k++) {
         hand_now.contact[k] = (wh_contact){.kind = WH_FRICTION, .pin = 0, .sets = 1};

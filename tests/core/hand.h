@@ -21,20 +21,21 @@ typedef struct hand {
     wh_real load[2];   /* N */
     wh_real spring[2]; /* N/m, towards the origin */
     struct {
-        wh_real row[2]; /* gap, held or crossing expression: row . x - offset */
+        wh_real row[2]; /* row of a gap, of a held or of a crossing expression: row . x - offset */
         wh_real offset;
         wh_real first;  /* restitution, or mu_static times the normal force */
         wh_real second; /* mu_kinetic times the normal force, in N */
     } law[HAND_CONTACTS];
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
-    unsigned bent;    /* number of times that a crossing's value is multiplied by its own square */
-    unsigned lost[2]; /* bits: contacts whose first, second signal becomes `nothing` */
+    unsigned bent;    /* number of times that a crossing's value is multiplied by its square */
+    unsigned lost[2]; /* bits: contacts whose first (or second) signal becomes `nothing` */
     wh_real nothing;  /* NaN or infinity */
-    bool weighs;      /* the work of the loads counts as potential energy, not as external work */
-    bool eventful;    /* every step takes the path of steps with events */
-    bool places;      /* a crossing assigns the first coordinate instead of its rate */
-    wh_real place;    /* the value that is assigned */
+    /* the work of the loads counts as potential energy instead of external work */
+    bool weighs;
+    bool eventful; /* every step takes the code path of steps with events */
+    bool places;   /* a crossing assigns the first coordinate instead of its rate */
+    wh_real place; /* the value that is assigned */
     wh_real start[4];
     wh_scene scene;
 } hand;
@@ -43,21 +44,21 @@ extern hand hand_now;             /* the mechanism of the calls below */
 extern wh_ledger_form hand_books; /* its ledger */
 extern wh_state hand_state;
 extern unsigned hand_looks; /* number of evaluations of the signals */
-extern wh_real hand_pushed; /* the scene's input: a hold's condition, true above zero */
+extern wh_real hand_pushed; /* the scene's input: the condition of a hold is true above zero */
 
 /* Sets up one body (of mass m00), or two with the given mass matrix, without contact, load or spring. */
 void hand_build(unsigned n, wh_real m00, wh_real m01, wh_real m11);
-/* Adds a contact; see hand.law for the numbers. Returns its number. Contacts with a force come first. */
+/* Adds a contact with the numbers of hand.law. Returns its number. Contacts with a force come first. */
 unsigned hand_add(wh_contact_kind kind, int pin, wh_real row0, wh_real row1, wh_real offset,
                   wh_real first, wh_real second);
-/* Draws a row of whole numbers for n coordinates. Returns its only coordinate, or -1. */
+/* Draws a row of whole numbers for n coordinates. Returns the only coordinate with a nonzero entry, or -1. */
 int hand_draw_row(uint64_t *seed, unsigned n, wh_real *row);
 /* Starts the mechanism, with a step of 1 ms. */
 void hand_start(bool with_books);
-/* Makes steps that must all succeed. */
+/* Does `count` steps. All must succeed. */
 void hand_steps(unsigned count);
-/* |value - wanted| <= `bound`, in float `bound_f`. A float sum is rounded by up to 3e-8 of its value in each step: n
- * times that in n steps. */
+/* True if |value - wanted| is at most `bound` (in float `bound_f`). In float a sum gets an error of up to 3e-8 of its
+ * value in each step. */
 bool hand_near(wh_real value, wh_real wanted, double bound, double bound_f);
 
 /* Gravity, m/s^2. */

@@ -8,7 +8,7 @@
 
 #if !WH_DOUBLE
 
-/* An approximately Gaussian number: the sum of twelve uniform ones. */
+/* Returns an approximately Gaussian number: the sum of twelve uniform ones. */
 static float normal(void) {
     float sum = -6.0f;
     for (unsigned i = 0; i < 12; i++) {
@@ -40,7 +40,7 @@ void plant_control(on_plant *on) {
     on->command = wh_rig_step(&on->config, &on->rig, &inputs);
     obey(&on->command, &on->drives);
     trip_memory_keep(&on->memory, &on->rig);
-    hal_watchdog_kick(); /* kicked also when tripped */
+    hal_watchdog_kick(); /* also after a trip */
     const float speed = hal_virtual_rig_speed_radps(hal_virtual_rig_instance());
     on->fastest_radps = speed > on->fastest_radps ? speed : on->fastest_radps;
 }
@@ -61,7 +61,7 @@ static void begin_control(on_plant *on) {
 void plant_reset(on_plant *on, hal_reset cause) {
     hal_virtual_rig_reset(hal_virtual_rig_instance(), cause);
     on->rig = (wh_rig){.state = WH_RIG_ARMED,
-                       /* an arbitrary phase, because real memory is not zeroed either */
+                       /* any phase, because real memory is not zeroed either */
                        .run.phase = WH_PHASE_RECORD};
     on->memory = (trip_memory){.record.trip = WH_TRIP_NONE};
     begin_control(on);

@@ -24,7 +24,7 @@ typedef struct on_plant {
     wh_rig rig;
     wh_rig_config config;
     wh_rig_command command;
-    bool drives; /* obey.h */
+    bool drives; /* the last command drove the motor (obey.h) */
     trip_memory memory;
     float fastest_radps; /* the largest true speed of the rotor, not the measured one */
     float noise_N;       /* standard deviation of the noise added to each sample */
@@ -38,12 +38,13 @@ wh_refusal plant_order(on_plant *on, wh_rig_event event, float value);
 /* Resets and restarts the processor; the rotor keeps moving. */
 void plant_reset(on_plant *on, hal_reset cause);
 
-/* Starts hardware and controller; afterwards the rig is idle at rest, armed, or at the tare of a run. */
+/* Starts hardware and controller. Afterwards plant_start() leaves the rig idle at rest; the next functions leave it
+ * armed, or at the tare of a run. */
 void plant_start(on_plant *on);
 void plant_arm(on_plant *on);
 void plant_begin(on_plant *on, float target_rpm);
 
-/* Runs until `phase`, or until the rig is idle, or tripped and at rest. An endless run is stopped. */
+/* Runs until `phase` begins, until the rig is idle, or until it is tripped and at rest. An endless run is stopped. */
 void plant_go_on_until(on_plant *on, wh_rig_phase phase);
 void plant_go_on_to_the_end(on_plant *on);
 

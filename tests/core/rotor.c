@@ -47,7 +47,7 @@ wh_real rotor_acceleration_radps2(const rotor_kind *kind, const rotor_state *rot
     return acceleration(kind, drive, rotor->angle_rad, rotor->speed_radps);
 }
 
-/* Finds the sensor that the rotor passes between two angles less than half a turn apart. */
+/* Finds the sensor that the rotor passes between two angles that are less than half a turn apart. */
 static void watch(const rotor_kind *kind, rotor_state *rotor, wh_real from_rad, wh_real way_rad) {
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         const bool back = way_rad < WH_R(0.0) && kind->slot_rad > WH_R(0.0);

@@ -1,6 +1,6 @@
 /* rotor.h: an imitated rotor for tests of the rig's controller, integrated with smaller steps than the core's scene. It
- * has arms in a vertical plane, a torque line, friction, a braking or freewheeling stage and two slot sensors. All may
- * differ from the settings. */
+ * has arms in a vertical plane, a motor's torque line, friction, a braking or freewheeling stage and two slot sensors.
+ * All its numbers may differ from the controller's settings. */
 #ifndef TESTS_CORE_ROTOR_H
 #define TESTS_CORE_ROTOR_H
 
@@ -16,12 +16,12 @@ typedef struct rotor_kind {
     wh_real no_load_radps; /* at rated voltage */
     wh_real drag_Nms;
     wh_real friction_Nm; /* Coulomb friction, against the motion */
-    /* a voltage below the back-EMF makes no torque, instead of a braking one */
+    /* True if a voltage below the back-EMF makes no torque. Otherwise it brakes. */
     bool freewheels;
     wh_real pulse_rad[2]; /* the true angles of the sensors */
-    /* hysteresis of the slot when the rotor turns backwards; 0: no pulse backwards */
+    /* Hysteresis of the slot when the rotor turns backwards. 0: no pulses backwards. */
     wh_real slot_rad;
-    wh_real jitter_s; /* jitter of the pulses, in both directions, uniform */
+    wh_real jitter_s; /* jitter of the pulses, uniform, early or late by up to this time */
 } rotor_kind;
 
 #define ROTOR_MARKS 4U
@@ -31,12 +31,12 @@ typedef struct rotor_state {
     wh_real angle_rad; /* 0 ... 2 pi */
     wh_real speed_radps;
     uint64_t seed;  /* seed of the pulses' jitter */
-    unsigned marks; /* number of pulses during the last rotor_turn(), in order of time */
+    unsigned marks; /* number of pulses during the last rotor_turn() */
     unsigned mark_sensor[ROTOR_MARKS];
     uint32_t mark_ticks[ROTOR_MARKS];
 } rotor_state;
 
-/* The rig of core/models/eccentric.whirl, whose pulses come one degree before the sensors. */
+/* Returns the rig of core/models/eccentric.whirl. Its pulses come one degree before the sensors. */
 rotor_kind rotor_nominal(void);
 
 /* Advances by `ticks`, a multiple of 500. `drive` is the voltage divided by the rated one. */
@@ -44,7 +44,7 @@ void rotor_turn(const rotor_kind *kind, rotor_state *rotor, wh_real drive, uint3
 
 wh_real rotor_acceleration_radps2(const rotor_kind *kind, const rotor_state *rotor, wh_real drive);
 
-/* angle_rad - than_rad, wrapped to -pi ... pi. */
+/* Returns angle_rad - than_rad, wrapped to -pi ... pi. */
 wh_real rotor_ahead_rad(const rotor_state *rotor, wh_real than_rad);
 
 #endif

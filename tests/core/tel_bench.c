@@ -25,8 +25,8 @@ void tel_type(const char *line) {
     wh_station_take(&bench.station, "\n", 1);
 }
 
-/* Finds the next item of this kind with this time and value; items before it were dropped. The times of samples that
- * come irregularly are exact to an eighth of their period. */
+/* Finds the next item of this kind with this time and value. Items before it count as dropped. If samples come
+ * irregularly, their times are exact to an eighth of their period. */
 static void find_sample(uint32_t ticks, int32_t value) {
     const uint32_t within = bench.got.uneven ? bench.tel.every * EVEN_STEP_TICKS / 8U : 0;
     while (bench.samples.taken < bench.samples.put &&
@@ -38,7 +38,7 @@ static void find_sample(uint32_t ticks, int32_t value) {
     bench.samples.taken++;
 }
 
-/* Begins and ends of pulses are in one sequence; the value of an end is the sensor and this bit. */
+/* Begins and ends of pulses are in one sequence. The value of an end is the sensor plus this bit. */
 #define OF_AN_END 2
 
 static void find_pulse(uint32_t ticks, int32_t sensor) {
@@ -82,7 +82,7 @@ void tel_hear_frame(const wire_frame *frame) {
     }
 }
 
-/* The line transmits this many bytes per control step. */
+/* Takes this many bytes from the station's ring, and compares the frames with the sent data. */
 void tel_hear(unsigned bytes) {
     char room[64];
     while (bytes > 0) {
@@ -162,7 +162,7 @@ void tel_step(void) {
     wh_station_step(&bench.station, &bench.even.rig);
 }
 
-/* One control period of the firmware, in which the line transmits this many bytes. */
+/* One control period of the firmware. The line transmits `bytes` bytes in it. */
 void tel_period(bool evenly, unsigned bytes) {
     even_step(&bench.even);
     tel_draw_seen(evenly);

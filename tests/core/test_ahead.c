@@ -1,5 +1,5 @@
-/* test_ahead.c: many steps in one call give the same bits as single steps, also if one fails. Steps by a constant
- * matrix, and float steps with a two-part length, are compared with closed forms. */
+/* test_ahead.c: many steps in one call give the same bits as single steps, also if a step fails. Closed forms are the
+ * reference of steps by a constant matrix, and of float steps with a two-part length. */
 #include "core/scene.h"
 #define WH_COORDS 3
 #include "core/step.h"
@@ -79,7 +79,7 @@ static ending end_of(const wh_scene *scene, uint32_t some, uint32_t more, wh_rea
 }
 
 TEST(ahead, steps_ahead_are_steps) {
-    /* inputs: a normal one; one that accelerates the shaft until it makes half a turn per step; not a number */
+    /* Three inputs: a usual one; one that accelerates the shaft to half a turn per step; NaN. */
     const wh_real inputs[] = {WH_R(2.0), WH_R(300.0), (wh_real)__builtin_nan("")};
     length[0] = WH_R(0.0625);
     length[1] = WH_R(0.0);
@@ -102,19 +102,19 @@ TEST(ahead, steps_ahead_are_steps) {
 }
 
 #if HAS_REFERENCE
-/* A rotation by a small angle: t is the tangent of half of it. */
+/* Tangent of half the angle of a small rotation. */
 #define HALF_TANGENT (1.0 / 1024.0)
 static const double turn_sine = 2.0 * HALF_TANGENT / (1.0 + HALF_TANGENT * HALF_TANGENT);
 static const double turn_less =
-    -2.0 * HALF_TANGENT * HALF_TANGENT / (1.0 + HALF_TANGENT * HALF_TANGENT); /* cos - 1 */
+    -2.0 * HALF_TANGENT * HALF_TANGENT / (1.0 + HALF_TANGENT * HALF_TANGENT); /* cosine minus 1 */
 
-/* The round-off of a constant as a real. */
+/* Returns the error of a constant that is rounded to a real. */
 static wh_real lack(double constant) {
     volatile wh_real kept = (wh_real)constant;
     return (wh_real)(constant - (double)kept);
 }
 
-/* x+ = cos x + sin v, v+ = cos v - sin x. */
+/* Computes x+ = cos x + sin v, v+ = cos v - sin x. */
 static void rotate(const void *model, const wh_phase *phase, const wh_real *real,
                    const wh_real *rate, const wh_real *input, wh_real *given) {
     (void)model;
@@ -137,7 +137,8 @@ static void rotate_by_changes(const void *model, const wh_phase *phase, const wh
     given[3] = lack(turn_less) * real[1] - lack(turn_sine) * real[0];
 }
 
-/* Error of x after STEPS steps from (1, 0). The reference is a power of the rotation, by squaring, in double. */
+/* Returns the error of x after STEPS steps from (1, 0). The reference is a power of the rotation, computed in double by
+ * squaring. */
 static double rotation_error(bool compensated) {
     wh_real real[2] = {WH_R(1.0), WH_R(0.0)};
     wh_real carry[2] = {WH_R(0.0), WH_R(0.0)};
@@ -168,8 +169,8 @@ static void test_a_matrix_turns_as_far_as_its_power(void) {
 
 #endif
 
-/* The input accelerates a shaft (angle, rate). The list gives the mean rate r + u h/2 and the end rate r + u h, or, for
- * compensated sums, their changes. */
+/* The input accelerates a shaft (angle, rate). The matrix's list gives the mean rate r + u h/2 and the end rate r + u
+ * h. With compensated sums it gives their changes. */
 static bool changes_only;
 static void speed_up(const void *model, const wh_phase *phase, const wh_real *real,
                      const wh_real *rate, const wh_real *input, wh_real *given) {
@@ -244,8 +245,8 @@ static void pull(const void *model, const wh_phase *phase, const wh_real *linear
     result[1] = input[0];
 }
 
-/* The relative errors of a body and of a shaft after STEPS milliseconds, which start with rate `rest` and have
- * acceleration `push`. */
+/* Computes the relative errors of a body and of a shaft after STEPS milliseconds. Both start with the rate `rest` and
+ * have the acceleration `push`. */
 static void errors_after(wh_method method, wh_real rest, wh_real push, double *line, double *turn) {
     const double milli_s = 0.001;
     const double end_s = milli_s * STEPS;
@@ -265,7 +266,7 @@ static void errors_after(wh_method method, wh_real rest, wh_real push, double *l
     *turn = size_of((double)wh_angle_to_rad(angle[0]) - way) / way;
 }
 
-/* No float equals a millisecond: the relative error is 5e-8. With a two-part length, many steps last the right time,
+/* No float equals a millisecond: the relative error is 5e-8. With a two-part length, many steps cover the right time,
  * for positions and angles; with a one-part length they do not. Accelerations add the round-off of their products. */
 static void test_a_length_in_two_parts_lasts_as_long_as_it_should(void) {
     for (unsigned m = 0; m < WH_METHODS; m++) {

@@ -54,7 +54,7 @@ static void test_phase_moves(void) {
     }
 }
 
-/* The moves are compared with a reference in integers. Ties are rounded to even; of half a step away from zero. */
+/* The reference of the moves is in integers. Ties round to even; ties of half a step round away from zero. */
 static void test_phase_moves_to_the_nearest(void) {
     scattered_state = 9;
     unsigned ties = 0;
@@ -96,7 +96,7 @@ static void test_phase_of_angle(void) {
     TEST_ASSERT_EQUAL_UINT32(3 * QUARTER, wh_phase_of(-(int64_t)QUARTER));
 }
 
-/* rad * 2^32/(2 pi), rounded, from the float's own bits: an 86-bit product. */
+/* Returns rad * 2^32/(2 pi), rounded, from the float's own bits: an 86-bit product. */
 static int64_t angle_reference(float rad) {
     const union {
         float value;
@@ -178,13 +178,13 @@ static void test_there_and_back(void) {
         const float rad = wh_angle_to_rad(angle);
         const int64_t back = wh_angle_from_rad(rad);
         const uint64_t size = (uint64_t)(angle < 0 ? -angle : angle);
-        /* Half a unit is at most 2^-24 of the number. */
+        /* Half a unit in the last place is at most 2^-24 of the number. */
         TEST_ASSERT_INT64_WITHIN(1 + (size >> 24), angle, back);
     }
 }
 
-/* Reference for wh_phase_times(): bits 0 to 31 before the point of angle * factor, rounded: 128 bits, added up bit by
- * bit. */
+/* Reference for wh_phase_times(): bits 0 to 31 before the point of angle * factor, rounded. The 128-bit product is
+ * added up bit by bit. */
 static uint32_t times_reference(int64_t angle, wh_factor factor) {
     uint64_t shifted_high = angle < 0 ? UINT64_MAX : 0U;
     uint64_t shifted_low = (uint64_t)angle;

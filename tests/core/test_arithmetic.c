@@ -43,7 +43,7 @@ TEST(arithmetic, this_build_is_sound) {
 }
 
 TEST(arithmetic, a_scene_of_other_arithmetic_is_refused) {
-    /* the probes under contraction, reordering, truncation, flushing, reciprocals and lost signs */
+    /* The probes' results under contraction, reordering, truncation, flushing, reciprocals and lost signs. */
 #if WH_DOUBLE
     static const wh_real made[WH_PROBED_COUNT] = {0x1p-54,
                                                   0x1p-54,
@@ -73,7 +73,8 @@ TEST(arithmetic, a_scene_of_other_arithmetic_is_refused) {
 
 #if defined(__SSE2_MATH__)
 #define MODES 1
-static const uint32_t flushing[] = {0x8000U, 0x40U, 0x8040U}; /* flush results, arguments, both */
+/* flush results, flush arguments, both */
+static const uint32_t flushing[] = {0x8000U, 0x40U, 0x8040U};
 static const uint32_t rounding[] = {0x2000U, 0x4000U, 0x6000U};
 static uint32_t modes(void) { return __builtin_ia32_stmxcsr(); }
 static void set_modes(uint32_t to) { __builtin_ia32_ldmxcsr(to); }

@@ -4,7 +4,7 @@
 
 #include "tests/suites.h"
 
-/* From 1 m, restitution 1/2: the bounces end at 3 sqrt(2 h / g), and the ball then rests for a minute. */
+/* A ball falls from 1 m with restitution 1/2. Its bounces end at 3 sqrt(2 h / g). Then it rests for a minute. */
 TEST(contact, ball_comes_to_rest_and_stays) {
     const wh_real rest_s = WH_R(3.0) * WH_SQRT(WH_R(2.0) / HAND_G);
     hand_build_ball(WH_R(0.5));
@@ -52,8 +52,8 @@ TEST(contact, too_many_bounces_are_counted_and_end) {
     TEST_ASSERT_TRUE(WH_ABS(hand_state.real[1]) <= WH_R(1.0));
 }
 
-/* A body bounces between two walls 1 m apart, n times in each step of 1 ms. All events are counted; the first eight are
- * logged. */
+/* A body bounces between two walls 1 m apart, n times in each step of 1 ms. All events are counted, and the first eight
+ * are logged. */
 TEST(contact, a_step_has_room_for_so_many_moments) {
     for (unsigned each = 0; each <= 2U * WH_EVENTS_MAX + 4U; each++) {
         const unsigned n = each / 2U;
@@ -62,7 +62,7 @@ TEST(contact, a_step_has_room_for_so_many_moments) {
         hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1.0), WH_R(1.0), WH_R(0.0));
         hand_now.start[0] = WH_R(0.5);
         hand_start(false);
-        hand_steps(each % 2U); /* the first step, or a later one */
+        hand_steps(each % 2U); /* the first step of a run, or a later one */
         hand_state.real[1] = WH_R(1000.0) * (wh_real)n;
         hand_steps(1);
         const bool many = n > WH_EVENTS_MAX;
@@ -113,8 +113,8 @@ TEST(contact, a_refused_step_changes_nothing) {
     TEST_ASSERT_TRUE(hand_state.fault >= 0);
 }
 
-/* A load drives a component out of bounds. The fault names this component, at a run's first step, after an event within
- * a step, and later. */
+/* A load drives a component out of bounds: at a run's first step, after an event within a step, and later. The fault
+ * names this component. */
 TEST(contact, the_component_that_diverged_is_told) {
     for (unsigned where = 0; where < 3; where++) {
         for (unsigned c = 0; c < 2; c++) {

@@ -1,6 +1,6 @@
 /* test_contact_assign.c: a crossing's assignments (contact_resolve.h), on random mechanisms (bench.h). All values are
- * evaluated before any is set, and the low parts of the assigned components become zero. The fault names a component
- * that gets an invalid value. */
+ * evaluated before any is set. The low parts of the assigned components become zero. If a component gets an invalid
+ * value, the fault names it. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -18,8 +18,7 @@ static void give(const void *model, const wh_phase *phase, const wh_real *linear
     result[0] = values[0];
 }
 
-/* Draws a random mechanism of `angles` angles with one crossing, which sets component `to`. Returns the crossing's
- * number. */
+/* Draws a mechanism of `angles` angles with one crossing that sets component `to`. Returns the crossing's number. */
 static unsigned draw_crossing(uint64_t *seed, unsigned n, unsigned angles, unsigned to,
                               wh_contact_work *w, wh_contact_state *s) {
     bench_build(seed, n, angles);

@@ -1,6 +1,6 @@
 /* test_contact_dips.c: stops that a body passes and leaves within one step (contact_dip.h), for random bodies under
- * constant loads, whose motion is known. wh_contact_attempt_dipped() must report such stops. It must report a hit if
- * the stop was open or closing at the begin. wh_contact_dip() must find a pass between two open ends. */
+ * constant loads, whose motion is known. wh_contact_attempt_dipped() must report such stops, as a hit if the stop was
+ * open or closing at the begin. wh_contact_dip() must find the pass if both ends are open. */
 #include "draw.h"
 #include "hand.h"
 
@@ -16,7 +16,7 @@ typedef struct drawn_stop {
     wh_real rate[2]; /* rates at the begin and at the end */
 } drawn_stop;
 
-/* Stop k: the first bounds x0 from below, the second x1, the third x0 from above. */
+/* Returns stop k: stop 0 bounds x0 from below, stop 1 bounds x1, stop 2 bounds x0 from above. */
 static drawn_stop stop_of(unsigned k, const wh_real *at, const wh_real *accel, wh_real offset) {
     const unsigned i = k == 1 ? 1 : 0;
     const wh_real sign = k == 2 ? WH_R(-1.0) : WH_R(1.0);
@@ -39,7 +39,7 @@ TEST(contact_dips, what_dips_and_comes_back) {
     unsigned dips = 0;
     unsigned leaves = 0;
     unsigned passed = 0; /* stops that are passed and left again within the trial step */
-    unsigned missed = 0; /* stops passed by less than the tangents can show */
+    unsigned missed = 0; /* number of stops that are passed by less than the tangents can show */
     for (unsigned round = 0; round < 3000; round++) {
         wh_real input[1] = {WH_R(0.0)};
         wh_real offset[3];
@@ -96,7 +96,7 @@ TEST(contact_dips, what_dips_and_comes_back) {
             dips += hit;
             leaves += (leaving >> k & 1U) != 0 && closed && !hit;
         }
-        /* The path is a parabola, and open at both ends: its lowest point decides whether the stop is passed. */
+        /* The path is a parabola that is open at both ends: its lowest point decides whether the stop is passed. */
         for (unsigned k = 0; k < 3; k++) {
             const drawn_stop *s = &stop[k];
             const wh_real least =

@@ -12,15 +12,14 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
 #define CLOSE (WH_DOUBLE ? 1e-5 : 5e-3)
 
-/* --- random mechanisms -------------------------------------------------------------------------------------- */
-
-/* Draws one to three contacts under loads of size `heavy`: stops, of which one in `touched` touches at the start, a
- * hold, frictions, a crossing. */
+/* Draws one to three contacts under loads of size `heavy`: stops, a hold, frictions, a crossing. One of `touched` stops
+ * touches, or is passed, at the start. */
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     unsigned room = (unsigned)HAND_CONTACTS - crosses;
     const bool beside =
-        crosses && n == 2 && draw_one_in(seed, 2); /* it belongs to the other coordinate */
+        /* the crossing belongs to the other coordinate */
+        crosses && n == 2 && draw_one_in(seed, 2);
     wh_real row[2];
     hand_build(n, draw_broken(seed, 1, 4), n == 1 ? WH_R(0.0) : draw_broken(seed, -1, 1),
                draw_broken(seed, 2, 4));
@@ -76,8 +75,6 @@ static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     }
 }
 
-/* --- comparison with the reference -------------------------------------------------------------------------- */
-
 static bool near(double value, double wanted) {
     const double off = value - wanted;
     return off <= CLOSE && -off <= CLOSE;
@@ -91,15 +88,15 @@ static double rate_of(unsigned k) {
     return sum;
 }
 
-/* The impulse of contact k along its row, from the ledger. */
+/* Returns the impulse of contact k along its row, from the ledger. */
 static double impulse_of(unsigned k) {
     const wh_real *entry = hand_state.ledger + wh_ledger_of_contact(&hand_books, k) + 1;
     const unsigned i = hand_now.law[k].row[0] != WH_R(0.0) ? 0 : 1;
     return (double)(entry[i] / hand_now.law[k].row[i]);
 }
 
-/* Did the contact act? A stop that leaves may be found again because of round-off, with no impulse. A redundant contact
- * may have no impulse, either. */
+/* True if the contact acted. Round-off may find a stop that leaves again, without an impulse. A redundant contact may
+ * have no impulse, either. */
 static bool counts(const exact *e, const wh_event *event) {
     return hand_now.contact[event->contact].kind != WH_STOP || event->mode != WH_FREE ||
            !(e->shared || near((double)event->impulse, 0.0));
@@ -155,7 +152,7 @@ typedef struct tally {
     uint64_t events;
 } tally;
 
-/* A run, until a decision depends on round-off. */
+/* Compares a run until a decision depends on round-off. */
 static void compare(tally *t) {
     exact e;
     bool good = true;
@@ -197,8 +194,6 @@ TEST(contact_exact, crossings_among_them) { run(13, 3, true, 1); }
 TEST(contact_exact, what_is_pressed_hard) { run(14, 2, false, 128); }
 TEST(contact_exact, what_nothing_presses) { run(15, 2, false, 0); }
 TEST(contact_exact, crossings_beside_what_touches) { run(16, 1, true, 1); }
-
-/* --- corrections ---------------------------------------------------------------------------------------------- */
 
 enum { CORRECTED = __STDC_HOSTED__ ? 500 : 25, AFTER = 40 };
 
@@ -268,7 +263,7 @@ static wh_real gap_of(unsigned k) {
            hand_now.law[k].row[1] * hand_state.real[hand_now.n - 1] - hand_now.law[k].offset;
 }
 
-/* Number of stops in mode `rest`, plus those passed by more than `by`. */
+/* Counts the resting stops if `rest`, otherwise the stops passed by more than `by`. */
 static unsigned stops_that(bool rest, wh_real by) {
     unsigned count = 0;
     for (unsigned k = 0; k < hand_now.system.forced; k++) {

@@ -1,5 +1,5 @@
-/* test_contact_flat.c: the state in which holds lose rank (core/contact/contact_rank.h). test_contact_rank.c tests
- * the rows. */
+/* test_contact_flat.c: finds the state in which holds lose rank (core/contact/contact_rank.h). test_contact_rank.c
+ * tests the rows themselves. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -26,15 +26,15 @@ static bool holds(const wh_contact_work *w, unsigned k) {
     return bench_now.contact[k].kind == WH_HOLD && w->mode[k] == WH_ACTIVE;
 }
 
-/* The rows change with the position of the first coordinate. A step is tested at its end and at the state reached by
- * the rates alone. The test reports the first state in which rank is lost. A refused step is tested only at the latter.
- * Nothing is tested unless a curved hold can slip. */
+/* The rows change with the position of the first coordinate. A step is tested at its end, and at the state that the
+ * rates alone would reach; a refused step only at the latter. The core reports the first state in which rank is lost.
+ * If no curved hold can slip, nothing is tested. */
 TEST(contact_flat, a_say_is_lost_at_either_place) {
     uint64_t seed = 242;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
         wh_contact_work w;
-        wh_contact_state place[3]; /* from, the state reached by the rates, to */
+        wh_contact_state place[3]; /* from, the state that the rates reach, to */
         wh_contact_rows rows[3];
         bool any = false;
         draw(&seed, 0, &w);
@@ -69,7 +69,7 @@ TEST(contact_flat, a_say_is_lost_at_either_place) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 64 && seen[1] > ROUNDS / 64 && seen[2] > ROUNDS / 64);
 }
 
-/* The state reached by the rates alone: angles and positions move by rate times time. */
+/* The state that the rates alone reach: angles and positions move by rate times time. */
 TEST(contact_flat, rates_lead_ahead) {
     uint64_t seed = 243;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

@@ -4,7 +4,7 @@
 #include "tests/suites.h"
 
 #define STEP_S WH_R(0.001)
-/* the distance that a body falls in a step */
+/* Distance that a body falls in a step. */
 #define REACH_M (WH_R(0.5) * HAND_G * STEP_S * STEP_S)
 
 /* A ball of 1 kg at rest on a stop that the input moves. */
@@ -55,8 +55,8 @@ TEST(contact_follow, a_stop_that_drops_away_leaves_the_ball) {
     }
 }
 
-/* A stop that no input moves (direction 0) stays where it is. Of two bodies on two stops only the one on the moved stop
- * follows. */
+/* A stop that no input moves (direction 0) stays where it is. Two bodies rest on two stops: only the body on the moved
+ * stop follows. */
 TEST(contact_follow, others_stay_where_they_are) {
     for (unsigned moved = 0; moved < 2; moved++) {
         hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(2.0));

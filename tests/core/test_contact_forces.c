@@ -11,8 +11,8 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     bench_work(seed, some, w);
 }
 
-/* A sliding contact pushes against its motion; the others keep J q'' + J' q' at zero. Writes the targets and returns the
- * number of members. */
+/* Writes the members' targets and returns their number. A sliding contact pushes against its motion; the others keep J
+ * q'' + J' q' at zero. */
 static unsigned draw_wanted(const wh_contact_work *w, wh_real *accel, uint8_t *member,
                             wh_real *wanted, wh_real *force) {
     unsigned count = 0;
@@ -36,7 +36,7 @@ static unsigned draw_wanted(const wh_contact_work *w, wh_real *accel, uint8_t *m
     return count;
 }
 
-/* Do the redundant contacts reach their targets by the forces of the others? */
+/* True if the redundant contacts reach their targets by the forces of the others alone. */
 static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, const wh_real *wanted,
                    wh_real *lambda) {
     bool good = true;
@@ -93,7 +93,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             continue;
         }
         for (unsigned i = 0; i < count; i++) {
-            /* sizes of the terms: of the path's curvature alone, and of all terms */
+            /* The sizes of the terms: first of the path's curvature alone, then of all terms. */
             bend[i] = -bench_now.bias[member[i]];
         }
         contradicts = !agrees(member, count, repeats, bend, lambda);
@@ -103,7 +103,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             exceeds = exceeds || wh_contact_exceeds(of, &w, member[i], lambda[i]);
             open = open || (stop && (repeats >> i & 1U) == 0 && bench_near(lambda[i], WH_R(0.0)));
         }
-        if (open) { /* the force is zero up to round-off, so it may or may not exceed its limit */
+        if (open) { /* The force is zero within round-off, so it may or may not exceed its limit. */
             continue;
         }
         wh_contact_accel(&model, at.phase, at.linear, at.rate, NULL, accel);
@@ -117,7 +117,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             const unsigned k = member[i];
             wh_real force_of = lambda[i];
             if ((giving >> k & 1U) != 0) {
-                /* the excess of the force that it reports: at least a thousandth of the limit */
+                /* The contact reports a force beyond its limit: the excess is at least a thousandth of the limit. */
                 force_of -= left[i] / bench_delassus(k, k);
                 if (!wh_contact_exceeds(of, &w, k, force_of)) {
                     force_of +=
@@ -126,7 +126,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             }
             TEST_ASSERT_TRUE(bench_near(w.force[k], force_of));
         }
-        if (!contradicts) { /* the bits are those without sharing */
+        if (!contradicts) { /* the bits must be those without sharing */
             (void)wh_delassus_solve(of, &w, member, count, NULL, w.wanted, plain);
             for (unsigned i = 0; i < count; i++) {
                 wh_contact_apply(of, &w, member[i], plain[i], unshared);
@@ -152,7 +152,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
     TEST_ASSERT_TRUE(seen[0][1] > ROUNDS / 32 && seen[1][1] > ROUNDS / 32);
 }
 
-/* A coordinate that is pinned and held has zero acceleration, unless its unconstrained acceleration is NaN. */
+/* If a coordinate is pinned and held, its acceleration is zero, unless its unconstrained acceleration is NaN. */
 TEST(contact_forces, no_number_stays_none_where_it_is_pinned) {
     uint64_t seed = 223;
     for (unsigned round = 0; round < ROUNDS / 8; round++) {

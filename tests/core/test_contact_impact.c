@@ -1,12 +1,13 @@
-/* test_contact_impact.c: the conditions of an impact, function by function (core/contact/contact_impact.h): is a stop
- * pressed, at rest, touching, hit in the same moment? The numbers are just on either side of each limit. */
+/* test_contact_impact.c: the conditions of an impact, function by function (core/contact/contact_impact.h): a stop
+ * is pressed, is at rest, touches, or is hit in the same moment. The drawn numbers are just on either side of each
+ * limit. */
 #include "bench.h"
 
 #include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* A number just below 1 (*within) or just above it, at random. */
+/* Draws a number just below 1 (*within is then true) or just above 1. */
 static wh_real beside_one(uint64_t *seed, bool *within) {
     *within = draw_one_in(seed, 2);
     return *within ? WH_R(0.9375) : WH_R(1.0625);
@@ -21,8 +22,6 @@ static wh_real terms_of(unsigned k, const wh_real *x) {
 }
 
 static bool is_stop(unsigned k) { return bench_now.contact[k].kind == WH_STOP; }
-
-/* --- one stop ------------------------------------------------------------------------------------------------ */
 
 /* An acceleration onto the stop within the round-off of its terms counts as zero. If the stop is the only contact, any
  * acceleration counts. */
@@ -92,9 +91,7 @@ TEST(contact_impact, who_rests) {
     TEST_ASSERT_TRUE(resting > ROUNDS / 4 && resting < ROUNDS / 4 * 3);
 }
 
-/* --- several stops ------------------------------------------------------------------------------------------- */
-
-/* The stops that merely touch: at rest, with a restitution, and with a force that is zero relative to the accelerations
+/* Stops that merely touch: they are at rest, have a restitution, and their force is zero relative to the accelerations
  * and the other forces. */
 TEST(contact_impact, who_merely_touches) {
     uint64_t seed = 303;
@@ -128,7 +125,7 @@ TEST(contact_impact, who_merely_touches) {
     TEST_ASSERT_TRUE(loose > ROUNDS / 32);
 }
 
-/* The stops hit in the same moment: free and closing, with a gap smaller than the location error. */
+/* Stops that are hit in the same moment: they are free and close, and the gap is smaller than the error of location. */
 TEST(contact_impact, who_is_hit_in_the_same_moment) {
     uint64_t seed = 304;
     unsigned tied = 0;
@@ -143,7 +140,7 @@ TEST(contact_impact, who_is_hit_in_the_same_moment) {
         wh_real signal[2 * BENCH_CONTACTS];
         bench_work(&seed, true, &w);
         for (unsigned i = 0; i < 2 * BENCH_CONTACTS; i++) {
-            signal[i] = draw_whole(&seed, 1, 4); /* open and opening */
+            signal[i] = draw_whole(&seed, 1, 4); /* the stop is open and opens further */
         }
         const wh_real h = draw_whole(&seed, 0, 4);
         const wh_real *rate = wh_contact_rates(&bench_now.system, &s);
@@ -165,8 +162,8 @@ TEST(contact_impact, who_is_hit_in_the_same_moment) {
     TEST_ASSERT_TRUE(tied > ROUNDS / 32);
 }
 
-/* The stops that an impact is passed on to: free and touching. The impact makes them close, or close more than twice as
- * fast. */
+/* Stops that an impact is passed on to: they are free and touch. The impact makes them close, or close more than twice
+ * as fast. */
 TEST(contact_impact, to_whom_an_impact_is_passed_on) {
     uint64_t seed = 305;
     unsigned passed = 0;
@@ -199,8 +196,8 @@ TEST(contact_impact, to_whom_an_impact_is_passed_on) {
     TEST_ASSERT_TRUE(passed > ROUNDS / 64);
 }
 
-/* The stops that take part in an impact although they are not hit: free, without restitution, touching, and at rest
- * relative to the rate that the hit causes. */
+/* Stops that take part in an impact although they are not hit: they are free, have no restitution, touch, and are at
+ * rest relative to the rate that the hit causes. */
 TEST(contact_impact, who_is_beside_an_impact) {
     uint64_t seed = 306;
     unsigned beside = 0;
@@ -231,7 +228,7 @@ TEST(contact_impact, who_is_beside_an_impact) {
         signal[2 * l] = passed_on * (h * WH_BRACKET) * beside_one(&seed, &touched);
         const wh_real share = beside_one(&seed, &still);
         bench_vector(&seed, rate);
-        for (unsigned i = 0; i < n; i++) { /* gives contact l the rate `share` times the limit */
+        for (unsigned i = 0; i < n; i++) { /* gives contact l a rate of `share` times the limit */
             const wh_real size = bench_delassus(l, l);
             rate[i] = bench_way(l, i) / size * (WH_CONTACT_STILL * passed_on * share);
         }
@@ -265,8 +262,6 @@ TEST(contact_impact, a_restitution) {
     }
 }
 
-/* --- after too many events ------------------------------------------------------------------------------------ */
-
 /* Newton's method projects a body onto a curved surface in a limited number of steps. After the last evaluation the
  * body does not move. */
 TEST(contact_impact, a_squeeze_ends) {
@@ -281,7 +276,7 @@ TEST(contact_impact, a_squeeze_ends) {
         bench_state(&seed, &s);
         s.real[0] = x;
         bench_now.row[0][0] = WH_R(0.0);
-        /* the gap is h - x^2/2, whose root is no real number of the build */
+        /* The gap is h - x^2/2. No real number of the build is its root. */
         bench_now.signal[0] = h;
         bench_work(&seed, false, &w);
         w.mode[0] = WH_FREE;

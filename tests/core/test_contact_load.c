@@ -1,4 +1,5 @@
-/* test_contact_load.c: the decisions of core/contact/contact_lcp.h beside round-off, compared with explicit sums. */
+/* test_contact_load.c: decisions of core/contact/contact_lcp.h next to the limit of round-off, compared with explicit
+ * sums. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -11,8 +12,8 @@ static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
     }
 }
 
-/* The magnitudes of the terms of a contact's acceleration: its bias, and each coordinate's part of the accelerations
- * and of every force. */
+/* Returns the sum of the magnitudes of the terms of a contact's acceleration: its bias, and each coordinate's part of
+ * the accelerations and of every force. */
 static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *accel) {
     wh_real size = WH_ABS(bench_now.bias[k]);
     for (unsigned c = 0; c < bench_now.system.coordinates; c++) {
@@ -24,7 +25,7 @@ static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *acc
     return size;
 }
 
-/* Adds the largest effect of another contact, along any chain of contacts without repetition. */
+/* Adds the largest effect that another contact has along any chain of contacts without repetition. */
 static wh_real size_of(const wh_contact_work *w, const uint8_t *member, unsigned count, unsigned i,
                        unsigned passed, const wh_real *accel) {
     wh_real most = terms_of(w, member[i], accel);
@@ -59,7 +60,7 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
         for (unsigned i = 0; i < count; i++) {
             w.rough[member[i]] = BENCH_SENTINEL;
         }
-        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* other entries were not written */
+        for (unsigned k = 0; k < BENCH_CONTACTS; k++) { /* other entries must not be written */
             TEST_ASSERT_TRUE(w.rough[k] == BENCH_SENTINEL);
         }
     }
@@ -68,7 +69,7 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
     TEST_ASSERT_TRUE(wh_contact_rounding(1, -2, 4) == share * 7);
 }
 
-/* Reference: the sign of the push that is missing, from the accelerations or from the curvature alone; 0: none. */
+/* Reference: returns the sign of the missing push, from the accelerations or from the curvature alone; 0: none. */
 static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, wh_real bent,
                      wh_real bends_by) {
     const wh_real limit = WH_CONTACT_ROUNDING * (WH_ABS(size) + WH_ABS(made));
@@ -83,7 +84,7 @@ static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, 
     return 0;
 }
 
-/* wh_contact_contradicts(): each term, with the others zero, is at its threshold, below it and above it. */
+/* wh_contact_contradicts(): each term in turn is at its threshold, below it and above it; the other terms are zero. */
 TEST(contact_load, what_contradicts_is_told_from_rounding) {
     uint64_t seed = 104;
     unsigned seen[3] = {0};
@@ -106,7 +107,8 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
         const wh_real big = scale[draw_bits(&seed) % (rates ? 2U : 3U)];
         const wh_real small = draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(0.0);
         const wh_real more =
-            big == scale[2] ? WH_R(0.53) : WH_R(0.0); /* inexact curvature: avoid its threshold */
+            /* an inexact curvature shall not be near its threshold */
+            big == scale[2] ? WH_R(0.53) : WH_R(0.0);
         draw_places(&seed, count, at);
         bench_vector(&seed, way);
         for (unsigned i = 0; i < count; i++) {
@@ -115,7 +117,8 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
             w.rough[k] = (draw_whole(&seed, 0, 4) + more) * big;
             impulse[i] = draw_whole(&seed, -4, 4) * (rates ? big : WH_R(1.0));
             wanted[i] = bench_along(k, way) + draw_whole(&seed, -8, 8);
-            if (rates && draw_one_in(&seed, 2)) { /* near the limit of round-off, on either side */
+            /* just within the limit of round-off, or just beyond */
+            if (rates && draw_one_in(&seed, 2)) {
                 const wh_real made = bench_along(k, way);
                 const wh_real part = draw_one_in(&seed, 2) ? WH_R(1.75) : WH_R(2.25);
                 wanted[i] = made + part * WH_CONTACT_ROUNDING * made;
@@ -124,7 +127,7 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
         }
         bench_now.system.forces(NULL, NULL, NULL, NULL, NULL, w.law);
         const unsigned repeats = bench_repeats(member, count, at);
-        /* with curvature, only redundant contacts are tested */
+        /* With curvature, only redundant contacts are tested. */
         const unsigned any = small == WH_R(0.0) || rates ? (1U << count) - 1U : repeats;
         const unsigned asked = any & (unsigned)draw_bits(&seed);
         out = repeats;

@@ -1,12 +1,12 @@
-/* test_contact_margins.c: the margins of the search in core/contact/contact_locate.h, its path, and which contact is
- * reported for NaN. */
+/* test_contact_margins.c: the margins of the search in core/contact/contact_locate.h, the search's path, and the
+ * contact that is reported for NaN. */
 #include "bench.h"
 
 #include "tests/suites.h"
 
 enum { ROUNDS = __STDC_HOSTED__ ? 3000 : 60 };
 
-/* Draws contacts of some kinds in some modes, and a crossing or two if there is room. */
+/* Draws contacts of some kinds in some modes, and one or two crossings if there is room. */
 static void draw(uint64_t *seed, wh_contact_work *w) {
     bench_draw(seed, true);
     while (bench_now.system.contacts < BENCH_FORCED && draw_one_in(seed, 2)) {
@@ -26,7 +26,7 @@ static void draw(uint64_t *seed, wh_contact_work *w) {
     w->inside = (unsigned)draw_bits(seed) % 32U;
 }
 
-/* Bound on the round-off of the acceleration along k that the other contacts' forces cause. */
+/* Returns a bound on the round-off of the acceleration along k that the other contacts' forces cause. */
 static wh_real others_of(const wh_contact_work *w, unsigned k) {
     wh_real others = WH_R(0.0);
     for (unsigned l = 0; l < bench_now.system.forced; l++) {
@@ -78,8 +78,8 @@ static wh_real margin_of(const wh_contact_work *w, unsigned k) {
     return BENCH_SENTINEL;
 }
 
-/* The signals that a step depends on: both signals of a stop or hold, one of a crossing or friction, the limit of a sticking
- * friction. */
+/* Returns the sum of the signals that a step depends on: both signals of a stop or hold, one of a crossing or friction,
+ * the limit of a sticking friction. */
 static wh_real sum_of(const wh_contact_work *w) {
     wh_real all = WH_R(0.0);
     for (unsigned k = 0; k < bench_now.system.contacts; k++) {
@@ -141,7 +141,7 @@ static wh_real draw_none(uint64_t *seed) {
 
 static bool is_number(wh_real value) { return value - value == WH_R(0.0); }
 
-/* Is the law finite that a step depends on in the contact's current mode? A stop has none. */
+/* True if the law is finite that a step depends on in the contact's present mode. A stop has no such law. */
 static bool law_is_number(const wh_contact_work *w, unsigned k) {
     const uint8_t kind = bench_now.contact[k].kind;
     const bool asked = kind == WH_FRICTION || (kind == WH_HOLD && bench_keeps(w, k));
@@ -149,7 +149,7 @@ static bool law_is_number(const wh_contact_work *w, unsigned k) {
     return !asked || is_number(second ? bench_now.second[k] : bench_now.first[k]);
 }
 
-/* If several contacts have NaN, signals are checked first, then laws (if any contact acts), then margins. The first NaN
+/* If several contacts have NaN, signals are checked first, then laws (if a contact acts), then margins. The first NaN
  * that is found is reported, and an earlier report stays. */
 TEST(contact_margins, the_first_that_is_no_number_is_told) {
     uint64_t seed = 183;

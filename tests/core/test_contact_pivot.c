@@ -1,4 +1,4 @@
-/* test_contact_pivot.c: the pivoting of core/contact/contact_lcp.h, its parts and the whole. The reference tries every
+/* test_contact_pivot.c: the pivoting of core/contact/contact_lcp.h, in parts and as a whole. The reference tries every
  * combination of limits. */
 #include "bench.h"
 
@@ -15,20 +15,19 @@ static wh_real high_of(unsigned k) {
     return bench_now.contact[k].kind == WH_FRICTION ? bench_now.first[k] : WH_LIMITLESS;
 }
 
-/* Bound on the round-off of a residual, and on that of forces relative to their terms. */
+/* Returns a bound on the round-off of a residual, or of forces relative to their terms. */
 static wh_real noise_of(const wh_contact_work *w, unsigned k, bool forces, wh_real wanted,
                         wh_real made, wh_real lambda) {
     const wh_real sum = WH_ABS(wanted) + WH_ABS(made) + WH_ABS(lambda * bench_delassus(k, k));
     return WH_CONTACT_ROUNDING * sum + (forces ? WH_CONTACT_QUIET * w->rough[k] : WH_R(0.0));
 }
 
-/* A bound on round-off: 0, or as large as the drawn numbers. */
+/* Draws a bound on round-off: 0, or as large as the drawn numbers. */
 static wh_real draw_rough(uint64_t *seed) {
     return draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, 1, 8) / WH_CONTACT_QUIET;
 }
 
-/* A single contact whose wanted force is exactly its limit, less, more, more by round-off only, or just more than
- * that. */
+/* A single contact. Its wanted force is its limit, less, more, more by round-off only, or just more than that. */
 TEST(contact_pivot, one_contact_takes_what_it_can) {
     uint64_t seed = 121;
     unsigned gave = 0;
@@ -69,7 +68,7 @@ TEST(contact_pivot, one_contact_takes_what_it_can) {
     TEST_ASSERT_TRUE(gave > ROUNDS / 8);
 }
 
-/* Of the contacts beyond a limit, and those at a limit that should leave it, the one with the lowest number is chosen,
+/* Some contacts are beyond a limit, others at a limit that they should leave. The one with the lowest number is chosen,
  * whatever its index. */
 TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
     uint64_t seed = 123;
@@ -102,7 +101,7 @@ TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
         const unsigned said =
             wh_contact_pivot_wrong(&bench_now.system, &w, &p, count, forces, way, &to);
         for (unsigned k = 0; k < bench_now.system.forced; k++) {
-            /* in the order of the contacts' numbers */
+            /* sorted by the contacts' numbers */
             for (unsigned i = 0; i < count; i++) {
                 if (p.member[i] != k) {
                     continue;
@@ -136,8 +135,8 @@ TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
 
 #define SLACK (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-3))
 
-/* Digit k of `number` in base three: contact k is at its low limit, free, or at its high limit. Does this combination
- * solve the problem? */
+/* Digit k of `number` in base three says whether contact k is at its low limit, free, or at its high limit. Returns
+ * true if this combination solves the problem. */
 static bool solves(unsigned number, const uint8_t *member, unsigned count, const wh_real *wanted,
                    wh_real *lambda, wh_real *left) {
     int8_t at[BENCH_CONTACTS];
@@ -174,7 +173,7 @@ static bool solves(unsigned number, const uint8_t *member, unsigned count, const
     return true;
 }
 
-/* The accelerations equal those of every combination that solves the problem, and so do the forces if no rows are
+/* The accelerations equal those of every combination that solves the problem. So do the forces, if no rows are
  * dependent. */
 TEST(contact_pivot, no_case_solves_it_otherwise) {
     uint64_t seed = 124;
@@ -220,8 +219,8 @@ TEST(contact_pivot, no_case_solves_it_otherwise) {
     TEST_ASSERT_TRUE(solved > ROUNDS / 2);
 }
 
-/* A problem that would cycle, because no residual counts as small here. It ends after 4 n + 1 rounds, including the
- * last round's release. */
+/* A problem that would cycle, because no residual counts as small here. The pivoting ends after 4 n + 1 rounds,
+ * including the last round's release. */
 TEST(contact_pivot, what_does_not_end_is_ended) {
     uint64_t seed = 125;
     for (unsigned count = 2; count <= BENCH_COORDS; count++) {
@@ -239,7 +238,8 @@ TEST(contact_pivot, what_does_not_end_is_ended) {
         bench_work(&seed, false, &w);
         for (unsigned i = 0; i < count; i++) {
             wanted[i] =
-                bench_delassus(i, 0) * 2 * bench_now.first[0]; /* the solution has only lambda[0] */
+                /* so that only lambda[0] is nonzero in the solution */
+                bench_delassus(i, 0) * 2 * bench_now.first[0];
             w.rough[i] = -BENCH_SENTINEL / WH_CONTACT_QUIET;
         }
         (void)wh_contact_lcp(&bench_now.system, &w, member, count, wanted, true, lambda, left);

@@ -1,5 +1,5 @@
-/* test_contact_places.c: the functions of core/contact/contact_project.h one by one, compared with dense solves in the
- * mass metric. */
+/* test_contact_places.c: each function of core/contact/contact_project.h, compared with dense solves in the mass
+ * metric. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -45,8 +45,8 @@ TEST(contact_places, a_coordinate_moves_and_no_other) {
     }
 }
 
-/* wh_contact_add_product(): the products need as many bits as a 64-bit integer has. A plain sum would lose the last
- * ones. */
+/* wh_contact_add_product() keeps all bits of a product: as many as a 64-bit integer has. A plain sum would lose the
+ * last bits. */
 TEST(contact_places, no_bit_of_a_product_is_lost) {
     uint64_t seed = 142;
     const uint64_t size = WH_DOUBLE ? 0x7fffffff : 0xfffff;
@@ -64,7 +64,7 @@ TEST(contact_places, no_bit_of_a_product_is_lost) {
     }
 }
 
-/* wh_contact_moved(): J times the motion of positions and angles, at any distance from zero. */
+/* wh_contact_moved() returns J times the motion of positions and angles, at any distance from zero. */
 TEST(contact_places, a_straight_way_is_summed_without_rounding) {
     uint64_t seed = 143;
     const uint64_t most = WH_DOUBLE ? 0x3fffffff : 0x7ffff;
@@ -82,7 +82,7 @@ TEST(contact_places, a_straight_way_is_summed_without_rounding) {
         const unsigned k = draw_one_of(&seed, 2U);
         const int64_t way = (int64_t)(draw_bits(&seed) & most);
         const wh_real factor = (wh_real)(draw_bits(&seed) & most);
-        int64_t sums[2] = {0, 0}; /* sums for angles and for positions */
+        int64_t sums[2] = {0, 0}; /* sums of the angles and of the positions */
         bench_state(&seed, &from);
         for (unsigned i = 0; far && i < n; i++) {
             bench_now.row[k][i] = factor;
@@ -178,7 +178,7 @@ TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
         const unsigned one = draw_one_of(&seed, of->forced);
         wh_contact_capture(of, &w, one);
         for (unsigned place = 0; place < BENCH_CONTACTS; place++) {
-            /* its index among the captured values */
+            /* index of the hold among the captured values */
             const wh_contact *c = &bench_now.contact[one];
             const bool its = slips(&w, one) && c->first_set == place;
             const wh_real kept = c->direction > 0 ? WH_R(0.0) : bench_now.first[one];
@@ -200,7 +200,7 @@ TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
 }
 
 /* wh_contact_is_far(): a stop counts as far passed if its error exceeds a share of the gap's terms. A term is an entry
- * of the row times the position of a coordinate, or times one radian for an angle. */
+ * of the row times the position of a coordinate, or, for an angle, times one radian. */
 TEST(contact_places, how_far_a_stop_is_passed) {
     uint64_t seed = 145;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -229,7 +229,7 @@ TEST(contact_places, how_far_a_stop_is_passed) {
     }
 }
 
-/* The end of a step is copied to the state completely, and nothing after it changes. Copied back, it is the same. */
+/* The end of a step is copied to the state completely, and nothing beyond it changes. Copied back, it is the same. */
 TEST(contact_places, a_step_is_written_down_and_read_back) {
     uint64_t seed = 146;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {

@@ -25,7 +25,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w, wh_ledger_work *
     }
 }
 
-/* The error of contact k's constraint, if it has one: a stop's gap, a curved hold's slip. */
+/* Returns the error of contact k's constraint: a stop's gap, or a curved hold's slip. Otherwise 0. */
 static wh_real off_of(const wh_contact_work *w, unsigned k) {
     const wh_contact *c = &bench_now.contact[k];
     const wh_real slipped = c->pin < 0 ? bench_now.first[k] - w->held[c->first_set] : WH_R(0.0);
@@ -42,7 +42,7 @@ static unsigned members_of(const wh_contact_work *w, unsigned but, uint8_t *memb
     return count;
 }
 
-/* x += M^-1 J^T lambda, where lambda solves the members' equations for `wanted`. A pinned contact gets nothing. */
+/* Does x += M^-1 J^T lambda. lambda solves the members' equations for `wanted`; a pinned contact gets nothing. */
 static void add_least(const uint8_t *member, unsigned count, const wh_real *wanted, wh_real *lambda,
                       wh_real *x) {
     bench_solve(member, count, bench_repeats(member, count, NULL), wanted, lambda);
@@ -53,8 +53,8 @@ static void add_least(const uint8_t *member, unsigned count, const wh_real *want
     }
 }
 
-/* A pinned contact moves its coordinate to the constraint if it is the first of this coordinate or still beyond the
- * constraint. */
+/* Moves the coordinate of each pinned contact to the constraint, if the contact is the first on this coordinate, or is
+ * still beyond the constraint. */
 static void go_back(const uint8_t *member, unsigned count, const wh_real *off, wh_real *way) {
     bool first[BENCH_COORDS];
     for (unsigned c = 0; c < BENCH_COORDS; c++) {
@@ -72,9 +72,9 @@ static void go_back(const uint8_t *member, unsigned count, const wh_real *off, w
     }
 }
 
-/* Pinned contacts move their coordinate directly. The other contacts are projected together by the smallest move in the
- * mass metric, while the pinned coordinates are fixed. A second projection is asked for if the error exceeds its share
- * of the motion. */
+/* Pinned contacts move their coordinate directly. Then the pinned coordinates stay, and the other contacts are
+ * projected together by the smallest move in the mass metric. A second projection is requested if the error exceeds its
+ * share of the motion. */
 TEST(contact_project, places_are_put_right_by_the_least_way) {
     uint64_t seed = 161;
     unsigned coarse = 0;
@@ -141,7 +141,7 @@ TEST(contact_project, places_are_put_right_by_the_least_way) {
         }
         TEST_ASSERT_TRUE(w.undefined == -1);
         for (unsigned e = 0; e < of->ledger->entries;
-             e++) { /* the energy is entered for the first contact with an error */
+             e++) { /* the first contact with an error gets the energy */
             const bool its = w.books != NULL && e == wh_ledger_of_contact(of->ledger, mover);
             const bool line = of->angles < n;
             TEST_ASSERT_TRUE(bench_near(books.step[e], its && line && mover < WH_CONTACTS_MAX
@@ -209,8 +209,8 @@ TEST(contact_project, a_place_that_is_no_number_is_told) {
     TEST_ASSERT_TRUE(told > ROUNDS / 8);
 }
 
-/* A stop and a friction act on two coupled bodies. One body is slightly or far beyond the stop; if far, the friction
- * does not hold its body. A corrected position is tested again, at most twice. */
+/* A stop and a friction act on two coupled bodies. One body is slightly or far beyond the stop. If it is far beyond,
+ * the friction does not hold its body. A corrected position is tested again, at most twice. */
 TEST(contact_project, what_slipped_is_put_back) {
     uint64_t seed = 164;
     unsigned far = 0;
@@ -258,7 +258,7 @@ TEST(contact_project, what_slipped_is_put_back) {
         const wh_real h = draw_one_in(&seed, 2) ? WH_R(0.0) : WH_R(1.0);
         const bool still = h * (WH_ABS(from.real[2]) + WH_ABS(from.real[3])) == WH_R(0.0);
         wh_contact_stabilise(&bench_now.system, &w, h, &input, &from, &s);
-        if (pinned) { /* a pinned contact cannot slip and is not tested */
+        if (pinned) { /* a pinned contact cannot slip, so it is not tested */
             TEST_ASSERT_TRUE(bench_now.looks == looks && s.real[0] == from.real[0]);
             continue;
         }
@@ -286,8 +286,8 @@ TEST(contact_project, what_slipped_is_put_back) {
     TEST_ASSERT_TRUE(far > ROUNDS / 40);
 }
 
-/* A body is projected onto a stop with a curved surface, and a second time if the distance was large, but never a third
- * time. */
+/* A body is projected onto a stop with a curved surface. If the distance was large, it is projected a second time, but
+ * never a third time. */
 TEST(contact_project, what_is_bent_is_put_back_twice) {
     uint64_t seed = 165;
     for (unsigned round = 0; round < ROUNDS; round++) {

@@ -74,7 +74,7 @@ static void draw(uint64_t *seed) {
     }
 }
 
-/* Mirrors the mechanism: every quantity with a sign changes it. */
+/* Mirrors the mechanism: every quantity with a sign gets the opposite sign. */
 static void mirror(void) {
     for (unsigned i = 0; i < 2; i++) {
         hand_now.load[i] = -hand_now.load[i];
@@ -102,7 +102,7 @@ static wh_real along(unsigned k, const wh_real *x) {
     return sum;
 }
 
-/* The energy given by contact k so far, or the impulse along its row. */
+/* Returns the energy that contact k has given so far; the next function returns the impulse along its row. */
 static wh_real energy_of(unsigned k) {
     return hand_state.ledger[wh_ledger_of_contact(&hand_books, k)];
 }
@@ -131,7 +131,7 @@ static bool friction_holds(unsigned k) {
     return way && energy_of(k) <= SLACK && WH_ABS(impulse_of(k)) <= most + SLACK;
 }
 
-/* `was`: its value at the capture. A crossing in this step may have changed it. */
+/* True if the hold keeps `was`, its value at the capture. A crossing in this step may have changed the value. */
 static bool hold_holds(unsigned k, wh_real was) {
     for (unsigned i = 0; i < hand_state.contacts->logged; i++) {
         if (hand_now.contact[hand_state.contacts->log[i].contact].kind == WH_WHEN) {
@@ -162,7 +162,7 @@ static bool all_hold(const wh_real *was) {
     return good;
 }
 
-/* Makes a run; false if an invariant fails. Invariants are not required of a step with too many events. */
+/* Makes a run. Returns false if an invariant fails. In a step with too many events invariants need not hold. */
 static bool run(wh_real *end, uint64_t *overruns) {
     wh_real was[HAND_CONTACTS] = {WH_R(0.0)};
     bool good = true;
@@ -230,7 +230,7 @@ TEST(contact_random, the_other_way_round_is_the_same) {
     TEST_ASSERT_EQUAL_UINT(0, wrong);
 }
 
-/* Mixes into a hash, after each step: the state, the ledger, and the reported events. */
+/* After each step, mixes the state, the ledger and the reported events into a hash. */
 static uint64_t trace(uint64_t *hashes) {
     hand_start(true);
     for (unsigned step = 0; step < STEPS; step++) {

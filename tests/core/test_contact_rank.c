@@ -9,7 +9,7 @@ enum { ROUNDS = __STDC_HOSTED__ ? 4000 : 200 };
 
 #define SLACK (WH_DOUBLE ? WH_R(1e-12) : WH_R(1e-4))
 
-/* Draws up to three holds with rows of whole numbers, and stops between them, which must be ignored. Returns the number
+/* Draws up to three holds with rows of whole numbers. Between them are stops, which must be ignored. Returns the number
  * of holds. */
 static unsigned draw(uint64_t *seed, wh_contact_work *w) {
     hand_build(2, draw_whole(seed, 2, 4), draw_whole(seed, -1, 1), draw_whole(seed, 2, 4));
@@ -33,7 +33,7 @@ static bool says(const wh_contact_work *w, unsigned k) {
     return hand_now.contact[k].kind == WH_HOLD && w->mode[k] == WH_ACTIVE;
 }
 
-/* a M^-1 b */
+/* Returns a M^-1 b. */
 static wh_real across(const wh_real *a, const wh_real *b) {
     wh_real sum = WH_R(0.0);
     for (unsigned i = 0; i < 2; i++) {
@@ -44,7 +44,7 @@ static wh_real across(const wh_real *a, const wh_real *b) {
     return sum;
 }
 
-/* Is row k a linear combination of earlier independent rows? Computed in whole numbers. */
+/* True if row k is a linear combination of earlier independent rows. Computed in whole numbers. */
 static bool repeats(const wh_contact_work *w, unsigned k) {
     const wh_real *row = hand_now.law[k].row;
     const wh_real *one = NULL;
@@ -100,9 +100,8 @@ TEST(contact_rank, rows_are_made_independent) {
     }
 }
 
-/* The rows of the holds change from one state to the next. Without a change, or with a small one, no hold loses rank. A
- * hold whose row becomes dependent is reported, and so is the first hold whose row reverses. A redundant hold is never
- * reported. */
+/* The rows of the holds change from one state to the next. Without a change, or with a small one, no hold loses rank.
+ * The first hold whose row becomes dependent or reverses is reported. A redundant hold is never reported. */
 TEST(contact_rank, the_first_that_is_lost_is_told) {
     uint64_t seed = 37;
     unsigned lost = 0;
@@ -130,14 +129,14 @@ TEST(contact_rank, the_first_that_is_lost_is_told) {
     TEST_ASSERT_TRUE(lost > ROUNDS / 4);
 }
 
-/* A single hold loses rank only if its row almost reverses. The second of two holds loses rank when its row has turned
- * by a right angle, and nothing of it remains. */
+/* A single hold loses rank only if its row almost reverses. The second of two holds loses rank if its row has turned by
+ * a right angle or more. */
 TEST(contact_rank, how_far_a_row_may_turn) {
     static const struct {
         unsigned count;
         wh_real row[2][2];
         wh_real turned[2];
-        unsigned lost; /* the hold that lost rank, from 0; count: none */
+        unsigned lost; /* index of the hold that lost rank; `count`: none */
     } rows[] = {
         {1, {{1, 0}}, {WH_R(0.1), 1}, 1},           {1, {{1, 0}}, {-1, 1}, 1},
         {1, {{1, 0}}, {-1, WH_R(0.3)}, 0},          {1, {{1, 0}}, {-1, WH_R(0.4)}, 1},

@@ -1,5 +1,5 @@
-/* test_contact_search.c: the search of core/contact/contact_locate.h: bodies on parabolas have events of every kind at
- * times known in closed form. Tests that the earliest is found, and the number of evaluations. */
+/* test_contact_search.c: the search of core/contact/contact_locate.h. Bodies on parabolas have events of every kind at
+ * times known in closed form. The search must find the earliest event, within a number of evaluations. */
 #include "bench.h"
 
 #include "tests/suites.h"
@@ -8,12 +8,12 @@ enum { ROUNDS = __STDC_HOSTED__ ? 1500 : 30 };
 
 #define FINE (WH_DOUBLE ? 1e-12 : 2e-5)
 
-/* A random number between 0 and 1 in steps of 1/1024, without the ends. */
+/* Draws a number between 0 and 1 in steps of 1/1024, without the ends. */
 static wh_real share_of(uint64_t *seed) {
     return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
 }
 
-/* Motion of coordinate i in one second, v t + a t^2/2; its rate does not change its sign. */
+/* Returns the motion of coordinate i after the time t: v t + a t^2/2. Its rate does not change sign. */
 static wh_real place_at(const wh_contact_state *from, unsigned i, wh_real t) {
     return t * (from->real[bench_now.system.coordinates + i] + bench_now.free[i] / 2 * t);
 }
@@ -44,7 +44,7 @@ static unsigned add_along(uint64_t *seed, wh_contact_kind kind, unsigned i, wh_r
     return k;
 }
 
-/* Adds no, one or two stops far from any event. Returns their number. */
+/* Adds no, one or two stops that are far from any event. Returns their number. */
 static unsigned add_far(uint64_t *seed) {
     if (draw_one_in(seed, 2)) {
         return 0;
@@ -75,7 +75,7 @@ static wh_real locate(wh_contact_work *w, wh_contact_state *from, wh_real h, uns
     return wh_contact_locate(&bench_now.system, w, from, &to, h, NULL, &m, events);
 }
 
-/* Statistics of searches: their number, those accurate to round-off, and their evaluations. */
+/* Statistics of searches: their number, the number that is accurate to round-off, and the evaluations. */
 typedef struct tally {
     unsigned searches;
     unsigned fine;
@@ -83,7 +83,7 @@ typedef struct tally {
     unsigned most;
 } tally;
 
-/* Adds a search with this error, which must be within its bound, to the statistics. */
+/* Adds a search to the statistics. Its error `off` must be within its bound. */
 static void enter(wh_real off, tally *sum) {
     sum->searches++;
     sum->fine += (double)WH_ABS(off) <= FINE;
@@ -92,8 +92,8 @@ static void enter(wh_real off, tally *sum) {
     TEST_ASSERT_TRUE(WH_ABS(off) <= WH_BRACKET);
 }
 
-/* Checks the statistics: the mean is at most this many hundredths of evaluations, the maximum `most`. Almost all are
- * accurate. */
+/* Checks the statistics: the mean number of evaluations (in hundredths), and the maximum `most`. Almost all searches
+ * are accurate. */
 static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, unsigned most) {
     const unsigned mean = 100U * sum->looks / sum->searches;
     const unsigned bound = WH_DOUBLE ? hundredths : hundredths_f;
@@ -103,9 +103,9 @@ static void told(const tally *sum, unsigned hundredths, unsigned hundredths_f, u
     TEST_ASSERT_TRUE(sum->fine * 16U >= sum->searches * (__STDC_HOSTED__ ? 13U : 8U));
 }
 
-/* Several stops, hold conditions and crossings, each with a random event time; after the end of the step there is no
- * event. Some values are zero at the begin and have an event at once. The search returns a time just after the first
- * event, with all events of that moment. */
+/* Several stops, hold conditions and crossings have random event times; some are zero at the begin and have an event at
+ * once. The search returns a time just after the first event, and all events of that moment. After the end of the step
+ * there is no event. */
 TEST(contact_search, the_first_of_several_is_found) {
     uint64_t seed = 201;
     tally sum = {0, 0, 0, 0};
@@ -155,8 +155,8 @@ TEST(contact_search, the_first_of_several_is_found) {
     told(&sum, 870, 645, 14);
 }
 
-/* A friction that slides against a force comes to rest at the time v/a. It begins with a nonzero rate, or with rate
- * zero in a mode that ends at once. */
+/* A friction that slides against a force comes to rest at the time v/a. It begins with a nonzero rate; or with rate
+ * zero, in a mode that ends at once. */
 TEST(contact_search, sliding_ends_where_the_rate_does) {
     uint64_t seed = 203;
     tally sum = {0, 0, 0, 0};
@@ -164,7 +164,7 @@ TEST(contact_search, sliding_ends_where_the_rate_does) {
         wh_contact_work w;
         wh_contact_state from = {.real = {WH_R(0.0)}};
         draw_ways(&seed, 2, &from);
-        const unsigned behind = add_far(&seed); /* the friction's number, after the stops' */
+        const unsigned behind = add_far(&seed); /* number of the friction, after the stops */
         (void)bench_add(&seed, WH_FRICTION, 1);
         bench_now.signal[2 * behind] = WH_R(0.0);
         bench_now.moves = true;
@@ -192,8 +192,8 @@ TEST(contact_search, sliding_ends_where_the_rate_does) {
     told(&sum, 1025, 740, 25);
 }
 
-/* A contact slides from rest, and a force reverses it. Its rate is zero at the begin, which is no event, and again at
- * the end. */
+/* A contact slides from rest, and a force reverses it. Its rate is zero at the begin, which is no event, and zero again
+ * at the end, which is one. */
 TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
     uint64_t seed = 204;
     tally sum = {0, 0, 0, 0};
@@ -203,7 +203,7 @@ TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
         wh_contact_state to;
         wh_margins m;
         draw_ways(&seed, 2, &from);
-        const unsigned behind = add_far(&seed); /* the friction's number, after the stops' */
+        const unsigned behind = add_far(&seed); /* number of the friction, after the stops */
         (void)bench_add(&seed, WH_FRICTION, 1);
         bench_now.signal[2 * behind] = WH_R(0.0);
         /* a = a0 (1 - 2 t/when), a function of the first coordinate, which moves at a constant rate: v = a0 t (1 -
@@ -233,8 +233,8 @@ TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
     told(&sum, 1340, 1085, 15);
 }
 
-/* A sticking friction slides when its load reaches the limit, and a stop opens when its force reaches zero. A load that
- * is at its limit at the begin exceeds it then. */
+/* A sticking friction slides when its load reaches the limit, and a stop opens when its force reaches zero. If a load
+ * is at its limit at the begin, it exceeds the limit at once. */
 TEST(contact_search, a_load_meets_its_limit) {
     uint64_t seed = 205;
     tally sum = {0, 0, 0, 0};
@@ -249,8 +249,8 @@ TEST(contact_search, a_load_meets_its_limit) {
         const wh_real when = draw_one_in(&seed, 4) ? WH_R(0.0) : share_of(&seed);
         const wh_real row = bench_now.row[0][1];
         const wh_real up = stop || draw_one_in(&seed, 2) ? WH_R(1.0) : WH_R(-1.0);
-        /* its force is -free/row: for a stop it falls to zero, for a friction it rises to its limit, in either
-         * direction */
+        /* The contact's force is -free/row. For a stop it falls to zero. For a friction it rises to its limit, in
+         * either direction. */
         const wh_real limit = stop ? WH_R(0.0) : up * bench_now.first[0];
         from.real[3] = WH_R(0.0);
         bench_now.bias[0] = WH_R(0.0);

@@ -1,7 +1,7 @@
 /* test_contact_squeeze.c: steps with too many events. Bodies beyond stops are moved back by the smallest move in the
- * mass metric, and stops that close are hit without a bounce. Random mechanisms are compared with exact.h. */
+ * mass metric. Stops that close are hit without a bounce. exact.h is the reference of random mechanisms. */
 
-/* Without the rows of longer methods: an ATmega2560 has no memory for them. */
+/* The rows of longer methods are left out: an ATmega2560 has no memory for them. */
 #define WH_STAGES 4
 
 #include "draw.h"
@@ -13,7 +13,7 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 4000 : 100 };
 
 #define CLOSE (WH_DOUBLE ? 1e-9 : 2e-4)
 
-/* Draws stops; the last contact may be a hold or a friction. Positions are random; resting and held contacts have zero
+/* Draws stops; the last contact may be a hold or a friction. Positions are random. Resting and held contacts have zero
  * rate. */
 static void draw(uint64_t *seed, wh_contact_work *w, wh_contact_state *s, exact *e) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
@@ -104,7 +104,7 @@ TEST(contact_squeeze, the_least_that_lets_nobody_pass) {
     TEST_ASSERT_TRUE(compared >= MECHANISMS / 2U);
 }
 
-/* Two stops are passed. The projection onto the first moves a body away from the second. The second stop is hit
+/* A body is beyond two stops. The projection onto the first moves it away from the second. The second stop is hit
  * nevertheless, because the body slides along the first. */
 TEST(contact_squeeze, who_is_met_without_a_push_is_hit) {
     for (int slope = -3; slope <= 3; slope++) {

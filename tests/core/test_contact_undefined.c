@@ -1,5 +1,5 @@
-/* test_contact_undefined.c: each expression of each contact set to NaN or infinity. If the step depends on it, the step is
- * refused with the contact's number and the last good state. Otherwise it is no error. */
+/* test_contact_undefined.c: sets each expression of each contact to NaN or infinity. If a step depends on the
+ * expression, it is refused with the contact's number and the last good state. Otherwise this is no error. */
 #include "hand.h"
 
 #include "tests/suites.h"
@@ -14,8 +14,8 @@ static wh_real none(unsigned way) {
     return way == 0 ? zero / zero : (way == 1 ? WH_R(1.0) : WH_R(-1.0)) / zero;
 }
 
-/* Draws three contacts whose kinds follow from the number, in order. Returns false if no such combination exists. No
- * contact is near an event. */
+/* Draws three contacts whose kinds follow from the number. Returns false if no such combination exists. No contact is
+ * near an event. */
 static bool build(unsigned number, bool held, bool pinned, bool straight) {
     wh_contact_kind kind[COUNT];
     for (unsigned k = 0; k < COUNT; k++, number /= 4) {
@@ -48,7 +48,7 @@ static bool build(unsigned number, bool held, bool pinned, bool straight) {
     return true;
 }
 
-/* Does a step depend on this expression of contact k? */
+/* True if a step depends on this expression of contact k. */
 static bool needed(unsigned k, lost_place place) {
     const wh_contact_kind kind = (wh_contact_kind)hand_now.contact[k].kind;
     const bool stuck = kind == WH_FRICTION && hand_state.contacts->mode[k] == WH_STUCK;
@@ -77,7 +77,7 @@ static void lose(unsigned k, lost_place place, wh_real nothing) {
 static bool answers(unsigned k, lost_place place, unsigned steps, wh_real nothing) {
     hand_start(true);
     hand_steps(steps);
-    if (steps == 0) { /* a run that has begun: the modes are those of the start */
+    if (steps == 0) { /* the run has begun: the modes are those of its start */
         hand_steps(1);
         const bool build_on = needed(k, place);
         hand_start(true);

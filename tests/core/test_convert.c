@@ -1,5 +1,6 @@
-/* test_convert.c: 64-bit integers convert to the nearest float, ties to even, by the processor, the compiler's support
- * code or a board's own (boards/shared/convert.c). The reference applies the definition, in integers. */
+/* test_convert.c: 64-bit integers convert to the nearest float, ties to even, whether the processor, the compiler's
+ * support code or a board's own (boards/shared/convert.c) converts them. The reference applies the definition, in
+ * integers. */
 #include "core/real.h"
 
 #include "tests/suites.h"
@@ -17,7 +18,7 @@ static uint32_t bits_of(float real) {
 
 static float wide_to_float(uint64_t number) {
     volatile uint64_t hidden =
-        number; /* hides the number from the compiler, which would convert it itself */
+        number; /* hides the number from the compiler, which would convert it at compile time */
     return (float)hidden;
 }
 
@@ -34,7 +35,7 @@ static unsigned length_of(uint64_t number) {
     return bits;
 }
 
-/* The bits of the float nearest to `number`. */
+/* Returns the bits of the float nearest to `number`. */
 static uint32_t nearest(uint64_t number) {
     const unsigned length = length_of(number);
     if (number == 0) {
@@ -50,7 +51,7 @@ static uint32_t nearest(uint64_t number) {
     } else {
         kept = number << (KEPT_BITS - length);
     }
-    /* a carry out of the mantissa raises the exponent by itself */
+    /* A carry out of the mantissa increments the exponent by itself. */
     return (uint32_t)(((uint64_t)(127U + length - 1U) << 23) + (kept - (UINT64_C(1) << 23)));
 }
 
@@ -76,7 +77,7 @@ TEST(convert, around_powers_of_two) {
     TEST_ASSERT_EQUAL_HEX32(UINT32_C(0xDF000000), bits_of(wide_signed_to_float(INT64_MIN)));
 }
 
-/* A number in the middle between two floats, and its neighbours. */
+/* Numbers in the middle between two floats, and their neighbours. */
 TEST(convert, ties) {
     for (unsigned shift = 1; shift <= 40U; shift++) {
         for (uint64_t kept = (UINT64_C(1) << 23) + 5U; kept < (UINT64_C(1) << 23) + 9U; kept++) {

@@ -1,4 +1,4 @@
-/* test_exchange.c: the messages between controller and plant read back as written; invalid ones are refused. */
+/* test_exchange.c: messages between controller and plant are read back as written; invalid ones are refused. */
 #include "core/exchange.h"
 
 #include "draw.h"
@@ -99,7 +99,7 @@ TEST(exchange, readings) {
 
 static wh_reset reset_out;
 
-/* Any number of remembered bytes, also zero, and each known cause. */
+/* Any number of remembered bytes, including zero, and each known cause. */
 TEST(exchange, reset) {
     seed = 3;
     for (unsigned count = 0; count <= WH_REMEMBER_MAX; count++) {
@@ -165,7 +165,7 @@ TEST(exchange, hello) {
     TEST_ASSERT_FALSE(get_hello(length));
 }
 
-/* Random bytes: no count exceeds its array, and no string leaves the bytes. */
+/* In random bytes, no count exceeds its array, and no string leaves the bytes. */
 TEST(exchange, noise) {
     seed = 4;
     for (unsigned round = 0; round < 3000; round++) {

@@ -18,7 +18,7 @@ static uint32_t draw(void) {
     return (uint32_t)(drawn >> 16);
 }
 
-/* A random number of any size, including the ends of the range. */
+/* Draws a number of any size, including the ends of the range. */
 static int32_t draw_number(void) {
     static const int32_t edges[] = {0,         1,          -1,         0x7fff,     0x8000,
                                     -0x8000,   0x10000,    -0x10000,   0xffff,     -0xffff,
@@ -103,7 +103,7 @@ TEST(fixed, small_operations) {
 }
 
 static void check_reciprocal(uint32_t d) {
-    /* the error of x d, which is nearly 2^61; it must be below 2^61/2^27.3 */
+    /* The error of x d, which is nearly 2^61. It must be below 2^61/2^27.3. */
     const int64_t off =
         (int64_t)((uint64_t)(uint32_t)wh_fixed_reciprocal(d) * d) - ((int64_t)1 << 61);
     TEST_ASSERT_TRUE_MESSAGE(off < INT64_C(14000000000) && off > -INT64_C(14000000000),
@@ -144,7 +144,7 @@ static void check_sine(uint32_t phase) {
     int32_t c_here;
     wh_real sine;
     wh_real cosine;
-    /* its own error, 3.4e-8, and the error of a real */
+    /* The method's own error, 3.4e-8, plus the error of a real. */
     const wh_real most = (WH_DOUBLE ? WH_R(3.5e-8) : WH_R(1.3e-7));
     wh_fixed_sincos_called(phase, &s, &c);
     wh_fixed_sincos_shared(phase, &s_here, &c_here);
@@ -212,7 +212,7 @@ static const wh_fixed_scene scene = {.name = "none",
                                      .start_input = start_number,
                                      .advance = no_step};
 
-/* Every function that takes a state gets one that was not started (zeroed or refused), and must refuse it. */
+/* Every function that takes a state gets a state that was not started (zeroed or refused), and must refuse it. */
 static void must_not_run(wh_fixed_state *state) {
     const uint64_t steps = state->steps;
     const uint32_t saturated = state->saturated;
@@ -327,7 +327,8 @@ TEST(fixed, edges) {
                                 state.input[0]);
         TEST_ASSERT_EQUAL_INT(WH_E_ARGUMENT, wh_fixed_set_raw_input(&scene, &state, 1, raw));
     }
-    for (long i = 0; i < CASES; i++) { /* conversion to and from: the precision of a float */
+    /* converted to fixed point and back, a number keeps the precision of a float */
+    for (long i = 0; i < CASES; i++) {
         const int32_t x = draw_number() >> 8;
         uint32_t held = 0;
         const wh_fixed_format format = {(int16_t)(draw() % 50U), INT32_MIN / 2, INT32_MAX / 2};

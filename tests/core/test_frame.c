@@ -1,11 +1,10 @@
-/* test_frame.c: framing: written frames are read, broken ones are dropped, and the next frame is read again. */
+/* test_frame.c: framing: frames are read as written, broken frames are dropped, and the next frame is read again. */
 #include "core/frame.h"
 
 #include "draw.h"
 #include "tests/suites.h"
 
-/* A payload fills two blocks of the code and a part of the third one; on an AVR, one block and a part of the next
- * one. */
+/* A payload fills two blocks of the code and a part of the third; on an AVR, one block and a part of the second. */
 #if defined(__AVR__)
 enum { PAYLOAD_BYTES = 280 };
 #else
@@ -20,7 +19,7 @@ static wh_frame_reader reader;
 static wh_frame got;
 static uint64_t seed;
 
-/* Fills a payload: random bytes, many zeros, no zeros. */
+/* Fills a payload with random bytes, with many zeros, or without zeros. */
 static void fill(unsigned length, unsigned kind) {
     for (unsigned i = 0; i < length; i++) {
         const uint8_t byte = (uint8_t)draw_bits(&seed);
@@ -104,8 +103,8 @@ TEST(frame, no_room) {
     }
 }
 
-/* Every single flipped bit, and bursts of up to 32 bits, are detected, even if they move the end of the frame. The next
- * frame is read. */
+/* Every flipped bit, and bursts of up to 32 bits, are detected, even if they move the end of the frame. The next frame
+ * is read. */
 TEST(frame, flips) {
     seed = 3;
     for (unsigned length = 0; length < 64; length += 9) {
@@ -123,8 +122,8 @@ TEST(frame, flips) {
     }
 }
 
-/* Frames with missing bytes are rejected. If the zero is missing, the next frame may be lost too; the frame after that
- * is read. */
+/* Frames with missing bytes are rejected. If the final zero is missing, the next frame may be lost, too; the frame
+ * after that is read. */
 TEST(frame, truncations) {
     seed = 4;
     for (unsigned round = 0; round < 300; round++) {
@@ -146,7 +145,7 @@ TEST(frame, truncations) {
     }
 }
 
-/* In random bytes there is no frame (one in 2^32 would pass the CRC), nothing overflows, and the first frame after a
+/* In random bytes no frame is found (one in 2^32 would pass the CRC), nothing overflows, and the first frame after a
  * zero is read. */
 TEST(frame, noise) {
     seed = 5;

@@ -1,6 +1,6 @@
-/* test_functions.c: the core's functions: special values of C11's Annex F, exact powers, ends of the range, order, symmetry,
- * identities, and equal bits on every machine. tests/host/test_function_accuracy.c, test_double_functions.c and
- * make functions-exhaustive measure the errors. */
+/* test_functions.c: the core's functions: special values of C11's Annex F, exact powers, ends of the range,
+ * monotonicity, symmetry, identities, and equal bits on every machine. Other tests measure the errors:
+ * tests/host/test_function_accuracy.c, test_double_functions.c and `make functions-exhaustive`. */
 #include "core/function.h"
 #include "core/hash.h"
 #if WH_DOUBLE
@@ -17,7 +17,7 @@
 #define NO_NUMBER __builtin_nan("")
 #define LARGEST 1.7976931348623157e308
 #define SMALLEST 4.9406564584124654e-324 /* subnormal */
-#define NORMAL 2.2250738585072014e-308   /* the smallest of all digits */
+#define NORMAL 2.2250738585072014e-308   /* the smallest number with all digits */
 #define LEAST_POWER (-1074)
 #define MOST_POWER 1023
 #define DIGITS 53
@@ -39,7 +39,7 @@
 
 static uint64_t bits_of(wh_real x) { return wh_hash_real(0, x); }
 
-/* Equal bits, or both NaN. */
+/* True if both have the same bits, or if both are NaN. */
 static bool same(wh_real a, wh_real b) { return bits_of(a) == bits_of(b) || (a != a && b != b); }
 
 typedef wh_real function_of_one(wh_real x);
@@ -79,10 +79,8 @@ static wh_real any(void) {
     return as.value;
 }
 
-/* NaNs count as equal: their bits depend on their origin. */
+/* All NaNs count as equal, because their bits depend on their origin. */
 static uint64_t mixed(uint64_t hash, wh_real x) { return wh_hash_real(hash, x != x ? ONE : x); }
-
-/* --- special values ------------------------------------------------------------------------------------- */
 
 TEST(functions, edges) {
     EXPECT(wh_exp, false, {ZERO, ONE}, {-ZERO, ONE}, {SMALLEST, ONE}, {-SMALLEST, ONE},
@@ -129,7 +127,7 @@ typedef struct edge_of_two {
     wh_real wanted;
 } edge_of_two;
 
-/* `is_odd`: the function changes its sign with its first argument. */
+/* `is_odd` is true if the function changes its sign with its first argument. */
 static void expect_edges_of_two(function_of_two *f, const edge_of_two *edges, unsigned count,
                                 bool is_odd) {
     for (unsigned i = 0; i < count; i++) {
@@ -184,8 +182,6 @@ TEST(functions, edges_of_atan2_and_power) {
                {-INFINITE, INFINITE, INFINITE}, {-LARGEST, ONE, -LARGEST}, {LARGEST, -TWO, ZERO},
                {-LARGEST, -THREE, -ZERO}, {-ONE, SMALLEST, NO_NUMBER}, {TWO, SMALLEST, ONE});
 }
-
-/* --- powers, ends, order ---------------------------------------------------------------------------------- */
 
 TEST(functions, exact_powers_of_two) {
     wh_real wanted = SMALLEST;
@@ -292,7 +288,7 @@ TEST(functions, symmetry) {
     }
 }
 
-/* A function and its inverse give the argument again, to the round-off of the number between them. */
+/* A function and its inverse give the argument again, within the round-off of the intermediate number. */
 TEST(functions, inverses) {
     const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
     scattered_state = 6;
@@ -308,7 +304,7 @@ TEST(functions, inverses) {
     }
 }
 
-/* Tests 3,000 neighbouring numbers on either side of each argument at which the way of computing changes. */
+/* Tests 3,000 neighbouring numbers on either side of each argument at which the method of computing changes. */
 TEST(functions, hyperbolic_never_fall) {
     static const wh_real from[] = {WH_R(0.25), ONE, WH_R(8.0), WH_R(88.0)};
     const wh_real next = ONE + wh_pow(TWO, (wh_real)(1 - DIGITS));
@@ -326,7 +322,7 @@ TEST(functions, hyperbolic_never_fall) {
     }
 }
 
-/* cosh + sinh is e^x, cosh - sinh e^-x, sinh/cosh tanh: to the round-off. */
+/* cosh + sinh is e^x, cosh - sinh is e^-x, and sinh/cosh is tanh, within round-off. */
 TEST(functions, hyperbolic_identities) {
     const wh_real unit = wh_pow(TWO, (wh_real)(1 - DIGITS));
     scattered_state = 8;

@@ -1,4 +1,4 @@
-/* test_ledger.c: the books of energy and momentum: of changed inputs, of angles with their turns, and of corrections.
+/* test_ledger.c: the ledger of energy and momentum: changed inputs, angles with their turns, corrections.
  * test_contact_exact.c compares the entries of contacts with a reference. */
 #include "draw.h"
 #include "hand.h"
@@ -17,13 +17,13 @@ TEST(ledger, books_do_not_touch_the_run) {
     TEST_ASSERT_TRUE(hash[0] == hash[1]);
 }
 
-/* The acceleration of a body of 1 kg on a spring whose stiffness is the input. */
+/* Computes the acceleration of a body of 1 kg on a spring whose stiffness is the input. */
 static void spring_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
     (void)phase;
     (void)rate;
-    accel[0] = -input[0] * linear[0]; /* which is also the change of momentum per second */
+    accel[0] = -input[0] * linear[0]; /* the momentum changes by this number per second, too */
 }
 
 static void spring_levels(const void *model, const wh_angle *angle, const wh_real *linear,
@@ -100,7 +100,8 @@ static void shaft_accel(const void *model, const wh_phase *phase, const wh_real 
     accel[0] = WH_R(0.5) - input[0];
 }
 
-/* The power of the torque; and another entry that cancels in the sum, so that the angle appears in the powers. */
+/* Computes the power of the torque, and of another entry that cancels in the sum. Its purpose is that the angle appears
+ * in the powers. */
 static void shaft_powers(const void *model, const wh_angle *angle, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *power) {
     (void)model;
@@ -138,8 +139,8 @@ static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
                            state);
 }
 
-/* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t, from the shaft's unwrapped angle, not its phase.
- * Each input has its own entry. */
+/* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t. It must use the shaft's unwrapped angle, not its
+ * phase. Each input has its own entry. */
 TEST(ledger, books_name_angles_with_their_turns) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};

@@ -1,5 +1,5 @@
-/* test_locate.c: event location within a step: a body under a constant load crosses a place at a time known in closed form.
- * test_contact_search.c checks the search itself, test_contact_exact.c the order of several events. */
+/* test_locate.c: event location within a step. A body under a constant load crosses a place at a time known in closed
+ * form. test_contact_search.c tests the search itself, test_contact_exact.c the order of several events. */
 #include "draw.h"
 #include "hand.h"
 
@@ -9,7 +9,7 @@ enum { CASES = __STDC_HOSTED__ ? 3000 : 200 };
 
 #define STEP_S WH_R(0.001)
 
-/* A random number from 0 to 1 in steps of 1/1024. */
+/* Draws a number from 0 to 1 in steps of 1/1024. */
 static wh_real share_of(uint64_t *seed) {
     return (wh_real)(draw_bits(seed) % 1023U + 1U) / WH_R(1024.0);
 }
@@ -44,7 +44,7 @@ static unsigned add_crossing(wh_real at, int direction) {
     return k;
 }
 
-/* One crossing that reverses and halves the rate: its time must be right, and the motion after it. */
+/* A crossing reverses and halves the rate: its time, and the motion after it, must be right. */
 TEST(locate, a_crossing_is_found_where_it_is) {
     uint64_t seed = 411;
     wh_real worst = WH_R(0.0);
@@ -69,7 +69,7 @@ TEST(locate, a_crossing_is_found_where_it_is) {
     TEST_ASSERT_TRUE((double)worst <= (WH_DOUBLE ? 1e-14 : 2e-6));
 }
 
-/* Crossings with flat or steep values are located with full accuracy before the evaluations are exhausted. */
+/* Crossings with flat or steep values are located with full accuracy before the limit of evaluations is reached. */
 TEST(locate, flat_and_steep_crossings_are_found) {
     uint64_t seed = 415;
     for (unsigned i = 0; i < CASES; i++) {
@@ -78,7 +78,7 @@ TEST(locate, flat_and_steep_crossings_are_found) {
         start(p);
         (void)add_crossing(place_at(p, t), 0);
         hand_now.bent =
-            i % (WH_DOUBLE ? 4U : 3U); /* powers 1, 3, 9, 27; each vanishes at the place only */
+            i % (WH_DOUBLE ? 4U : 3U); /* the powers 1, 3, 9, 27 vanish only at the place */
         hand_start(false);
         hand_looks = 0;
         hand_steps(1);

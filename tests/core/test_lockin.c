@@ -1,6 +1,5 @@
-/* test_lockin.c: the load's once-per-turn component, turn by turn, for imitated loads whose components are known.
- *
- * tests/host/test_lockin_truth.c compares it with a swinging rotor, and its intervals with noise. */
+/* test_lockin.c: the load's once-per-turn component, turn by turn, for imitated loads with known components.
+ * tests/host/test_lockin_truth.c has a rotor with speed ripple as reference, and compares the intervals with noise. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/lockin.h"
@@ -14,8 +13,8 @@
 #define DEG WH_R(0.017453292519943295)
 #define PI WH_R(3.141592653589793)
 
-/* A rotor with constant speed and the load mean + amplitude cos(order theta + phase), with theta = pulse_rad at the
- * pulses of sensor 1; and faults. Samples and turns are counted from the start. */
+/* A rotor with constant speed, with the load mean + amplitude cos(order theta + phase). At the pulses of sensor 1,
+ * theta is pulse_rad. Faults may be added. Samples and turns are counted from the start. */
 typedef struct made_up {
     uint32_t first_ticks; /* time of the first sample */
     uint32_t late_ticks;  /* time from the first sample to the first pulse */
@@ -24,7 +23,7 @@ typedef struct made_up {
     wh_real amplitude_N;
     wh_real phase_rad;
     wh_real third_N; /* amplitude of the third order */
-    /* number of the pulse of sensor 1, and of sensor 2, that is lost; 0: none */
+    /* Number of the pulse that sensor 1, and that sensor 2, loses; 0: none. */
     unsigned lost_mark[2];
     unsigned spoilt;       /* number of the first spoilt sample; 0: none */
     unsigned spoilt_count; /* number of spoilt samples */
@@ -77,7 +76,7 @@ static void check_one_piece(wh_lockin_stage stage) {
     TEST_ASSERT_TRUE(stage != WH_LOCKIN_RESHAPES || lockin.place == WH_LOCKIN_NOWHERE);
 }
 
-/* Runs until `wanted` turns are finished, but for at most three more turns. */
+/* Runs until `wanted` turns are finished, but at most three turns longer. */
 static void run(const made_up *made, unsigned wanted) {
     wh_lockin_start(&rotor, &lockin);
     turns_done = 0;
@@ -164,7 +163,8 @@ TEST(lockin, known_phase_and_amplitude_are_found) {
         made_up made = plain;
         made.phase_rad = degrees[i % 5U] * DEG;
         made.late_ticks = 77U + (i / 5U) * 600U; /* the turn begins between two samples */
-        made.first_ticks = i % 2U == 0 ? 0U : UINT32_MAX - 600000U; /* the timer wraps in a turn */
+        /* the timer wraps within a turn */
+        made.first_ticks = i % 2U == 0 ? 0U : UINT32_MAX - 600000U;
         run(&made, 6);
         check_all(&made, 6);
         CHECK_NEAR(0.01f, 0.0f, turns[5].residual_N);
@@ -201,15 +201,15 @@ TEST(lockin, other_orders_are_rejected) {
         for (unsigned i = 2; i < turns_done; i++) {
             CHECK_NEAR(0.06f, 0.0f, turns[i].force_N.at[1]); /* 0.1 % */
             CHECK_NEAR(0.06f, 0.0f, turns[i].force_N.at[2]);
-            /* orders 0 to 2 are no part of the residual; the higher orders are */
+            /* Orders 0 to 2 are not part of the residual; the higher orders are. */
             CHECK_NEAR(order > 2 ? 0.3f : 0.05f, order > 2 ? 43.65f : 0.0f,
                        turns[i].residual_N); /* 60/sqrt(2) sqrt(91/86) */
         }
     }
 }
 
-/* After a lost pulse of sensor 1, the two turns between the neighbouring pulses are skipped. After one of sensor 2,
- * only the load at sensor 2 is wrong. */
+/* After a lost pulse of sensor 1, the two turns between the neighbouring pulses are skipped. After a lost pulse of
+ * sensor 2, only the load at sensor 2 is wrong. */
 TEST(lockin, lost_marks_spoil_no_other_turn) {
     settings();
     for (unsigned sensor = 0; sensor < 2; sensor++) {
@@ -241,7 +241,7 @@ TEST(lockin, a_gap_costs_one_turn) {
     TEST_ASSERT_TRUE(lockin.open && !lockin.second_seen && lockin.begin_ticks == 2000U);
 }
 
-/* Two missing samples are bridged, three leave the turn without a result. */
+/* Two missing samples are bridged. With three, the turn has no result. */
 TEST(lockin, missing_samples) {
     settings();
     for (unsigned missing = 1; missing <= 5; missing++) {
@@ -265,8 +265,8 @@ TEST(lockin, missing_samples) {
     }
 }
 
-/* Outliers are left out and counted. A turn has 91 samples. Eight successive outliers leave a gap; nine, a tenth of the
- * samples, are too many. */
+/* Outliers are not used, and counted. A turn has 91 samples. Eight successive outliers leave a gap; nine, a tenth of
+ * the samples, are too many. */
 TEST(lockin, outliers_are_left_out) {
     static const unsigned counts[] = {1, 8, 9, 14};
     settings();
@@ -352,7 +352,7 @@ TEST(lockin, samples_out_of_order_are_refused) {
     TEST_ASSERT_TRUE(lockin.taken && lockin.taken_ticks == 5000U && lockin.count == 0);
 }
 
-/* A pulse that never comes: the newest samples wait, and none is stored outside the buffer. */
+/* If a pulse never comes, the newest samples wait, and none is stored outside the buffer. */
 TEST(lockin, samples_stay_in_their_room) {
     settings();
     wh_lockin_start(&rotor, &lockin);
@@ -369,11 +369,9 @@ TEST(lockin, samples_stay_in_their_room) {
                              lockin.ticks[lockin.first]);
 }
 
-/* --- the angle within a turn ---------------------------------------------------------------------- */
-
-/* The angle begins at the pulse's angle and ends one turn later. An inertia that is wrong by up to 40 % is corrected
- * from the quadrature ratio alone, for any direction of gravity except the diagonal, on which the ratio does not depend
- * on the inertia. */
+/* The angle begins at the pulse's angle and ends one turn later. The quadrature ratio alone corrects an inertia that is
+ * wrong by up to 40 %, for any direction of gravity except the diagonal: there the ratio does not depend on the
+ * inertia. */
 TEST(lockin, the_inertia_is_found_from_the_split) {
     static const wh_real gravities[] = {WH_R(0.0), WH_R(90.0), WH_R(180.0), WH_R(-90.0)};
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(360.0)};
@@ -393,7 +391,7 @@ TEST(lockin, the_inertia_is_found_from_the_split) {
         wh_turn_angle_shape(&rotor, &wanted, speed);
         CHECK_NEAR(1e-6f, rotor.pulse_rad[0], wh_turn_angle_at(&wanted, WH_R(0.0)));
         CHECK_NEAR(3e-6f, rotor.pulse_rad[0] + WH_RIG_TWO_PI, wh_turn_angle_at(&wanted, WH_R(1.0)));
-        /* the part of the turn's time at which the angle is that of sensor 2 */
+        /* Part of the turn's time before sensor 2's angle. */
         wh_real ratio = WH_R(0.25);
         for (unsigned i = 0; i < 30; i++) {
             ratio -= (wh_turn_angle_at(&wanted, ratio) - rotor.pulse_rad[1]) / WH_RIG_TWO_PI;

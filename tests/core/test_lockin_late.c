@@ -19,8 +19,8 @@ static const wh_cell_config cell = {
 static wh_lockin lockin;
 static wh_lockin fresh;
 
-/* A rotor with constant speed, and its samples: turn 0 begins `lead` samples after the first one, or before it if
- * `lead` is negative. */
+/* Samples of a rotor with constant speed. Turn 0 begins `lead` samples after the first one (if `lead` is negative,
+ * before it). */
 typedef struct stream {
     uint32_t ticks; /* time of the first sample */
     int lead;
@@ -29,7 +29,7 @@ typedef struct stream {
     wh_real cosine_N;
     wh_real sine_N;
     wh_real ripple_N; /* amplitude of the third order */
-    /* number of steps without samples, after which all waiting samples come at once */
+    /* Number of steps without samples, after which all waiting samples come at once. */
     unsigned held;
     unsigned hold_more; /* one of this many steps begins a delay of up to 12 steps; 0: none */
 } stream;
@@ -54,9 +54,9 @@ static wh_real load_of(const stream *from, int32_t since_mark) {
            from->ripple_N * third;
 }
 
-/* Runs control steps; returns the finished turns, TURNS at most. */
+/* Runs control steps. Returns the number of finished turns, at most TURNS. */
 static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_lockin_turn *turns) {
-    /* as in the rig: a step without samples does more work */
+    /* In the rig, too, a step without samples does more work. */
     const unsigned halves = from->held + from->hold_more == 0 ? WH_LOCKIN_HALVES_AT_ONCE
                                                               : WH_LOCKIN_HALVES_AT_ONCE + 1U;
     const int32_t mark = (int32_t)from->lead * (int32_t)PERIOD_TICKS - from->behind_ticks;
@@ -120,7 +120,7 @@ static void begin(uint64_t from) {
     rotor.pulse_rad[1] = WH_R(0.25) * WH_RIG_TWO_PI;
 }
 
-/* Samples that come late, one by one, in groups, or after the turn: each turn has the same bits. */
+/* Samples come late, one by one, in groups, or after the turn. Each turn has the same bits. */
 TEST(lockin_late, late_samples_change_nothing) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
@@ -141,8 +141,8 @@ TEST(lockin_late, late_samples_change_nothing) {
     }
 }
 
-/* After a reset at any point the results are as from the start, except for the first turn, whose length cannot be
- * compared with the previous one. */
+/* After a reset at any point the results are those from the start. Only the first turn differs: its duration has no
+ * previous one for comparison. */
 TEST(lockin_late, what_was_forgotten_changes_nothing) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];

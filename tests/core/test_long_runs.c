@@ -1,12 +1,10 @@
-/* test_long_runs.c: counts and times in runs of years: no count overflows, and times have one rounding error. */
+/* test_long_runs.c: counts and times in runs of years: no count overflows, and a time has only one rounding error. */
 #include "core/angle.h"
 #include "core/number/sum.h"
 #include "core/rig/speed.h"
 #include "hand.h"
 
 #include "tests/suites.h"
-
-/* --- integers of 128 bits, because boards have none ------------------------------------------- */
 
 typedef struct wide {
     uint64_t high, low;
@@ -28,7 +26,8 @@ static wide difference(wide a, wide b) {
     return less(a, b) ? difference(b, a) : (wide){a.high - b.high - (a.low < b.low), a.low - b.low};
 }
 
-/* The quotient's low 64 bits, bit by bit; *rest is the remainder. */
+/* Returns the quotient's low 64 bits, computed bit by bit. *rest gets the remainder. (Boards have no integers of 128
+ * bits.) */
 static uint64_t quotient(wide a, uint64_t by, uint64_t *rest) {
     uint64_t result = 0;
     *rest = 0;
@@ -46,9 +45,9 @@ static uint64_t quotient(wide a, uint64_t by, uint64_t *rest) {
 
 #define DIGITS (sizeof(wh_real) == sizeof(float) ? 24 : 53)
 
-/* Is `value`, in [0, 1), the real nearest to part / of, with part < of < 2^30? */
+/* True if `value`, in [0, 1), is the real nearest to part / of, with part < of < 2^30. */
 static bool is_nearest(wh_real value, uint64_t part, uint64_t of) {
-    int places = 0; /* value = digits / 2^places, with all digits of a real */
+    int places = 0; /* value = digits / 2^places; `digits` has all digits of a real */
     if (part == 0 || !(value > WH_R(0.0))) {
         return part == 0 && value == WH_R(0.0);
     }
@@ -74,7 +73,7 @@ static uint64_t random_bits(void) { /* xorshift64 (Marsaglia, 2003) */
     return random_state;
 }
 
-/* Is the time of step `steps` right? Beyond 2^64 s it is undefined. */
+/* True if the time of step `steps` is right. Beyond 2^64 s it is undefined. */
 static bool time_is_right(wh_fraction step, uint64_t steps) {
     const wh_scene scene = {.step_s = (wh_real)step.numerator / (wh_real)step.denominator,
                             .step = step};
@@ -142,8 +141,8 @@ TEST(long_runs, a_fraction_stays_below_one) {
     TEST_ASSERT_TRUE(time.whole_s == 0 && time.fraction_s == WH_R(0x1p-60));
 }
 
-/* A scene without an exact step has the time of its real step. With steps of 2^k s the product is exact: whole seconds and
- * fraction are its bits above and below the point, below 2^56 s. (Beyond that there are no further bits.) */
+/* If a scene has no exact step, its time is that of its real step. With steps of 2^k s the product is exact below 2^56
+ * s: whole seconds and fraction are its bits before and after the point. */
 TEST(long_runs, time_without_a_fraction) {
     random_state = UINT64_C(0x20261123);
     for (int k = -20; k <= 33; k++) {

@@ -1,5 +1,5 @@
-/* test_memory.c: wh_scene_start() refuses memory that is too small, misaligned or absent, for scenes of every shape. A refusal
- * leaves the memory unchanged and a state that no step accepts. */
+/* test_memory.c: wh_scene_start() refuses memory that is too small, misaligned or absent, for scenes of every shape. A
+ * refusal leaves the memory unchanged, and no step accepts the state. */
 #include "core/ledger.h"
 #include "core/scene.h"
 
@@ -25,7 +25,7 @@ static void fill(void) {
     }
 }
 
-/* Does the memory outside room[from] to room[to] still have the bytes of fill()? */
+/* True if the memory outside room[from] to room[to] still has the bytes of fill(). */
 static bool is_filled(size_t from, size_t to) {
     bool all = true;
     for (size_t i = 0; i < sizeof words; i++) {
@@ -92,7 +92,7 @@ static bool ends_within(const wh_scene *scene, size_t first, size_t bytes) {
            (scene->contacts == 0 || (const unsigned char *)(state.contacts + 1) <= end);
 }
 
-/* The alignment by the compiler: the offset of a 64-bit integer after a byte in a struct. */
+/* The compiler's alignment: the offset of a 64-bit integer after a byte in a struct. */
 typedef struct behind {
     char byte;
     uint64_t word;
@@ -126,7 +126,8 @@ static wh_scene shape(unsigned angles, unsigned reals, unsigned inputs, unsigned
     return scene;
 }
 
-/* Calls see() for scenes of all shapes: numbers of components, compensation, inputs, contacts and ledger. */
+/* Calls see() for scenes of all shapes: numbers of components, with and without compensation, inputs, contacts and
+ * ledger. */
 static void every_shape(void (*see)(const wh_scene *scene, size_t need)) {
     static const uint8_t contacts[] = {0, 1, 7, WH_CONTACTS_LIMIT};
     static const wh_ledger_form books[] = {{.entries = 1, .accounts = 1},

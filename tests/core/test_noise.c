@@ -33,8 +33,8 @@ TEST(noise, fixed_values) {
     }
 }
 
-/* The first, second and fourth moments are a Gaussian's, 0, 1 and 3, to 0.1 %. The tolerances are from the standard
- * errors of a Gaussian's moments: 1, sqrt 2, sqrt 96. */
+/* The moments of order 1, 2 and 4 are a Gaussian's (0, 1 and 3) to 0.1 %. The tolerances are from the standard errors
+ * of a Gaussian's moments: 1, sqrt 2, sqrt 96. */
 TEST(noise, moments) {
     for (uint32_t seed = 1; seed <= 4; seed++) {
         int64_t sum = 0;

@@ -1,6 +1,6 @@
-/* test_refuse.c: which component a refused step reports, for the variants of all chips. The reference is the rule: a
- * step is refused if the sum of sizes is 1e15 or more, or NaN. The fault is the first component that is too large by
- * itself, or else the last. */
+/* test_refuse.c: the component that a refused step reports, for the code variants of all chips. The reference is the
+ * rule: a step is refused if the sum of sizes is 1e15 or more, or NaN. The fault is the first component that is too
+ * large by itself, or else the last component. */
 #include "core/step/matrix_step.h"
 #include "tests/core/draw.h"
 #include "tests/suites.h"
@@ -27,7 +27,7 @@ static int blamed_by_rule(const wh_real *value, unsigned n) {
     return (int)at;
 }
 
-/* A random number: ordinary, near the bound, or invalid. */
+/* Draws a number: ordinary, near the bound, or invalid. */
 static wh_real drawn(uint64_t *seed) {
     static const wh_real edge[] = {WH_R(0.0),
                                    WH_R(1e-30),

@@ -9,8 +9,8 @@
 
 static float rpm(wh_real radps) { return (float)(radps / RPM); }
 
-/* Gives `turns` turns of pulses at constant speed from *ticks on; *ticks becomes the time of the next pulse of sensor
- * 0. */
+/* Gives `turns` turns of pulses at constant speed, beginning at *ticks. *ticks becomes the time of sensor 0's next
+ * pulse. */
 static void spin(wh_speed *speed, uint32_t *ticks, unsigned turns) {
     for (unsigned i = 0; i < turns; i++) {
         TEST_ASSERT_TRUE(wh_speed_pulse(speed, 0, *ticks));
@@ -19,7 +19,7 @@ static void spin(wh_speed *speed, uint32_t *ticks, unsigned turns) {
     }
 }
 
-/* After a whole turn without pulses the interval would give a fifth of the speed. It must not count as a speed. */
+/* After a whole turn without pulses the interval would show a fifth of the speed. It must not count as a speed. */
 TEST(rig, a_gap_keeps_the_speed_and_counts) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
@@ -36,8 +36,8 @@ TEST(rig, a_gap_keeps_the_speed_and_counts) {
     TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, ticks + 3U * QUARTER));
 }
 
-/* Three pulses in succession are lost: the same sensor fires after two turns, which at a constant speed gives half of
- * the true speed. With any ripple, the interval must not count as one turn. */
+/* Three pulses in succession are lost. The same sensor fires after two turns, which would show half of the speed if it
+ * were constant. With any ripple, the interval must not count as one turn. */
 TEST(rig, three_lost_running_are_a_gap) {
     for (unsigned late = 0; late < 2; late++) {
         wh_speed speed;

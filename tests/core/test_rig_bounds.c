@@ -1,5 +1,5 @@
-/* test_rig_bounds.c: bounds in the rig's controller: work per control step, time of the ramp, validity of the tare with
- * its limits included, and the name of the stage. */
+/* test_rig_bounds.c: bounds in the rig's controller: work per control step, duration of the ramp, validity of the tare
+ * with its limits included, and the name of the stage. */
 #include "build/gen/scenes.h"
 #include "core/rig/observer.h"
 #include "draw.h"
@@ -10,7 +10,7 @@
 static even_rig even;
 static uint64_t seed;
 
-/* Arms the rig, with an observer that trusts every pulse (`trusted`) or none. */
+/* Arms the rig. If `trusted`, the observer trusts every pulse, otherwise none. */
 static void arm(bool trusted) {
     even_arm(&even);
     wh_observer_config *observing = &even.config.observer;
@@ -48,7 +48,7 @@ TEST(rig_bounds, a_single_mark_waits_for_a_step_without_a_pulse) {
     }
 }
 
-/* Number of half nodes by which the sums of the turn advanced since `before`; -1 if unknown. */
+/* Returns the number of half nodes by which the sums of the turn have advanced since `before`, or -1 if unknown. */
 static int halves_since(const wh_lockin *before) {
     const wh_lockin *now = &even.rig.measure.lockin;
     if (before->stage != WH_LOCKIN_SUMS || now->stage != WH_LOCKIN_SUMS || now->count < 4U ||
@@ -62,10 +62,9 @@ static int halves_since(const wh_lockin *before) {
            (before->place != WH_LOCKIN_NOWHERE ? 1 : 0);
 }
 
-/* The controller is late by up to three steps and gets the samples of that time. A step without a sample adds four half
- * nodes to the turn's sums. A step with one sample adds three, or two while a pulse is unconfirmed and gravity is
- * compensated. A step with more samples, or in which the observer does two steps, adds one. A step with a pulse may add
- * none. */
+/* The controller is up to three steps late and then gets all samples of that time. A step without a sample adds four
+ * half nodes to the turn's sums. A step with one sample adds three, or two while a pulse is unconfirmed and gravity is
+ * compensated. A step with more samples, or with two observer steps, adds one. A step with a pulse may add none. */
 TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
     static wh_lockin before;
     unsigned times[5] = {0};
@@ -114,8 +113,8 @@ TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
     }
 }
 
-/* The set-point needs gravity compensation, but the observer never becomes valid: the ramp takes its full time, then the rig
- * trips. */
+/* The set-point needs gravity compensation, but the observer never becomes valid. The rig trips when the ramp's longest
+ * time is over. */
 TEST(rig_bounds, a_ramp_takes_no_longer_than_it_may) {
     for (unsigned i = 0; i < 3U; i++) {
         arm(false);

@@ -12,13 +12,13 @@
 #define TURNS 16U
 
 static wh_rotor_config rotor;
-/* the part of the turn's time that has passed, at STEPS equal angles from sensor 1's pulse */
+/* At STEPS equal angles from sensor 1's pulse: the part of the turn's time that has passed. */
 static wh_real part_at[STEPS + 1U];
 static wh_real turn_s;
 
 static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
-/* Slope of the speed, per rad: (I - D sin^2) w dw/dtheta = D w^2 sin cos + c (omega - w). */
+/* Returns the slope of the speed, per rad: (I - D sin^2) w dw/dtheta = D w^2 sin cos + c (omega - w). */
 static wh_real slope(wh_real theta, wh_real speed, wh_real omega) {
     const wh_real sine = sine_of(theta);
     const wh_real inertia = rotor.inertia_kgm2 - rotor.yields_kgm2 * sine * sine;
@@ -27,7 +27,7 @@ static wh_real slope(wh_real theta, wh_real speed, wh_real omega) {
     return torque / (inertia * speed);
 }
 
-/* Integrates turns until the motion is periodic and stores the last turn. */
+/* Integrates turns until the motion is periodic. Stores the last turn. */
 static void integrate(wh_real omega) {
     const wh_real step = WH_RIG_TWO_PI / (wh_real)STEPS;
     wh_real speed = omega;
@@ -91,7 +91,7 @@ TEST(rig_carriage, angle_on_a_carriage) {
                 const wh_real wave = angle.twice_rad;
                 TEST_ASSERT_TRUE(unshaped.twice_rad == WH_R(0.0));
                 TEST_ASSERT_TRUE(wave > WH_R(0.0) && wave < WH_R(0.06));
-                /* Both angles are equal at the pulse. So an angle of constant speed has an error of the term minus its
+                /* Both angles are equal at the pulse. So the error of an angle of constant speed is the term minus its
                  * value at the pulse. */
                 TEST_ASSERT_TRUE(even_off > WH_R(0.9) * wave && even_off < WH_R(2.1) * wave);
                 TEST_ASSERT_TRUE(left < WH_R(2.5) * wave * wave + WH_R(6e-5));
@@ -129,7 +129,7 @@ TEST(rig_carriage, mount) {
     TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) && config.feeds == WH_COMPENSATION_NEVER &&
                      config.observer.scene == NULL);
 
-    /* arms without discs: their unbalance is neglected */
+    /* Arms without discs: the model neglects their unbalance. */
     const wh_carriage bare = {.disc_m = WH_R(0.0), .ratio = WH_R(0.0)};
     wh_carriage_mount(&config, &bare);
     CHECK_NEAR(1e-8f, 2.0f * 0.152f * 3.625f * 0.45359237f * 0.0254f, turns->unbalance_kgm);

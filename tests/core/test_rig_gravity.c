@@ -23,10 +23,8 @@ static void check_between(wh_real least, wh_real most, wh_real value) {
 
 static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
-/* --- the compensation's voltage ----------------------------------------------------------------------- */
-
-/* The voltage is S g sin(theta - gamma) divided by the stall torque, at the angle after the lead, limited, and faded in
- * linearly. */
+/* The voltage is S g sin(theta - gamma) divided by the stall torque, with theta at the time after the lead. It is
+ * limited, and fades in linearly. */
 TEST(rig_gravity, it_says_gravitys_voltage) {
     static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
     for (unsigned i = 0; i < 6; i++) {
@@ -53,7 +51,7 @@ TEST(rig_gravity, it_says_gravitys_voltage) {
     }
 }
 
-/* The voltage is zero at once if the observer is invalid, and fades in again afterwards. It is never NaN. */
+/* If the observer is invalid, the voltage is zero at once; afterwards it fades in again. It is never NaN. */
 TEST(rig_gravity, it_says_nothing_without_an_angle) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     fed_rotor_standard(&fed, 1);
@@ -83,9 +81,7 @@ TEST(rig_gravity, it_says_nothing_without_an_angle) {
     }
 }
 
-/* --- its effect ---------------------------------------------------------------------------------------- */
-
-/* Starts at 200 rpm, changes to this speed and stays there, with jitter and a friction of 0.02 N m. */
+/* Starts at 200 rpm, changes to this speed and keeps it, with jitter and a friction of 0.02 N m. */
 static void run_at(wh_real rpm) {
     fed.kind.jitter_s = JITTER_S;
     fed.kind.friction_Nm += WH_R(0.02);
@@ -104,9 +100,9 @@ static void begin(fed_by by) {
     fed.by = by;
 }
 
-/* Gravity compensation reduces the ripple from 5 % to a hundredth of that at 330 rpm, and from 18 % at 170 rpm. At 100
- * rpm the rotor would not pass the top without compensation. At that speed the motor brakes at most as much as with
- * shorted leads, so some ripple remains, which friction reduces. */
+/* At 330 rpm gravity compensation reduces the ripple from 5 % to a hundredth of that; at 170 rpm, from 18 %. At 100 rpm
+ * the rotor would not pass the top without compensation. At that speed the motor brakes at most as much as with shorted
+ * leads, so some ripple remains. Friction reduces it. */
 TEST(rig_gravity, the_ripple_goes) {
     begin(FED_BY_NOBODY);
     run_at(WH_R(330.0));
@@ -151,7 +147,7 @@ TEST(rig_gravity, another_weight_leaves_its_part) {
     }
 }
 
-/* With sensor positions wrong by 3 degrees, in equal or opposite directions, at most a twentieth of the ripple
+/* If the sensor positions are wrong by 3 degrees, in equal or opposite directions, at most a twentieth of the ripple
  * remains. */
 TEST(rig_gravity, sensors_may_stand_wrong) {
     for (unsigned i = 0; i < 8; i++) {
@@ -182,7 +178,7 @@ TEST(rig_gravity, the_wrong_sign_is_survived) {
     }
 }
 
-/* If pulses are missing, the voltage is zero at once and the ripple returns. With the pulses back, the ripple
+/* If pulses are missing, the voltage is zero at once and the ripple returns. When the pulses come again, the ripple
  * disappears again. */
 TEST(rig_gravity, lost_marks_take_it_away) {
     begin(FED_BY_OBSERVER);
@@ -198,10 +194,8 @@ TEST(rig_gravity, lost_marks_take_it_away) {
     check_between(WH_R(0.00001), WH_R(0.001), fed_rotor_ripple(&fed));
 }
 
-/* --- its effect on the measurement ----------------------------------------------------------------------- */
-
-/* The part of gravity that remains, of either sign, follows from the quadrature ratio alone if the inertia is given.
- * The estimate restarts when the compensation ends. */
+/* If the inertia is given, the remaining part of gravity, of either sign, follows from the quadrature ratio alone. When
+ * the compensation ends, the estimate restarts. */
 TEST(rig_gravity, what_is_left_is_found_from_the_split) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
@@ -221,13 +215,13 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
         for (unsigned i = 0; i < 4; i++) {
             wh_turn_angle_shape(&rotor, &wanted, speed);
         }
-        /* the part of the turn's time at which the angle is that of sensor 2 */
+        /* Part of the turn's time before sensor 2's angle. */
         wh_real ratio = WH_R(0.25);
         for (unsigned i = 0; i < 30; i++) {
             ratio -= (wh_turn_angle_at(&wanted, ratio) - rotor.pulse_rad[1]) / WH_RIG_TWO_PI;
         }
         for (unsigned i = 0; i < 12; i++) {
-            /* compensation was already on: no change */
+            /* Compensation was already on, so this call changes nothing. */
             wh_turn_angle_compensate(&found, true, WH_R(0.0625));
             wh_turn_angle_shape(&rotor, &found, speed);
             wh_turn_angle_by_ratio(&rotor, &found, ratio);
@@ -245,8 +239,8 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
     }
 }
 
-/* The turn in which the compensation changes does not count. A motor that cannot brake compensates gravity only as far
- * as the drive's own voltage reaches: `cut` is the missing part. */
+/* The turn in which the compensation changes does not count. If the motor cannot brake, the drive's own voltage limits
+ * the compensation; `cut` is the missing part. */
 TEST(rig_gravity, the_lockin_is_told) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -287,8 +281,8 @@ static double second_of_pulse(double k) {
     return sum * 2.0 / 4096.0;
 }
 
-/* A motor that cannot brake leaves a torque that repeats twice a turn. The response is that of inertia and slope: J theta'' +
- * c theta' = -W cos 2 theta. */
+/* If the motor cannot brake, a torque W cos 2 theta remains twice per turn. The response is that of inertia and slope:
+ * J theta'' + c theta' = -W cos 2 theta. */
 TEST(rig_gravity, the_answer_to_a_pulse) {
     uint64_t seed = 77;
     for (unsigned i = 0; i < 60U; i++) {
@@ -309,7 +303,7 @@ TEST(rig_gravity, the_answer_to_a_pulse) {
         const double slope = (double)rotor.damping_Nms;
         const double size = (double)weight_Nm * second_of_pulse(1.0 - (double)cut) /
                             (2.0 * (double)speed * root(turning * turning + slope * slope));
-        /* Fourier components over the angle of a constant speed; equidistant samples make them exact */
+        /* Fourier components over the angle of a constant speed. Equidistant samples make them exact. */
         double off[2] = {0.0, 0.0};
         for (unsigned k = 0; k < 64U; k++) {
             const wh_real part = (wh_real)k / WH_R(64.0);

@@ -9,8 +9,8 @@
 
 static double root(double x) { return (double)WH_SQRT((wh_real)x); }
 
-/* docs/rig.md: reversed bending at the bearing, 1 in from the arm, notch factor 2, safety 2, against
- * the corrected endurance limit of steel with 440 MPa tensile strength. */
+/* docs/rig.md: reversed bending at the bearing, 1 in from the arm, with notch factor 2 and safety factor 2. The limit
+ * is the corrected endurance limit of steel with 440 MPa tensile strength. */
 TEST(rig_guard, speed_limit_follows_from_the_shaft) {
     const wh_real pi = WH_R(3.14159265);
     const wh_real endurance_Pa = WH_R(220e6) * WH_R(0.899) * WH_R(0.753);
@@ -22,7 +22,7 @@ TEST(rig_guard, speed_limit_follows_from_the_shaft) {
     const wh_real limit = wh_rig_standard.guard.limit_radps;
     const wh_real at_limit_N = WH_RIG_UNBALANCE_KGM / WH_R(2.0) * limit * limit + others_N;
     TEST_ASSERT_TRUE(at_limit_N < carried_N);
-    /* and the limit is not lower than necessary */
+    /* The limit is not lower than necessary, either. */
     TEST_ASSERT_TRUE(at_limit_N > WH_R(0.85) * carried_N);
     TEST_ASSERT_TRUE(wh_rig_standard.guard.target_max_radps < limit);
     TEST_ASSERT_TRUE(WH_RIG_NOMINAL_RPM * RPM < wh_rig_standard.guard.target_max_radps);
@@ -88,7 +88,8 @@ TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     }
 }
 
-/* A speed that rises at two successive pulses and one interval beyond the bound trip. Fewer signs do not. */
+/* A speed that rises at two successive pulses, together with one interval beyond the bound, trips. Fewer signs do
+ * not. */
 TEST(rig_guard, what_climbs_and_is_fast_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
@@ -121,7 +122,7 @@ TEST(rig_guard, what_climbs_and_is_fast_trips) {
     TEST_ASSERT_TRUE(wh_guard_climb_radps2(config, WH_R(-20.0) * RPM, true) < WH_R(0.0));
 }
 
-/* A rotor without drive that passes the top at 1.03 times the set-point has, at the bottom, the speed that follows from
+/* A rotor without drive passes the top at 1.03 times the set-point. At the bottom it has the speed that follows from
  * its energy. */
 TEST(rig_guard, the_bound_is_what_gravity_makes_of_a_speed) {
     const wh_guard_config *config = &wh_rig_standard.guard;
@@ -159,7 +160,7 @@ TEST(rig_guard, lost_pulses_and_silence_trip) {
     wh_guard_start(&guard, 0);
     wh_pulses_start(&pulses, WH_R(800.0) * RPM);
     wh_pulses_take(&pulses, 0, 1000U);
-    /* the time of the step is before that of the last pulse */
+    /* The step's time is before that of the last pulse. */
     wh_guard_pulses(config, &guard, &pulses, silence_s, 999U);
     wh_guard_pulses(config, &guard, &pulses, silence_s, 1000U + 499000U);
     TEST_ASSERT_TRUE(guard.trip == WH_TRIP_NONE);
@@ -194,7 +195,7 @@ TEST(rig_guard, rest_is_remembered) {
     TEST_ASSERT_TRUE(guard.quiet);
 }
 
-/* The trip from load samples that vary by `swing_N` about 50 N, with a slot pulse at every 20th sample, at 330 rpm. */
+/* Returns the trip if load samples vary by `swing_N` about 50 N, with a slot pulse at every 20th sample, at 330 rpm. */
 static wh_trip trip_on_swing(wh_real swing_N, bool turning, unsigned samples) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     wh_guard guard;
@@ -217,8 +218,8 @@ TEST(rig_guard, a_stuck_load_cell_trips) {
                      WH_TRIP_NONE); /* at rest the load may be constant */
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough - 1U) == WH_TRIP_NONE);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(0.0), true, enough) == WH_TRIP_LOAD_CELL);
-    /* the samples of a dead cell vary by noise only; with a live cell the load varies by at least a tenth of the
-     * masses' 42 N */
+    /* The samples of a dead cell vary only by noise. With a live cell the load varies by at least a tenth of the
+     * masses' 42 N. */
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.0), true, enough) == WH_TRIP_LOAD_CELL);
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.2), true, 1000) == WH_TRIP_NONE);
 }
@@ -238,8 +239,8 @@ TEST(rig_guard, an_overloaded_or_disconnected_load_cell_trips) {
     }
 }
 
-/* A load cell without samples for more than load_silence_max_s, ten periods of 2 ms, trips, also across the timer's
- * wrap. A repeated sample does not count as new. */
+/* A load cell without samples for more than load_silence_max_s, ten periods of 2 ms, trips, even while the timer wraps.
+ * A repeated sample does not count as new. */
 TEST(rig_guard, a_silent_load_cell_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const uint32_t last = UINT32_MAX - 4000U;
@@ -254,7 +255,7 @@ TEST(rig_guard, a_silent_load_cell_trips) {
             load.status = WH_LOAD_REPEATED;
             wh_guard_load(config, &guard, &speed, &load, false, true);
         }
-        /* the time of the step is before that of the last sample */
+        /* The step's time is before that of the last sample. */
         TEST_ASSERT_TRUE(wh_guard_load_comes(config, &guard, last - 100U));
         TEST_ASSERT_TRUE(wh_guard_load_comes(config, &guard, last + 19900U));
         TEST_ASSERT_FALSE(wh_guard_load_comes(config, &guard, last + 20100U));

@@ -1,4 +1,4 @@
-/* test_rig_law.c: the rig's speed drive against an independent copy of its law, and the time without pulses. */
+/* test_rig_law.c: the rig's speed drive, compared with an independent implementation; and the time without pulses. */
 #include <stddef.h>
 
 #include "core/rig/datasheet.h"
@@ -7,8 +7,8 @@
 #include "tests/scattered.h"
 #include "tests/suites.h"
 
-/* The time without a pulse is counted from the last pulse, also across the timer's wrap. It is 0 if the pulse is later
- * than the step's own time. */
+/* The time without a pulse is counted from the last pulse, even while the timer wraps. If the pulse is later than the
+ * step's own time, it is 0. */
 TEST(rig_law, silence_goes_on_over_the_wrap) {
     scattered_state = UINT64_C(0x5eed0017);
     for (unsigned i = 0; i < 1000U; i++) {

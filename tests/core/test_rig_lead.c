@@ -1,6 +1,6 @@
-/* test_rig_lead.c: how soon a runaway motor is detected from the pulses. Rotors also slow down later than their
- * set-point, because the drive stage does not brake or the inertia is up to six times larger. The guard does not trip for
- * over-speed then, but still detects a runaway drive. */
+/* test_rig_lead.c: a runaway motor is detected early from the pulses. Rotors may also slow down later than their
+ * set-point, because the drive stage does not brake or the inertia is up to six times larger. Then the guard does not
+ * trip for over-speed, but it still detects a runaway drive. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -40,7 +40,7 @@ static void turn(wh_real drive) {
     }
 }
 
-/* Steps with the fixed drive `drive`; if it is negative, with the commanded one. */
+/* Steps with the fixed drive `drive`, or with the commanded one if `drive` is negative. */
 static void go_on(wh_real drive, unsigned steps) {
     wh_rig_inputs inputs = {.supply_V = WH_RIG_RATED_V};
     for (unsigned step = 0; step < steps && rig.state == WH_RIG_RUNNING; step++) {
@@ -81,7 +81,7 @@ TEST(rig_lead, a_rotor_that_cannot_follow_is_not_too_fast) {
         leads_to(target_radps);
         go_on(AS_ASKED, 2500);
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
-        /* counts the steps in which the set-point alone would give a lower bound */
+        /* Counts the steps in which the set-point alone would give a lower bound. */
         left_behind +=
             rig.pulses.speed.turn_radps >
                     wh_guard_bound_radps(&config.guard, rig.run.drive.setpoint_radps, true)
@@ -106,7 +106,7 @@ TEST(rig_lead, one_that_spin_up_took_too_far_is_not_either) {
     }
 }
 
-/* The bounds of docs/rig.md for a rotor whose set-point falls, whether it follows or not. */
+/* The bounds of docs/rig.md hold for a rotor whose set-point falls, whether the rotor follows or not. */
 TEST(rig_lead, a_runaway_on_the_way_down_is_seen) {
     uint64_t seed = 13;
     for (unsigned trial = 0; trial < draw_cases(60); trial++) {
@@ -144,8 +144,6 @@ TEST(rig_lead, a_slow_runaway_on_the_way_down_is_seen) {
     }
 }
 
-/* --- from a steady speed, and from rest ----------------------------------------------------------------- */
-
 static const wh_real nominal_radps = WH_RIG_NOMINAL_RPM * EVEN_RPM;
 
 static void stand_at(wh_rig_phase phase, rotor_state where) {
@@ -155,8 +153,8 @@ static void stand_at(wh_rig_phase phase, rotor_state where) {
     wh_drive_start(&rig.run.drive, nominal_radps, rig.run.volts);
 }
 
-/* Applies full voltage to the rotor, whatever the command. From rest, the runaway looks like a motor that is faster than
- * its settings. */
+/* Applies full voltage to the rotor, whatever the command. From rest, this looks like a motor that is faster than its
+ * settings. */
 static void run_away(wh_real most_s) {
     const uint32_t begins_ticks = rotor.ticks;
     go_on(WH_R(1.0), 500);
@@ -170,7 +168,7 @@ TEST(rig_lead, a_runaway_is_seen_at_any_place) {
     kind = rotor_nominal();
     const wh_real drive =
         nominal_radps / kind.no_load_radps + kind.drag_Nms * nominal_radps / kind.stall_Nm;
-    for (unsigned place = 0; place < 46U; place++) { /* at intervals of 4 ms over a turn */
+    for (unsigned place = 0; place < 46U; place++) { /* 46 instants over a turn, 4 ms apart */
         stand_at(WH_PHASE_SETTLE, (rotor_state){.ticks = UINT32_MAX - 2000000U,
                                                 .speed_radps = nominal_radps,
                                                 .seed = draw_bits(&seed)});
@@ -188,7 +186,7 @@ TEST(rig_lead, a_runaway_from_rest_is_seen) {
     uint64_t seed = 8;
     kind = rotor_nominal();
     for (int place = -2; place <= 2; place++) {
-        /* within a few degrees of the hanging position, in which friction may hold it */
+        /* Within a few degrees of the hanging position, where friction may hold the rotor. */
         const wh_real off_rad = WH_R(0.04) * (wh_real)place;
         stand_at(WH_PHASE_SPIN_UP,
                  (rotor_state){.ticks = UINT32_MAX - 100000U,

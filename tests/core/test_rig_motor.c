@@ -1,5 +1,5 @@
-/* test_rig_motor.c: motors of any torque line on an imitated rotor. With the settings of the motor, a run ends with a
- * good result. With other settings, or a wrong supply reading, the result is good or the trip names the cause. */
+/* test_rig_motor.c: motors of any torque line on an imitated rotor. If the settings are those of the motor, a run ends
+ * with a good result. With other settings, or a wrong supply reading, the result is good or a trip names the cause. */
 #include <string.h>
 
 #include "core/angle.h"
@@ -95,7 +95,8 @@ static wh_refusal run(wh_real target_rpm) {
     return WH_ALLOWED;
 }
 
-/* Draws a motor: no-load speed 400 to 900 rpm, stall torque half to twice the standard's, rated for 12 to 36 V. */
+/* Draws a motor: no-load speed from 400 to 900 rpm, stall torque from half to twice the standard's, rated for 12 to 36
+ * V. */
 static void draw_motor(void) {
     motor = (wh_rig_motor){.stall_Nm = WH_RIG_STALL_NM * between(WH_R(0.5), WH_R(2.0)),
                            .no_load_radps = between(WH_R(400.0), WH_R(900.0)) * RPM,
@@ -108,7 +109,7 @@ static void draw_motor(void) {
 }
 
 /* No motor with its own settings trips. A steep torque line at a low speed may have a larger effect than a third of the
- * rotor's inertia. The model of the angle is then less accurate, and the result may be doubtful. */
+ * rotor's inertia. Then the model of the angle is less accurate, and the result may be doubtful. */
 TEST(rig_motor, any_motor_with_its_settings) {
     seed = 61;
     unsigned good = 0;
@@ -137,8 +138,8 @@ TEST(rig_motor, any_motor_with_its_settings) {
     TEST_ASSERT_TRUE(good * 10U > cases * 8U && fed * 10U > cases && refused * 5U < cases);
 }
 
-/* A divider that shows 0.7 to 1.3 times the supply, or a setting with such an error, leads to a result or to a trip that
- * names the cause. */
+/* The supply's divider, or the motor's settings, are wrong by factors of 0.7 to 1.3. The run ends with a result, or
+ * with a trip that names the cause. */
 TEST(rig_motor, wrong_settings_are_named) {
     seed = 62;
     unsigned named = 0;
@@ -186,7 +187,7 @@ TEST(rig_motor, a_wrong_order_is_named) {
     }
 }
 
-/* The speed of a coasting rotor, also that of the last turn, is known while the pulses of the sensors alternate. If a
+/* The speed of a coasting rotor, including that of the last turn, is known while the sensors' pulses alternate. If a
  * sensor fires twice in succession, the rotor swings. */
 TEST(rig_motor, the_speed_of_a_rotor_that_coasts) {
     seed = 65;
@@ -267,7 +268,7 @@ TEST(rig_motor, settings_that_cannot_go_together) {
     TEST_ASSERT_TRUE(against >= 40U);
 }
 
-/* The order of settings does not matter, and a setting given its default keeps it. */
+/* The order in which settings are given does not matter. A setting that is given its default keeps it. */
 TEST(rig_motor, any_order_of_settings) {
     enum { GIVEN = 8 };
     static const wh_conf_id ids[GIVEN] = {
@@ -289,7 +290,7 @@ TEST(rig_motor, any_order_of_settings) {
         }
         for (unsigned round = 0; round < 2U; round++) {
             const unsigned stride =
-                2U * draw_one_of(&seed, GIVEN / 2) + 1U; /* any order by an odd step */
+                2U * draw_one_of(&seed, GIVEN / 2) + 1U; /* any order, by an odd step */
             const unsigned from = draw_one_of(&seed, GIVEN);
             wh_conf_start(&conf, own, NULL, &config);
             for (unsigned k = 0; k < GIVEN; k++) {

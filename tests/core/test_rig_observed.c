@@ -24,8 +24,8 @@ static void arm(void) {
                      WH_OK);
 }
 
-/* While the loop is closed, the observer gets each accepted pulse once, with its time, within two steps, and nothing
- * else. */
+/* While the loop is closed, the observer gets each accepted pulse once, with its time, within two steps. It gets no
+ * other pulse. */
 TEST(rig_observed, each_pulse_is_told_once) {
     for (unsigned k = 0; k < 3U; k++) {
         static const wh_real targets_rpm[] = {WH_R(330.0), WH_R(200.0), WH_R(270.0)};

@@ -1,5 +1,5 @@
-/* test_rig_observer.c: the observer on a rotor of which it gets only the pulses (rotor.c): the nominal one, and rotors
- * with another inertia, weight, friction, drive stage or sensor position. */
+/* test_rig_observer.c: the observer gets only the pulses of a rotor (rotor.c): the nominal one, or rotors with another
+ * inertia, weight, friction, drive stage or sensor position. */
 #include "build/gen/scenes.h"
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
@@ -21,9 +21,7 @@ static void begin(uint64_t seed, wh_real speed_rpm) {
 
 static void check_below(wh_real bound, wh_real value) { TEST_ASSERT_TRUE(value < bound); }
 
-/* --- the nominal rotor ------------------------------------------------------------------------------ */
-
-/* The imitated rotor has the motion of the scene, integrated by another method. */
+/* The imitated rotor moves like the scene, although another method integrates it. */
 TEST(rig_observer, the_rotor_is_the_scenes) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
     wh_state state;
@@ -49,7 +47,7 @@ TEST(rig_observer, the_rotor_is_the_scenes) {
 }
 
 /* The error of the angle is below 0.02 degrees at any speed, with gravity's ripple (up to 18 %) or with compensation.
- * Speed and friction torque are accurate too. */
+ * Speed and friction torque are accurate, too. */
 TEST(rig_observer, the_rotor_it_knows_is_followed) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(250.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 8; i++) {
@@ -68,8 +66,7 @@ TEST(rig_observer, the_rotor_it_knows_is_followed) {
     }
 }
 
-/* The jitter of the pulses causes an error of the angle of less than twice the jitter, or little more than the
- * jitter. */
+/* The jitter of the pulses causes an error of the angle that is below twice the jitter, or little above the jitter. */
 TEST(rig_observer, jitter_is_not_amplified) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 3; i++) {
@@ -96,8 +93,6 @@ TEST(rig_observer, without_corrections_it_is_lost) {
     fed_rotor_run(&fed, WH_R(330.0), WH_R(5.0));
     TEST_ASSERT_TRUE(fed.valid < fed.steps / 2U);
 }
-
-/* --- other rotors ------------------------------------------------------------------------------------- */
 
 /* Random rotors: half to six times the inertia, weight wrong by up to 30 %, up to 0.2 N m of friction, sensor positions
  * wrong by up to 3 degrees, jitter. The stage brakes or freewheels, and the observer may be configured for the wrong
@@ -140,8 +135,6 @@ TEST(rig_observer, drawn_rotors_are_followed) {
     TEST_ASSERT_TRUE(fine >= draws / 10U * 9U);
     TEST_ASSERT_TRUE(lies < valid / 100U);
 }
-
-/* --- valid or not --------------------------------------------------------------------------------------- */
 
 /* The observer starts at the second pulse and is valid three pulses later. It stays valid if one pulse of either sensor
  * is lost. After more than a turn without pulses it is invalid, and two turns later valid again. */
@@ -191,7 +184,8 @@ TEST(rig_observer, a_false_mark_is_noticed) {
     TEST_ASSERT_TRUE(fed.observer.innovation_rad == before);
 }
 
-/* The second pulse starts the observer, at the mean speed since the first. Both may come at any time within a step. */
+/* The second pulse starts the observer, with the mean speed since the first. Both may come at any time within a
+ * step. */
 TEST(rig_observer, two_marks_set_it_out) {
     static const wh_real turned[2][2] = {{WH_R(1.0), WH_R(0.25)}, {WH_R(0.75), WH_R(1.0)}};
     for (unsigned i = 0; i < 8; i++) {
@@ -219,7 +213,8 @@ TEST(rig_observer, two_marks_set_it_out) {
     }
 }
 
-/* Without pulses the observer stays valid for slightly more than a turn, but no longer after the rotor has stopped. */
+/* Without pulses the observer stays valid for slightly more than a turn. If the rotor has stopped, it becomes
+ * invalid. */
 TEST(rig_observer, a_missed_turn_is_noticed) {
     for (unsigned i = 0; i < 2; i++) {
         begin(3, WH_R(250.0));
@@ -227,7 +222,7 @@ TEST(rig_observer, a_missed_turn_is_noticed) {
         while (fed.rotor.marks == 0 || fed.rotor.mark_sensor[0] != 0) {
             fed_rotor_run(&fed, WH_R(250.0), FED_STEP_S);
         }
-        if (i == 1U) { /* where the rotor would hang */
+        if (i == 1U) { /* the position in which the rotor would hang */
             fed.observer.state.real[0] = WH_R(5.0);
         }
         const wh_real drive = i == 0 ? fed.voltage : WH_R(0.0);

@@ -1,5 +1,5 @@
-/* test_rig_off.c: rotors with the motor off coast, swing, or are driven by a fault, with random supply, inertia,
- * friction, stuck stages and dead sensors, in every state with the motor off. */
+/* test_rig_off.c: rotors with the motor off: they coast, swing, or a fault drives them. Supply, inertia, friction,
+ * stuck stages and dead sensors are random, in every state with the motor off. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"
@@ -26,18 +26,17 @@ typedef struct bench {
     bool deaf;  /* a stuck stage also ignores its enable */
     wh_real share;
     unsigned dead; /* number of the dead sensor; 2: none */
-    /* From here on: the rotor's true turns while the motor must not drive. */
+    /* From here on: true turns of the rotor while the motor must not drive. */
     unsigned step;
-    unsigned begun;   /* start step of the current turn */
-    unsigned turns;   /* turns since the motor went off */
-    unsigned powered; /* turns since the enable last changed */
+    unsigned begun;   /* step in which the current turn began */
+    unsigned turns;   /* number of turns since the motor went off */
+    unsigned powered; /* number of turns since the enable last changed */
     wh_real before_s; /* durations of the last two turns */
     wh_real last_s;
     unsigned rises;
-    wh_real first_s; /* duration of the turn before the turns got faster */
-    unsigned
-        undriven_at; /* first step in which turns with the enable on showed a drive; 0: none did */
-    unsigned faster_at; /* the same for turns that get faster with the enable off */
+    wh_real first_s;      /* duration of the turn before the turns got faster */
+    unsigned undriven_at; /* first step in which turns with the enable on showed a drive; 0: none */
+    unsigned faster_at;   /* first step in which turns with the enable off got faster; 0: none */
 } bench;
 
 static bench b;
@@ -47,7 +46,7 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * (wh_real)draw_one_of(&seed, 10001) / WH_R(10000.0);
 }
 
-/* A random number from 1 to 12, roughly log-uniform, from three draws. */
+/* Draws a factor of the inertia from 0.5 to 6, roughly log-uniform. */
 static wh_real drawn_inertia(void) {
     static const wh_real parts[] = {WH_R(0.5), WH_R(0.7), WH_R(1.0), WH_R(1.4),
                                     WH_R(2.0), WH_R(2.8), WH_R(4.0), WH_R(6.0)};
@@ -59,7 +58,7 @@ static bool may_drive(void) {
     return wh_run_drives(&b.rig.run) && b.rig.guard.trip == WH_TRIP_NONE;
 }
 
-/* Counts whole turns forwards, at the bottom. */
+/* Counts whole forward turns, when the rotor passes the bottom. */
 static void see_turn(wh_real from_rad) {
     const bool around =
         from_rad > WH_R(0.75) * WH_RIG_TWO_PI && b.rotor.angle_rad < WH_R(0.25) * WH_RIG_TWO_PI;
@@ -185,16 +184,13 @@ static void go_to(place where) {
     }
 }
 
-/* --- no false trips ----------------------------------------------------------------------------------------------------- */
-
 /* Number of random benches. On an emulated board each takes seconds. */
 #ifndef OFF_BENCHES
 #define OFF_BENCHES (__STDC_HOSTED__ && !WH_DOUBLE ? 360U : 24U)
 #endif
 #define OFF_ALL (OFF_BENCHES >= 360U) /* enough benches for some of each kind */
 
-/* Healthy rotors that are braked or coast; some reverse near the top, some swing about the bottom. The rig must not
- * trip. */
+/* Healthy rotors brake or coast; some reverse near the top, some swing about the bottom. The rig must not trip. */
 TEST(rig_off, healthy_rotors_run_out) {
     unsigned brakes = 0;
     unsigned swings = 0;
@@ -218,7 +214,7 @@ TEST(rig_off, healthy_rotors_run_out) {
     TEST_ASSERT_TRUE(!OFF_ALL || (brakes > 0 && 2U * swings > draw_cases(OFF_BENCHES / 3U)));
 }
 
-/* One false pulse of either sensor while a rotor coasts causes no trip, except for some rotors that are about to
+/* One false pulse of either sensor while a rotor coasts causes no trip. The exception are some rotors that are about to
  * reverse at the top. */
 TEST(rig_off, one_invented_pulse_is_no_drive) {
     unsigned benches = 0;
@@ -260,21 +256,19 @@ TEST(rig_off, a_hand_may_turn_the_rotor) {
         }
         b.share = WH_R(0.0);
         steps_on(STEPS_PER_S);
-        b.stuck = false; /* the stage drives no more */
+        b.stuck = false; /* the stage does not drive any more */
         steps_on(30U * STEPS_PER_S);
         TEST_ASSERT_TRUE(b.rig.guard.trip == WH_TRIP_NONE);
     }
 }
 
-/* --- driven although off ---------------------------------------------------------------------------------------------- */
-
-/* The drive stage is stuck, in any state with the motor off. With the enable on, the rig switches it off and trips within a
- * second of the first turn that does not slow down. With the enable off, three turns trip if each is faster than the one
- * before. */
+/* The drive stage is stuck, in any state with the motor off. If the enable is on, the rig switches it off and trips
+ * within a second of the first turn that does not slow down. If the enable is off, the rig trips after three turns that
+ * are each faster than the one before. */
 TEST(rig_off, a_stage_that_drives_is_found) {
     unsigned shown[PLACES] = {0};
     unsigned told =
-        /* number of tripped runs with the enable on; without stages that ignore the enable while a sensor is dead */
+        /* Number of tripped runs with the enable on, excluding stages that ignore the enable while a sensor is dead. */
         0;
     unsigned untold = 0;
     unsigned on_shown[3] = {0};
@@ -283,7 +277,8 @@ TEST(rig_off, a_stage_that_drives_is_found) {
     for (unsigned i = 0; i < draw_cases(OFF_BENCHES); i++) {
         draw_bench();
         const unsigned drawn = draw_one_of(&seed, 2U * PLACES);
-        const place where = drawn < PLACES ? (place)drawn : COMMANDED; /* the motor brakes */
+        /* COMMANDED: the motor brakes */
+        const place where = drawn < PLACES ? (place)drawn : COMMANDED;
         go_to(where);
         if (where != TRIPPED && b.rig.guard.trip != WH_TRIP_NONE) {
             continue; /* this bench cannot run at this set-point */

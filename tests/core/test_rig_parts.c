@@ -1,5 +1,5 @@
-/* test_rig_parts.c: the smaller functions of the rig, as their headers describe them. These are angles and polar form,
- * least squares, the angle within a turn, pulses, turns of a record, and the outcome of a swing. */
+/* test_rig_parts.c: the smaller functions of the rig, as their headers describe them: angles and polar form, least
+ * squares, the angle within a turn, pulses, turns of a record, and the outcome of a swing. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/free_swing.h"
@@ -16,9 +16,7 @@
 
 static uint64_t seed;
 
-/* --- angles ------------------------------------------------------------------------------------------- */
-
-/* An angle less than a turn outside is wrapped into -pi ... pi; one further away becomes 0. */
+/* An angle less than a turn outside is wrapped into -pi ... pi. An angle further away becomes 0. */
 TEST(rig_parts, free_angles) {
     seed = 1;
     for (unsigned i = 0; i < 2000U; i++) {
@@ -60,8 +58,8 @@ TEST(rig_parts, polar_of_every_size) {
     }
 }
 
-/* wh_turn_angle_by_ratio() returns the error of the angle at sensor 2's pulse before the correction, whichever parameter
- * it corrects. */
+/* wh_turn_angle_by_ratio() returns the error that the angle at sensor 2's pulse had before the correction, whichever
+ * parameter it corrects. */
 TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
@@ -84,9 +82,7 @@ TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
     }
 }
 
-/* --- least squares ------------------------------------------------------------------------------------- */
-
-/* The solution satisfies (1 + sum w r r') x = guess + sum w r off, for any number of rows, even none. */
+/* The solution satisfies (1 + sum w r r') x = guess + sum w r off, for any number of rows, including none. */
 TEST(rig_parts, normal_equations_hold) {
     seed = 4;
     for (unsigned i = 0; i < 200U; i++) {
@@ -128,8 +124,8 @@ TEST(rig_parts, normal_equations_hold) {
     }
 }
 
-/* The squared deviation of an unknown is its component of the solution for the unit vector. Tested for measurements of
- * small and large weight. */
+/* The square of an unknown's deviation is the unknown's component of the solution for the unit vector, for measurements
+ * of small and large weight. */
 TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
     seed = 14;
     for (unsigned i = 0; i < 100U; i++) {
@@ -156,10 +152,8 @@ TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
     }
 }
 
-/* --- pulses -------------------------------------------------------------------------------------------- */
-
-/* With the motor off a rotor is at most as fast as its mean over the last undriven interval. That interval must have
- * begun after the switch-off. */
+/* With the motor off, a rotor is at most as fast as its mean over the last interval without drive. Such an interval
+ * must have begun after the switch-off. */
 TEST(rig_parts, the_last_interval_bounds_what_coasts) {
     seed = 5;
     for (unsigned i = 0; i < 600U; i++) {
@@ -238,10 +232,8 @@ TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
     }
 }
 
-/* --- turns --------------------------------------------------------------------------------------------- */
-
-/* The drift of a record is measured from the first turn that counts to the last, whichever turns between them are left
- * out. */
+/* The drift of a record is measured from the first turn that counts to the last one, whichever turns between them are
+ * not used. */
 TEST(rig_parts, first_and_last_turn_of_those_that_count) {
     const wh_result_config *config = &wh_rig_standard.measure.result;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
@@ -272,10 +264,8 @@ TEST(rig_parts, first_and_last_turn_of_those_that_count) {
     }
 }
 
-/* --- verdicts ------------------------------------------------------------------------------------------- */
-
-/* A quantity exactly at its limit is accepted, and the next number beyond is refused. One quantity is at its limit, the
- * others have nominal values. */
+/* A quantity exactly at its limit is accepted, and the next number beyond is refused. The other quantities have nominal
+ * values. */
 TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     wh_result_config config = wh_rig_standard.measure.result;
     config.amplitude_wrong = WH_R(0.25); /* so that products with 64 N are exact */
@@ -285,7 +275,7 @@ TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     config.inertia_off = WH_R(0.5);
     wh_rotor_config rotor = wh_rig_standard.measure.rotor;
     rotor.inertia_kgm2 = WH_R(0.25);
-    /* no ripple, so nothing is expected in the second order */
+    /* Without ripple, the expected second order is zero. */
     const wh_turn_angle level = {.whole_rad = WH_R(0.0)};
     const wh_merge merge = {.samples = 1000, .ripple_rad = WH_R(0.01), .second_turns = 12};
     const wh_measured right = {.turns = 12,
@@ -326,8 +316,8 @@ TEST(rig_parts, limits_of_a_verdict_are_allowed) {
     }
 }
 
-/* The outcome of a swing follows from its last pass: enough half swings, at most a quarter of them impossible, passages
- * of sensor 2, and a narrow interval. */
+/* The last pass decides on the outcome of a swing. It needs enough half swings, at most a quarter of them impossible,
+ * passages of sensor 2, and a narrow interval. */
 TEST(rig_parts, verdict_of_a_swing) {
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     unsigned times[WH_SWING_WHYS] = {0};
@@ -336,7 +326,7 @@ TEST(rig_parts, verdict_of_a_swing) {
         wh_swing_config config = wh_rig_standard.swing;
         const wh_real zero[N] = {WH_R(0.0)};
         wh_swing swing = {.result = {.why = WH_SWING_WORKS}, .piece = WH_SWING_ENDS};
-        /* no measurement: the deviations are those of the guess */
+        /* Without a measurement, the deviations are those of the guess. */
         wh_normal_start(&swing.normal, zero);
         swing.fits = 8U + draw_one_of(&seed, 20);
         swing.strays = draw_one_of(&seed, 2) * (swing.fits / 4U + draw_one_of(&seed, 2));

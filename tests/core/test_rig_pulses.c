@@ -1,5 +1,5 @@
-/* test_rig_pulses.c: finds the true slot pulses of a rotor with gravity's ripple among jitter, disturbances, losses and
- * bounces. */
+/* test_rig_pulses.c: finds the true slot pulses of a rotor with gravity's ripple, among jitter, disturbances, losses
+ * and bounces. */
 #include <stddef.h>
 
 #include "draw.h"
@@ -14,8 +14,8 @@
 #define DISTURBED 12U /* the false pulse follows this one */
 #define MOST_PULSES (TRAIN_PULSES * 5U)
 #define JITTER_TICKS 60U
-/* A false pulse within this time of a true one of the same sensor may replace it, because a pulse's time is uncertain
- * by four times the jitter. */
+/* Within this time, a false pulse may replace a true one of the same sensor, because a pulse's time is uncertain by
+ * four times the jitter. */
 #define TELLING_TICKS (4U * JITTER_TICKS)
 
 static const wh_real speeds_rpm[] = {WH_R(100.0), WH_R(140.0), WH_R(170.0),
@@ -74,7 +74,7 @@ static uint32_t apart(uint32_t a_ticks, uint32_t b_ticks) {
     return ticks >> 31 != 0 ? 0U - ticks : ticks;
 }
 
-/* Puts the train into the input, without `lost` pulses from DISTURBED on. */
+/* Puts the train into the input, except for `lost` pulses, beginning with DISTURBED. */
 static void give_train(unsigned lost) {
     given_count = 0;
     for (unsigned i = 0; i < TRAIN_PULSES; i++) {
@@ -84,7 +84,7 @@ static void give_train(unsigned lost) {
     }
 }
 
-/* Adds a pulse to the input, before (or, if `behind`, after) others of the same time. */
+/* Adds a pulse to the input: before other pulses of the same time or, if `behind`, after them. */
 static void give(unsigned sensor, uint32_t ticks, bool behind) {
     TEST_ASSERT_TRUE(given_count < MOST_PULSES);
     unsigned at = given_count++;
@@ -112,12 +112,12 @@ static void stand_in(wh_rig_phase phase) {
 typedef struct outcome {
     unsigned marks;
     unsigned gaps;
-    unsigned strange;   /* confirmed pulses that are no true pulse, or have a wrong position */
+    unsigned strange;   /* number of confirmed pulses that are false, or have a wrong position */
     uint32_t off_ticks; /* largest error of a confirmed pulse's time */
     wh_real off_rpm;    /* largest error of the speed */
 } outcome;
 
-/* The true pulse that a confirmed one belongs to, searched from the one after the previous. */
+/* Returns the true pulse to which a confirmed one belongs; the search begins with number `from`. */
 static unsigned true_pulse(const wh_index_pulse *mark, unsigned from) {
     unsigned best = from;
     for (unsigned i = from; i < TRAIN_PULSES && i < from + 6U; i++) {
@@ -129,14 +129,14 @@ static unsigned true_pulse(const wh_index_pulse *mark, unsigned from) {
     return best;
 }
 
-/* Processes all input in control steps, whose own times are up to `early` before the pulses'. */
+/* Processes all input in control steps. The steps' own times are up to `early` before the pulses. */
 static outcome play(uint32_t early) {
     outcome out = {.marks = 0};
     uint32_t now = train[0].ticks - 1000U;
     const uint32_t end = train[TRAIN_PULSES - 1U].ticks + 200000U;
     unsigned next = 0;
     unsigned from = 0;
-    uint32_t base = 0; /* the count of quarters minus the true one */
+    uint32_t base = 0; /* count of quarter turns minus the true count */
     while ((int32_t)(end - now) > 0) {
         const uint32_t due = next < given_count ? given[next].ticks - early : end;
         now = early > 0 && (int32_t)(due - now) > 0 && apart(due, now) < STEP_TICKS
@@ -157,7 +157,7 @@ static outcome play(uint32_t early) {
                                ? 1U
                                : 0U;
             out.off_ticks = off > out.off_ticks ? off : out.off_ticks;
-            /* the next pulse may reject it */
+            /* The next pulse may still reject this one. */
             TEST_ASSERT_TRUE((int32_t)(now - mark.pulse.ticks) > 0);
             out.marks++;
         }
@@ -172,8 +172,8 @@ static outcome play(uint32_t early) {
     return out;
 }
 
-/* Checks that all true pulses are confirmed at their positions, and nothing else is. A false pulse within `off_ticks`
- * of a true one is indistinguishable from it. */
+/* Checks that exactly the true pulses are confirmed, at their positions. A false pulse within `off_ticks` of a true one
+ * cannot be distinguished from it. */
 static void check_marks(const outcome *out, uint32_t off_ticks) {
     TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES, out->marks);
     TEST_ASSERT_EQUAL_UINT(0, out->strange + out->gaps);
@@ -197,9 +197,7 @@ TEST(rig_pulses, a_train_is_its_marks) {
     }
 }
 
-/* --- false pulses --------------------------------------------------------------------------------- */
-
-/* Time from a pulse to the nearest true one of its sensor. */
+/* Returns the time from a pulse to the nearest true pulse of its sensor. */
 static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
     uint32_t least = UINT32_MAX;
     for (unsigned i = sensor; i < TRAIN_PULSES; i += 2U) {
@@ -209,7 +207,7 @@ static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
     return least;
 }
 
-#define RAMP_FASTER WH_R(1.14) /* a turn is shorter by the window of the ramp, 0.12 of the turn */
+#define RAMP_FASTER WH_R(1.14) /* a turn that is shorter by 0.12, the window of the ramp */
 
 /* Adds a false pulse. It must be rejected, so that the confirmed pulses are the true ones. Within the jitter of a true
  * pulse, either may be confirmed. */
@@ -221,7 +219,8 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
     const uint32_t near = apart_from_its_own(sensor, ticks);
     check_marks(&out, near < TELLING_TICKS ? near : 0);
     TEST_ASSERT_EQUAL_UINT32(1, rig.pulses.rejected);
-    /* late on the ramp, a pulse as early as the window allows counts as over-speed until the true pulse comes */
+    /* Late on the ramp, a pulse that is as early as the window allows counts as over-speed until the true pulse
+     * comes. */
     const bool over = phase == WH_PHASE_RAMP && rig.guard.trip == WH_TRIP_OVERSPEED &&
                       RAMP_FASTER * mean_radps > config.guard.limit_radps;
     TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE || over);
@@ -235,7 +234,7 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
 static void check_disturbed(wh_rig_phase phase, unsigned sensor, uint32_t ticks) {
     for (unsigned behind = 0; behind < 2; behind++) {
         const outcome out = disturb(phase, sensor, ticks, behind == 1);
-        /* as early as the window allows */
+        /* for a pulse that is as early as the window allows */
         const wh_real most_rpm = phase == WH_PHASE_RECORD ? WH_R(2.0)
                                  : phase == WH_PHASE_SETTLE
                                      ? WH_R(0.035) * mean_radps / RPM
@@ -271,7 +270,7 @@ TEST(rig_pulses, a_pulse_too_many_while_it_settles) { check_places(WH_PHASE_SETT
 
 TEST(rig_pulses, a_pulse_too_many_on_the_ramp) { check_places(WH_PHASE_RAMP); }
 
-/* Two false pulses with a given number of true pulses between them: both are rejected. */
+/* Two false pulses come, with a given number of true pulses between them. Both are rejected. */
 TEST(rig_pulses, two_pulses_too_many) {
     seed = 7;
     for (unsigned i = 0; i < draw_cases(240); i++) {
@@ -292,8 +291,6 @@ TEST(rig_pulses, two_pulses_too_many) {
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE && out.off_rpm <= WH_R(2.0));
     }
 }
-
-/* --- missing pulses ------------------------------------------------------------------------------- */
 
 /* One lost pulse is bridged. After several lost pulses the count of positions restarts, and the speed stays. */
 TEST(rig_pulses, lost_pulses) {
@@ -317,9 +314,7 @@ TEST(rig_pulses, lost_pulses) {
     }
 }
 
-/* --- stamps, bounces, storms ----------------------------------------------------------------------- */
-
-/* A pulse may be captured after the step's own reading of the timer, and the train crosses the timer's wrap. */
+/* A pulse may be captured after the step has read the timer. The timer wraps during the train. */
 TEST(rig_pulses, stamps_from_the_future) {
     seed = 4;
     for (unsigned i = 0; i < SPEEDS; i++) {
@@ -337,7 +332,7 @@ TEST(rig_pulses, stamps_from_the_future) {
     }
 }
 
-/* The edge of a slot fires repeatedly. The repetitions are counted and do no harm, but too many stop the rig. */
+/* The edge of a slot fires repeatedly. The repetitions are counted and do no harm; too many stop the rig. */
 TEST(rig_pulses, bounces) {
     seed = 5;
     for (unsigned each = 1; each <= 4; each++) {

@@ -1,4 +1,4 @@
-/* test_rig_record.c: the record of a trip, written as bytes, is read back; invalid bytes are refused. */
+/* test_rig_record.c: the record of a trip is read back as written; invalid bytes are refused. */
 #include "core/rig/rig.h"
 
 #include "draw.h"
@@ -14,7 +14,7 @@ static const wh_trip trips[] = {
 };
 #define TRIPS (sizeof trips / sizeof trips[0])
 
-/* A random number rounded to float, as in the bytes. */
+/* Draws a number with the precision of a float, as the bytes have. */
 static wh_real any(void) { return (wh_real)((float)(int32_t)draw_bits(&seed) * 1e-4f); }
 
 static wh_trip_record draw_record(unsigned i) {
@@ -37,7 +37,7 @@ TEST(rig_record, there_and_back) {
         wh_trip_record read = {.trip = WH_TRIP_NONE};
         wh_trip_record_put(&record, bytes);
         const bool is = wh_trip_record_get(&read, bytes, WH_TRIP_RECORD_BYTES);
-        /* without a trip the record is read as none */
+        /* A record without a trip is not accepted. */
         TEST_ASSERT_TRUE(is == (record.trip != WH_TRIP_NONE));
         if (is) {
             TEST_ASSERT_TRUE(read.trip == record.trip && read.phase == record.phase);

@@ -1,4 +1,5 @@
-/* test_rig_result.c: merged turns, compared with sums computed here; the condition of each doubt; and the tare. */
+/* test_rig_result.c: merged turns, compared with sums computed in the test; the condition of each doubt; and the
+ * tare. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"
@@ -17,13 +18,13 @@ static wh_measured measured;
 static wh_rotor_config rotor;
 static wh_result_config bench; /* a calibrated configuration */
 
-/* A random number, uniform about 0, of standard deviation 1. */
+/* Draws a number, uniform about 0, with standard deviation 1. */
 static wh_real scatter(void) {
     return ((wh_real)(scattered() >> 40) / WH_R(16777216.0) - WH_R(0.5)) * WH_R(3.4641016);
 }
 
-/* The second order of a rotor's force relative to the first, for a speed ripple of this size and direction. By energy a
- * rotor without losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
+/* Sets the second order of a rotor's force, for a speed ripple of this size and direction. By energy, a rotor without
+ * losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
 static void put_second(wh_lockin_turn *turn, wh_real ripple_rad, wh_real lag_rad) {
     wh_real size_N;
     wh_real phase_rad;
@@ -69,9 +70,7 @@ static void conclude(const wh_result_config *config) {
     wh_merge_judge(config, &rotor, &merge, &angle, &measured);
 }
 
-/* --- Student's factor ----------------------------------------------------------------------------- */
-
-/* Two-sided, 95 %: from the distribution's tables. */
+/* The two-sided factor for 95 %, from tables of the distribution. */
 TEST(rig_result, students_factor) {
     static const struct {
         uint32_t freedom;
@@ -86,9 +85,7 @@ TEST(rig_result, students_factor) {
     CHECK_NEAR(0.0f, 0.0f, wh_student(0));
 }
 
-/* --- the mean -------------------------------------------------------------------------------------- */
-
-/* Without floors, tolerances and jitter, the interval is Student's for the components along and across the mean. */
+/* Without floors, tolerances and jitter, the interval is Student's for the components along the mean and across it. */
 TEST(rig_result, the_interval_is_students) {
     scattered_state = UINT64_C(0x5eed0031);
     for (unsigned k = 0; k < 12; k++) {
@@ -141,7 +138,7 @@ TEST(rig_result, the_interval_is_students) {
     }
 }
 
-/* With the calibration uncertainties alone, the intervals are these uncertainties. The defaults are 0.5 % and 0.5
+/* If only the calibration uncertainties are not zero, the intervals equal them. The defaults are 0.5 % and 0.5
  * degrees. */
 TEST(rig_result, floors_are_kept) {
     begin();
@@ -165,8 +162,8 @@ TEST(rig_result, floors_are_kept) {
     CHECK_NEAR(1e-3f, 0.5f, measured.phase_half_rad / DEG);
 }
 
-/* The standard deviation of the jitter follows from the second differences of both sensors' pulses, but not across a
- * turn that does not count. */
+/* The standard deviation of the jitter follows from the second differences of both sensors' pulses. A turn that does
+ * not count interrupts the series. */
 TEST(rig_result, jitter_is_found) {
     scattered_state = UINT64_C(0x5eed0032);
     begin();
@@ -191,8 +188,6 @@ TEST(rig_result, jitter_is_found) {
     TEST_ASSERT_EQUAL_UINT32(397 + 395, merge.jitters);
     CHECK_NEAR(5.0f, 60.0f, measured.jitter_s * WH_R(1e6));
 }
-
-/* --- verdicts --------------------------------------------------------------------------------------- */
 
 static wh_why why_of(wh_real in_phase, wh_lockin_turn like) {
     begin();
@@ -231,7 +226,7 @@ TEST(rig_result, reasons_from_the_turns) {
         TEST_ASSERT_TRUE(measured.why == (i < 2U ? WH_WHY_NONE : WH_WHY_ROTOR));
     }
     for (int side = -1; side <= 1; side += 2) {
-        /* gravity is compensated, except for a remaining part */
+        /* Gravity is compensated, except for a remaining part. */
         for (unsigned i = 0; i < 2; i++) {
             TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
             const wh_real part = WH_ABS(merge.ripple_rad) / angle.whole_rad;
@@ -246,7 +241,7 @@ TEST(rig_result, reasons_from_the_turns) {
         }
     }
     for (unsigned i = 0; i < 8U;
-         i++) { /* the second order of another ripple: larger, smaller, earlier, later */
+         i++) { /* the second order of a ripple that is larger, smaller, earlier or later */
         static const wh_real turns[] = {WH_R(0.0), WH_R(0.5), WH_R(0.25), WH_R(-0.25)};
         TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
         CHECK_NEAR(1e-5f, 0.0f, measured.ripple_off_rad);
@@ -265,7 +260,7 @@ TEST(rig_result, reasons_from_the_turns) {
         TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
     }
     for (unsigned i = 0; i < 2U;
-         i++) { /* the repeating residual, and the noise that is expected from this many samples */
+         i++) { /* the repeating residual, and the noise expected from this many samples */
         TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
         merge.repeats.samples = 910;
         merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* noise of 1 N */
@@ -282,7 +277,7 @@ TEST(rig_result, reasons_from_the_turns) {
     TEST_ASSERT_TRUE(why_of(nan, plain) == WH_WHY_AMPLITUDE);
 }
 
-/* The remaining part of gravity is reported if gravity is compensated and the plane is not level; otherwise it is 0. */
+/* If gravity is compensated and the plane is not level, the remaining part of gravity is reported; otherwise 0. */
 TEST(rig_result, what_is_left_of_gravity) {
     for (unsigned i = 0; i < 4U; i++) {
         begin();
@@ -301,7 +296,7 @@ TEST(rig_result, what_is_left_of_gravity) {
     }
 }
 
-/* A single turn has no scatter, and a zero load has no phase. The result then has no interval, and no number in it is
+/* A single turn has no scatter, and a zero load has no phase. Then the result has no interval, and no number in it is
  * NaN. */
 TEST(rig_result, without_scatter_or_load_there_is_no_interval) {
     for (unsigned turns = 0; turns <= 3U; turns++) {
@@ -322,7 +317,7 @@ TEST(rig_result, without_scatter_or_load_there_is_no_interval) {
     }
 }
 
-/* A carriage that weighs three times the masses reduces the force by a quarter. */
+/* If the carriage weighs three times the masses, the force is a quarter smaller. */
 TEST(rig_result, the_mount_decides_what_is_expected) {
     begin();
     wh_result_config config = bench;
@@ -336,13 +331,11 @@ TEST(rig_result, the_mount_decides_what_is_expected) {
     CHECK_NEAR(0.01f, 31.61f, measured.expected_N);
 }
 
-/* --- the tare --------------------------------------------------------------------------------------- */
-
-/* A tare of 250 samples: white noise, mains hum, and motion. */
+/* Returns a tare of 250 samples with white noise, mains hum, and motion. */
 static wh_tare tare_of(wh_real noise_N, wh_real hum_N, wh_real hum_Hz, wh_real swing_N,
                        wh_real swing_Hz, wh_real drift_N) {
     wh_tare tare = {.count = 0};
-    const wh_real begins[] = {scatter(), scatter()}; /* phases, rad */
+    const wh_real begins[] = {scatter(), scatter()}; /* initial phases, rad */
     for (unsigned i = 0; i < 250; i++) {
         const wh_real part = (wh_real)i / WH_R(250.0);
         wh_real hum;
@@ -361,8 +354,8 @@ static wh_real between(wh_real least, wh_real most) {
     return least + (most - least) * (WH_R(0.5) + scatter() / WH_R(3.4641016));
 }
 
-/* Noise (up to 3 N) and hum (up to 5 N, 45 to 65 Hz) do not count as motion if the error of the mean is small
- * enough. */
+/* If the error of the mean is small enough, noise (up to 3 N) and hum (up to 5 N, 45 to 65 Hz) do not count as
+ * motion. */
 TEST(rig_result, noise_and_hum_are_no_motion) {
     static const wh_real noise_N[] = {WH_R(0.0), WH_R(0.007), WH_R(0.07), WH_R(1.0), WH_R(3.0)};
     scattered_state = UINT64_C(0x5eed0033);
@@ -395,7 +388,7 @@ TEST(rig_result, motion_is_seen_through_noise_and_hum) {
     }
 }
 
-/* Noise that makes the mean uncertain by 0.25 N refuses the tare. So do too few samples. */
+/* If noise makes the mean uncertain by 0.25 N, the tare is refused. Too few samples are refused, too. */
 TEST(rig_result, a_tare_that_is_not_known) {
     scattered_state = UINT64_C(0x5eed0036);
     wh_tare tare = {.count = 0};

@@ -19,8 +19,8 @@ static void check_trip(wh_trip trip) {
     TEST_ASSERT_TRUE(trip == WH_TRIP_NONE || even.rig.state == WH_RIG_TRIPPED);
 }
 
-/* The imitated load is measured as accurately as by the lock-in in test_lockin.c. The speed within a turn is constant
- * to one tick, 6e-6 of a turn. */
+/* Checks that the imitated load is measured as accurately as by the lock-in in test_lockin.c. The speed within a turn
+ * is constant to one tick, 6e-6 of a turn. */
 static void check_measured(unsigned turns_wanted) {
     check_trip(WH_TRIP_NONE);
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -43,10 +43,8 @@ TEST(rig_run, a_faultless_run_finds_the_load) {
     TEST_ASSERT_EQUAL_UINT32(0, even.rig.result.lost + even.rig.result.rejected);
 }
 
-/* --- slot pulses -------------------------------------------------------------------------------- */
-
 /* From the middle of the record on, one or both sensors lose pulses: as many as the guard tolerates, but never two in
- * succession. A turn whose begin or end is unknown is left out. */
+ * succession. If the begin or end of a turn is unknown, the turn is not used. */
 TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
@@ -54,7 +52,7 @@ TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
             failing.lose[sensor] = lost;
             run(WH_R(330.0), failing);
             if (sensor == 0 && lost > 1) {
-                /* otherwise there would be too many turns between them */
+                /* Otherwise too many turns would lie between them. */
                 TEST_ASSERT_TRUE(even.rig.result.force.quality == WH_DOUBTFUL);
                 TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_LEFT_OUT);
             } else {
@@ -66,7 +64,7 @@ TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
     }
 }
 
-/* After two lost pulses in succession the count of turns restarts, and the turns in the gap are left out. */
+/* After two lost pulses in succession the count of turns restarts, and the turns in the gap are not used. */
 TEST(rig_run, a_gap_in_the_record_costs_its_turns) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .lose = {1, 1}});
     check_measured(8);
@@ -92,7 +90,7 @@ TEST(rig_run, a_pulse_too_many_spoils_no_result) {
     }
 }
 
-/* The rotor hangs with its slot at sensor 1, and gives pulses by jitter. */
+/* The rotor hangs with its slot at sensor 1, where jitter makes pulses. */
 TEST(rig_run, a_pulse_during_the_tare_is_forgotten) {
     for (uint32_t after = 0; after <= 490000U; after += 490000U) {
         run(WH_R(330.0),
@@ -121,15 +119,13 @@ TEST(rig_run, a_dead_sensor_trips) {
     }
 }
 
-/* The load of a jammed rotor is constant, too, but the trip must not name the cell as the cause. */
+/* The load of a jammed rotor is constant, too, but the trip must not blame the cell. */
 TEST(rig_run, a_jammed_rotor_trips_for_its_pulses) {
     for (wh_rig_phase in = WH_PHASE_SPIN_UP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .after_ticks = 200000U, .jams = true});
         check_trip(WH_TRIP_PULSES);
     }
 }
-
-/* --- the speed ----------------------------------------------------------------------------------- */
 
 static uint64_t seed;
 
@@ -142,7 +138,7 @@ static wh_real between(wh_real least, wh_real most) {
 TEST(rig_run, jitter_settles) {
     seed = 61;
     for (unsigned i = 0; i < 60U; i++) {
-        /* the load is that of 330 rpm */
+        /* The load is that of 330 rpm. */
         const wh_real target_rpm =
             i % 2U == 0 ? between(WH_R(324.0), WH_R(336.0)) : between(WH_R(170.0), WH_R(360.0));
         const wh_real jitter_s = i < 10U ? WH_R(120e-6) : between(WH_R(0.0), WH_R(150e-6));
@@ -184,13 +180,11 @@ TEST(rig_run, a_speed_that_hunts_or_drifts_does_not_settle) {
         TEST_ASSERT_TRUE(even.rig.guard.trip != WH_TRIP_NONE && !even.rig.has_result);
         unsettled += even.rig.guard.trip == WH_TRIP_UNSETTLED ? 1U : 0U;
     }
-    /* in the other runs the drive's voltage reached its limit */
+    /* In the other runs the drive's voltage reached its limit. */
     TEST_ASSERT_TRUE(unsettled >= 20U);
 }
 
-/* --- load cell ---------------------------------------------------------------------------------- */
-
-/* A cell that stops giving samples: in every state that needs it, the run ends within 10 sample periods and a step. */
+/* A cell stops giving samples. In every state that needs the cell, the run ends within 10 sample periods and a step. */
 TEST(rig_run, a_load_cell_that_falls_silent_trips) {
     for (wh_rig_phase in = WH_PHASE_TARE; in <= WH_PHASE_RAMP_DOWN; in++) {
         begin(WH_R(330.0), (even_failure){.in = in, .lose_samples = EVEN_ALWAYS});
@@ -208,7 +202,7 @@ TEST(rig_run, a_load_cell_that_falls_silent_trips) {
     check_result();
 }
 
-/* One missing sample is bridged, more cost their turn. */
+/* One missing sample is bridged. If more are missing, their turn does not count. */
 TEST(rig_run, samples_missing_in_the_record) {
     for (unsigned lost = 1; lost <= 9; lost += 4) {
         run(WH_R(330.0),
@@ -221,8 +215,7 @@ TEST(rig_run, samples_missing_in_the_record) {
     check_result(); /* outside the record a missing sample has no effect on the result */
 }
 
-/* The converter gives each sample a status. The status of a disconnected cell stops the run; late samples do not
- * count. */
+/* The converter gives each sample a status. "Disconnected" stops the run; late samples do not count. */
 TEST(rig_run, the_converters_word_counts) {
     for (wh_load_status status = WH_LOAD_SATURATED; status < WH_LOAD_STATUSES; status++) {
         run(WH_R(330.0),
@@ -230,7 +223,7 @@ TEST(rig_run, the_converters_word_counts) {
         TEST_ASSERT_EQUAL_INT(status == WH_LOAD_LATE ? WH_TRIP_NONE : WH_TRIP_LOAD_CELL,
                               even.rig.guard.trip);
     }
-    /* samples are late from 0.7 s on: three whole turns remain, all others are gaps */
+    /* Samples are late from 0.7 s on. Three whole turns remain, the others have gaps. */
     run(WH_R(330.0),
         (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .status = WH_LOAD_LATE});
     TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_LEFT_OUT);
@@ -239,14 +232,12 @@ TEST(rig_run, the_converters_word_counts) {
 /* A dead cell shows only the converter's noise. In half a turn, a live load changes by far more. */
 TEST(rig_run, a_dead_load_cell_trips) {
     for (wh_rig_phase in = WH_PHASE_RAMP; in <= WH_PHASE_RECORD; in++) {
-        run(WH_R(330.0), (even_failure){.in = in, .shows = 30}); /* 0.3 N, in either direction */
+        run(WH_R(330.0), (even_failure){.in = in, .shows = 30}); /* plus or minus 0.3 N */
         check_trip(WH_TRIP_LOAD_CELL);
     }
 }
 
-/* --- set-points --------------------------------------------------------------------------------- */
-
-/* slow_radps is 200 rpm. The ramp from 330 rpm goes down to it, but the ramp from 180 rpm never goes up. */
+/* The ramp down ends at slow_radps, 200 rpm. From 330 rpm the set-point falls to it; from 180 rpm it never rises. */
 TEST(rig_run, ramp_down_never_speeds_up) {
     static const wh_real targets_rpm[] = {WH_R(180.0), WH_R(330.0)};
     for (unsigned i = 0; i < 2; i++) {
@@ -263,8 +254,6 @@ TEST(rig_run, ramp_down_never_speeds_up) {
     }
 }
 
-/* --- before the motor --------------------------------------------------------------------------- */
-
 TEST(rig_run, a_rotor_that_does_not_start_trips) {
     begin(WH_R(330.0), (even_failure){.in = WH_PHASE_SPIN_UP, .jams = true});
     go_on_until(WH_PHASE_SPIN_UP);
@@ -276,9 +265,9 @@ TEST(rig_run, a_rotor_that_does_not_start_trips) {
 }
 
 /* Slow changes refuse the tare: a drift of the load, or a pulse, which shows that the rotor is not hanging at rest.
- * Noise does not, even a hundred times that of the converter. */
+ * Noise does not refuse it, even a hundred times that of the converter. */
 TEST(rig_run, a_moving_rig_gets_no_tare) {
-    run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 80}); /* 0.4 N altogether */
+    run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 80}); /* 0.4 N in total */
     check_trip(WH_TRIP_MOVING);
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .creeps = 8});
     check_trip(WH_TRIP_NONE);
@@ -287,10 +276,10 @@ TEST(rig_run, a_moving_rig_gets_no_tare) {
     begin(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE, .shows = 20});
     go_on_until(WH_PHASE_SPIN_UP);
     TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_SPIN_UP);
-    /* 0.2 N in either direction, 250 times */
+    /* plus or minus 0.2 N, 250 samples */
     CHECK_NEAR(2e-4f, 0.01267f, wh_tare_error_N(&even.rig.measure.tare));
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_TARE,
-                                    .shows = 500}); /* the mean is uncertain by more than 0.25 N */
+                                    .shows = 500}); /* the error of the mean is above 0.25 N */
     check_trip(WH_TRIP_MOVING);
 }
 
@@ -325,7 +314,7 @@ TEST(rig_run, what_cannot_be_is_not_called_good) {
                                                        : i < 3 ? WH_WHY_PHASE_OFF
                                                                : WH_WHY_PHASE));
     }
-    /* a cell that freezes for 0.1 s, and one whose zero drifts */
+    /* A cell that freezes for 0.1 s, then a cell whose zero drifts. */
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .creeps = 500});
     TEST_ASSERT_TRUE(even.rig.result.force.quality != WH_GOOD);
 }

@@ -1,5 +1,5 @@
-/* test_rig_slope.c: the second order of the load shows that the motor's torque slope differs from the configured one.
- * Rotors with random slopes are integrated over their angle and measured by a lock-in with the configured slope. */
+/* test_rig_slope.c: the second order of the load shows a motor's torque slope that differs from the configured one.
+ * Rotors with random slopes are integrated over their angle. A lock-in with the configured slope measures them. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"
@@ -29,17 +29,17 @@ typedef struct plant {
     wh_real inertia_kgm2;
     wh_real slope_Nms;
     wh_real gravity_rad;
-    uint32_t late_ticks; /* delay of the samples that their time stamps do not contain */
+    uint32_t late_ticks; /* delay of the samples that their time stamps do not include */
     wh_real gain;        /* gain of the cell */
 } plant;
 
-/* The steady turn: values at STEPS equal angles from sensor 1's pulse. */
+/* The steady turn: values at STEPS equal angles, beginning at sensor 1's pulse. */
 static wh_real part_at[STEPS + 1U]; /* part of the turn's time */
 static wh_real force_N[STEPS + 1U];
 static wh_real turn_s;
-static wh_real along_rad;  /* the angle's ripple over time: sine part */
-static wh_real across_rad; /* the same ripple: cosine part */
-/* S <w^2>, the first order of the load over the angle, in line with the masses */
+static wh_real along_rad;  /* sine part of the angle's ripple over time */
+static wh_real across_rad; /* cosine part of the same ripple */
+/* S <w^2>: the first order of the load over the angle, in line with the masses. */
 static wh_real truth_N;
 
 static wh_real acceleration(const plant *p, wh_real theta, wh_real speed) {
@@ -53,7 +53,7 @@ static wh_real bend(const plant *p, wh_real theta, wh_real speed) {
     return acceleration(p, theta, speed) / speed;
 }
 
-/* The speed at the end of a turn that begins with `speed`. */
+/* Returns the speed at the end of a turn that begins with `speed`. */
 static wh_real turn(const plant *p, wh_real speed) {
     const wh_real h = WH_RIG_TWO_PI / (wh_real)STEPS;
     const wh_real from = rotor.pulse_rad[0];
@@ -180,7 +180,8 @@ static void believe(wh_real gravity, wh_real gravity_rad) {
     rotor.gravity_rad = gravity_rad;
 }
 
-/* Draws 165 to 360 rpm and an arms' plane that is upright or inclined, with `line` times the configured slope. */
+/* Draws a speed from 165 to 360 rpm, and an arms' plane that is upright or inclined, with `line` times the configured
+ * slope. */
 static plant draw_plant(wh_real line) {
     believe(draw_one_in(&seed, 2) ? WH_R(1.0) : drawn_between(WH_R(0.5), WH_R(1.0)),
             drawn_between(WH_R(-0.05), WH_R(0.05)));
@@ -192,7 +193,7 @@ static plant draw_plant(wh_real line) {
                    .gain = WH_R(1.0)};
 }
 
-/* The difference between the lock-in's ripple and the rotor's, as a vector. */
+/* Returns the size of the difference between the lock-in's ripple and the rotor's, as vectors. */
 static wh_real arrow_off(void) {
     const wh_wave lag = wh_wave_of(lockin.angle.lag_rad - rotor.gravity_rad);
     const wh_real along = lockin.angle.ripple_rad * lag.cosine - along_rad;
@@ -201,8 +202,8 @@ static wh_real arrow_off(void) {
 }
 
 /* The rotor's slope is 0.2 to 1.6 times the configured one. The ripple found from the second order is that of the
- * integrated rotor, except for terms of third order in the ripple, which the model of the angle omits. Good results are
- * right, and with the right slope no result is doubtful. */
+ * integrated rotor, except for terms of third order, which the model of the angle omits. Good results are right. With
+ * the right slope no result is doubtful. */
 TEST(rig_slope, the_load_tells_of_another_slope) {
     unsigned good = 0;
     unsigned doubted = 0;
@@ -231,7 +232,7 @@ TEST(rig_slope, the_load_tells_of_another_slope) {
     TEST_ASSERT_TRUE(good >= 15U && doubted >= 8U && would_lie >= 4U);
 }
 
-/* Neither a delay nor the cell's gain looks like a wrong slope, and neither hides one. */
+/* A delay, or a wrong gain of the cell, neither looks like a wrong slope nor hides one. */
 TEST(rig_slope, calibration_does_not_matter) {
     seed = 52;
     for (unsigned run = 0; run < 16U; run++) {
@@ -247,13 +248,13 @@ TEST(rig_slope, calibration_does_not_matter) {
         const wh_real late_rad =
             WH_RIG_TWO_PI * (wh_real)p.late_ticks / (wh_real)WH_RIG_TICKS_PER_S / turn_s;
         CHECK_NEAR(1e-3f + 0.06f * (float)late_rad, -late_rad, measured.phase_rad - phase_rad);
-        /* the delay changes the angle of a rotor with ripple by a varying amount, of which half is visible */
+        /* If the rotor's speed ripples, a delay changes the angle by a varying amount. Half of this variation shows. */
         const wh_real shows = WH_R(0.35) * swing * late_rad + WH_R(3e-4);
         CHECK_NEAR(shows, before, measured.ripple_off_rad);
     }
 }
 
-/* Arms in a level plane have no ripple, so there is nothing to compare. */
+/* If the arms turn in a level plane, there is no ripple to compare. */
 TEST(rig_slope, a_level_plane_says_nothing) {
     seed = 53;
     for (unsigned run = 0; run < 4U; run++) {

@@ -1,5 +1,5 @@
-/* test_rig_standard.c: the standard rig's settings (reasons: docs/rig.md). Whoever changes one must also change it here
- * and add it to CHANGELOG.md. */
+/* test_rig_standard.c: the standard rig's settings (docs/rig.md has the reasons). If you change a setting, change it
+ * here, too, and add it to CHANGELOG.md. */
 #include "core/rig/rig.h"
 
 #include "tests/suites.h"

@@ -6,9 +6,8 @@
 #include "tests/suites.h"
 
 /* === rig states ============================================================================== */
-/* Every pair of state and event, every named refusal, and the ends of the state armed. */
 
-/* Values that are no voltage and no speed. */
+/* Numbers that are neither a voltage nor a speed. */
 #define STRANGE \
     WH_R(1e30), (wh_real)__builtin_inff(), (wh_real)-__builtin_inff(), (wh_real)__builtin_nanf("")
 
@@ -25,7 +24,7 @@ static void stand_tripped(void) {
     TEST_ASSERT_TRUE(even.rig.rested);
 }
 
-/* Puts the rig into this state with all other conditions fulfilled: only the state can refuse an order. */
+/* Puts the rig into this state and fulfils all other conditions: only the state can refuse an order. */
 static void stand_in(wh_rig_state state) {
     switch (state) {
     case WH_RIG_IDLE:
@@ -41,11 +40,12 @@ static void stand_in(wh_rig_state state) {
     TEST_ASSERT_TRUE(even.rig.state == state);
 }
 
-/* An event's effect in the states idle, armed, running, stopping, tripped: the next state's first letter, or a refusal.
- * `-`: not armed. `a`: armed. `r`: running. `s`: stopping. `t`: tripped. `n`: no trip. `x`: not running. */
+/* An event's effect in each of the states idle, armed, running, stopping, tripped: the first letter of the next state,
+ * or a refusal. Refusals: `-` not armed, `a` armed, `r` running, `s` stopping, `t` tripped, `n` no trip, `x` not
+ * running. */
 typedef struct expectation {
     wh_rig_event event;
-    bool is_order; /* an order from outside; other events are refused when posted */
+    bool is_order; /* an order from outside; other events are refused if posted */
     const char *becomes;
 } expectation;
 
@@ -154,7 +154,7 @@ TEST(rig_states, what_arm_asks_for) {
         even = stood;
         even.inputs.supply_V = supplies_V[i];
         check_refused(arm(), WH_REFUSED_SUPPLY, WH_RIG_IDLE);
-        /* the cell is not needed in the state idle */
+        /* In the state idle the cell is not needed. */
         TEST_ASSERT_TRUE(even.rig.guard.trip == WH_TRIP_NONE);
     }
     even = stood;
@@ -162,7 +162,7 @@ TEST(rig_states, what_arm_asks_for) {
     even_steps(&even, 11);
     check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     for (unsigned minute = 0; minute < 160U;
-         minute++) { /* without a pulse for more than two wraps of the timer */
+         minute++) { /* more than two wraps of the timer without a pulse */
         even.inputs.now_ticks += 60U * WH_RIG_TICKS_PER_S;
         check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     }
@@ -171,12 +171,12 @@ TEST(rig_states, what_arm_asks_for) {
         even.fails = (even_failure){.in = WH_PHASE_NONE, .status = status};
         check_refused(arm(), WH_REFUSED_LOAD_CELL, WH_RIG_IDLE);
     }
-    even = stood; /* the case of a trip after the orders */
+    even = stood; /* next case: a trip after the orders */
     even.inputs.watchdog_has_cut = true;
     check_refused(arm(), WH_REFUSED_WATCHDOG, WH_RIG_TRIPPED);
-    even_start(&even); /* it is not known yet that the rotor rests */
+    even_start(&even); /* next case: the controller does not know yet that the rotor rests */
     check_refused(arm(), WH_REFUSED_TURNING, WH_RIG_IDLE);
-    even = stood; /* the case of a single pulse */
+    even = stood; /* next case: a single pulse */
     even.fails = (even_failure){.in = WH_PHASE_NONE, .adds = {true, false}};
     check_refused(arm(), WH_REFUSED_TURNING, WH_RIG_IDLE);
     even_steps(&even, 740);
@@ -196,13 +196,13 @@ TEST(rig_states, what_start_and_set_ask_for) {
             check_refused(even_order(&even, event, wrong_rpm[i] * EVEN_RPM), WH_REFUSED_TARGET,
                           state);
         }
-        even.inputs.supply_V = WH_R(12.0); /* 330 rpm take 14 V, 250 rpm 10.8 V */
+        even.inputs.supply_V = WH_R(12.0); /* 330 rpm need 14 V, 250 rpm need 10.8 V */
         check_refused(even_order(&even, event, WH_R(330.0) * EVEN_RPM), WH_REFUSED_VOLTAGE, state);
         even_obeys(&even, event, WH_R(250.0) * EVEN_RPM);
         CHECK_NEAR(1e-3f, 250.0f, even.rig.run.target_radps / EVEN_RPM);
     }
     stand_in(
-        WH_RIG_ARMED); /* the least supply suffices, and the slowest set-point needs no compensation */
+        WH_RIG_ARMED); /* the least supply suffices; the slowest set-point needs no compensation */
     const wh_real slowest = even.config.guard.target_min_radps;
     even.inputs.supply_V = wh_run_needs_V(&even.config.run, slowest);
     even.config.guard.supply_min_V = WH_R(1.0);
@@ -210,7 +210,8 @@ TEST(rig_states, what_start_and_set_ask_for) {
     even_obeys(&even, WH_EVENT_START, slowest);
     TEST_ASSERT_FALSE(even.rig.fed);
     for (unsigned never = 0; never < 2;
-         never++) { /* slower set-points need an observer and permitted gravity compensation */
+         /* slower set-points need an observer, and gravity compensation must be permitted */
+         never++) {
         stand_in(WH_RIG_ARMED);
         even.rig.observer.status = WH_OK;
         even.config.feeds = never == 1 ? WH_COMPENSATION_NEVER : WH_COMPENSATION_SLOW;
@@ -224,7 +225,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
                   WH_RIG_IDLE);
 }
 
-/* Four orders per step are accepted; a fifth is refused at once. All five are answered, in order. */
+/* A step accepts four orders and refuses a fifth at once. All five are answered, in order. */
 TEST(rig_states, too_many_orders) {
     stand_in(WH_RIG_IDLE);
     for (unsigned i = 0; i < WH_RIG_ORDERS_MOST; i++) {
@@ -273,7 +274,7 @@ TEST(rig_states, armed_ends_when_the_rotor_turns) {
             TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
         }
         TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
-        /* two pulses may come by jitter; the third comes after a turn */
+        /* Jitter may make two pulses. The third comes after a turn. */
         TEST_ASSERT_TRUE((float)steps <= 60.0f / (float)hands_rpm[i] * 500.0f + 2.0f);
         even_steps(&even, 2000);
         TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE && even.rig.guard.trip == WH_TRIP_NONE);
@@ -285,8 +286,6 @@ TEST(rig_states, armed_ends_when_the_rotor_turns) {
 }
 
 /* === rig states trips ======================================================================== */
-/* A tripped or stopped rig stays off. Tests trips in each phase, their record through a reset, `clear`, `stop`, the
- * stop input, a lost host, and a rotor that turns when the controller starts. */
 
 static void check_off(void) {
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
@@ -300,7 +299,7 @@ static void check_tripped(wh_trip trip) {
     check_off();
 }
 
-/* Checks that each order except `clear` and `stop` is refused because of the trip, and that nothing moves. */
+/* Checks that the trip refuses each order except `clear` and `stop`, and that nothing moves. */
 static void check_latched(wh_trip trip) {
     static const wh_rig_event orders[] = {WH_EVENT_ARM, WH_EVENT_START, WH_EVENT_SET};
     for (unsigned i = 0; i < 3; i++) {
@@ -316,7 +315,7 @@ static void check_latched(wh_trip trip) {
 
 static wh_refusal clear(void) { return even_order(&even, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* Checks that `clear` is refused until the rotor rests, and leads only to idle: the next run needs `arm` and
+/* Checks that `clear` is refused until the rotor rests, and leads only to idle: the next run needs `arm` and then
  * `start`. */
 static void check_clears(void) {
     for (unsigned i = 0; i < 20000U && !even.rig.rested; i++) {
@@ -333,9 +332,7 @@ static void check_clears(void) {
     even_obeys(&even, WH_EVENT_ARM, WH_R(0.0));
 }
 
-/* --- trips ------------------------------------------------------------------------------------------ */
-
-/* Causes of a trip in any state, switched on and off. */
+/* Causes of a trip in any state: each function switches one on or off. */
 static void break_supply(bool broken) {
     even.inputs.supply_V = broken ? WH_R(9.0) : WH_RIG_RATED_V;
 }
@@ -349,7 +346,7 @@ static void break_cell(bool broken) {
 typedef struct fault {
     void (*breaks)(bool broken);
     wh_trip trip;
-    wh_refusal while_broken; /* the answer to `clear` while the cause persists, at rest */
+    wh_refusal while_broken; /* the answer to `clear` at rest while the cause persists */
 } fault;
 
 static const fault faults[] = {
@@ -385,7 +382,8 @@ static void check_reset(wh_trip trip) {
     even_step(&even);
     check_tripped(trip);
     check_latched(trip);
-    TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING); /* it is not known whether the rotor moves */
+    /* the controller does not know whether the rotor moves */
+    TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING);
 }
 
 /* In each phase of a run, and armed, a trip switches the motor off in the same step. It stays latched, also through a reset,
@@ -422,8 +420,7 @@ TEST(rig_states_trips, a_reset_without_a_trip_is_idle) {
     TEST_ASSERT_TRUE(even.rig.state == WH_RIG_IDLE);
 }
 
-/* Unreliable pulses cannot show that the rotor rests. After that trip, `clear` is allowed when tripped_max_s is
- * over. */
+/* Unreliable pulses cannot show that the rotor rests. After such a trip, `clear` is allowed after tripped_max_s. */
 TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
     even_failure failing = {.in = WH_PHASE_SETTLE};
     failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;
@@ -435,13 +432,13 @@ TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
     even_steps(&even, 20U * 500U - 1U);
     TEST_ASSERT_TRUE(clear() == WH_REFUSED_TURNING && !even.rig.rested);
     even_step(&even);
-    /* rest is assumed, not known */
+    /* Rest is assumed, not known. */
     TEST_ASSERT_TRUE(even.rig.rested && clear() == WH_REFUSED_TURNING);
     even_steps(&even, 100U * 500U);
     TEST_ASSERT_TRUE(clear() == WH_ALLOWED && even.rig.state == WH_RIG_IDLE);
 }
 
-/* The waiting time is over, but `clear` is still refused while the rotor turns. */
+/* The waiting time is over, but while the rotor turns, `clear` is still refused. */
 TEST(rig_states_trips, a_turning_rotor_is_not_cleared) {
     even_arm(&even);
     break_supply(true);
@@ -455,8 +452,6 @@ TEST(rig_states_trips, a_turning_rotor_is_not_cleared) {
     check_clears();
 }
 
-/* --- stop ------------------------------------------------------------------------------------------ */
-
 typedef enum stop_way { STOP_ORDER, STOP_INPUT, STOP_HOST_LOST, STOP_WAYS } stop_way;
 
 static void stop(stop_way way) {
@@ -468,8 +463,8 @@ static void stop(stop_way way) {
     }
 }
 
-/* In every phase `stop` switches the motor off in the same step, until the rotor rests. Then `arm` is allowed, unless
- * the stop input is still pressed. */
+/* In every phase `stop` switches the motor off in the same step. When the rotor rests, `arm` is allowed, unless the
+ * stop input is still pressed. */
 TEST(rig_states_trips, stop_is_at_once) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_OFF; phase++) {
         even_reach(&even, phase);
@@ -482,7 +477,7 @@ TEST(rig_states_trips, stop_is_at_once) {
                 check_off();
                 TEST_ASSERT_TRUE(even.rig.state == WH_RIG_STOPPING &&
                                  even.rig.run.phase == WH_PHASE_OFF);
-                /* `stop` never switches the enable on */
+                /* `stop` never switches the enable on. */
                 const bool enabled = phase != WH_PHASE_TARE && phase != WH_PHASE_OFF;
                 TEST_ASSERT_TRUE(even.command.way == (brakes == 1 && enabled && way != STOP_INPUT
                                                           ? WH_MOTOR_BRAKES
@@ -502,7 +497,7 @@ TEST(rig_states_trips, stop_is_at_once) {
         }
     }
     for (stop_way way = STOP_ORDER; way < STOP_WAYS; way++) {
-        /* each way also ends the state armed */
+        /* Each way of stopping also ends the state armed. */
         even_arm(&even);
         stop(way);
         check_off();
@@ -522,8 +517,6 @@ TEST(rig_states_trips, a_run_may_outlive_its_host) {
     }
 }
 
-/* --- the controller's start -------------------------------------------------------------------------- */
-
 /* A reset while the rotor turns causes no trip. `arm` is refused until the rotor rests. */
 TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
     static const wh_real speeds_rpm[] = {WH_R(60.0), WH_R(170.0), WH_R(330.0), WH_R(390.0)};
@@ -540,19 +533,17 @@ TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
         even_rest(&even);
         even_obeys(&even, WH_EVENT_ARM, WH_R(0.0));
     }
-    even_start(&even); /* faster than the shaft's limit */
+    even_start(&even); /* the rotor is faster than the shaft's limit */
     even_turn_by_hand(&even, WH_R(410.0));
     even_steps(&even, 1000);
     check_tripped(WH_TRIP_OVERSPEED);
-    /* accelerating from rest with the motor off: a stuck stage drives the rotor */
+    /* The rotor accelerates from rest with the motor off: a stuck stage drives it. */
     even_start(&even);
     even_rest(&even);
     even_turn_by_hand(&even, WH_R(300.0));
     even_steps(&even, 1000);
     check_tripped(WH_TRIP_RUNS_ON);
 }
-
-/* --- a rotor turned by hand -------------------------------------------------------------------------- */
 
 /* An armed rig tolerates two pulses, because a hanging rotor may give them by jitter. The third shows that a hand turns
  * the rotor. */
@@ -567,8 +558,8 @@ TEST(rig_states_trips, armed_is_no_more_when_somebody_turns_the_rotor) {
     }
 }
 
-/* After the rotor has been at rest for any time, pulses by a hand must not be compared with those before the rest. The
- * timer wraps after 72 minutes; differences of more than half of that are negative. */
+/* The rotor was at rest for any time. Then pulses by a hand must not be compared with those before the rest. The timer
+ * wraps after 72 minutes, and differences of more than half of that are negative. */
 TEST(rig_states_trips, rest_may_last_any_time) {
     for (unsigned i = 0; i < 24U; i++) {
         even_start(&even);
@@ -599,7 +590,6 @@ TEST(rig_states_trips, rest_may_last_any_time) {
 }
 
 /* === rig states random ======================================================================= */
-/* The rig's controller under random orders and inputs; a new set-point; a result that survives a trip. */
 
 static uint32_t result_end_ticks;
 static uint64_t seed;
@@ -608,7 +598,7 @@ static uint64_t seed;
 TEST(rig_states_random, another_set_point_while_it_runs) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
         even_reach(&even, phase);
-        even_steps(&even, 100); /* the record so far is dropped */
+        even_steps(&even, 100); /* drops the record so far */
         TEST_ASSERT_TRUE(even.rig.run.phase == phase);
         even_obeys(&even, WH_EVENT_SET, WH_R(250.0) * EVEN_RPM);
         TEST_ASSERT_TRUE(even.rig.run.phase == (phase > WH_PHASE_RAMP ? WH_PHASE_RAMP : phase));
@@ -621,14 +611,14 @@ TEST(rig_states_random, another_set_point_while_it_runs) {
         TEST_ASSERT_TRUE(even_is_done(&even));
         const wh_measured *force = &even.rig.result.force;
         CHECK_NEAR(0.01f, 250.0f, force->speed_radps / EVEN_RPM);
-        /* whole turns of 2 s at 250 rpm, none at 330 rpm */
+        /* The number of whole turns in 2 s is that of 250 rpm, not that of 330 rpm. */
         TEST_ASSERT_TRUE(force->turns == 7U || force->turns == 8U);
         CHECK_NEAR(0.02f, EVEN_LOAD_N, force->amplitude_N);
     }
 }
 
-/* The next run counts lost and rejected pulses from zero. It does not use the counts from the last run's closing of the
- * loop (lost_before, rejected_before). */
+/* The next run counts lost and rejected pulses from zero, and ignores the counts at which the last run's loop closed
+ * (lost_before, rejected_before). */
 TEST(rig_states_random, the_run_before_does_not_count) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     TEST_ASSERT_TRUE(even_is_done(&even));
@@ -641,7 +631,8 @@ TEST(rig_states_random, the_run_before_does_not_count) {
     TEST_ASSERT_TRUE(even_is_done(&even));
 }
 
-/* If the speed leaves the band during the record, the run trips without a result, even if an earlier run had one. */
+/* If the speed leaves the band during the record, the run trips without a result, even if an earlier run had a
+ * result. */
 TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
     for (unsigned before = 0; before < 2U; before++) {
         for (unsigned i = 0; i < 6U; i++) {
@@ -735,7 +726,7 @@ static void check_what_always_holds(wh_rig_state before, asked of) {
     TEST_ASSERT_FALSE(drives && even.inputs.stop_pressed);
     TEST_ASSERT_TRUE(command->volts >= WH_R(0.0)); /* false for NaN */
     TEST_ASSERT_TRUE(drives ? command->volts <= even.inputs.supply_V : command->volts <= WH_R(0.0));
-    /* the state changed only as the life cycle allows */
+    /* The state has changed only as the life cycle allows. */
     TEST_ASSERT_TRUE(rig->state != WH_RIG_ARMED || before == WH_RIG_ARMED || of.arm);
     TEST_ASSERT_TRUE(rig->state != WH_RIG_RUNNING || before == WH_RIG_RUNNING ||
                      (of.start && (before == WH_RIG_ARMED || of.arm)));
@@ -744,13 +735,13 @@ static void check_what_always_holds(wh_rig_state before, asked of) {
     TEST_ASSERT_TRUE(before != WH_RIG_STOPPING || rig->state != WH_RIG_RUNNING);
 }
 
-#define SEQUENCES 500U /* sequences that begin in each phase */
+#define SEQUENCES 500U /* number of sequences that begin in each phase */
 #define STEPS 24U
 
 static void go_through_anything(void) {
     const wh_rig_phase phase = even.rig.run.phase;
     stood = even;
-    unsigned left = 0; /* number of sequences that ended in another phase, or not at all */
+    unsigned left = 0; /* number of sequences that left the phase */
     unsigned drove = 0;
     for (unsigned sequence = 0; sequence < SEQUENCES; sequence++) {
         even = stood;
@@ -766,12 +757,13 @@ static void go_through_anything(void) {
         left += even.rig.run.phase != phase ? 1U : 0U;
     }
     const bool runs = phase > WH_PHASE_NONE && phase < WH_PHASE_OFF;
-    /* enough of the sequences had an effect */
+    /* Enough of the sequences had an effect. */
     TEST_ASSERT_TRUE(left > (runs ? SEQUENCES / 2U : 0U));
     TEST_ASSERT_TRUE(!runs || phase == WH_PHASE_TARE || drove > SEQUENCES);
 }
 
-/* A result belongs to the last start, exists from the end of its record on, and its age grows with the clock. */
+/* Checks that a result belongs to the last start, exists from the end of its record on, and that its age grows with the
+ * clock. */
 static void check_result(const wh_rig *before) {
     const wh_rig *rig = &even.rig;
     const uint32_t now = even.inputs.now_ticks;

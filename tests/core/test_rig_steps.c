@@ -16,14 +16,14 @@ static wh_rig_command command;
 
 static void begin(void) {
     config = even_config();
-    inputs = (wh_rig_inputs){.now_ticks = UINT32_MAX - 3000000U, /* the timer wraps on the way */
-                             .supply_V = WH_RIG_RATED_V};
+    /* the timer wraps during the run */
+    inputs = (wh_rig_inputs){.now_ticks = UINT32_MAX - 3000000U, .supply_V = WH_RIG_RATED_V};
     wh_rig_start(&config, &rig, inputs.now_ticks, NULL);
     rig.state = WH_RIG_RUNNING;
     wh_run_start(&rig.run, WH_R(330.0) * RPM, inputs.now_ticks);
 }
 
-/* Puts the rig into this phase at the target speed, such that no check of the guard trips. */
+/* Puts the rig into this phase at the target speed. No check of the guard trips. */
 static void stand_in(wh_rig_phase phase) {
     begin();
     rig.state = phase == WH_PHASE_NONE       ? WH_RIG_IDLE
@@ -59,13 +59,13 @@ static void step_on(void) {
     step();
 }
 
-/* Does at most `steps` steps, with regular pulses and loads, until the phase changes. Returns their number. */
+/* Does steps, with regular pulses and loads, until the phase changes, but at most `steps`. Returns their number. */
 static unsigned stay(wh_real speed_rpm, unsigned steps) {
     const wh_rig_phase phase = rig.run.phase;
     unsigned done = 0;
     while (done < steps && rig.run.phase == phase) {
         rig.pulses.speed.turn_radps = speed_rpm * RPM;
-        /* so that the mean over WH_RUN_TURNS equals this speed */
+        /* The mean over WH_RUN_TURNS shall equal this speed. */
         rig.pulses.speed.taken += done < WH_RUN_TURNS ? 1U : 0U;
         wh_rig_load(&config, &rig, inputs.now_ticks + STEP_TICKS, done % 2U == 0 ? 0 : 450,
                     WH_LOAD_OK);
@@ -74,8 +74,6 @@ static unsigned stay(wh_real speed_rpm, unsigned steps) {
     }
     return done;
 }
-
-/* --- texts of phases and trips ----------------------------------------------------------------------- */
 
 static bool same_text(const char *x, const char *y) {
     while (*x != 0 && *x == *y) {
@@ -96,7 +94,7 @@ static const char *turn_text(int number) { return wh_turn_text((wh_turn_fault)nu
 static const char *quality_text(int number) { return wh_quality_text((wh_quality)number); }
 static const char *swing_text(int number) { return wh_swing_text((wh_swing_why)number); }
 
-/* The words of a trip's number. Number 1 is none. */
+/* Returns the words of a trip's number. Number 1 is no trip. */
 static const char *trip_text(int number) {
     return wh_trip_text(number == 0 ? WH_TRIP_NONE : (wh_trip)(number + 1));
 }
@@ -122,8 +120,6 @@ TEST(rig_steps, every_state_and_reason_has_words_of_its_own) {
     check_words(trip_text, (int)WH_TRIP_UNBRAKED);
 }
 
-/* --- how long each phase lasts ------------------------------------------------------------------------- */
-
 TEST(rig_steps, the_tare_takes_its_samples) {
     begin();
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */
@@ -131,14 +127,15 @@ TEST(rig_steps, the_tare_takes_its_samples) {
     CHECK_NEAR(1e-5f, 2.25f, rig.measure.tare.mean_N); /* mean of 0 and 450 counts */
     CHECK_NEAR(1e-6f, 9.6f, command.volts);
     TEST_ASSERT_FALSE(rig.pulses.speed.running); /* the pulses so far are discarded */
-    /* the case of invalid samples, which do not count */
+    /* Next case: invalid samples, which do not count. */
     begin();
     for (unsigned i = 0; i < 500; i++) {
         wh_rig_load(&config, &rig, inputs.now_ticks, 9, WH_LOAD_LATE);
     }
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000));
     CHECK_NEAR(1e-5f, 2.25f, rig.measure.tare.mean_N);
-    for (unsigned pulses = 2; pulses <= 3; pulses++) { /* as many as jitter gives, or more */
+    /* as many pulses as jitter makes, or one more */
+    for (unsigned pulses = 2; pulses <= 3; pulses++) {
         begin();
         for (unsigned i = 0; i < pulses; i++) {
             inputs.now_ticks += 100000U;
@@ -161,7 +158,7 @@ TEST(rig_steps, the_loop_takes_over_at_its_speed) {
     TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_RAMP);
     TEST_ASSERT_EQUAL_UINT32(3, rig.guard.lost_before);
     CHECK_NEAR(1e-3f, 150.1f, rig.run.drive.setpoint_radps / RPM);
-    /* the voltage does not jump */
+    /* The voltage does not jump. */
     CHECK_NEAR(1e-6f, command.volts, rig.run.drive.integral_V);
     TEST_ASSERT_EQUAL_UINT(1, stay(WH_R(150.1), 1));
     CHECK_NEAR(1e-3f, 330.0f, rig.run.drive.target_radps / RPM);
@@ -266,7 +263,7 @@ TEST(rig_steps, rest_is_waited_for) {
 /* Time differences wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
 TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
     const wh_trip trips[] = {WH_TRIP_WATCHDOG,
-                             WH_TRIP_PULSES}; /* the second trip waits only for the time */
+                             WH_TRIP_PULSES}; /* after the second trip only the time counts */
     for (unsigned i = 0; i < 2; i++) {
         stand_tripped(trips[i]);
         const uint32_t begins = inputs.now_ticks;
@@ -281,15 +278,14 @@ TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
             TEST_ASSERT_TRUE(rig.rested && rig.guard.quiet);
         }
         inputs.now_ticks = begins - STEP_TICKS;
-        for (unsigned k = 0; k < 3000U; k++) { /* step by step just after the next wrap */
+        for (unsigned k = 0; k < 3000U; k++) { /* single steps just after the next wrap */
             step();
             TEST_ASSERT_TRUE(rig.rested && rig.guard.quiet);
         }
     }
 }
 
-/* In any phase a late controller or over-speed ends the run. With the motor off, over-speed trips for another
- * reason. */
+/* In any phase a late controller or over-speed ends the run. With the motor off, over-speed has another trip. */
 TEST(rig_steps, what_trips_in_which_phase) {
     for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
         stand_in(phase);
@@ -312,9 +308,7 @@ TEST(rig_steps, what_trips_in_which_phase) {
     }
 }
 
-/* --- the record ------------------------------------------------------------------------------------------ */
-
-/* Turns with a known load are given to the run as results of the lock-in; the record ends after its time. */
+/* The run gets turns with a known load as results of the lock-in. The record ends after its time. */
 TEST(rig_steps, what_a_record_comes_to) {
     stand_in(WH_PHASE_SETTLE);
     rig.measure.tare.mean_N = WH_R(0.4);
@@ -322,7 +316,7 @@ TEST(rig_steps, what_a_record_comes_to) {
     rig.guard.lost_before = 3;
     rig.pulses.rejected = 4;
     rig.run.volts = WH_R(12.0);
-    /* 91 samples a turn of a triangular load: its mean is 10.45 N */
+    /* A turn has 91 samples of a triangular load with a mean of 10.45 N. */
     const uint32_t turn = 91U * STEP_TICKS;
     uint32_t first = inputs.now_ticks + STEP_TICKS;
     unsigned sample = 0;
@@ -351,10 +345,10 @@ TEST(rig_steps, what_a_record_comes_to) {
     CHECK_NEAR(1e-5f, 0.4f, result->tare_N);
     CHECK_NEAR(1e-4f, 10.0f, result->low_N);
     CHECK_NEAR(1e-4f, 28.0f, result->high_N);
-    /* time of sensor 1's pulse: half a sample before the turn's first; of sensor 2's: half a sample before its 23rd */
+    /* Sensor 1's pulse is half a sample before the turn's first sample, sensor 2's half a sample before its 23rd. */
     CHECK_NEAR(2e-3f, 10.2f, result->force.at_pulse_N[0]);
     CHECK_NEAR(2e-3f, 19.0f, result->force.at_pulse_N[1]);
-    /* mean of the load: 2 (0 + ... + 45) 0.4 / 91 */
+    /* The mean of the load is 2 (0 + ... + 45) 0.4 / 91. */
     CHECK_NEAR(0.01f, 10.0f + 9.0989f, result->force.mean_N);
     TEST_ASSERT_TRUE(result->force.quality ==
                      WH_REFUSED); /* 8 N is not the force of these masses */

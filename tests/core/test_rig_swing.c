@@ -1,4 +1,4 @@
-/* test_rig_swing.c: sensor positions from the free swing of an imitated rotor (rotor.c) that comes to rest. Also named
+/* test_rig_swing.c: sensor positions from the free swing of an imitated rotor (rotor.c) that comes to rest; also
  * refusals, false pulses, the equation of motion and the regression. */
 #include "core/rig/free_swing.h"
 
@@ -26,7 +26,7 @@ typedef struct drawn {
     unsigned add;  /* a false pulse comes after every nth pulse */
 } drawn;
 
-/* Passages of sensor 1 since the rotor began to swing, with their speeds. */
+/* Passages of sensor 1 since the rotor began to swing, with the speed of each. */
 #define PASSED_MOST 64U
 static uint32_t passed_ticks[PASSED_MOST];
 static wh_real passed_radps[PASSED_MOST];
@@ -74,7 +74,7 @@ static void give(const wh_rig_config *config, const drawn *rotor, rotor_state *s
     wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);
 }
 
-/* The rotor swings after some turns until it rests; evaluates the swing. */
+/* Lets the rotor turn, then swing until it rests; evaluates the swing. */
 static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool rests) {
     rotor_state state = {.ticks = UINT32_MAX - 3000000U,
                          .seed = seed,
@@ -95,7 +95,7 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     for (uint32_t i = 0; i < 100000U && wh_swing_works(&swing); i++) {
         wh_swing_step(&config->swing, &config->measure.rotor, &swing, false, rests);
         if (swing.piece == WH_SWING_GOES &&
-            swing.pass != pass) { /* the weight of the pulses grows from pass to pass */
+            swing.pass != pass) { /* each pass gives the pulses more weight */
             TEST_ASSERT_TRUE(swing.pass == 0 || swing.soft_rad2 <= WH_R(0.5) * soft_rad2);
             pass = swing.pass;
             soft_rad2 = swing.soft_rad2;
@@ -104,8 +104,6 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     TEST_ASSERT_FALSE(wh_swing_works(&swing));
     return swing.result;
 }
-
-/* --- results ----------------------------------------------------------------------------------------------- */
 
 TEST(rig_swing, places_are_found_of_rotors_that_nobody_knows) {
     const wh_rig_config config = standard();
@@ -132,7 +130,7 @@ TEST(rig_swing, places_are_found_of_rotors_that_nobody_knows) {
     TEST_ASSERT_TRUE(covered * 20U >= found * 18U);
 }
 
-/* If pulses scatter more than configured, the variance follows from their scatter, and the interval's width from their number. */
+/* If pulses scatter more than configured, their scatter gives the variance, and their number the interval's width. */
 TEST(rig_swing, rough_pulses_have_wide_intervals) {
     const wh_rig_config config = standard();
     unsigned covered = 0;
@@ -151,8 +149,8 @@ TEST(rig_swing, rough_pulses_have_wide_intervals) {
     TEST_ASSERT_TRUE(told * 3U >= runs && covered * 100U >= told * 90U);
 }
 
-/* A pass omits swings near the top if enough swings follow. Near the top the amplitude has a steep effect on the times,
- * so the guess is uncertain. */
+/* If enough swings follow, a pass omits swings near the top. There the times depend steeply on the amplitude, so the
+ * guess is uncertain. */
 TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
     const wh_rig_config config = standard();
     unsigned near_top = 0;
@@ -162,9 +160,10 @@ TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
         const drawn rotor = draw_rotor(WH_R(0.004), WH_R(0.012));
         const wh_swung swung = swing_out(&config, &rotor, true);
         const wh_real root = WH_SQRT(rotor.kind.weight_Nm / rotor.kind.inertia_kgm2);
-        const wh_real first = passed_radps[0] / root; /* at 2 the rotor would reach the top */
+        /* if it were 2, the rotor would reach the top */
+        const wh_real first = passed_radps[0] / root;
         if (first > WH_R(1.92) && first < WH_R(2.0) && passed > 20U && passed < PASSED_MOST) {
-            near_top++; /* 147 degrees and more */
+            near_top++; /* 147 degrees or more */
             unsigned at = 0;
             while (at < passed && passed_ticks[at] != swing.kept_ticks[swing.first]) {
                 at++;
@@ -178,7 +177,7 @@ TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
     TEST_ASSERT_TRUE(near_top * 15U > runs);
 }
 
-/* A lost or false pulse is left out or makes the swing invalid. It never changes a found position. */
+/* A lost or false pulse is not used, or makes the swing invalid. It never changes a found position. */
 TEST(rig_swing, pulses_that_are_none_move_no_sensor) {
     const wh_rig_config config = standard();
     unsigned found = 0;
@@ -196,13 +195,11 @@ TEST(rig_swing, pulses_that_are_none_move_no_sensor) {
     TEST_ASSERT_TRUE(found > 0);
 }
 
-/* --- refusals ---------------------------------------------------------------------------------------------- */
-
 TEST(rig_swing, what_is_no_free_swing_is_refused_by_name) {
     wh_rig_config config = standard();
     seed = 3;
     for (unsigned i = 0; i < 5U; i++) {
-        drawn rotor = draw_rotor(WH_R(0.15), WH_R(0.2)); /* friction */
+        drawn rotor = draw_rotor(WH_R(0.15), WH_R(0.2)); /* a large friction */
         TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_FEW);
         rotor = draw_rotor(WH_R(0.01), WH_R(0.02));
         TEST_ASSERT_TRUE(swing_out(&config, &rotor, false).why == WH_SWING_NOT_FREE);
@@ -214,7 +211,7 @@ TEST(rig_swing, what_is_no_free_swing_is_refused_by_name) {
     TEST_ASSERT_TRUE(swing_out(&config, &rotor, true).why == WH_SWING_NOT_FREE);
 }
 
-/* Random pulses: no position is found, and the work ends. */
+/* For random pulses no position is found, and the work ends. */
 TEST(rig_swing, pulses_of_no_rotor_find_nothing) {
     const wh_rig_config config = standard();
     uint32_t works = 0;
@@ -239,11 +236,9 @@ TEST(rig_swing, pulses_of_no_rotor_find_nothing) {
     TEST_ASSERT_TRUE(works > 0);
 }
 
-/* --- the rig ----------------------------------------------------------------------------------------------- */
-
 static even_rig even;
 
-/* If so configured, a run ends with the motor off. A `stop` after that keeps the enable off, and the rotor goes on
+/* If so configured, a run ends with the motor off. A later `stop` keeps the enable off, and the rotor keeps
  * swinging. */
 TEST(rig_swing, a_run_that_ends_in_a_swing_coasts) {
     for (unsigned swings = 0; swings < 2U; swings++) {
@@ -266,7 +261,7 @@ TEST(rig_swing, a_run_that_ends_in_a_swing_coasts) {
     }
 }
 
-/* A sensor away from its configured position makes a good result doubtful and changes nothing else. */
+/* A sensor that is not at its configured position makes a good result doubtful, and changes nothing else. */
 TEST(rig_swing, a_good_result_is_doubtful_where_sensor_1_stands_off) {
     const wh_rig_config config = standard();
     for (int deg10 = -30; deg10 <= 30; deg10++) {
@@ -290,8 +285,6 @@ TEST(rig_swing, a_good_result_is_doubtful_where_sensor_1_stands_off) {
     }
 }
 
-/* --- parts ------------------------------------------------------------------------------------------------- */
-
 static wh_free_rotor go(const wh_real *cause, unsigned steps, wh_real h) {
     wh_free_rotor rotor;
     wh_free_rotor_start(&rotor, cause[WH_FREE_Q], cause[WH_FREE_RATE]);
@@ -301,7 +294,7 @@ static wh_free_rotor go(const wh_real *cause, unsigned steps, wh_real h) {
     return rotor;
 }
 
-/* The derivatives with respect to each parameter equal differences, forwards and backwards, through several
+/* The derivatives with respect to each parameter equal difference quotients, forwards and backwards, through several
  * reversals. */
 TEST(rig_swing, derivatives_are_what_differences_show) {
     const wh_real little[WH_FREE_CAUSES] = {WH_R(1e-3), WH_R(1e-2), WH_R(3e-2), WH_R(1e-2),
@@ -330,7 +323,7 @@ TEST(rig_swing, derivatives_are_what_differences_show) {
     }
 }
 
-/* Without viscous friction, energy falls by the work of Coulomb friction; steps backwards restore it. */
+/* Without viscous friction, the energy falls by the work of Coulomb friction; steps backwards restore it. */
 TEST(rig_swing, steps_back_undo_steps) {
     const wh_real cause[WH_FREE_CAUSES] = {WH_R(0.0), WH_R(-11.0), WH_R(60.0), WH_R(5.0),
                                            WH_R(0.1)};

@@ -17,10 +17,8 @@ static bool near(wh_real found, wh_real wanted, wh_real most) {
     return WH_ABS(found - wanted) <= most;
 }
 
-/* --- stored pulses ------------------------------------------------------------------------------------------- */
-
 /* The pulses of a rotor that turns and then swings, in order. `first` is the index of the first pulse that passes
- * sensor 1 backwards, `passed` counts the passages of sensor 1 from then on. */
+ * sensor 1 backwards. `passed` counts the passages of sensor 1 from then on. */
 #define STORY_MOST 120U
 typedef struct story {
     uint32_t ticks[STORY_MOST];
@@ -37,8 +35,8 @@ static void tell(story *of, unsigned sensor) {
     of->ticks[of->pulses++] = before + 40000U + draw_one_of(&seed, 60000);
 }
 
-/* Draws the pulses: full turns, then swings past sensor 1, and past sensor 2 and back while the swing is wide
- * enough. */
+/* Draws the pulses: full turns, then swings. Each swing passes sensor 1; while it is wide enough, it also passes sensor
+ * 2 and returns. */
 static void draw_story(story *of, unsigned turns) {
     *of = (story){.pulses = 0};
     for (unsigned i = 0; i < turns; i++) {
@@ -76,7 +74,7 @@ static void give(const story *of, unsigned lost) {
 }
 
 /* Checks the stored pulses: the last ones before the first return, the first return, as many later ones as there is
- * room for, and the last ones of sensor 1. */
+ * room for, and the last pulses of sensor 1. */
 static void check_kept(const story *of) {
     const unsigned turning = of->first < WH_SWING_TURNING ? of->first : WH_SWING_TURNING;
     const unsigned from = of->first - turning;
@@ -107,7 +105,7 @@ TEST(rig_swing_pulses, what_is_kept_of_a_swing) {
     }
 }
 
-/* A pulse that is lost while the rotor still turns looks like the first return. Later turns correct this: the stored
+/* If a pulse is lost while the rotor still turns, this looks like the first return. Later turns correct it: the stored
  * swing is the same. */
 TEST(rig_swing_pulses, a_pulse_lost_while_it_turns_changes_nothing) {
     static story told;
@@ -119,10 +117,8 @@ TEST(rig_swing_pulses, a_pulse_lost_while_it_turns_changes_nothing) {
     }
 }
 
-/* --- the guess ------------------------------------------------------------------------------------------- */
-
-/* A rotor with open motor leads turns some more times and swings until it rests. Returns its speed at the first return
- * past sensor 1. */
+/* A rotor with open motor leads turns some more times, and swings until it rests. Returns its speed when it first
+ * returns past sensor 1. */
 static wh_real swing_out(const rotor_kind *kind) {
     const wh_rig_config *config = &wh_rig_standard;
     const wh_real over_radps = WH_R(2.0) * WH_SQRT(kind->weight_Nm / kind->inertia_kgm2);
@@ -147,8 +143,8 @@ static wh_real swing_out(const rotor_kind *kind) {
     return first_radps;
 }
 
-/* The guess contains the rate at the first return, and gravity and friction divided by the inertia. Each error is
- * within the stated uncertainty; the first two are within some 10 %. */
+/* The guess has the rate at the first return, and gravity and friction divided by the inertia. Each error is within the
+ * stated uncertainty; the first two errors are within some 10 %. */
 TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
     unsigned told = 0;
     unsigned near_it = 0;
@@ -183,8 +179,8 @@ TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
     TEST_ASSERT_TRUE(told * 2U > draw_cases(60) && near_it * 10U > told * 7U);
 }
 
-/* Reference: the time of half a swing divided by that of a small one, 2/pi K(k), by the arithmetic-geometric mean; k2 =
- * k^2. */
+/* Reference: returns the duration of half a swing divided by that of a small one, 2/pi K(k), by the
+ * arithmetic-geometric mean; k2 is k^2. */
 static wh_real longer_by(wh_real k2) {
     wh_real a = WH_R(1.0);
     wh_real b = WH_SQRT(WH_R(1.0) - k2);
@@ -196,15 +192,15 @@ static wh_real longer_by(wh_real k2) {
     return WH_R(1.0) / a;
 }
 
-/* The first swing has any amplitude almost up to the top, the others are small. The amplitude must follow from the time
- * of the first swing alone. */
+/* The first swing has any amplitude almost up to the top, the others are small. The duration of the first swing alone
+ * must give its amplitude. */
 TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
     seed = 6;
     for (unsigned i = 0; i < 300U; i++) {
         const wh_real near_top = draw_between(&seed, WH_R(0.03), WH_R(0.2));
         const wh_real sine = i % 2U == 0 ? draw_between(&seed, WH_R(0.42), WH_R(0.96))
                                          : WH_R(1.0) - near_top * near_top;
-        /* the table has eight points, with linear interpolation */
+        /* The table has eight points, with linear interpolation. */
         const wh_real part = sine > WH_R(0.96)   ? WH_R(0.009)
                              : sine > WH_R(0.55) ? WH_R(0.017)
                                                  : WH_R(0.045);
@@ -227,13 +223,11 @@ TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
     }
 }
 
-/* --- the work -------------------------------------------------------------------------------------------- */
-
-/* Most steps of the equation of motion in one control step. */
+/* Maximum number of steps of the equation of motion in one control step. */
 #define EQUATION_STEPS 3
 #define EQUATION_TICKS 8000
 
-/* Which parts of the work may follow each part, as bits. */
+/* Returns, as bits, the pieces of work that may follow this piece. */
 static unsigned may_follow(wh_swing_piece piece) {
     switch (piece) {
     case WH_SWING_GOES: return 1U << WH_SWING_GOES | 1U << WH_SWING_FACTORS;
@@ -268,7 +262,7 @@ TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
             times[piece]++;
             TEST_ASSERT_TRUE((may_follow(piece) >> swing.piece & 1U) != 0);
             if (piece == WH_SWING_PASSES) {
-                /* each pass starts at the first passage and runs to the next pulse */
+                /* Each pass starts at the first passage and integrates to the next pulse. */
                 TEST_ASSERT_TRUE(swing.at == swing.first + 1U);
                 TEST_ASSERT_TRUE(swing.ticks == swing.kept_ticks[swing.first]);
             }
@@ -285,10 +279,8 @@ TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
     }
 }
 
-/* --- turning back ----------------------------------------------------------------------------------------- */
-
-/* Steps in which the rotor reverses, or friction keeps it at rest. The step and its derivatives are compared with many
- * small steps, in both directions. */
+/* Steps in which the rotor reverses, or in which friction keeps it at rest. Each step and its derivatives are compared
+ * with many small steps, in both directions. */
 TEST(rig_swing_pulses, a_step_that_turns_back_is_many_small_ones) {
     const unsigned pieces = 64U;
     const wh_real most[WH_FREE_CAUSES] = {WH_R(2e-3), WH_R(5e-3), WH_R(1e-4), WH_R(2e-4),
@@ -319,7 +311,7 @@ TEST(rig_swing_pulses, a_step_that_turns_back_is_many_small_ones) {
         TEST_ASSERT_TRUE(near(one.rate_radps, many.rate_radps, WH_R(1e-3)));
         for (unsigned k = 0; k < WH_FREE_CAUSES; k++) {
             const bool same = near(one.rate_by[k], many.rate_by[k], most[k]);
-            /* near the limit at which friction holds the rotor, the result depends on the last bit */
+            /* Near the limit at which friction holds the rotor, the last bit decides. */
             TEST_ASSERT_TRUE(same || (holds && WH_ABS(many.rate_radps) < WH_R(1e-3)));
         }
     }

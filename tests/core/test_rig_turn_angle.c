@@ -1,6 +1,6 @@
-/* test_rig_turn_angle.c: the derivatives of the angle within a turn with respect to the measurements of the turn, from
- * which the intervals are computed. The reference is differences between rotors whose inertia or uncompensated part of
- * gravity is found by bisection. */
+/* test_rig_turn_angle.c: the derivatives of the angle within a turn with respect to the turn's measurements; the
+ * intervals are computed from them. The reference is difference quotients between rotors whose inertia, or
+ * uncompensated part of gravity, is found by bisection. */
 #include "core/rig/datasheet.h"
 #include "core/rig/rig.h"
 #include "draw.h"
@@ -34,14 +34,14 @@ static wh_turn_angle shaped(const turn *of, wh_real found) {
     return angle;
 }
 
-/* The rotor's angle beyond sensor 2 after the part `ratio` of the turn's time. */
+/* Returns the rotor's angle minus that of sensor 2, after the part `ratio` of the turn's time. */
 static wh_real beyond(const turn *of, wh_real found, wh_real ratio) {
     const wh_turn_angle angle = shaped(of, found);
     return wh_turn_angle_at(&angle, ratio) - of->rotor.pulse_rad[1];
 }
 
-/* base_rad if sensor 2's pulse comes after the part `ratio` of the turn's time; by bisection on either side of
- * `about`. */
+/* Returns base_rad if sensor 2's pulse comes after the part `ratio` of the turn's time. Found by bisection on either
+ * side of `about`. */
 static wh_real base_at(const turn *of, wh_real about, wh_real ratio) {
     wh_real low = about - WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
     wh_real high = about + WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
@@ -65,7 +65,7 @@ static wh_real by_mark(const turn *of, wh_real about, wh_real ratio) {
     return (base_at(&more, about, ratio) - base_at(&less, about, ratio)) / (WH_R(2.0) * LITTLE_RAD);
 }
 
-/* base_rad for a larger lag psi, which has the effect of another direction of gravity. */
+/* Returns base_rad for a larger lag psi, which acts like another direction of gravity. */
 static wh_real by_lag(const turn *of, wh_real about, wh_real ratio) {
     turn more = *of;
     turn less = *of;
@@ -78,8 +78,8 @@ static void check_near(wh_real found, wh_real wanted, wh_real most) {
     TEST_ASSERT_TRUE(WH_ABS(found - wanted) <= most);
 }
 
-/* The derivatives of base_rad with respect to the quadrature ratio and to the lag. The ratio determines the inertia or
- * the uncompensated part of gravity. Gravity is along an axis, or some degrees away from one. */
+/* Derivatives of base_rad with respect to the quadrature ratio and to the lag. The ratio determines the inertia or the
+ * uncompensated part of gravity. Gravity is along an axis, or some degrees away from it. */
 TEST(rig_turn_angle, derivatives_are_what_differences_show) {
     seed = 1;
     for (unsigned i = 0; i < 100U; i++) {
@@ -100,21 +100,21 @@ TEST(rig_turn_angle, derivatives_are_what_differences_show) {
         (void)wh_turn_angle_by_ratio(&of.rotor, &angle, ratio);
         const wh_real swing = WH_ABS(angle.ripple_rad);
         const wh_real steep = angle.base_per_quadrature * angle.base_per_quadrature;
-        /* terms of second order in the differences */
+        /* Terms of second order in the differences. */
         const wh_real bent = swing * (WH_R(1.0) + steep);
         check_near(by_mark(&of, about, ratio), angle.base_per_ratio,
                    WH_R(0.003) + WH_R(0.25) * bent);
         const wh_real lag = by_lag(&of, about, ratio);
         check_near(lag, angle.base_per_lag, swing * (WH_R(0.003) + WH_R(0.4) * bent) + WH_R(2e-5));
         if (of.fed) {
-            /* a lag adds a ripple a quarter turn later, in proportion to the part of gravity */
+            /* A lag adds a ripple a quarter turn later, in proportion to the part of gravity. */
             check_near(WH_ABS(lag), swing * WH_ABS(angle.base_per_quadrature),
                        swing * (WH_R(0.003) + WH_R(0.5) * bent) + WH_R(2e-5));
         }
     }
 }
 
-/* One call from zero has nearly converged; the program makes a call in each turn. */
+/* One call, from zero, has nearly converged. (The program makes a call in each turn.) */
 TEST(rig_turn_angle, a_shape_is_found_at_once) {
     seed = 31;
     wh_real worst = WH_R(0.0);

@@ -1,6 +1,6 @@
-/* test_root.c: the core's square root by definition, in integers: q is the nearest root of x if and only if (q - 1/2)^2
- * < x < (q + 1/2)^2. No library is used. Double needs 128-bit integers for the test; boards have none and test the
- * table alone. */
+/* test_root.c: the core's square root, tested by its definition in integers: q is the nearest root of x if and only if
+ * (q - 1/2)^2 < x < (q + 1/2)^2. No library is used. Double needs 128-bit integers for the test. Boards have none and
+ * test only the table. */
 #include "core/root.h"
 
 #include "tests/suites.h"
@@ -34,7 +34,7 @@ static word bits_of(wh_real real) {
     return as.bits;
 }
 
-/* Both roots: the one in integers, and the one that scenes use. */
+/* Computes the root in integers and the root that scenes use; both must be equal. */
 static word root_bits(word x) {
     const word root = bits_of(wh_sqrt(real_of(x)));
     const word used = bits_of(WH_SQRT(real_of(x)));
@@ -57,7 +57,7 @@ static word scatter(void) {
     return (word)(state >> (64U - sizeof(word) * 8U));
 }
 
-/* Is `root` the nearest root of x > 0? Both are split into integers. */
+/* True if `root` is the nearest root of x > 0. Both are split into integers. */
 static bool is_root(word x, word root) {
     int exponent = (int)(x >> BITS);
     word fraction = x & (ONE - 1U);
@@ -103,14 +103,14 @@ static void test_subnormals(void) {
     }
 }
 
-/* Numbers whose roots are closest to the middle between two numbers: q^2 + q, or one more, for q of all sizes. */
+/* Numbers whose roots are closest to the middle between two numbers: q^2 + q, or one more, for q of any size. */
 static void test_near_halves(void) {
     const unsigned count = WH_TEST_SMALL ? 2000U : 2000000U;
     for (unsigned i = 0; i < count; i++) {
         const wide q = (scatter() & (ONE - 1U)) | ONE;
         const unsigned places = BITS + ((q * q) >> (2 * BITS + 1) != 0);
         const word fraction = (word)((q * q + q) >> places);
-        const word odd = places - BITS; /* x beyond 2: the exponent is larger by one */
+        const word odd = places - BITS; /* if x is above 2, its exponent is larger by one */
         for (word next = 0; next < 2; next++) {
             const word x = (((word)BIAS + odd) << BITS) + (fraction - ONE) + next;
             TEST_ASSERT_TRUE(is_root(x, root_bits(x)));

@@ -5,7 +5,7 @@
 
 #include "tests/suites.h"
 
-/* x'' = -x + u: from x = 1 at rest and u = 0, x = cos t. */
+/* x'' = -x + u. With u = 0, from x = 1 at rest: x = cos t. */
 static void oscillator_accel(const void *model, const wh_phase *phase, const wh_real *linear,
                              const wh_real *rate, const wh_real *input, wh_real *accel) {
     (void)model;
@@ -38,7 +38,8 @@ static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
 }
 
 static const wh_angle shaft_angle[1] = {0};
-static const wh_real shaft_real[3] = {WH_R(0.25), WH_R(100.0), WH_R(0.5)}; /* x; shaft, carriage */
+/* x; rates of shaft and carriage */
+static const wh_real shaft_real[3] = {WH_R(0.25), WH_R(100.0), WH_R(0.5)};
 static const wh_real oscillator_real[2] = {WH_R(1.0), WH_R(0.0)};
 static const wh_real no_input[1] = {WH_R(0.0)};
 
@@ -87,8 +88,6 @@ static bool steps(const wh_scene *scene, unsigned count) {
     return true;
 }
 
-/* --- starting ------------------------------------------------------------------------------------- */
-
 /* Many steps in one call give the same state as single steps, up to the last good one. */
 TEST(scene, many_steps_are_steps) {
     const wh_scene scene = oscillator(WH_RK4, true, WH_R(0.25));
@@ -102,7 +101,7 @@ TEST(scene, many_steps_are_steps) {
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 16) == WH_OK && state.steps == 16);
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1) == WH_OK);
     TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == wanted);
-    /* an input so large that a few steps exceed the bounds */
+    /* With this input a few steps exceed the bounds. */
     state.input[0] = WH_R(8e14);
     TEST_ASSERT_TRUE(wh_scene_steps(&scene, &state, 1000) == WH_E_DIVERGED);
     TEST_ASSERT_TRUE(state.steps > 17 && state.steps < 1000);
@@ -132,7 +131,7 @@ TEST(scene, a_method_that_the_form_does_not_have_is_refused) {
         scene.reals = 1;
         scene.advance = first_order_advance;
         TEST_ASSERT_TRUE(start(&scene));
-        /* the method is checked even if it is changed after the start */
+        /* The method is checked even if it changes after the start. */
         scene.method = (wh_method)i;
         const bool has = wh_methods[i].takes == WH_ANY_SYSTEM;
         TEST_ASSERT_TRUE(has == (i != WH_SEMI_IMPLICIT_EULER && i != WH_LEAPFROG));
@@ -146,7 +145,7 @@ TEST(scene, a_method_that_the_form_does_not_have_is_refused) {
     }
 }
 
-/* A number that is no method, as in corrupted memory, is refused. */
+/* A number that is no method, for example from corrupted memory, is refused. */
 TEST(scene, what_is_no_method_is_refused) {
     for (unsigned i = 0; i < 3; i++) {
         wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
@@ -170,8 +169,6 @@ TEST(scene, start_takes_over_the_start_values_again) {
     TEST_ASSERT_TRUE(state.input[0] == WH_R(0.0));
     TEST_ASSERT_TRUE(wh_scene_rates(&scene, &state) == state.real + 1);
 }
-
-/* --- stepping ------------------------------------------------------------------------------------- */
 
 TEST(scene, time_is_steps_times_step) {
     const wh_scene scene = oscillator(WH_RK4, false, WH_R(0.001));
@@ -198,7 +195,7 @@ TEST(scene, angle_keeps_its_precision_over_many_turns) {
     /* 100 rad/s for 10 s. Each step's 0.1 rad is rounded once to a real: that bounds the sum. */
 #if WH_DOUBLE
     const double error = state.angle[0] - 1000.0;
-    TEST_ASSERT_TRUE(WH_ABS(error) < 5.7e-10); /* 10000 sums, each with an error of up to 2^-44 */
+    TEST_ASSERT_TRUE(WH_ABS(error) < 5.7e-10); /* 10000 sums; each has an error of up to 2^-44 */
 #else
     const int64_t wanted = INT64_C(683565275576); /* 1000 rad * 2^32 / (2 pi), rounded */
     const int64_t error = state.angle[0] - wanted;
@@ -208,7 +205,7 @@ TEST(scene, angle_keeps_its_precision_over_many_turns) {
 }
 
 #if !WH_DOUBLE
-/* Error after 10 s in steps of 2^-10 s (exact in float), where round-off far exceeds RK4's own error of 1e-13. */
+/* Returns the error after 10 s in steps of 2^-10 s (exact in float). Round-off far exceeds RK4's own error of 1e-13. */
 static wh_real error_at_10s(bool compensated) {
     const wh_scene scene = oscillator(WH_RK4, compensated, 1.0f / 1024.0f);
     if (!start(&scene) || !steps(&scene, 10240)) {
@@ -227,12 +224,10 @@ static void test_compensated_sums_beat_plain_ones(void) {
 }
 #endif
 
-/* --- divergence ----------------------------------------------------------------------------------- */
-
 static void expect_refused(const wh_scene *scene, int fault) {
     const uint64_t before = wh_scene_hash(scene, &state);
     for (int attempt = 0; attempt < 2;
-         attempt++) { /* a second try fails in the same way, with the same state */
+         attempt++) { /* a second attempt fails in the same way, with the same state */
         TEST_ASSERT_TRUE(wh_scene_step(scene, &state) == WH_E_DIVERGED);
         TEST_ASSERT_TRUE(state.fault == fault);
         TEST_ASSERT_TRUE(wh_scene_hash(scene, &state) == before);
@@ -244,7 +239,7 @@ TEST(scene, absurd_rate_keeps_the_last_good_state) {
     TEST_ASSERT_TRUE(start(&scene));
     TEST_ASSERT_TRUE(steps(&scene, 3));
     state.input[0] = WH_R(1e30);
-    /* the order of components: angle, x, shaft's rate, carriage's rate */
+    /* The components are, in order: angle, x, rate of the shaft, rate of the carriage. */
     expect_refused(&scene, 3);
     state.input[0] = WH_R(0.0);
     TEST_ASSERT_TRUE(steps(&scene, 1)); /* without the cause of the divergence, the run continues */
@@ -262,8 +257,6 @@ TEST(scene, not_a_number_is_refused) {
     TEST_ASSERT_TRUE(state.fault >= 0);
     TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == before);
 }
-
-/* --- comparison ----------------------------------------------------------------------------------- */
 
 TEST(scene, hash_sees_every_part_of_the_state) {
     const wh_scene scene = shaft(WH_RK4);

@@ -1,9 +1,9 @@
 /* test_scenes.c: the generated scenes: end states compared with the reference, ledgers, outputs, and equal bits in a
  * second run.
  *
- * One source for double and float, on the PC and on boards. Tolerances in double are the method's errors
- * (tests/host/test_trajectory.c has their digits). In float, round-off is added: after N steps a sum has a random error
- * of sqrt(N/3) U 2^k if it is below 2^k, with U = 2^-24. */
+ * The same source runs in double and float, on the PC and on boards. Tolerances in double are the method's errors
+ * (tests/host/test_trajectory.c has their digits). In float, round-off is added. After N steps, a sum that is below 2^k
+ * has a random error of sqrt(N/3) U 2^k, with U = 2^-24. */
 #include "build/gen/scenes.h"
 #include "core/scene.h"
 
@@ -11,7 +11,7 @@
 
 #define U WH_R(0x1p-24)
 
-/* Boards with float arithmetic in software take a tenth of the longest runs. */
+/* Boards with float arithmetic in software do a tenth of the longest runs. */
 #if !__STDC_HOSTED__ && !defined(__ARM_FP)
 #define SLOW 1
 #else
@@ -50,12 +50,10 @@ static wh_real cosine(wh_angle angle) {
     return c;
 }
 
-/* --- end states ------------------------------------------------------------------------------------ */
-
-/* The reference of an angle, with 2^32 / (2 pi) phase units per radian, computed by the compiler. */
+/* The reference of an angle. The compiler multiplies it by 2^32 / (2 pi), the phase units per radian. */
 #define ANGLE(rad) WH_TURN((rad), (int64_t)((rad)*683565275.57643159))
 
-/* From tests/reference/trajectory.txt; the compiler rounds them. */
+/* Numbers from tests/reference/trajectory.txt; the compiler rounds them. */
 typedef struct end_state {
     const wh_scene *scene;
     uint32_t steps;
@@ -66,7 +64,7 @@ typedef struct end_state {
 } end_state;
 
 static const end_state end_states[] = {
-    /* float: the round-off of 9000 steps of theta' (below 32 rad/s) is integrated for 9 s */
+    /* Float: the round-off of 9000 steps of theta' (below 32 rad/s) is integrated for 9 s. */
     {&epicyclic_from_rest,
      9000,
      WH_R(5e-8),
@@ -79,15 +77,15 @@ static const end_state end_states[] = {
      WH_R(5.4e-4),
      {ANGLE(82.9231758223298337)},
      {WH_R(0.0102819576585898491), WH_R(19.3703034162092484), WH_R(5.49807783552139774)}},
-    /* float: the round-off of 5000 steps of rates below 32 rad/s; with theta2'' = 1e3 rad/s^2 errors of time count,
-     * too */
+    /* Float: the round-off of 5000 steps of rates below 32 rad/s. With theta2'' = 1e3 rad/s^2, errors of time matter,
+     * too. */
     {&driven_hinge_from_rest,
      5000,
      WH_R(3e-5),
      WH_R(1e-2),
      {ANGLE(-48.3378303235600124), ANGLE(-47.1025341932366345)},
      {WH_R(-8.99645871096406409), WH_R(-23.8334242067059670)}},
-    /* float: the round-off of 25000 steps of rates below 8 rad/s, which the motion amplifies 6e3-fold */
+    /* Float: the round-off of 25000 steps of rates below 8 rad/s. The motion amplifies it by a factor of 6e3. */
     {&thomson_a,
      25000,
      WH_R(8e-9),
@@ -95,7 +93,7 @@ static const end_state end_states[] = {
      {ANGLE(-10.6144740124010441), ANGLE(-17.0959717050394372)},
      {WH_R(0.839285809779478438), WH_R(-5.06295906952996249), WH_R(1.20577040594969357),
       WH_R(-1.06211080436277226)}},
-    /* float: the round-off of 5000 steps of positions (below 0.125 m) and their rates */
+    /* Float: the round-off of 5000 steps of positions (below 0.125 m) and of their rates. */
     {&two_mass_absolute,
      5000,
      WH_R(2e-11),
@@ -110,7 +108,7 @@ static const end_state end_states[] = {
      {0},
      {WH_R(0.000508250218075009113), WH_R(0.000539626276551762863), WH_R(-0.00333257506812323036),
       WH_R(-0.00238668060764432413)}},
-    /* float: the round-off of 2000 steps of r' (below 16 m/s), integrated for 2 s */
+    /* Float: the round-off of 2000 steps of r' (below 16 m/s) is integrated for 2 s. */
     {&spherical_flight,
      2000,
      WH_R(2e-11),
@@ -143,9 +141,7 @@ TEST(scenes, end_states) {
     }
 }
 
-/* --- books ------------------------------------------------------------------------------------------ */
-
-/* m = 2, r = 0.3, M = 2: centre of mass X + r cos theta = 0.3 m, T = M theta. */
+/* m = 2, r = 0.3, M = 2: the centre of mass X + r cos theta stays at 0.3 m, and T = M theta. */
 TEST(scenes, books_of_the_epicyclic_gear) {
     wh_real off_centre = WH_R(0.0);
     wh_real off_work = WH_R(0.0);
@@ -163,14 +159,14 @@ TEST(scenes, books_of_the_epicyclic_gear) {
         off_centre = larger(off_centre, WH_ABS(state.real[0] + WH_R(0.3) * c - WH_R(0.3)));
         off_work = larger(off_work, WH_ABS(kinetic - work));
     }
-    /* The round-off of 9000 steps of X' (below 8 m/s) is integrated for 9 s; T = 179 J is twice as sensitive to theta'
-     * (22 rad/s). */
+    /* The round-off of 9000 steps of X' (below 8 m/s) is integrated for 9 s. T = 179 J depends on the square of theta'
+     * (22 rad/s), which doubles the relative error. */
     TEST_ASSERT_TRUE(off_centre > WH_R(0.0));
     TEST_ASSERT_TRUE(off_centre <= (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4)));
     TEST_ASSERT_TRUE(off_work <= (WH_DOUBLE ? WH_R(1e-6) : WH_R(1.7e-3)));
 }
 
-/* X = centre - r/3 (4 cos theta1 + cos 2 theta1 + cos theta2), which is the centre of mass at rest. */
+/* Checks X = centre - r/3 (4 cos theta1 + cos 2 theta1 + cos theta2): the centre of mass stays at rest. */
 static void expect_centre_of_mass(const wh_scene *scene, wh_real centre, wh_real in_float) {
     wh_real off = WH_R(0.0);
     start(scene);
@@ -186,10 +182,10 @@ static void expect_centre_of_mass(const wh_scene *scene, wh_real centre, wh_real
     TEST_ASSERT_TRUE_MESSAGE(off <= (WH_DOUBLE ? WH_R(1e-8) : in_float), scene->name);
 }
 
-/* The centre of mass stays at rest for 10 s (1 s on a slow board), also in chaotic motions. In double, the bound is
+/* The centre of mass stays at rest for 10 s (1 s on a slow board), even in chaotic motions. In double, the bound is
  * that of every scene without external forces. In float, the error of X' (below 8 m/s, 16 in set B) is a random walk,
- * which is integrated in X. For set B over 24 torques from 1.5 to 2.35 N m the RMS drift is 5.3e-4 and the largest
- * 1.2e-3, for either solver. */
+ * and X integrates it. For set B and 24 torques from 1.5 to 2.35 N m the RMS drift is 5.3e-4 and the largest 1.2e-3,
+ * for either solver. */
 TEST(scenes, centre_of_mass_of_thomson_device) {
     expect_centre_of_mass(&thomson_a, WH_R(0.6), WH_R(2e-4));
     expect_centre_of_mass(&thomson_b, WH_R(0.5), WH_R(1.2e-3));
@@ -197,9 +193,7 @@ TEST(scenes, centre_of_mass_of_thomson_device) {
     expect_centre_of_mass(&thomson_b_spin, WH_R(0.5), WH_R(8e-4));
 }
 
-/* --- outputs ----------------------------------------------------------------------------------------- */
-
-/* The round-off of a few numbers of about `size`. */
+/* Returns the round-off of a few numbers of about `size`. */
 static wh_real roundings(wh_real size) {
     return size * (WH_DOUBLE ? WH_R(0x1p-51) : WH_R(4.0) * U);
 }
@@ -255,9 +249,7 @@ TEST(scenes, outputs_of_the_particle) {
     }
 }
 
-/* --- every scene -------------------------------------------------------------------------------------- */
-
-/* Steps of every scene: enough to find a difference, few enough for a board. */
+/* Number of steps of every scene: enough to show a difference, few enough for a board. */
 #define STEPS_COMPARED (SLOW ? 200U : 2500U)
 
 static uint64_t hash_of_run(const wh_scene *scene, wh_real *seen) {
@@ -291,7 +283,7 @@ TEST(scenes, a_second_run_gives_the_same_bits) {
     }
 }
 
-/* Inputs that are not finite: a generated scene refuses the step and keeps its state. */
+/* If an input is not finite, a generated scene refuses the step and keeps its state. */
 TEST(scenes, a_refused_step_keeps_the_state) {
     const wh_scene *scene = &thomson_a;
     start(scene);

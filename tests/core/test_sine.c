@@ -1,7 +1,5 @@
-/* test_sine.c: sine and cosine together.
- *
- * The float build is compared with a reference in integers, which every board can compute. The double build
- * is compared with the sine of the C library, if there is one. WH_TEST_SMALL takes fewer angles. */
+/* test_sine.c: sine and cosine together. The reference of the float build is in integers, which every board can
+ * compute. That of the double build is the sine of the C library, if there is one. WH_TEST_SMALL takes fewer angles. */
 #include "core/angle.h"
 
 #include "tests/scattered.h"
@@ -54,7 +52,8 @@ static void test_known_values(void) {
     TEST_ASSERT_TRUE(sine_of(PI / 2.0) == 1.0);
     TEST_ASSERT_TRUE(cosine_of(PI) == -1.0);
     TEST_ASSERT_TRUE(sine_of(-PI / 2.0) == -1.0);
-    TEST_ASSERT_TRUE(near(sine_of(PI), 1.2246467991473532e-16, 1e-27)); /* PI is not exactly pi */
+    /* the constant PI is not exactly pi */
+    TEST_ASSERT_TRUE(near(sine_of(PI), 1.2246467991473532e-16, 1e-27));
     TEST_ASSERT_TRUE(near(cosine_of(PI / 2.0), 6.123233995736766e-17, 1e-27));
     TEST_ASSERT_TRUE(near(sine_of(PI / 6.0), 0.5, 2.3e-16));
     TEST_ASSERT_TRUE(near(cosine_of(PI / 3.0), 0.5, 2.3e-16));
@@ -96,7 +95,7 @@ static void test_out_of_range_is_nan(void) {
     TEST_ASSERT_FALSE(is_nan(sine_of(5e8)));
     double sine = 0.5;
     double cosine = 0.25;
-    /* only float needs this check, because its phase cannot represent such numbers */
+    /* Only float needs this check, because its phase cannot represent such numbers. */
     wh_sincos_of_range(1e300, &sine, &cosine);
     TEST_ASSERT_TRUE(sine == 0.5 && cosine == 0.25);
 }
@@ -137,7 +136,7 @@ SUITE(sine) {
 
 static int64_t times(int64_t a, int64_t b) { return (a * b + (INT64_C(1) << 30)) >> 31; }
 
-/* Taylor series about the nearest quarter turn, nested as 1 - z/(2*3)(1 - z/(4*5)(...)). Error below 3e-9. */
+/* Taylor series about the nearest quarter turn, nested as 1 - z/(2*3)(1 - z/(4*5)(...)). The error is below 3e-9. */
 static void reference(uint32_t phase, int64_t *sine, int64_t *cosine) {
     const uint32_t quarter = (phase + QUARTER / 2U) / QUARTER;
     const int32_t rest = (int32_t)(phase - quarter * QUARTER);
@@ -155,12 +154,12 @@ static void reference(uint32_t phase, int64_t *sine, int64_t *cosine) {
     *cosine = turned_s[(quarter + 1U) & 3U];
 }
 
-/* A float from -1 to 1 in units of 2^-31, truncated. */
+/* Converts a float from -1 to 1 to units of 2^-31, truncated. */
 static int64_t fixed(float value) { return (int64_t)(int32_t)(value * 0x1p30f) * 2; }
 
-#define TOLERANCE 143 /* 6.285e-8, the sine's worst error, and 4e-9 for the reference */
+#define TOLERANCE 143 /* 6.285e-8, the sine's largest error, plus 4e-9 for the reference */
 
-/* Error of sine and cosine at `phase`, in units of 2^-31. */
+/* Returns the error of sine and cosine at `phase`, in units of 2^-31. */
 static int64_t error_at(uint32_t phase) {
     float s;
     float c;
@@ -243,7 +242,7 @@ static void test_unit_circle_and_symmetry(void) {
         float c;
         wh_sincos(phase, &s, &c);
         TEST_ASSERT_TRUE(WH_ABS(s * s + c * c - 1.0f) <= 2.4e-7f);
-        /* The same bits a quarter turn later and, except at the edge of two sectors, mirrored. */
+        /* A quarter turn later the bits are the same. So are the mirrored ones, except at the edge of two sectors. */
         TEST_ASSERT_TRUE(sine_of(phase + QUARTER) == c);
         TEST_ASSERT_TRUE(cosine_of(phase + QUARTER) == -s);
         if (phase % SECTOR != SECTOR / 2) {

@@ -1,5 +1,5 @@
 /* test_stabilize.c: a step's correction of its energy drift (core/step/stabilize.h), for a body of 1 kg that flies with
- * two rates, in closed form. A drift is imitated by changing the start's energy in the ledger. */
+ * two rates, in closed form. The tests imitate a drift: they change the start's energy in the ledger. */
 #include "core/step/stabilize.h"
 
 #include "tests/suites.h"
@@ -25,8 +25,8 @@ static const wh_ledger_form books = {
 typedef struct flight {
     wh_real real[4]; /* positions, then rates */
     wh_real carry[4];
-    wh_real ledger
-        [6]; /* correction so far, its carry, the levels at the start, the largest kinetic energy */
+    /* Correction so far, its carry, the levels at the start, the largest P. */
+    wh_real ledger[6];
     wh_state state;
 } flight;
 
@@ -47,7 +47,7 @@ static bool near(wh_real is, wh_real should, wh_real part) {
     return WH_ABS(is - should) <= part * WH_ABS(should);
 }
 
-/* A random number in [-1, 1), by `seed`. */
+/* Draws a number in [-1, 1). */
 static wh_real drawn(uint32_t *seed) {
     *seed = *seed * 1664525U + 1013904223U;
     return (wh_real)(int32_t)(*seed >> 8) / WH_R(8388608.0) - WH_R(1.0);
@@ -89,7 +89,7 @@ TEST(stabilize, it_is_entered) {
         give_back(&f);
         const wh_real given = (f.ledger[0] - before) + f.ledger[1];
         TEST_ASSERT_TRUE(WH_ABS(given + is / WH_R(1024.0)) <= WH_R(2e-7) * WH_ABS(before));
-        /* without compensated sums the entry is the change of the rates */
+        /* Next case: without compensated sums. */
         set_out(&f, first, second, WH_R(1e-6), false);
         give_back(&f);
         const wh_real took = first * (f.real[2] - first) + second * (f.real[3] - second);
@@ -97,8 +97,8 @@ TEST(stabilize, it_is_entered) {
     }
 }
 
-/* When a swing reverses, the relative change of the rates is no larger than at its fastest. A faster motion gives a new
- * maximum of P. */
+/* When the motion reverses, the relative change of the rates is no larger than at the highest speed. A faster motion
+ * gives a new maximum of P. */
 TEST(stabilize, the_fastest_so_far_is_the_measure) {
     uint32_t seed = 20261130;
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -137,7 +137,7 @@ TEST(stabilize, there_is_a_bound) {
     }
 }
 
-/* Nothing changes before the first step, at rest, and if the ledger is NaN or P has the wrong sign. */
+/* Nothing changes before the first step, at rest, if the ledger is NaN, or if P has the wrong sign. */
 TEST(stabilize, where_nothing_is_to_be_given) {
     const wh_real none = WH_R(0.0) * (WH_ABSURD * WH_ABSURD * WH_ABSURD);
     const wh_real drift[] = {WH_R(0.1), WH_R(0.0), (none - none) / (none - none), WH_R(1e20),

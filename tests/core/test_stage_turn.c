@@ -1,6 +1,6 @@
-/* test_stage_turn.c: steps that rotate their sines (core/step/stage_turn.h) are as accurate as steps with lookups, to
- * the method's order, for every method, form and speed. They are refused in the same cases. Also the round-off of a
- * small rotation. */
+/* test_stage_turn.c: steps that rotate their sines (core/step/stage_turn.h). To the method's order they are as accurate
+ * as steps with lookups, for every method, form and speed, and they are refused in the same cases. Also: the round-off
+ * of a small rotation. */
 #include "core/scene.h"
 #define WH_COORDS 4
 #define WH_WAVES 3
@@ -41,7 +41,8 @@ static const wh_waves waves = {NULL, sines, rates, 3};
 
 static wh_real coupling; /* factor of the terms that grow with rates */
 
-/* Pendulums that are coupled to each other and to a spring; the last angle turns freely. */
+/* Computes the accelerations of pendulums that are coupled to each other and to a spring. The last angle turns
+ * freely. */
 static void swing_turned(const void *model, const wh_wave *p, const wh_real *linear,
                          const wh_real *rate, const wh_real *u, wh_real *accel) {
     (void)model;
@@ -115,7 +116,7 @@ static void start(void) {
 
 static unsigned reals_of(manner how) { return how.form == WH_SECOND_ORDER ? REALS : LINEARS; }
 
-/* The state after one second: angles in radians, then reals. */
+/* Computes the state after one second: angles in radians, then reals. */
 static unsigned after_1s(manner how, unsigned count, wh_real value[VALUES]) {
     start();
     for (unsigned i = 0; i < count; i++) {
@@ -148,8 +149,8 @@ static bool turns(manner how) {
     return wh_method_takes(how.method, how.form) && wh_method_turns(how.method);
 }
 
-/* The errors of rotating and of looking up have the same leading term (stage_turn.h). The reference runs use a
- * sixteenth of the step and lookups. */
+/* The errors of rotating and of looking up have the same leading term (stage_turn.h). The reference runs look up, with
+ * a sixteenth of the step. */
 TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
@@ -161,7 +162,7 @@ TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
         wh_real looked_up[VALUES];
         wh_real exact[VALUES];
         if (!wh_method_turns(how.method) || (sizeof(wh_real) == 4 && order > 4)) {
-            continue; /* in float, fifth order is visible only at steps with large shear angles */
+            continue; /* In float, fifth order shows only in steps with large shear angles. */
         }
         if (!wh_method_takes(how.method, how.form)) {
             start();
@@ -172,7 +173,7 @@ TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
         after_1s(how, 2 * count, turned[1]);
         how.turns = false;
         after_1s(how, count, looked_up);
-        /* the error of a method of higher order would not be small enough */
+        /* The error of a method of higher order would not be small enough. */
         how.method = order > 4 ? how.method : WH_RK4;
         after_1s(how, 16 * count, exact);
         const wh_real error = squares(components, turned[0], exact);
@@ -202,7 +203,7 @@ TEST(stage_turn, turns_follow_from_the_shares) {
     }
 }
 
-/* With a single stage, or without angles, rotating and looking up give the same bits. */
+/* If a method has a single stage, or a scene has no angles, rotating and looking up give the same bits. */
 TEST(stage_turn, what_does_not_turn_has_the_same_bits) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
@@ -255,16 +256,14 @@ TEST(stage_turn, phases_are_told) {
     }
 }
 
-/* --- rotations of any size ------------------------------------------------------------------------------ */
-
 static uint64_t chance = 20261122;
 static wh_real between(wh_real low, wh_real high) {
     chance = chance * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
     return low + (high - low) * (wh_real)(uint32_t)(chance >> 33) * WH_R(4.656612873077393e-10);
 }
 
-/* Makes one step by rotation [0] and one by lookup [1], from start() with this input and these rates. Compared with
- * these rates, the change by accelerations is small. */
+/* Makes one step by rotation (result 0) and one by lookup (result 1), from start() with this input and these rates. The
+ * rates are so large that accelerations change them little. */
 static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_status status[2],
                       int fault[2], wh_real value[2][VALUES]) {
     for (int k = 0; k < 2; k++) {
@@ -286,8 +285,8 @@ static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_
     }
 }
 
-/* Up to half a turn per step the shear angle is small, so both steps agree to round-off. The waves turn up to three
- * times as fast. */
+/* If the angle moves by less than half a turn per step, the shear angle is small, so both steps agree to round-off. The
+ * waves turn up to three times as fast. */
 TEST(stage_turn, fast_angles_step_as_looking_up_does) {
     const wh_real h = WH_R(0.0009765625);
     const wh_real most = WH_R(3.14) / h;
@@ -344,8 +343,6 @@ TEST(stage_turn, what_is_no_turn_is_refused) {
     }
 }
 
-/* --- small rotations ----------------------------------------------------------------------------------- */
-
 TEST(stage_turn, small_turns_are_sines) {
     const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.8e-16) : WH_R(1.1e-7);
     for (int i = -4096; i <= 4096; i++) {
@@ -356,7 +353,7 @@ TEST(stage_turn, small_turns_are_sines) {
         wh_wave turn = wh_sincos_small(d);
         TEST_ASSERT_TRUE(WH_ABS(turn.sine - wanted[0]) < within);
         TEST_ASSERT_TRUE(WH_ABS(WH_R(1.0) + turn.cosine - wanted[1]) < within);
-        /* near zero, sin d = d exactly */
+        /* Near zero, sin d equals d exactly. */
         const wh_real tiny = d * WH_R(1e-9);
         turn = wh_sincos_small(tiny);
         TEST_ASSERT_TRUE(turn.sine == tiny);
@@ -364,8 +361,8 @@ TEST(stage_turn, small_turns_are_sines) {
     }
 }
 
-/* Up to eight turns the error doubles with each doubling of the angle. For angles that are too large for it the result
- * is infinite or NaN, and no step accepts that. */
+/* Up to eight turns, the error doubles with each doubling of the angle. For too large an angle the result is infinite
+ * or NaN, and no step accepts it. */
 TEST(stage_turn, far_turns_are_sines) {
     const int32_t each = __STDC_HOSTED__ ? 1 : 9;
     for (int32_t i = -50000; i <= 50000; i += each) {

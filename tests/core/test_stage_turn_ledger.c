@@ -110,7 +110,7 @@ static void run(const wh_scene *scene, bool books_too) {
     TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, STEPS) == WH_OK);
 }
 
-/* Allowed residual of the ledger. It is the method's error: of order h for Euler's method, round-off for the best
+/* Returns the allowed residual of the ledger, the method's error: of order h for Euler's method, round-off for the best
  * methods. */
 static wh_real allowed(wh_method method) {
     const wh_real rounding = WH_DOUBLE ? WH_R(1e-9) : WH_R(2e-5);
@@ -133,7 +133,7 @@ TEST(stage_turn_ledger, books_beside_turned_sines) {
         const uint64_t wanted = wh_scene_hash(&scene, &state);
         run(&scene, true);
         TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == wanted);
-        /* a constant force's work is force times distance, its impulse force times time */
+        /* The work of a constant force is force times distance, its impulse force times time. */
         const wh_real rad = wh_angle_to_rad(state.angle[0]) - wh_angle_to_rad(start_angle[0]);
         const wh_real near = allowed(method);
         TEST_ASSERT_TRUE(WH_ABS(state.ledger[0] - WH_R(0.25) * rad) < near);
@@ -185,7 +185,7 @@ static void turned_slope(const void *model, const wh_wave *pair, const wh_real *
     result[1] = pair[0].cosine;
 }
 
-/* th' = 1/2, x' = cos th, so x = 2 sin(t/2), after a second. A step of half a turn is refused, whichever stage reaches
+/* th' = 1/2, x' = cos th, so x = 2 sin(t/2), for a second. A step of half a turn is refused, whichever stage reaches
  * it. */
 TEST(stage_turn_ledger, first_order_unrolled_by_hand) {
     for (unsigned m = 0; m < 2 * WH_METHODS; m++) {

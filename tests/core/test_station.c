@@ -1,5 +1,5 @@
-/* test_station.c: the rig's console. Each line has its answer, orders at the console act as orders that are posted, and
- * a host that is lost does no harm. */
+/* test_station.c: the rig's console. Each line has its answer, an order at the console acts like an order that is
+ * posted, and a lost host does no harm. */
 #include "console.h"
 #include "core/text.h"
 #include "draw.h"
@@ -11,8 +11,6 @@ static void period(void) {
     even_step(&even);
     wh_station_step(&station, &even.rig);
 }
-
-/* --- each command ------------------------------------------------------------------------------------ */
 
 TEST(station, help_knows_every_command) {
     console_begin();
@@ -127,8 +125,6 @@ TEST(station, a_trip_is_told_and_cleared) {
     check_begins("OK trip=0 ended=trip: no fault", ask("fault"));
 }
 
-/* --- slow readers, fast input ------------------------------------------------------------------------------- */
-
 /* Escape is executed before all earlier input, even before a line that is not complete. */
 TEST(station, escape_stops_at_once) {
     for (unsigned i = 0; i < 40; i++) {
@@ -192,8 +188,8 @@ TEST(station, a_person_sees_what_is_typed) {
     TEST_ASSERT_EQUAL_STRING("OK stop", ask("stop"));
 }
 
-/* Without a reader, whole answers are dropped and counted, so that the buffer has complete lines when a reader
- * returns. */
+/* Without a reader, whole answers are dropped and counted. So when a reader returns, the buffer has only complete
+ * lines. */
 TEST(station, nobody_reads) {
     console_begin();
     for (unsigned i = 0; i < 30; i++) {
@@ -217,7 +213,7 @@ TEST(station, nobody_reads) {
     TEST_ASSERT_EQUAL_UINT32(10, station.lost_bytes);
 }
 
-/* Lines arrive faster than they are processed. A line is executed as typed, or refused because bytes were lost. */
+/* Lines arrive faster than they are processed. Each line is executed as typed, or refused because bytes were lost. */
 TEST(station, no_line_is_obeyed_that_lost_bytes) {
     seed = 12;
     console_begin();
@@ -241,7 +237,7 @@ TEST(station, no_line_is_obeyed_that_lost_bytes) {
     TEST_ASSERT_TRUE(obeyed > 1000U && refused > 20U && station.lost_bytes > 1000U);
 }
 
-/* Random input, with or without a reader: the rig acts as if the same orders were posted, and each answer is that of
+/* Random input, with or without a reader. The rig acts as if the same orders were posted, and each answer is that of
  * the rig. */
 TEST(station, orders_are_those_that_are_posted) {
     static const struct {
@@ -268,7 +264,7 @@ TEST(station, orders_are_those_that_are_posted) {
         type(draw_one_in(&seed, 2) ? "\r\n" : "\n");
         period(); /* this period reads the line */
         even_step(&twin);
-        period(); /* this one takes the order and answers */
+        period(); /* this one processes the order and answers */
         const wh_refusal answer = even_order(&twin, orders[k].event, orders[k].value);
         if (!draw_one_in(&seed, 8)) {
             hear();
@@ -301,7 +297,8 @@ TEST(station, any_bytes) {
         const char *piece = pieces[draw_one_of(&seed, 15)];
         type(piece);
         lines_in += strpbrk(piece, "\n\x1b") != NULL ? 1U : 0U;
-        even.rig.answers += station.waits ? 1U : 0U; /* counts as answered: the test ends here */
+        /* an open order counts as answered, because the test ends here */
+        even.rig.answers += station.waits ? 1U : 0U;
         even.rig.orders = 0;
         wh_station_step(&station, &even.rig);
         station.talks = false; /* without echo, because an echo is no answer */

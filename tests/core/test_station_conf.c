@@ -46,8 +46,8 @@ static void period(void) {
     wh_station_step(&station, &even.rig);
 }
 
-/* Checks that two configurations are equal, except for the hash of the settings, which a program without settings does
- * not have. */
+/* Checks that two configurations are equal, except for the hash of the settings, which does not exist in a program
+ * without settings. */
 static void check_same(const wh_rig_config *one, const wh_rig_config *other) {
     wh_rig_config with_hash = *one;
     with_hash.settings = one->settings == 0 ? other->settings : one->settings;
@@ -55,7 +55,7 @@ static void check_same(const wh_rig_config *one, const wh_rig_config *other) {
     TEST_ASSERT_TRUE(memcmp(one, other, sizeof *one) == 0);
 }
 
-/* Returns the value of a setting in the configuration, in its unit: an independent copy of the table. */
+/* Returns the value of a setting in the configuration, in its unit. It is an independent copy of the table. */
 static wh_real where(const wh_rig_config *c, const char *name) {
     const struct {
         const char *name;
@@ -135,8 +135,6 @@ static const char *name_of(wh_conf_id id) {
     return bytes;
 }
 
-/* --- the table ---------------------------------------------------------------------------------------- */
-
 TEST(station_conf, rows) {
     begin();
     for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
@@ -177,7 +175,7 @@ TEST(station_conf, values_have_their_places) {
             TEST_ASSERT_TRUE(status == WH_STATION_FINE || status == WH_STATION_CONF_AGAINST);
             set[id] = set[id] || status == WH_STATION_FINE;
             for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-                /* settings that follow from the motor come after its settings */
+                /* Settings that follow from the motor come after the motor's settings. */
                 wanted[i] = set[i] ? wanted[i] : conf.value[i];
             }
             wanted[id] = status == WH_STATION_FINE ? value : wanted[id];
@@ -206,7 +204,7 @@ TEST(station_conf, values_have_their_places) {
 
 static void own_standard(wh_rig_config *config) { *config = wh_rig_standard; }
 
-/* The values that follow from masses, inertia, gravity and mount. */
+/* Values that follow from masses, inertia, gravity and mount. */
 TEST(station_conf, what_follows) {
     wh_rig_config plain;
     own_standard(&plain);
@@ -227,7 +225,8 @@ TEST(station_conf, what_follows) {
     CHECK_NEAR(1e-5f, 0.5f, even.config.guard.load_still_kgm / plain.guard.load_still_kgm);
 }
 
-/* Settings that another program saved: unknown numbers, values out of range, settings that contradict each other. */
+/* Settings that another program has saved: unknown numbers, values out of range, settings that contradict each
+ * other. */
 TEST(station_conf, what_is_stored_of_others) {
     static const struct {
         uint8_t payload[16];
@@ -263,8 +262,6 @@ TEST(station_conf, what_is_stored_of_others) {
     wh_conf_start(&conf, own, NULL, &even.config);
     TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_STATION_CONF_FAILED);
 }
-
-/* --- at the console ------------------------------------------------------------------------------------ */
 
 TEST(station_conf, list_has_all_and_can_be_typed) {
     begin();
@@ -387,7 +384,7 @@ TEST(station_conf, refusals) {
     check_begins("ERR 114 ", ask("conf list"));
 }
 
-/* Two settings change the measurement: a cell that is twice as sensitive, masses half as large. */
+/* Two settings change the measurement: the cell is twice as sensitive, the masses are half as large. */
 TEST(station_conf, a_run_with_settings) {
     begin();
     check_begins("OK", ask("conf set cell_scale 20"));

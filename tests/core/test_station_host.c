@@ -16,7 +16,7 @@ static void period(void) {
 static void obey(const char *line) { check_begins("OK", ask(line)); }
 
 /* A host types now and then, then stops. The run ends in the step after the silence that the host or the configuration
- * allows. Without a limit, or while bytes arrive, the run goes on. */
+ * allows. Without a limit, or while bytes arrive, the run continues. */
 TEST(station_host, a_host_that_is_gone) {
     seed = 31;
     unsigned ends = 0;
@@ -28,14 +28,14 @@ TEST(station_host, a_host_that_is_gone) {
         even.config.host_loss_stops = i % 3U == 0;
         if (i / 3U % 2U == 0) {
             obey(line);
-        } else { /* the limit is that of the setting */
+        } else { /* otherwise the setting gives the limit */
             even.config.host_max_s = limit_s;
         }
         obey("arm");
         obey("start 330");
         even_go_on_until(&even, (wh_rig_phase)(WH_PHASE_TARE + draw_one_of(&seed, 5)));
         for (unsigned k = draw_one_of(&seed, 5); k > 0; k--) {
-            /* any byte but zero ends the silence */
+            /* Any byte except zero ends the silence. */
             type(draw_one_in(&seed, 2) ? "\n" : "\b");
             for (uint32_t step = 0; limit_s > 0 && step < limit_s * STEPS_PER_S; step++) {
                 period();
@@ -52,7 +52,7 @@ TEST(station_host, a_host_that_is_gone) {
             silent++;
             TEST_ASSERT_TRUE(silent < 60U * STEPS_PER_S);
         }
-        /* a byte is received in one step and read in the next */
+        /* A byte is received in one step and read in the next. */
         const uint32_t most = limit_s * STEPS_PER_S + 2U;
         const bool stops = limit_s > 0 && even.config.host_loss_stops;
         TEST_ASSERT_TRUE(!stops || silent <= most);

@@ -1,4 +1,4 @@
-/* test_station_line.c: bytes are split into lines, and lines into words and numbers. */
+/* test_station_line.c: splits bytes into lines, and lines into words and numbers. */
 #include "core/station/line.h"
 #include "core/text.h"
 #include "draw.h"
@@ -109,7 +109,7 @@ TEST(station_line, words) {
     TEST_ASSERT_EQUAL_STRING("", words.word[0]);
 }
 
-/* A whole number and a fraction, written as text, must be read as their sum. */
+/* A whole number and a fraction are written as text. The text must be read as their sum. */
 TEST(station_line, numbers_drawn) {
     static const uint32_t tens[] = {1, 10, 100, 1000, 10000};
     seed = 7;

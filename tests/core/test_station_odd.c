@@ -21,7 +21,7 @@ static void check_begins(const char *with, const char *text) {
     TEST_ASSERT_EQUAL_STRING_LEN(with, text, strlen(with));
 }
 
-/* If other code has filled the queue of orders, an order of the console is refused by number, and the next one is
+/* Other code has filled the queue of orders. An order of the console is then refused by number, and the next one is
  * accepted. */
 TEST(station_odd, a_full_queue) {
     for (unsigned posted = 0; posted <= WH_RIG_ORDERS_MOST; posted++) {
@@ -44,7 +44,7 @@ TEST(station_odd, a_full_queue) {
     }
 }
 
-/* A host lost while the queue is full: the rig is notified once, in the first step with room. */
+/* A host is lost while the queue is full. The rig is notified once, in the first step with room. */
 TEST(station_odd, lost_while_the_queue_is_full) {
     for (unsigned full_steps = 0; full_steps < 6U; full_steps++) {
         tel_begin();
@@ -143,7 +143,7 @@ TEST(station_odd, arithmetic_is_tested) {
         scene.arithmetic = i <= 1U ? NULL : compute_otherwise;
         spoilt = (wh_probed)(i >= 2U ? i - 2U : 0U);
         const bool good = i < 2U || spoilt == WH_PROBED_COUNT;
-        /* no sample, so the cell's part is not good */
+        /* There was no sample, so the cell's part is not good. */
         bench.seen = (wh_step_inputs){.inputs = bench.even.inputs};
         wh_station_see(&bench.station, &bench.even.config, &bench.even.rig, &bench.seen);
         tel_type("selftest");
@@ -159,7 +159,8 @@ static void own_turned(wh_rig_config *config) {
     config->measure.cell.newton_per_count = -config->measure.cell.newton_per_count;
 }
 
-/* A board whose cell is mounted in reverse: its own configuration has a negative scale; the setting has none. */
+/* On this board the cell is mounted in reverse: the board's own configuration has a negative scale; the setting has
+ * none. */
 TEST(station_odd, a_cell_turned_round) {
     static wh_conf conf;
     wh_rig_config config;
@@ -194,7 +195,7 @@ static bool read_slot(unsigned slot, unsigned at, uint8_t *bytes, unsigned count
     return true;
 }
 
-/* A setting that cannot be read back is reported as not saved, whichever read fails. */
+/* If a setting cannot be read back, it is reported as not saved, whichever read fails. */
 TEST(station_odd, a_memory_that_is_not_read) {
     static const wh_store_memory memory = {erase_slot, write_slot, read_slot};
     static wh_conf conf;
@@ -220,7 +221,7 @@ TEST(station_odd, a_memory_that_is_not_read) {
     TEST_ASSERT_TRUE(status == WH_STATION_FINE && failed > 3U);
 }
 
-/* Whole numbers are printed without a point; text without room is cut, and `truncated` is set. */
+/* Whole numbers are printed without a point. Text without room is cut, and `truncated` is set. */
 TEST(station_odd, exact_numbers) {
     bench.seed = 64;
     for (unsigned i = 0; i < 2000U; i++) {

@@ -1,5 +1,5 @@
-/* test_station_result.c: to which run a result belongs, and how that run ended. Random sequences of orders, settings,
- * trips, stops and a lost host: each answer of the console is about the last start. */
+/* test_station_result.c: the run to which a result belongs, and how that run ended, in random sequences of orders,
+ * settings, trips, stops and a lost host. Each answer of the console is about the last start. */
 #include <stdlib.h>
 
 #include "console.h"
@@ -189,7 +189,7 @@ TEST(station_result, answers_belong_to_the_last_start) {
     unsigned outdated = 0;
     seed = 71;
     const unsigned rounds = draw_cases(12);
-    /* Some sequences have no result: continue until enough sequences have one. */
+    /* Some sequences have no result: continue until enough of them have one. */
     for (unsigned round = 0; round < rounds || (round < 8U * rounds && (results < draw_cases(40) ||
                                                                         outdated < draw_cases(8)));
          round++) {
@@ -205,7 +205,7 @@ TEST(station_result, answers_belong_to_the_last_start) {
     TEST_ASSERT_TRUE(results >= draw_cases(40) && outdated >= draw_cases(8));
 }
 
-/* Each setting changes the hash. The hash depends only on the values: if they are restored, so is the hash. */
+/* Each setting changes the hash. The hash depends only on the values: if these are restored, so is the hash. */
 TEST(station_result, any_other_setting_has_another_hash) {
     seed = 72;
     begin();
@@ -230,7 +230,7 @@ TEST(station_result, any_other_setting_has_another_hash) {
     }
 }
 
-/* The age of a result after hours: the timer's wraps do not make it smaller. */
+/* The age of a result after hours. The timer's wraps do not make it smaller. */
 TEST(station_result, an_age_beyond_the_timer) {
     begin();
     start();
@@ -248,8 +248,8 @@ TEST(station_result, an_age_beyond_the_timer) {
     TEST_ASSERT_TRUE(age_s - before_s >= 3U * 3600U - 1U && age_s - before_s <= 3U * 3600U + 1U);
 }
 
-/* The console prints all reasons of a result, with the largest numbers of a rig. With even larger numbers the line
- * still has its end. */
+/* The console prints all reasons of a result, with the largest numbers of a rig. If numbers are even larger, the line
+ * is cut but still has its end. */
 TEST(station_result, every_verdict_is_said) {
     static const char other[] = "conf set settle_time 2";
     wh_measured *force = &even.rig.result.force;

@@ -1,5 +1,5 @@
 /* test_step.c: the step of every method in both forms: its order, with coupled rates, angles and lengths; and the
- * component that a refused step reports, at every stage. */
+ * component that a refused step reports, for a fault at every stage. */
 #include "core/scene.h"
 #define WH_COORDS 4
 #include "core/step.h"
@@ -32,8 +32,8 @@ static void clear(void) {
     state.fault = -1;
 }
 
-/* A pendulum on a shaft and an oscillator coupled to it, with damping: all three parts of the state are in both
- * equations. */
+/* Computes the accelerations of a pendulum on a shaft and an oscillator coupled to it, with damping. All three parts of
+ * the state are in both equations. */
 static void swing(const void *model, const wh_phase *phase, const wh_real *linear,
                   const wh_real *rate, const wh_real *u, wh_real *accel) {
     wh_real sine;
@@ -65,7 +65,7 @@ static wh_status step(wh_form form, wh_method method, bool compensated, wh_real 
                                                    (wh_two_part){h, WH_R(0.0)}, &state);
 }
 
-/* The state after one second: angle in radians, then reals. */
+/* Computes the state after one second: angle in radians, then reals. */
 static unsigned after_1s(wh_form form, wh_method method, bool compensated, unsigned count,
                          wh_real value[VALUES]) {
     const unsigned reals = form == WH_SECOND_ORDER ? 5 : 2;
@@ -84,7 +84,7 @@ static unsigned after_1s(wh_form form, wh_method method, bool compensated, unsig
     return 1 + reals;
 }
 
-/* The squared distance between runs with `count` and twice as many steps. */
+/* Returns the squared distance between a run with `count` steps and one with twice as many. */
 static wh_real distance(wh_form form, wh_method method, bool compensated, unsigned count) {
     wh_real coarse[VALUES];
     wh_real fine[VALUES];
@@ -103,7 +103,7 @@ static void test_order_is_that_of_the_row_in_both_forms(void) {
         const wh_form form = k % 2 != 0 ? WH_FIRST_ORDER : WH_SECOND_ORDER;
         const bool compensated = k / 2 % 2 != 0;
         const unsigned order = wh_methods[method].order;
-        /* in float, only coarse steps have errors above round-off */
+        /* In float, only coarse steps have errors above round-off. */
         const unsigned count = sizeof(wh_real) == 8 ? (order < 4 ? 512 : 64)
                                : order < 3          ? 32
                                : order < 4          ? 8
@@ -111,7 +111,7 @@ static void test_order_is_that_of_the_row_in_both_forms(void) {
                                                     : 2;
         const wh_real within = sizeof(wh_real) == 8 ? WH_R(1.1) : WH_R(2.5);
         if (form == WH_SECOND_ORDER && wh_methods[method].takes == WH_NO_RATES) {
-            /* these accelerations depend on rates: tests/host/test_methods.c tests such methods */
+            /* These accelerations depend on rates; tests/host/test_methods.c tests such methods. */
             continue;
         }
         if (!wh_method_takes(method, form)) {
@@ -150,8 +150,8 @@ static void moved(const void *model, const wh_phase *phase, const wh_real *x, co
     }
 }
 
-/* The step is refused with this fault, or succeeds if `fault` is negative. A refused step leaves the state
- * unchanged. */
+/* Checks that the step is refused with this fault, or that it succeeds if `fault` is negative. A refused step leaves
+ * the state unchanged. */
 static void expect(wh_form form, wh_method method, bool compensated, wh_real h, int fault) {
     wh_angle angle_before[ANGLES];
     wh_real real_before[2 * COORDINATES];

@@ -1,5 +1,5 @@
-/* test_step_by_hand.c: test_step.c with stages unrolled by hand (core/step/stage_sums.h), for compilers without an
- * unroll request. Each stage has its own test for refusal, which must act as in the loop. */
+/* test_step_by_hand.c: test_step.c with stages unrolled by hand (core/step/stage_sums.h), for compilers that cannot be
+ * asked to unroll. Each stage then has its own test for refusal, which must act like the test in the loop. */
 #define WH_UNROLL
 #define suite_step suite_of_steps
 #include "test_step.c" // NOLINT(bugprone-suspicious-include): the same tests

@@ -1,4 +1,4 @@
-/* test_store.c: settings in two slots: after a write that is cut off at any byte, the old or the new settings load, and
+/* test_store.c: settings in two slots. A write is cut off at any byte: then the old or the new settings are loaded, and
  * the next save works. */
 #include "core/station/store.h"
 
@@ -25,7 +25,7 @@ static void start_flash(void) {
     one_sided = true;
 }
 
-/* A byte during its change from `was` to `becomes`: some of its bits have changed. */
+/* Returns a byte in the middle of its change from `was` to `becomes`: some of its bits have changed. */
 static uint8_t torn(uint8_t was, uint8_t becomes) {
     const uint8_t arrived = (uint8_t)draw_bits(&seed);
     return (uint8_t)((was & ~arrived) | (becomes & arrived));
@@ -100,7 +100,7 @@ static bool is_loaded(const payload *p) {
            (count <= 0 || memcmp(bytes + WH_STORE_HEAD_BYTES, p->bytes, (unsigned)count) == 0);
 }
 
-/* Writes a record as the head of store.h describes it, with another implementation of the CRC. */
+/* Writes a record in the format that store.h describes, with another implementation of the CRC. */
 static void put_by_hand(unsigned slot, const payload *p, uint32_t sequence) {
     uint8_t *to = flash[slot];
     uint32_t crc = 0xFFFFFFFFU;
@@ -139,7 +139,7 @@ TEST(store, what_is_saved_is_loaded) {
     TEST_ASSERT_EQUAL_UINT32(301, sequence);
 }
 
-/* The supply fails at every erased or written byte: the old or new record loads, and the next save works. */
+/* The supply fails at every erased or written byte. The old or the new record is loaded, and the next save works. */
 TEST(store, torn_at_every_byte) {
     seed = 4;
     unsigned old = 0;
@@ -163,7 +163,7 @@ TEST(store, torn_at_every_byte) {
                 left = FOREVER;
                 const bool is_new = is_loaded(&after);
                 TEST_ASSERT_TRUE(is_new || is_loaded(&before));
-                /* if the save reported success, the new record loads */
+                /* If the save reported success, the new record must be loaded. */
                 TEST_ASSERT_TRUE(is_new || !said);
                 TEST_ASSERT_TRUE(at <= all || said);
                 old += is_new ? 0U : 1U;
@@ -176,7 +176,7 @@ TEST(store, torn_at_every_byte) {
     TEST_ASSERT_TRUE(old > 5000U && new >= 8U);
 }
 
-/* A flipped bit in the newest record: the previous record loads. */
+/* If a bit of the newest record is flipped, the previous record is loaded. */
 TEST(store, every_bit) {
     seed = 5;
     for (unsigned round = 0; round < 4U; round++) {

@@ -1,8 +1,9 @@
 /* test_table.c: tabulated functions, one polynomial per cell. A lookup at any phase gives the polynomial, and the
- * function to the accuracy of a cell's width. For whole tables and, if the build has them, tables of half a turn. */
+ * function to the accuracy of a cell's width. Tested with whole tables and, if the build has them, tables of half a
+ * turn. */
 #include "core/angle.h"
 #if __STDC_HOSTED__ && !WH_DOUBLE
-#define WH_TABLE_FOLD 1 /* as on boards without an FPU; other builds take the default */
+#define WH_TABLE_FOLD 1 /* the setting of boards without an FPU; other builds have the default */
 #endif
 #include "core/step/table.h"
 
@@ -43,7 +44,7 @@ static void fill(unsigned bits) {
     }
 }
 
-/* Tests one phase. The tolerance is the next term of the series at half a cell, and round-off. */
+/* Tests one phase. The tolerance is the next term of the series at half a cell, plus round-off. */
 static void check_at(unsigned bits, uint32_t units) {
     const wh_real half = TWO_PI / (wh_real)(2U << bits);
     wh_real s;
@@ -59,14 +60,14 @@ static void check_at(unsigned bits, uint32_t units) {
                      ((units + (UINT32_C(1) << (31U - bits))) >> (32U - bits)) % (1U << bits));
     TEST_ASSERT_TRUE(WH_ABS(sine - s) < half * half * half * half / WH_R(23.9) + rounding);
     TEST_ASSERT_TRUE(WH_ABS(cosine - c) < half * half / WH_R(1.99) + rounding);
-    /* tables of half a turn: an even function has the same value, an odd one changes its sign */
+    /* In tables of half a turn, an even function has the same value, and an odd one changes its sign. */
     const wh_real *from_half = wh_table_half(cells, bits, WIDTH, phase_of(units), &y, &back);
     TEST_ASSERT_TRUE((unsigned)(from_half - cells) < WH_TABLE_HALF(bits) * WIDTH);
     const wh_real odd = wh_table_back(wh_table_cubic(from_half, y), back);
     const wh_real even = wh_table_linear(from_half + WH_TABLE_CUBIC, y);
     TEST_ASSERT_TRUE(WH_ABS(odd - sine) < 2 * rounding);
     TEST_ASSERT_TRUE(WH_ABS(even - cosine) < 2 * rounding);
-    /* zero is never negative */
+    /* Zero is never negative. */
     TEST_ASSERT_TRUE(odd != WH_R(0.0) || !__builtin_signbit((double)odd));
 }
 
@@ -83,14 +84,14 @@ TEST(table, tables_hold_what_they_were_made_of) {
             check_at(bits, edge + 3U);
             check_at(bits, edge - 3U);
             if (i % 2U == 0 || !WH_DOUBLE) {
-                /* in double, round-off decides to which cell an end belongs */
+                /* In double, round-off decides to which cell an edge belongs. */
                 check_at(bits, edge);
             }
         }
     }
 }
 
-/* Cells by wh_table_cell() for numbers of cells other than 128: the cell's number and the distance from its middle. */
+/* wh_table_cell() for numbers of cells other than 128: the cell's number, and the distance from its middle. */
 TEST(table, finer_cells_are_parts_of_coarse_ones) {
     static const wh_real none[1] = {WH_R(0.0)};
     uint64_t seed = 7;

@@ -8,8 +8,6 @@
 #include "tests/suites.h"
 
 /* === telemetry =============================================================================== */
-/* Frames between lines of the console's text: all events are in frames or counted as dropped, and the rig acts as
- * without telemetry. */
 
 static even_rig twin;
 
@@ -77,7 +75,7 @@ TEST(telemetry, off_at_first_and_after) {
     TEST_ASSERT_EQUAL_UINT(frames, bench.got.frames);
 }
 
-/* Every sample and pulse is received, with any status of the converter, at each rate and delay, for converters of 12 to
+/* Every sample and pulse is received: with any status of the converter, at each rate and delay, for converters of 12 to
  * 24 bits. */
 TEST(telemetry, all_that_was_seen) {
     static const char *const rates[] = {"tel rate 500", "tel rate 250", "tel rate 100",
@@ -141,7 +139,7 @@ TEST(telemetry, losses_are_counted) {
     }
 }
 
-/* A begin and an end of a pulse in each step, more than 115,200 baud can transmit: ends are dropped, samples are
+/* Each step has a begin and an end of a pulse, more than 115,200 baud can transmit. Ends are dropped, samples are
  * not. */
 TEST(telemetry, ends_give_way) {
     bench.seed = 47;
@@ -159,7 +157,7 @@ TEST(telemetry, ends_give_way) {
     TEST_ASSERT_TRUE(bench.tel.dropped[WH_TEL_EVENT] > 1000U);
 }
 
-/* The line corrupts, loses or inserts bytes: each frame is received as sent or not at all, and text is complete after
+/* The line corrupts, loses or inserts bytes. Each frame is received as sent or not at all, and text is complete after
  * the next zero. */
 TEST(telemetry, a_bad_line) {
     bench.seed = 44;
@@ -191,8 +189,8 @@ TEST(telemetry, a_bad_line) {
     TEST_ASSERT_EQUAL_UINT(0, bench.got.dropped);
 }
 
-/* A terminal is connected, disconnected, connected again, and types. The rig must give the same commands as a second
- * rig without a terminal. */
+/* A terminal is connected, disconnected and connected again, and its user types. The rig must give the same commands as
+ * a second rig without a terminal. */
 TEST(telemetry, control_is_undisturbed) {
     bench.seed = 45;
     tel_begin();
@@ -271,12 +269,11 @@ TEST(telemetry, states_are_told) {
 }
 
 /* === telemetry ring ========================================================================== */
-/* The ring of control steps around a trigger, lines for plotters, answers and refusals. */
 
 static wh_captured truth[4096];
 static uint32_t truth_ticks[4096];
 
-/* Records one step in the reference if it belongs to the ring, and reads the line. */
+/* If the ring must contain this step, records it in the reference; then reads the line. */
 static void note_period(unsigned at, unsigned bytes) {
     tel_period(true, bytes);
     truth_ticks[at] = bench.seen.inputs.now_ticks;

@@ -1,4 +1,4 @@
-/* test_telemetry_odd.c: telemetry of values that are invalid, too large or late; without room for a line; and without a
+/* test_telemetry_odd.c: telemetry if values are invalid, too large or late, if a line has no room, and if there is no
  * cell. */
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ static wh_real draw_size(void) {
                                          : size;
 }
 
-/* A number as telemetry.h encodes it: 65535 if there is none, else 0 to 65534. */
+/* Encodes a number in the format of telemetry.h: 0 to 65534, or 65535 if there is none. */
 static unsigned counted(wh_real number, float each) {
     const float counts = (float)number / each;
     return counts != counts     ? 65535U
@@ -94,7 +94,7 @@ TEST(telemetry_odd, frames_of_odd_numbers) {
     }
 }
 
-/* There is one line for each valid sample, with the speed if it is known. Lines without room are counted. */
+/* Each valid sample gives one line, with the speed if it is known. Lines without room are counted. */
 TEST(telemetry_odd, lines_of_odd_numbers) {
     bench.seed = 62;
     unsigned none = 0;
@@ -152,7 +152,7 @@ static void check_answer(const char *line, const char *answer) {
     memset(&bench.heard, 0, sizeof bench.heard);
 }
 
-/* A board without a cell refuses a rate of samples. Also the answers while telemetry is on. */
+/* A board without a cell refuses a rate of samples. Also: the answers while telemetry is on. */
 TEST(telemetry_odd, rates_and_schemas) {
     tel_begin();
     bench.got.blind = true;

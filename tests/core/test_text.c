@@ -88,8 +88,8 @@ TEST(text, fixed_extremes) {
     expect("nan");
 }
 
-/* More decimals than possible are limited to the possible number. Slightly more than a half is no tie. Values below
- * 2^-160 count as zero. */
+/* If more decimals are requested than possible, the number has the possible ones. Slightly more than a half is no tie.
+ * Values below 2^-160 count as zero. */
 TEST(text, fixed_beyond_its_room) {
     expect_fixed("0.500000000000000000", WH_R(0.5), WH_TEXT_DECIMALS_MAX + 1U);
     expect_fixed("-3.250000000000000000", WH_R(-3.25), 1000);
@@ -103,8 +103,8 @@ TEST(text, fixed_beyond_its_room) {
 #endif
 }
 
-/* A minus sign appears only if a digit is not zero. The values are half of the last digit times 2^-30 to 2^4, each with
- * a tie and its neighbours. */
+/* A minus sign appears only if a digit is not zero. The values are half of the last digit times 2^-30 to 2^4, and the
+ * neighbours of the tie. */
 TEST(text, fixed_sign) {
     uint32_t random = 1;
     unsigned bare = 0;
@@ -153,7 +153,7 @@ TEST(text, full_buffer_keeps_its_bounds) {
 }
 
 #if __STDC_HOSTED__
-/* 200,000 numbers of all sizes, compared with the C library's conversion. */
+/* Compares 200,000 numbers of all sizes with the C library's conversion. */
 static void test_fixed_agrees_with_printf(void) {
     uint64_t random = UINT64_C(0x9e3779b97f4a7c15);
     unsigned compared = 0;

@@ -1,10 +1,10 @@
-/* test_virtual_rig.c: the whole rig on its model: the measurement of the dissertation, with noise and lost pulses.
- * The virtual rig computes in single precision only, so the double build tests only the formula. */
+/* test_virtual_rig.c: the whole rig on its model: the measurement of the dissertation, with noise and lost pulses. The
+ * virtual rig computes in single precision only, so the double build tests only the formula. */
 #include "on_plant.h"
 
 #include "tests/suites.h"
 
-/* The formula of I.3.2.1 in its own units (weights divided by g, inches): 9.44 lbf at 330 rpm. */
+/* The formula of I.3.2.1 in its own units (weights divided by g, inches) gives 9.44 lbf at 330 rpm. */
 static void test_unbalance_gives_the_dissertations_force(void) {
     const wh_real omega = WH_R(5.5) * WH_RIG_TWO_PI;
     const wh_real g_inps2 = WH_R(386.0886);
@@ -21,9 +21,9 @@ static void test_unbalance_gives_the_dissertations_force(void) {
 
 static on_plant on;
 
-/* The run is done and its force is S <w^2> within 2 rpm. The force is within 0.1 % of the value computed from the mean
- * speed and the ripple, with the model's inertia. The phase is 0 within 0.1 degrees, as for every rotor whose speed
- * repeats each turn (docs/rig.md). */
+/* Checks that the run is done and that its force is S <w^2>, with the speed within 2 rpm. The force is within 0.1 % of
+ * the value computed from the mean speed and the ripple, with the model's inertia. The phase is 0 within 0.1 degrees,
+ * as for every rotor whose speed repeats each turn (docs/rig.md). */
 static void check_measurement(float target_rpm) {
     TEST_ASSERT_TRUE(plant_is_done(&on));
     const wh_measured *force = &on.rig.result.force;
@@ -54,7 +54,7 @@ static void test_measurement_of_the_force(void) {
     CHECK_NEAR(0.01f, 12.604f * 4.4482216f, result->tare_N);
 }
 
-/* The noise of the model's cell (cell_noise, 0.07 N), and much more, at the tare, in the guard's checks, and in the
+/* The noise of the model's cell (cell_noise, 0.07 N), or much more, acts at the tare, in the guard's checks, and in the
  * measurement. The interval grows with the noise and contains the true force with a margin. */
 static void test_a_noisy_cell_is_no_fault(void) {
     static const float noises_N[] = {0.07f, 0.5f, 1.0f, 3.0f};
@@ -84,8 +84,8 @@ static void test_gravity_shows_in_the_peaks_and_spikes(void) {
     CHECK_NEAR(2.5f, 0.0f, result->force.at_pulse_N[1]);
 }
 
-/* After the rig has settled, each pulse comes when the rotor is at the sensor: at the rotor's phase in the next step
- * minus the angle turned since the pulse. */
+/* After the rig has settled, each pulse comes when the rotor is at the sensor. The rotor's position at the pulse is its
+ * phase in the next step, minus the angle turned since the pulse. */
 static void test_pulses_stand_at_their_angles(void) {
     plant_begin(&on, 330.0f);
     plant_go_on_until(&on, WH_PHASE_RECORD);
@@ -127,7 +127,7 @@ static void test_slowest_and_fastest_set_points_run(void) {
         plant_begin(&on, targets_rpm[i]);
         plant_go_on_to_the_end(&on);
         check_measurement(targets_rpm[i]);
-        /* the run needs the voltage that the check of the supply assumes */
+        /* The run needs the voltage that the check of the supply assumes. */
         CHECK_NEAR(0.5f, wh_run_needs_V(&on.config.run, targets_rpm[i] * RPM), on.rig.result.volts);
         plant_check_stopped(&on);
     }
@@ -143,9 +143,9 @@ static void test_data_sheet_agrees_with_the_model(void) {
     state.real[0] = 10.0f;
     rig_fixed.observe(&rig_fixed, &state, output);
     CHECK_NEAR(1e-5f, 100.0f * WH_RIG_UNBALANCE_KGM, output[2]);
-    /* with the mass on the axis, the cell measures the whole force */
+    /* If the mass is on the axis, the cell measures the whole force. */
     CHECK_NEAR(1e-5f, output[2], output[1]);
-    /* with level arms, the force is S times the change of speed, which gravity and the damping cause */
+    /* If the arms are level, the force is S times the change of speed by gravity and damping. */
     state.angle[0] = wh_angle_from_rad(0.25f * WH_RIG_TWO_PI);
     state.real[0] = 0.0f;
     state.input[0] = 0.0f;

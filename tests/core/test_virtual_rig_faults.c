@@ -6,15 +6,14 @@
 #include "tests/suites.h"
 
 /* === virtual rig faults ====================================================================== */
-/* The whole rig on its model, with faults. */
 
-#define RUNAWAY_RPM 470.0f /* highest speed, whether settled or in the record */
+#define RUNAWAY_RPM 470.0f /* highest speed in a runaway, whether settled or in the record */
 
 #if !WH_DOUBLE
 
 static on_plant on;
 
-/* Without the limit on set-points, slower ones end at the top: the limit is necessary, and has a margin. */
+/* Below the limit on set-points, the rotor stops at the top: so the limit is necessary. It also has a margin. */
 static void test_slower_set_points_end_at_the_top(void) {
     static const float targets_rpm[] = {100.0f, 140.0f, 150.0f};
     for (unsigned i = 0; i < 3; i++) {
@@ -35,13 +34,13 @@ static void test_dead_sensors_stop_the_rig(void) {
         hal_virtual_rig_instance()->faults.dead_sensor[1] = both == 1;
         plant_go_on_to_the_end(&on);
         TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_PULSES);
-        /* without pulses the motor did not run away */
+        /* Although the pulses stopped, the motor did not run away. */
         TEST_ASSERT_TRUE(on.fastest_radps < 400.0f * RPM);
         plant_check_stopped(&on);
     }
 }
 
-/* When a pulse is overdue the speed is unknown: the voltage stays constant, although the ramp goes on. */
+/* If a pulse is overdue, the speed is unknown: the voltage stays constant, although the ramp continues. */
 static void test_voltage_is_held_while_a_pulse_is_overdue(void) {
     plant_begin(&on, 330.0f);
     plant_go_on_until(&on, WH_PHASE_RAMP);
@@ -65,9 +64,9 @@ static void test_voltage_is_held_while_a_pulse_is_overdue(void) {
     TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_PULSES);
 }
 
-/* A drive stage stuck at full supply ignores the voltage: the guard trips and switches the enable off. The rotor's
- * speed depends on the angle at the fault. docs/rig.md: the shaft's safety factor is 2 at 416 rpm and falls with the
- * square, to 1.57 at 470 rpm. */
+/* A drive stage is stuck at full supply and ignores the voltage. The guard trips and switches the enable off. The
+ * highest speed depends on the angle at the fault. docs/rig.md: the shaft's safety factor is 2 at 416 rpm and falls
+ * with the square of the speed, to 1.57 at 470 rpm. */
 static void test_runaway_is_caught(void) {
     for (unsigned i = 0; i < 10U; i++) {
         const bool recording = i % 2U == 1;
@@ -90,7 +89,7 @@ static void test_runaway_is_caught(void) {
     }
 }
 
-/* An interrupt switches the motor off, in each phase in which the motor drives: no later command drives it, and the run
+/* An interrupt switches the motor off, in each phase in which the motor drives. No later command drives it, and the run
  * ends with a reason. */
 static void test_off_from_an_interrupt_stays(void) {
     for (wh_rig_phase phase = WH_PHASE_SPIN_UP; phase <= WH_PHASE_RAMP_DOWN; phase++) {
@@ -111,7 +110,7 @@ static void test_off_from_an_interrupt_stays(void) {
 }
 
 /* Stop is pressed for less than a control step, in each phase in which the motor drives. The stage switches itself off,
- * and the run ends as after stop. */
+ * and the run ends as after a stop. */
 static void test_a_short_stop_is_seen(void) {
     for (wh_rig_phase phase = WH_PHASE_SPIN_UP; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         plant_begin(&on, 330.0f);
@@ -146,15 +145,12 @@ static void test_watchdog_cuts_the_motor(void) {
 }
 
 /* === halts ================================================================================== */
-/* From each state: stop, reset, lost host. A halted rig stays halted. */
 
 static on_plant stood;
 static hal_virtual_rig stood_rig;
 static uint64_t seed;
 
-/* --- states ------------------------------------------------------------------------------------------- */
-
-enum { AT_IDLE, AT_ARMED, AT_PHASES }; /* further numbers: the phases, from the tare on */
+enum { AT_IDLE, AT_ARMED, AT_PHASES }; /* further numbers are the phases, beginning with the tare */
 #define PLACES ((unsigned)AT_PHASES + (unsigned)WH_PHASES - (unsigned)WH_PHASE_TARE)
 
 static void stand_at(unsigned place) {
@@ -201,9 +197,8 @@ static void check_stays_off(unsigned steps, wh_rig_state state) {
     }
 }
 
-/* --- stop -------------------------------------------------------------------------------------------- */
-
-/* The motor is off in the next step, in any state; no start while stop is pressed, or afterwards without new orders. */
+/* In any state, stop switches the motor off in the next step. The rig does not start while stop is pressed, nor later
+ * without new orders. */
 static void test_stop_in_every_state(void) {
     seed = 21;
     for (unsigned place = 0; place < PLACES; place++) {
@@ -229,7 +224,7 @@ static void test_stop_in_every_state(void) {
     }
 }
 
-/* With the motor off, a stage is stuck at a part of the supply: the enable is off within 1.5 s. If the rotor turns, the
+/* With the motor off, a stage is stuck at a part of the supply. The enable is off within 1.5 s. If the rotor turns, the
  * trip names the cause. */
 static void test_a_stuck_stage_in_every_off_state(void) {
     seed = 25;
@@ -266,10 +261,8 @@ static void test_stop_of_a_tripped_rig(void) {
     TEST_ASSERT_TRUE(on.rig.guard.trip == WH_TRIP_SUPPLY);
 }
 
-/* --- the supply ------------------------------------------------------------------------------------------ */
-
-/* Supply out of range or missing: `arm` is refused. An armed or running rig trips in the next step, and the record has
- * the reading. */
+/* If the supply is out of range or missing, `arm` is refused. An armed or running rig trips in the next step, and the
+ * record has the reading. */
 static void test_supplies_out_of_range(void) {
     seed = 24;
     for (unsigned place = 0; place < PLACES; place++) {
@@ -295,8 +288,6 @@ static void test_supplies_out_of_range(void) {
         }
     }
 }
-
-/* --- resets ------------------------------------------------------------------------------------------ */
 
 typedef enum breakage { NOTHING, BLIND, DEAF, WEAK, SILENT, BREAKAGES } breakage;
 
@@ -348,8 +339,8 @@ static void check_reset(wh_trip trip) {
     check_stays_off(300, tripped ? WH_RIG_TRIPPED : WH_RIG_IDLE);
 }
 
-/* A reset at any instant, with a trip latched or not: the motor is off, the rig idle or tripped as before, and the same
- * after another reset. */
+/* A reset at any instant, with or without a latched trip. Then the motor is off, the rig is idle or tripped as before,
+ * and a second reset changes nothing. */
 static void test_resets_in_every_state(void) {
     unsigned latched = 0;
     unsigned none = 0;
@@ -388,9 +379,7 @@ static void test_what_is_cleared_is_forgotten(void) {
     TEST_ASSERT_TRUE(plant_order(&on, WH_EVENT_ARM, 0.0f) == WH_ALLOWED);
 }
 
-/* --- the host ---------------------------------------------------------------------------------------- */
-
-/* A host is lost. As configured, either the motor is off in that step and the rotor comes to rest, or the run goes on
+/* A host is lost. As configured, either the motor is off in that step and the rotor comes to rest, or the run continues
  * to its result. */
 static void test_a_lost_host_in_every_phase(void) {
     seed = 24;
@@ -418,7 +407,7 @@ static void test_a_lost_host_in_every_phase(void) {
 
 #endif
 
-/* Every trip, read from its bytes, is latched with all its data, and `arm` is refused because of it. */
+/* Every trip is restored from its bytes, latched with all its data. `arm` is then refused because of it. */
 static void test_a_record_is_latched_from_its_bytes(void) {
     static const wh_trip trips[] = {
 #define TRIP(name, number, words) name,

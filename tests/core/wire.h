@@ -1,5 +1,5 @@
-/* wire.h: the tests' own decoder of the station's line, written from the description in core/station/telemetry.h, with
- * bitwise checksums. */
+/* wire.h: the tests' own decoder of the station's line, written from the description in core/station/telemetry.h. Its
+ * checksums are computed bit by bit. */
 #ifndef TESTS_CORE_WIRE_H
 #define TESTS_CORE_WIRE_H
 
@@ -50,7 +50,7 @@ static inline bool wire_sum_is_right(const uint8_t *bytes, unsigned count) {
     return count > 2U && rest == wire_number(bytes + count - 2U, 2);
 }
 
-/* Counts down to the next code byte. A code of 255 is followed by no zero. */
+/* Copies the bytes without the code bytes. (A code of 255 is followed by no zero.) */
 static inline unsigned wire_without_codes(const wire *w, uint8_t *to) {
     unsigned left = 1;
     unsigned length = 0;
