@@ -113,6 +113,8 @@ TEST(chip_clock, behind_a_loader) {
         TEST_ASSERT_EQUAL(60000000, chip_clocks_now().core_Hz);
         chip_image_starts();
         TEST_ASSERT_EQUAL(HAL_CLOCK_CRYSTAL, hal_clock_source_now());
+        TEST_ASSERT_EQUAL_MESSAGE(0, reg_load(RCC_AT(0x00U)) & 0x40000U,
+                                  "a crystal needs its amplifier");
         TEST_ASSERT_EQUAL(168000000, chip_clocks_now().core_Hz);
         TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 && ppm_over(0.05) > -25.0);
     }
