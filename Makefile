@@ -1,8 +1,8 @@
-# Whirl: energies in, firmware out. `make` lists the targets; the machinery is in mk/.
+# Whirl: energies in, firmware out. `make` lists the targets; the rules are in mk/.
 #
-# V=1 shows the commands. Nothing is written outside build/, but for `make figures-docs`, `make price`, `make bench-boards`,
-# `make price-table` and `make stability`, which renew their part of docs/, and `make too-large`, which
-# lists what does not fit into a board.
+# V=1 shows the commands. Nothing is written outside build/, with these exceptions: `make figures-docs`, `make price`,
+# `make bench-boards`, `make price-table` and `make stability` renew their part of docs/, and `make too-large` lists the
+# programs that do not fit into a board.
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
@@ -27,14 +27,14 @@ BOARD ?= mps2-an386
 UNITY ?=
 # Seconds of each fuzzer.
 FUZZ_SECONDS ?= 20
-# Where one configuration's objects go: the quality gates build with other flags elsewhere.
+# The folder for the objects of one configuration. The quality gates build with other flags in folders of their own.
 B ?= build
 # Flags for linking only, such as -static.
 LINK_EXTRA ?=
-# "none" leaves out the commands that need processes and signals, for hosts without (WebAssembly).
+# "none" omits the commands that need processes and signals, for hosts without these (WebAssembly).
 SYSTEM ?= posix
 
-# What works at the same time: as much as there are processors, unless make is told (-j).
+# Number of jobs at the same time: as many as there are processors, unless make is called with -j.
 JOBS ?= $(shell nproc 2>/dev/null || echo 1)
 PARALLEL = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(JOBS))
 
@@ -53,7 +53,7 @@ include mk/hard.mk
 include mk/rig.mk
 include mk/flash.mk
 
-# What has neither a slash nor a dot in its name is no file.
+# A target without a slash or a dot in its name is not a file.
 .PHONY: FORCE $(shell cat Makefile mk/*.mk | sed -n 's/^\([a-z][a-z0-9 -]*\):\([^=].*\)\{0,1\}$$/\1/p')
 
 ##@ Start here
@@ -86,7 +86,7 @@ pil: ## processor in the loop: the rig's firmware on BOARD against a plant of it
 
 whirl: $(B)/whirl ## the command line program, build/whirl
 
-# The program, and the core that the C it writes is compiled with: -I $(PREFIX)/share/whirl.
+# Installs the program, and the core, with which generated C is compiled: -I $(PREFIX)/share/whirl.
 PREFIX ?= /usr/local
 INSTALLED = $(DESTDIR)$(PREFIX)
 CORE_ROOMS := core core/contact core/number core/step

@@ -16,8 +16,8 @@ board_of_family := $(addprefix BOARD_,DEPS CC NM SIZE OBJCOPY OBJDUMP CFLAGS LDF
 board_needs = $(foreach v,$(1),$(if $(strip $(value $(v))),,$(error boards/$(board)/board.mk: $(v) is missing$(2))))
 board_before := $(filter BOARD_%,$(.VARIABLES))
 
-# Every board is read, so that none is dropped silently. Only lists remain of it: boards_test, boards_check, boards_all,
-# boards that are flashed, and boards without room for the portable suites.
+# Every board is read, so that none is dropped silently. Only these lists remain: boards_test, boards_check,
+# boards_all, boards that are flashed, and boards without room for the portable suites.
 define read_board
 board := $(1)
 include boards/$(1)/board.mk
@@ -38,7 +38,7 @@ include boards/$(BOARD)/board.mk
 BOARD_EXTRA ?=
 $(eval $(call build,$(BOARD),$(BOARD_CC),$(BOARD_CFLAGS) $(WARN) $(BOARD_EXTRA)))
 
-# The flashed image may be a build of its own, as on a chip with little memory: BOARD_FLASHED_FLAGS.
+# The flashed image may have a build of its own (BOARD_FLASHED_FLAGS), for example on a chip with little memory.
 FLASHED := $(BOARD)$(if $(BOARD_FLASHED_FLAGS),-flashed)
 ifneq ($(BOARD_FLASHED_FLAGS),)
 $(eval $(call build,$(FLASHED),$(BOARD_CC),$(BOARD_CFLAGS) $(BOARD_FLASHED_FLAGS) $(WARN) $(BOARD_EXTRA)))
@@ -68,7 +68,7 @@ endef
 # tests/matrix_hashes.sh).
 MATRIX := two_mass_relative cartesian_flight
 
-# Every scene, and the rig's firmware, whose hardware hal/virtual simulates.
+# Programs with every scene, and with the rig's firmware, whose hardware hal/virtual simulates.
 $(eval $(call program,scenes,boards/programs/scenes.c,scenes whirl))
 $(eval $(call program,firmware,boards/programs/rig.c,whirl rig virtual scenes))
 
@@ -86,7 +86,8 @@ STATION := $(ELF)/station.elf
 $(B)/station: $(call objects,float,boards/programs/station.c boards/host/board.c boards/host/terminal.c boards/host/settings.c) \
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
-# A board with hardware uses the rig's hardware and no model. A flashed image never ends and knows no debugger.
+# On a board with hardware, the firmware uses the rig's hardware and no model. A flashed image never ends, and uses no
+# debugger.
 FLASHED_OBJECTS := $(call objects,$(FLASHED),$(BOARD_FLASHED))
 FLASHED_IMAGES := $(if $(BOARD_FLASHED),$(STATION))
 # Limits that mk/size/size.sh applies to the images.
@@ -99,23 +100,23 @@ $(STATION): $(call objects,$(FLASHED),boards/programs/station.c) $(or $(FLASHED_
     $(call libraries,$(FLASHED),station rig whirl $(if $(BOARD_FLASHED),,virtual scenes))
 	$(link_board)
 
-# Firmware with its plant at the other end of a line (`whirl pil`), for families that have one: BOARD_LINK.
+# Firmware whose plant is at the other end of a line (`whirl pil`), for families that have such a line: BOARD_LINK.
 pil_program = $(call program,$(1),$(2),$(3),boards/host/link.c,$(BOARD_LINK))
 $(foreach p,pil_rig pil_swing pil_dialled pil_carriage,$(eval $(call pil_program,$(p),boards/programs/$(p).c,frames rig whirl scenes)))
 $(eval $(call pil_program,pil_cart,boards/programs/pil_cart.c,frames whirl))
-# A controller from outside the tree: CONTROLLER names its C files, and the first of them the program.
+# A controller from outside the tree: CONTROLLER names its C files. The first of them is the program.
 CONTROLLER_LIBRARIES ?= frames whirl
 ifneq ($(CONTROLLER),)
 pil_own := own/$(basename $(notdir $(firstword $(CONTROLLER))))
 $(foreach f,$(CONTROLLER),$(if $(wildcard $(f)),,$(error CONTROLLER=$(f): there is no such file)))
 $(eval $(call pil_program,$(pil_own),$(abspath $(CONTROLLER)),$(CONTROLLER_LIBRARIES)))
 endif
-# The same over the board's own console, for boards with room for it; on this machine over a pseudo-terminal.
+# The same firmware over the board's own console, for boards with room for it; on this machine over a pseudo-terminal.
 $(eval $(call program,pil_line,boards/programs/pil_line.c boards/shared/link_console.c,frames rig whirl scenes,boards/host/terminal.c))
 PIL_PROGRAMS := pil_rig pil_swing pil_dialled pil_carriage pil_cart
 PIL_IMAGES := $(if $(BOARD_LINK),$(PIL_PROGRAMS:%=$(ELF)/%.elf) $(ELF)/pil_line.elf)
 
-# Runs on BOARD and on an M3, and replays the tape of each on the other.
+# Runs the rig on BOARD and on a Cortex-M3, and replays the tape of each on the other.
 PIL_BOARDS := $(BOARD) $(filter-out $(BOARD),mps2-an385)
 ##@ Tests and quality
 pil-images: $(PIL_PROGRAMS:%=$(B)/%) $(PIL_IMAGES) ## firmware for `whirl pil`, for this machine and for BOARD
@@ -137,10 +138,10 @@ TESTS_ELF := $(ELF)/tests$(SUITES:%=_%).elf
 
 emulate = $(call BOARD_EMULATE,$(1))
 
-# Files that only this board has, for checks of single files.
+# Files that only this board compiles, for checks of single files.
 BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(if $(BOARD_FLASHED_FLAGS),,$(BOARD_FLASHED))) $(BOARD_LINK) $(BOARD_WATCHDOG) \
     $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
-# The same for its separate build.
+# Files that only its separate flashed build compiles.
 BOARD_FLASHED_C = $(if $(BOARD_FLASHED_FLAGS),$(BOARD_FLASHED))
 
 ifeq ($(BOARD_IMAGES),single)
@@ -149,8 +150,8 @@ else
 # Images that must follow the firmware rules, and whose sizes are printed.
 IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf $(STATION)
 
-# Programs that touch the guard of the stack and must not return (tests/boards/guard.sh), and the watchdog, for boards with
-# one (tests/boards/watchdog.sh).
+# Programs that touch the guard of the stack and must not return (tests/boards/guard.sh), and the watchdog's program,
+# for boards with a watchdog (tests/boards/watchdog.sh).
 GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
 WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
 $(WATCHDOG): $(call objects,$(BOARD),$(BOARD_WATCHDOG))
@@ -159,7 +160,7 @@ $(GUARDS) $(WATCHDOG): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJE
 
 board-images: $(IMAGES) ##- with BOARD=: its images of the scenes
 board-tests: $(TESTS_ELF) $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION) $(ELF)/firstlight.elf
-run-suites: # the portable suites, what guards the stack, the watchdog, and first light
+run-suites: # the portable suites, the guard of the stack, the watchdog, and first light
 	@status=0; $(call emulate,$(TESTS_ELF)) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
 	    sh tests/boards/watchdog.sh $(BOARD) || status=1; sh tests/boards/firstlight.sh $(BOARD) || status=1; exit $$status
 print-hashes: ##- with BOARD=: a line for each scene, with the hash of its last state
@@ -174,7 +175,7 @@ $(ELF)/scenes_short.elf: boards/programs/scenes.c $(BOARD_OBJECTS) $(call librar
 short-images: $(ELF)/scenes_short.elf
 print-short-hashes:
 	@$(call emulate,$(ELF)/scenes_short.elf)
-print-matrix-hashes: $(ELF)/scenes_matrix.elf # of linear scenes, a step as one matrix
+print-matrix-hashes: $(ELF)/scenes_matrix.elf # hashes of linear scenes whose step is one matrix
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$<)
 endif
@@ -182,14 +183,14 @@ endif
 # Each board is built and run by its own make: $(call on_board,NAME,TARGET).
 BOARDS_TEST := $(sort $(filter-out $(boards_without_suites),$(BOARD)) $(boards_test))
 BOARDS := $(sort $(BOARD) $(boards_test) $(boards_check))
-# Boards with one image per scene run at most this many steps: they take hours for seconds of this machine.
+# Boards with one image per scene run at most this many steps, because a second on this machine takes hours on them.
 BOARDS_SINGLE := $(patsubst boards/%/too_large.txt,%,$(wildcard boards/*/too_large.txt))
 SINGLE_STEPS ?= 2000
 on_board = $(MAKE) -s BOARD=$(1) $(2)
-emulate-command: # of an image named IMAGE
+emulate-command: # the emulator's command for the image IMAGE
 	@echo '$(call emulate,IMAGE)'
 
-# Things that a family has beside its boards, whatever BOARD is: rules for tools and test programs, and gates, named in
+# Files that a family has beside its boards, for every BOARD: rules for tools and test programs, and gates, named in
 # FAMILY_GATES.
 include $(wildcard boards/*/family.mk)
 

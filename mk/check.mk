@@ -1,5 +1,5 @@
-# check.mk: the quality gates of `make check`, each a target gate-NAME. tests/gates.sh runs them, stores their output in
-# build/check/NAME.log and prints a line for each. Gates joined by a plus run at the same time.
+# check.mk: the quality gates of `make check`; each is a target gate-NAME. tests/gates.sh runs them, stores their
+# output in build/check/NAME.log and prints a line for each. Gates joined by a plus sign run at the same time.
 GATES := house gcc clang format cppcheck tidy long sanitizers memcheck bad-input fuzz firmware size boards$(FAMILY_GATES:%=+%)
 GATES += libm hashes+flashed hosts docs
 LINT_FLAGS := -std=c11 $(WARN) -I. $(UNITY_FLAGS) -D_POSIX_C_SOURCE=200809L
@@ -42,7 +42,7 @@ gate-gcc: $(GEN)/.stamp
 	+@$(GCC_BUILD) -k objects test-objects board-objects
 	+@$(foreach b,$(filter-out $(BOARD),$(BOARDS)),$(GCC_BUILD) -k BOARD=$(b) board-own-objects &&) true
 
-# Nothing runs the tests compiled by clang, and clang warns before it optimises.
+# Tests compiled by clang are never run, and clang warns before it optimises, so the syntax pass is enough.
 syntax = printf '%s\n' $(1) | xargs -n 8 -P $(JOBS) clang $(LINT_FLAGS) $(2) -Werror -fsyntax-only
 gate-clang: $(GEN)/.stamp
 	+@$(CLANG_BUILD) -k objects
@@ -55,9 +55,9 @@ gate-format:
 	@$(call need,clang-format)
 	@clang-format --dry-run -Werror $(C_FILES)
 
-# One process per file keeps two cores busy to the end. The core is also linted as double. The analyzer follows this many
-# paths of a function, which takes a fifth of the time of 75000 paths. Of 81 null pointers planted before returns of long
-# functions it misses two that 75000 paths find. `make gate-tidy TIDY_PATHS=` follows all.
+# One process per file keeps two cores busy to the end. The core is also linted as double. The analyzer follows this
+# many paths of a function, which takes a fifth of the time of 75000 paths. Of 81 null pointers planted before returns
+# of long functions, it misses two that 75000 paths find. `make gate-tidy TIDY_PATHS=` follows all paths.
 TIDY_PATHS := -Xclang -analyzer-config -Xclang max-nodes=10000
 tidy = printf '%s\n' $(1) | xargs -n 1 -P $(JOBS) sh -c 'clang-tidy --quiet "$$1" -- $(2) $(TIDY_PATHS)' _
 CHIP_TIDY_C := $(filter tests/chip/%,$(CHIP_TEST_C)) tests/boards/f405_plant.c
@@ -72,7 +72,8 @@ gate-tidy: $(GEN)/.stamp
 tidy-board:
 	@$(call tidy,$(sort $(BOARD_OWN_C) $(BOARD_FLASHED_C)),$(BOARD_TIDY) $(LINT_FLAGS))
 
-# Core, HAL and boards, which others compile; with the host it would take half an hour. clang-tidy reads all of them.
+# cppcheck reads the core, HAL and boards, which users compile; the host would take half an hour. clang-tidy reads all
+# files.
 gate-cppcheck:
 	@$(call need,cppcheck)
 	@mkdir -p build/check/cppcheck
@@ -87,9 +88,10 @@ ifneq ($(word 2,$(filter gate-%,$(MAKECMDGOALS))),)
 .NOTPARALLEL:
 endif
 
-# --- what `make test` leaves out, to be quick ---------------------------------------------------------------
+# --- tests that `make test` leaves out, to be quick ---------------------------------------------------------
 gated = "host suites that make test leaves out$(comma) part $(1) of 2" 'WHIRL_FEW=1 sh tests/each.sh build/tests/host $(2)'
-# Scripts of which `make test` takes few cases, because others draw more of the same or run more built-in scenes.
+# Scripts of which `make test` runs few cases, because others draw more cases of the same kind or run more built-in
+# scenes.
 LONG_FEW := $(foreach t,price embed_names faults odd_values trust,tests/cli/$(t).sh)
 LONG_SUITES := $(filter-out $(HOST_FULL),$(HOST_GATED))
 gate-long: $(GEN)/.stamp
@@ -100,7 +102,7 @@ gate-long: $(GEN)/.stamp
 	    $(foreach t,$(LONG_FEW),"$(t)$(comma) few cases" "WHIRL_FEW=1 sh $(t)") \
 	    $(call run_cli,$(filter-out $(LONG_FEW) $(CLI_FULL),$(CLI_GATED)))
 
-# --- all cases of what `make test` takes fewer of -----------------------------------------------------------
+# --- all cases of tests of which `make test` runs few -------------------------------------------------------
 # Scripts that read WHIRL_FULL. With `rest` they leave out the cases that `make test` and gate-long run completely.
 CLI_ASKS = $(sort $(LONG_FEW) $(shell grep -l WHIRL_FULL $(CLI_TESTS)))
 FULL_LIST := build/check/full.list
@@ -120,18 +122,19 @@ full-now: $(GEN)/.stamp
 # In double, scenes are linked with tests alone.
 $(B)/float/$(GEN)/%.o: FILE_FLAGS = $(SCENE_OPT)
 $(B)/double/$(GEN)/%.o: FILE_FLAGS = $(or $(SCENE_OPT),$(LEAST_O2))
-# The tests themselves are not the subject: their arrays are guarded, and no more.
+# The tests themselves are not the subject: only their arrays are guarded.
 ASAN_TEST_OPT := -O0 -fno-sanitize=undefined,float-cast-overflow
-# The portable suites include the steps: at -O1 with these checks gcc takes minutes for a file of all methods.
-# Nor are generated scenes: the suites and the interpreter run the core that they include. That halves the compilation.
+# The portable suites include the steps; at -O1 with these checks, gcc takes minutes for a file of all methods.
+# Generated scenes have no checks either: the suites and the interpreter run the same core. That halves the
+# compilation.
 ASAN_SCENE_OPT = $(ASAN_TEST_OPT)
 ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asan CC=gcc OPT="-O1 -fno-omit-frame-pointer" SCENE_OPT="$(ASAN_SCENE_OPT)" TEST_OPT="$(ASAN_TEST_OPT)" CORE_TEST_OPT=-O0 \
     EXTRA="-fsanitize=$(SANITIZE) -fno-sanitize-recover=all"
 
-# Scripts that run no instrumented program, or run only code that other scripts or suites run too.
+# Scripts that run no instrumented program, or only code that other scripts or suites run, too.
 CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags foreign fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
-# Left to `make sanitizers-all`: scripts and suites that derive and step as others do to compare digits, or that try the
-# remedies of many runs.
+# Scripts and suites left to `make sanitizers-all`: they derive and step as others do, to compare digits, or they try
+# the remedies of many runs.
 CLI_LESS_ASAN := $(foreach t,angle_parts asked_first carriage command_line commands doc_examples \
     effects_cost_nothing embed_fixed embed_headers embed_names embed_sketch emitted_c faults figures fixed \
     float_range forms full_output measure memory noise odd_values pil plot plots price price_pages printed_zeros \
@@ -165,7 +168,7 @@ gate-sanitizers: $(GEN)/.stamp
 sanitizers-all: $(GEN)/.stamp ##- gate-sanitizers with all suites and scripts that run an instrumented program (half an hour)
 	+@$(ASAN_BUILD) CLI_LESS_ASAN= HOST_LESS_ASAN= CORE_RUNS= SCENE_OPT=-O0 ASAN_REALS="float double" asan-run
 
-# Reads of uninitialized values, which the sanitizers do not detect.
+# Finds reads of uninitialized values, which the sanitizers do not detect.
 MEMCHECK = valgrind -q --error-exitcode=9
 gate-memcheck: test-programs build/whirl
 	@$(call need,valgrind)
@@ -175,13 +178,14 @@ gate-memcheck: test-programs build/whirl
 	            echo "$(B)/whirl run $$scene --with ledger --number $$real --until 0.5s --quiet"; done; done; \
 	    } | xargs -P $(JOBS) -I COMMAND sh -c '$(MEMCHECK) COMMAND'
 
-# Broken files of every kind must be refused with a message. Also the inputs that fuzzers have found.
+# Broken files of every kind, and the inputs that fuzzers have found, must be refused with a message.
 gate-bad-input:
 	+@$(ASAN_BUILD) build/asan/whirl
 	@sh tests/bad_input.sh build/asan/whirl
 	+@$(ASAN_BUILD) kept-now
 
-# Fuzzes the readers of lines, from the console and from a rig, each time anew: half a minute each, at the same time.
+# Fuzzes the readers of lines, from the console and from a rig, with new inputs in each run: half a minute each, at
+# the same time.
 GATE_FUZZ_SECONDS ?= 30
 gate-fuzz:
 	@$(call need,clang)
@@ -196,8 +200,9 @@ image-rules: board-images $(PIL_IMAGES) $(LIGHT_IMAGE)
 	@NM=$(BOARD_NM) OBJDUMP=$(BOARD_OBJDUMP) FLASHED="$(FLASHED_IMAGES) $(if $(BOARD_FLASHED),$(LIGHT))" UNDRIVEN="$(LIGHT)" \
 	    sh boards/check_image.sh $(IMAGES) $(PIL_IMAGES) $(LIGHT_IMAGE)
 
-# Boards with hardware of their own: each flashed image follows these rules, is compiled and linted, and has limits of bytes
-# and stack. One runs in the emulator in few cases; its control steps are longer than those of mps2-an386.
+# Boards with hardware of their own. Each flashed image must follow these rules; it is compiled and linted, and its
+# bytes and stack are limited. One of them runs few cases in the emulator; its control steps are longer than those of
+# mps2-an386.
 gate-flashed: $(GEN)/.stamp
 	+@$(foreach b,$(boards_flashed),$(call on_board,$(b),BOARD_EXTRA=-Werror flashed-rules tidy-board) &&) true
 	+@$(call on_board,netduinoplus2,BOARD_EXTRA=-Werror flashed-tests)
@@ -206,7 +211,7 @@ gate-flashed: $(GEN)/.stamp
 	+@for board in $(filter-out $(BOARDS_SINGLE),$(boards_flashed)); do sh tests/boards/firstlight.sh $$board || exit 1; done
 	+@$(MAKE) -s small-now
 
-# Core, controller and console on this machine, as in flashed images with little flash.
+# Core, controller and console on this machine, compiled as in flashed images with little flash.
 small-now: $(GEN)/.stamp
 	@$(MAKE) -s B=build/small EXTRA="-Werror -DWH_SMALL=1" build/small/tests/core_float
 	@build/small/tests/core_float >build/small/suites.log || { grep FAIL build/small/suites.log >&2; exit 1; }
@@ -226,14 +231,14 @@ gate-libm:
 	@for cc in gcc clang; do $(MAKE) B=build/libm/$$cc CC=$$cc OPT=-O0 build/libm/$$cc/whirl || exit 1; done
 	@sh tests/no_libm.sh build/libm/gcc/whirl build/libm/clang/whirl
 
-# Boards that are not in `make test`: the suites without the rig's runs, and the stack's guard. mps2-an505 has the same
-# instructions as the board in `make test`: its suites are left to `make test-boards`.
+# Boards that are not in `make test` run the suites without the rig's runs, and the guard of the stack. mps2-an505 has
+# the instructions of the board in `make test`, so its suites are left to `make test-boards`.
 BOARDS_CHECKED = $(filter-out mps2-an505 $(BOARDS_TEST) $(boards_without_suites),$(BOARDS))
 gate-boards: $(GEN)/.stamp
 	+@$(foreach b,$(BOARDS_CHECKED),$(call on_board,$(b),SUITES=less board-tests) &&) true
 	@SUITES=less sh tests/run.sh build/check/log_boards $(foreach b,$(BOARDS_CHECKED),$(call run_board,$(b)))
 
-# --- what the pages print -----------------------------------------------------------------------------
+# --- the output shown in the pages --------------------------------------------------------------------
 # README's commands need only `make run`; other pages need more.
 DOC_PAGES ?= README.md $(sort $(wildcard docs/*.md docs/*/*.md))
 docs-programs: $(GEN)/.stamp
@@ -260,7 +265,7 @@ docs-renew: docs-programs ##- all pages with what their commands print now: DOC_
 # Boards in the gate, and in `make hashes-all`.
 HASH_BUILDS ?= gcc-O0 gcc-O2 clang-O2 clang-O3
 HASH_BUILDS_ALL := gcc-O0 gcc-O2 gcc-O3 clang-O0 clang-O2 clang-O3
-# Programs of HASHED built by this machine's compilers; the warning gates provide their objects.
+# Programs built by this machine's compilers whose hashes are compared; the warning gates provide their objects.
 HASHED ?= scenes
 hash_folder = $(or $(hash_folder_$(1)),build/hash/$(1))
 hash_folder_gcc-O2 := $(GCC_FOLDER)
@@ -270,13 +275,13 @@ hash_make_gcc-O2 = $(GCC_BUILD)
 hash_make_clang-O2 = $(CLANG_BUILD)
 $(addprefix hash-,$(HASH_BUILDS_ALL)): hash-%:
 	+@$(call hash_make,$*) $(HASHED:scenes%=$(call hash_folder,$*)/scenes%)
-# The scenes' last states, on the boards $(1): build their images, then run them beside the interpreter and this
-# machine's builds.
+# Compares the scenes' last states on the boards $(1), of the interpreter, and of this machine's builds: builds the
+# images, then runs them.
 build_hashes = $(MAKE) $(addprefix hash-,$(HASH_BUILDS)) && $(foreach b,$(1),$(call on_board,$(b),board-images) &&) true
 compare_hashes = sh tests/hashes.sh build/hash "the interpreter" "build/whirl hashes" \
     $(foreach h,$(HASH_BUILDS),$(h) $(call hash_folder,$(h))/scenes) \
     $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-hashes)")
-# Linear scenes again, a step as one matrix, on the boards $(1).
+# Compares linear scenes, whose step is one matrix, on the boards $(1).
 compare_matrix_hashes = sh tests/hashes.sh build/hash/matrix "the interpreter" "sh tests/matrix_hashes.sh $(MATRIX)" \
     "this machine" build/scenes_matrix $(foreach b,$(1),"$(b)" "$(call on_board,$(b),print-matrix-hashes)")
 
@@ -289,8 +294,8 @@ hashes-now: $(GEN)/.stamp
 	@$(MAKE) hashes-hard
 	@$(MAKE) hashes-settings SETTINGS=some
 
-# In the gate one board runs the scenes to their ends, the others only the first steps, in which a different arithmetic
-# shows. `make hashes` runs all. Settings: with an FPU and without.
+# In the gate one board runs the scenes to their ends. The others run only the first steps, which show a different
+# arithmetic. `make hashes` runs all. The settings run on a board with an FPU and on one without.
 BOARDS_FIRST = $(filter-out $(BOARDS_TEST),$(BOARDS))
 BOARDS_KINDS = $(BOARDS_TEST) $(filter %-an385 rv32%fc,$(BOARDS))
 gate-hashes: $(GEN)/.stamp
@@ -318,7 +323,8 @@ $(addprefix hash-host-,$(HASH_HOSTS)): hash-host-%:
 	@$(call host_needs,$*)
 	@$(call host_make,$*) $(HASHED:scenes%=build/hosts/$*/scenes%)
 
-# Every board. Boards with one image per scene run beside this machine's program with as few steps.
+# Every board. A board with one image per scene makes few steps, and is compared with this machine's program with as
+# many.
 BOARDS_WHOLE := $(filter-out $(BOARDS_SINGLE),$(BOARDS_ALL))
 hashes-all-now: $(GEN)/.stamp
 	+@$(call build_hashes,$(BOARDS_ALL))

@@ -15,7 +15,7 @@ page() {
         echo "@$command"
         "$whirl" "$command" --help
     done | awk '
-        function links(text,   at) { # and stars outside code are no emphasis
+        function links(text,   at) { # makes links of pages, and escapes stars outside code
             if (text !~ /`/) { gsub(/[*]/, "\\*", text) }
             while (match(text, /docs\/[a-z_\/]+[.]md/)) {
                 at = substr(text, RSTART + 5, RLENGTH - 5)
@@ -31,7 +31,7 @@ page() {
             }
             print line
         }
-        function flush(   word, of) { # the paragraph or the option that is read
+        function flush(   word, of) { # writes the paragraph or the option that was read
             if (kind == "text") { print ""; wrapped(links(text)) }
             if (kind == "option" && text !~ /^as for/ && (head text) in from && length(text) > 30) {
                 split(head, word, " ")

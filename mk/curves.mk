@@ -1,16 +1,16 @@
-# curves.mk: what accuracy costs (`make price`): docs/price.md, docs/dev/fronts.md, their charts.
+# curves.mk: error against cycles (`make price`): docs/price.md, docs/dev/fronts.md and their charts.
 
 CURVES := build/curves
-# Every method, on every board. SCENE+4s: only the first 4 s of that motion, before errors have grown much.
+# Every method is run on every board. SCENE+4s is only the first 4 s of a motion, in which errors are still small.
 CURVE_SCENES ?= two_mass_relative epicyclic_from_rest epicyclic_conserved thomson_a thomson_a+4s thomson_a_conserved rig_fixed \
     driven_hinge_from_rest spherical_flight
 # Scenes with a chart.
 CURVE_CHARTS := epicyclic_from_rest thomson_a thomson_a+4s rig_fixed
-# Boards with counted fronts: a processor with an FPU and one without. The first chart shows a third board as well.
+# Boards with counted fronts: a processor with an FPU and one without. The first chart also shows a third board.
 CURVE_COUNTED := mps2-an386 mps2-an385-m0
 CURVE_FIRST := epicyclic_from_rest fronts $(CURVE_COUNTED) atmega328p
 CURVE_PAGES := docs/price.md docs/dev/fronts.md
-# Operations of `whirl price`; fronts are counted down to this error.
+# Budget of `whirl price`, in operations; fronts are counted down to this error.
 CURVE_EFFORT ?= 1e10
 CURVE_FINEST := 1e-9
 CURVE_JOBS ?= 2

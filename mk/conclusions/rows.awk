@@ -1,8 +1,8 @@
 # rows.awk: splits claims.rows, whose format stands at its head, into files below `into`:
-#   N.command   a command; a command of several rows comes once
-#   N.take      a row's awk program, the functions and rules below first
-#   list        a line a row: its number, and the names of what its commands say
-#   rows        a line a row, fields between tabs: section, claim, theirs, within, digits, verdict, note, commands
+#   N.command   a command; a command that several rows share comes once
+#   N.take      the awk program of a row, after the functions and rules below
+#   list        a line for each row: its number, and the names of its commands' outputs
+#   rows        a line for each row, with tabs between: section, claim, theirs, within, digits, verdict, note, commands
 BEGIN {
     known = " section claim theirs within digits run take verdict note "
     prelude = \

@@ -1,12 +1,13 @@
-# table.awk: a line of the table for each row of rows.awk, its verdict from theirs, ours and what it is within. Ours has the words
-# of theirs, with the numbers that FROM/N.ours holds. "2 %" is of theirs; a bare number is in theirs' unit.
+# table.awk: writes a line of the table for each row of rows.awk. The verdict follows from theirs, ours and the
+# tolerance `within`. The text of ours has the words of theirs, with the numbers in FROM/N.ours. A tolerance of "2 %"
+# is relative to theirs; a bare number has theirs' unit.
 BEGIN {
     FS = "\t"
     print "| section | claim | theirs | ours | within | verdict | command |\n|---|---|---|---|---|---|---|"
 }
 function abs(x) { return x < 0 ? -x : x }
 function fail(why) { print "error: " why ": " $2 > "/dev/stderr"; exit 1 }
-# ours(): the words of theirs with our numbers; sets `verdict`
+# ours(): returns the words of theirs with our numbers, and sets `verdict`
 function ours(    said, line, word, count, rest, text, taken, right, number, x) {
     while ((getline line <(from NR ".ours")) > 0) said = said (said == "" ? "" : " ") line
     count = split(said, word, " ")

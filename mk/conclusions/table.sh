@@ -1,8 +1,8 @@
 #!/bin/sh
-# table.sh print | check PAGE | renew PAGE [ROWS]: the dissertation's claims beside Whirl's numbers, as a table in Markdown.
+# table.sh print | check PAGE | renew PAGE [ROWS]: the dissertation's claims beside Whirl's numbers, as a Markdown table.
 #
-# ROWS (claims.rows) has the claims. The commands of all rows run once each, at most as many at a time as there are processors.
-# `check` fails when a verdict is another than PAGE states, or a figure. `renew` writes the table into PAGE.
+# ROWS (claims.rows) has the claims. Each command of the rows runs once; at most as many run at a time as there are
+# processors. `check` fails if a verdict or a figure differs from PAGE. `renew` writes the table into PAGE.
 set -eu
 here=$(dirname "$0")
 mode=${1:?usage: table.sh print | check PAGE | renew PAGE [ROWS]}

@@ -17,7 +17,7 @@ scenes=
 while read -r where scene; do
     if "$whirl" derive "$where" --with all --as c --header "$out/$scene.h" >"$out/$scene.c" 2>"$out/errors"; then
         scenes="$scenes $scene"
-    else # such as a momentum that is conserved only without drag
+    else # for example a momentum that is conserved only without drag
         echo "$scene with all effects: $(head -n 1 "$out/errors")" >&2
         rm -f "$out/$scene.c" "$out/$scene.h"
     fi

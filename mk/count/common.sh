@@ -11,13 +11,13 @@ commit_of_checkout() {
     echo "$commit"
 }
 
-# "gcc 12.2.0" from the compiler's command.
+# Prints "gcc 12.2.0", from the compiler's command.
 compiler_of() {
     version=$($1 -dumpfullversion 2>/dev/null || $1 -dumpversion)
     echo "${1##*/} $version"
 }
 
-# figures_into FILE: row() appends the rows of $BOARD's images to it; $work is a folder that is deleted at the end.
+# figures_into FILE: row() appends the rows of $BOARD's images to FILE. $work is a folder that is deleted at the end.
 figures_into() {
     csv=$1
     work=$(mktemp -d)
@@ -27,12 +27,12 @@ figures_into() {
     [ -s "$csv" ] || echo "$CSV_HEADER" >"$csv"
 }
 
-# row METRIC VALUE: of the image $name.
+# row METRIC VALUE: writes a row for the image $name.
 row() {
     echo "$commit,$BOARD,$compiler,\"$FLAGS\",$name,float,-,$1,$2" >>"$csv"
 }
 
-# CSV rows on stdin as a table: one line a scene.
+# Prints the CSV rows on standard input as a table, with a line for each scene.
 table() {
     awk -F, '
         # The flags are one quoted field without commas; metric and value come last.
@@ -57,7 +57,7 @@ table() {
         }'
 }
 
-# address_of FUNCTION: in $elf.
+# address_of FUNCTION: prints the function's address in $elf.
 address_of() {
     found=$("$NM" "$elf" | awk -v name="$1" '$3 == name { print "0x" $1 }')
     if [ -z "$found" ]; then
@@ -67,8 +67,8 @@ address_of() {
     echo "$found"
 }
 
-# count MORE-PLUGIN-ARGUMENTS: runs $elf once by $EMULATE under $PLUGIN. Writes the console to $work/console, the counts to
-# $work/counts and the exit status to $status.
+# count MORE-PLUGIN-ARGUMENTS: runs $elf once with $EMULATE and $PLUGIN. Writes the console to $work/console, the
+# counts to $work/counts and the exit status to $status.
 count() {
     begin=$(address_of wh_count_begin)
     end=$(address_of wh_count_end)
@@ -89,8 +89,8 @@ count() {
     fi
 }
 
-# callgrind ELF: writes the intervals of a program of this machine to $work/counts, as the plugin does, and the console. The
-# counts are dumped and cleared at both ends of an interval, so every second part is an interval.
+# callgrind ELF: runs a program of this machine, and writes its console and its intervals to $work/counts, as the
+# plugin does. The counts are dumped and cleared at both ends of an interval, so every second part is an interval.
 callgrind() {
     status=0
     valgrind --tool=callgrind --callgrind-out-file="$work/parts" --combine-dumps=yes \
@@ -105,8 +105,8 @@ callgrind() {
         END { for (i = 2; i in total; i += 2) { print "interval", i / 2 - 1, total[i] } }' "$work/parts" >"$work/counts"
 }
 
-# counted ELF: writes its rows (figures.awk) to $work/rows, by callgrind on this machine, by $PLUGIN, or by simavr. $EMULATE
-# runs the image IMAGE.
+# counted ELF: writes the rows of an image (figures.awk) to $work/rows, counted by callgrind on this machine, by
+# $PLUGIN, or by simavr. $EMULATE runs the image IMAGE.
 counted() {
     elf=$1 image=${image:-${EMULATE:-}} obtained=
     EMULATE=$(echo "$image" | sed "s:IMAGE:$elf:")
@@ -123,7 +123,7 @@ counted() {
         -v obtained=$obtained -f "$(dirname "$0")/figures.awk" "$work/console" "$work/counts" >>"$work/rows"
 }
 
-# bytes_of SIZE ELF: flash and RAM of an image.
+# bytes_of SIZE ELF: prints the flash and RAM of an image.
 bytes_of() {
     "$1" -A "$2" | awk '
         $1 == ".vectors" || $1 == ".text" || $1 == ".ARM.exidx" || $1 == ".data" { flash += $2 }

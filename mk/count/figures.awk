@@ -1,10 +1,10 @@
-# figures.awk: joins what the counted program said (count and stack lines) with what the counter
-# counted (interval lines) and writes rows of
+# figures.awk: joins the lines of the counted program (count and stack) with those of the counter (interval), and writes
+# rows of
 #     commit,board,compiler,flags,scene,number,method,metric,value
-# Interval 0 is around nothing; its instructions are taken off every other interval.
+# Interval 0 is empty; its instructions are subtracted from every other interval.
 # An interval of a method "...-ahead" holds 100 steps (boards/programs/bench.c).
-# Cycles are taken where the counter has them; `obtained` says how it came by them ("estimated", "simulated"); a board
-# that counts its own says so in silicon lines.
+# Cycles are written if the counter has them. `obtained` states their source ("estimated", "simulated"); a board that
+# counts cycles itself prints silicon lines.
 # Variables: commit, board, compiler, flags, obtained. Fails if an interval is missing.
 
 function row(scene, number, method, metric, value) {
@@ -25,7 +25,7 @@ function fail(what) {
     exit 1
 }
 
-# Insertion sort of value[1..n].
+# Sorts value[1..n] by insertion.
 function sort(value, n,    i, j, key) {
     for (i = 2; i <= n; i++) {
         key = value[i]

@@ -1,6 +1,6 @@
 #!/bin/sh
-# index.sh [--fixed] NAME...: the table of these scenes as C, for programs of boards/programs, on standard output. Their
-# headers, NAME.h, stand beside the file that it goes into. --fixed: they are scenes in fixed point, without bounds.
+# index.sh [--fixed] NAME...: prints the table of these scenes as C, for programs of boards/programs. Their headers,
+# NAME.h, must be in the folder of the file that includes the table. --fixed: scenes in fixed point, without bounds.
 set -eu
 kind=
 if [ "$1" = --fixed ]; then

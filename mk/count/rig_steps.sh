@@ -1,12 +1,12 @@
 #!/bin/sh
-# rig_steps.sh: instructions that a control step of the rig takes, on an emulated board.
+# rig_steps.sh: counts the instructions of the rig's control steps on an emulated board.
 #
 #   BOARD=... CC=... NM=... PLUGIN=count.so EMULATE="qemu-system-arm ... -kernel rig_steps.elf" \
 #   rig_steps.sh rig_steps.elf MOST
 #
-# Each run of rig_steps.c: steps, and the median, the 99th of a hundred and the most instructions of one. Fails where
-# one takes more than MOST. Executed instructions, not cycles; with TIMING=CORE (m0, m3, m4) the most cycles of one, too,
-# as estimated for that core.
+# For each run of rig_steps.c, prints the number of steps, and the median, the 99th percentile and the largest number of
+# instructions of a step. Fails if a step takes more than MOST. These are instructions, not cycles. With TIMING=CORE
+# (m0, m3, m4), also prints the largest number of cycles, as estimated for that core.
 set -eu
 . "$(dirname "$0")/common.sh"
 

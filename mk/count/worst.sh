@@ -1,19 +1,18 @@
 #!/bin/sh
-# worst.sh: the instructions that a step with events may take against the most that random steps took.
+# worst.sh: compares the declared largest number of instructions of a step with events with the longest of random steps.
 #
 #   BOARD=... CC=... NM=... OBJCOPY=... FLAGS=... PLUGIN=count.so EMULATE="qemu-system-arm ... -kernel worst.elf" \
 #   worst.sh worst.elf figures.csv STEPS
 #
-# worst.elf runs STEPS random steps of each scene with one seed and as many with another, and says how often a step
-# of each may evaluate the accelerations and the signals (worst.c). What runs between two
-# evaluations is a short piece of code, whose longest way is seen soon; how many there can be is known. From the first
-# seed's longest stretches, to the first evaluation (B), after one of the accelerations (A) and after one of the
-# signals (S),
+# worst.elf makes STEPS random steps of each scene with each of two seeds. It prints how often a step of each scene may
+# evaluate the accelerations and the signals (worst.c). The code between two evaluations is short, so its longest path is
+# found soon. From the longest stretches of the first seed, to the first evaluation (B), after an evaluation of the
+# accelerations (A) and after one of the signals (S), the script computes
 #
 #   declared instructions = B + evaluations A + signals S
 #
-# and the steps of the second seed, which had no part in it, are held against that. Prints a table, appends rows to
-# figures.csv, and fails if a step took more than declared of anything.
+# and compares the steps of the second seed with this number. Prints a table, appends rows to figures.csv, and fails if a
+# step exceeded a declared number.
 set -eu
 . "$(dirname "$0")/common.sh"
 
@@ -21,7 +20,7 @@ elf=$1 csv=$2 steps=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# pairs of words: an address, which the linker may have made one of Thumb code, and a kind
+# Pairs of words: an address, whose lowest bit the linker may have set for Thumb code, and a kind.
 "$OBJCOPY" --dump-section .wh_marks="$work/section" "$elf" "$work/copy"
 od -A n -v -t u4 -w8 "$work/section" | awk '{ print $1 - $1 % 2, $2 }' >"$work/marks"
 if [ ! -s "$work/marks" ]; then

@@ -1,10 +1,11 @@
-# again.awk: the error of one row again, from records of its own command line, of a reference and of a coarser one:
+# again.awk: computes the error of one row again, from the records of its own command line, of a reference, and of a
+# coarser reference:
 #
 #   awk -F, -v component="X'" -v each=SPACING -v wanted=ERROR -f again.awk REFERENCE COARSER RECORDS
 #
-# The largest deviation of the component as a part of its largest value, at the records. Prints it, what the references
-# differ by, and whether the row says so within a hundredth, thrice that difference, and what the records' last digit
-# leaves: floats and fixed point are recorded with nine.
+# The error is the component's largest deviation at the records, relative to its largest value. Prints the error, the
+# difference of the two references, and whether the row agrees. The allowed difference is a hundredth, plus three times the
+# difference of the references, plus the round-off of the records' last digit: floats and fixed point have nine digits.
 
 FNR == 1 {
     which++
@@ -48,7 +49,7 @@ which == 1 {
 
 function size(v) { return v < 0 ? -v : v }
 
-# significant digits as they are written
+# number of significant digits in the text
 function places(text) {
     sub(/[eE].*/, "", text)
     gsub(/[^0-9]/, "", text)

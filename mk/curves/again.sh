@@ -1,14 +1,14 @@
 #!/bin/sh
-# again.sh PRICE.csv OUT [SCENE...]: what is counted in PRICE.csv (published.awk), once more, from its command lines.
+# again.sh PRICE.csv OUT [SCENE...]: repeats the counted rows of PRICE.csv (published.awk) from their command lines.
 #
-# WHIRL  the program; SOME=N  only every N-th row; COUNT=0  the errors only; BOARDS  only these
+# WHIRL: the program. SOME=N: only every N-th row. COUNT=0: only the errors. BOARDS: only these boards.
 #
-# The error: the row's own line is run, and held against another reference than `whirl price` has: the classic Runge-Kutta
-# method in double with compensated sums, by a hundredth of the records' spacing, which itself is held against twice that
-# step. They must agree within a hundredth. The step: built and counted again. Instructions and bytes must agree within a
-# thousandth. Where rows are fewer they have other neighbours in the image, which changes the estimate of cycles, though not
-# the instructions, by some hundredths: three and four cycles are let pass. Prints what does not agree, and how many do.
-# Exit status 1: not all.
+# Error: the row's own line is run and compared with a reference that `whirl price` does not use: the classic Runge-Kutta
+# method in double with compensated sums, with a step of a hundredth of the records' spacing. This reference is compared
+# with twice its step. Errors must agree within a hundredth. Step: the code is built and counted again. Instructions and
+# bytes must agree within a thousandth. If there are fewer rows, they have other neighbours in the image. This changes
+# the estimate of cycles by some hundredths, so a difference of three or four cycles is accepted. Prints the rows that
+# disagree, and the number that agree. Exit status 1: a row disagrees.
 set -eu
 here=$(dirname "$0")
 : "${WHIRL:=build/whirl}" "${SOME:=1}" "${COUNT:=1}" "${BOARDS:=}"
@@ -27,7 +27,7 @@ field("basis") == "counted" && named(scenes, field("scene")) && named(boards, fi
 AWK
 [ -s "$out/rows" ] || { echo "again.sh: error: $csv has no counted row of this" >&2 && exit 2; }
 
-# records FILE LINE...: what `whirl run` records, without its words
+# records FILE LINE...: stores the records of `whirl run`, without the text
 records() {
     file=$1
     shift

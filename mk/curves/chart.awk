@@ -1,11 +1,11 @@
-# chart.awk: error against price of one scene, as a gnuplot script without a terminal:
+# chart.awk: writes a gnuplot script, without a terminal, that draws error against price of one scene:
 #
 #   awk -F, -v scene=SCENE -v boards="BOARD..." -f words.awk -f chart.awk ROWS.csv    a panel for each board
-#   awk -F, -v scene=SCENE -v fronts="BOARD..." -f words.awk -f chart.awk PRICE.csv   one panel: the boards' fronts alone
+#   awk -F, -v scene=SCENE -v fronts="BOARD..." -f words.awk -f chart.awk PRICE.csv   one panel: only the boards' fronts
 #
-# A panel shows the front and the seven settings with the most rows on it: each method with its colour and shape
-# (host/io/gnuplot.h), each number with its dash, by steps from coarse to fine, in the cheapest form of the other
-# choices. ROWS.csv is of curves.sh, PRICE.csv of published.awk. Text to draw: `title`.
+# A panel shows the front and the seven settings with the most rows on it. Each method has its colour and shape
+# (host/io/gnuplot.h), each number type its dash; points go from coarse to fine steps, in the cheapest form of the other
+# choices. ROWS.csv comes from curves.sh, PRICE.csv from published.awk. `title` is the chart's title.
 
 BEGIN {
     colour_count = split(colours, colour, " ")
@@ -69,7 +69,7 @@ function look(name) {
     return "pt " point[(place[name] - 1) % shape_count + 1] " lc rgb '" colour[(place[name] - 1) % colour_count + 1] "'"
 }
 
-# The series of that panel with the most rows on the front; "" if each is drawn already.
+# Returns the series of that panel with the most rows on the front; "" if all are drawn already.
 function next_series(b,    i, best) {
     for (i = 1; i <= lines[b]; i++) {
         if (!((b, line[b, i]) in shown) && (best == "" || hits[b, line[b, i]] > hits[b, best])) { best = line[b, i] }

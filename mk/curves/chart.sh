@@ -1,5 +1,5 @@
 #!/bin/sh
-# chart.sh OUT.svg ROWS.csv SCENE boards|fronts BOARD...: error against price, drawn by gnuplot (chart.awk).
+# chart.sh OUT.svg ROWS.csv SCENE boards|fronts BOARD...: draws error against price with gnuplot (chart.awk).
 set -eu
 here=$(dirname "$0")
 svg=$1 rows=$2 scene=$3 kind=$4
@@ -15,7 +15,7 @@ words=$(sed -n "s/^scene ${scene%+*} \"\([^\"]*\)\".*/\1/p" core/models/*.whirl)
 title="Error against price: ${scene%+*}, $words"
 awk -F, -v title="$title" \
     -v colours="$(echo $colours)" -v shapes="$shapes" -v methods="$(echo $methods)" -v scene="$scene" -v "$kind=$*" -f "$here/words.awk" -f "$here/chart.awk" "$rows" >"${svg%.svg}.gp"
-# A title, alternative text and the look on a dark page, as `whirl plot` writes them.
+# Adds a title, an alternative text and the style for dark pages, as `whirl plot` does.
 dark=$(grep -m 1 '^<style>@media' docs/figures/fig51.svg)
 [ "$kind" = fronts ] && what="The least error for its price on each of: $*." || what="The front and the settings with the most points on it, a panel each for: $*."
 LC_ALL=C.UTF-8 gnuplot -e "set terminal svg size 900,$height dynamic font 'sans-serif,14' background rgb 'white'; set output '$svg'" \

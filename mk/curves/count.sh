@@ -1,9 +1,9 @@
 #!/bin/sh
-# count.sh BOARD OUT <CASES >ROWS: what steps take, counted on BOARD as by mk/price/measure.sh.
+# count.sh BOARD OUT <CASES >ROWS: counts the steps of cases on BOARD, as mk/price/measure.sh does.
 #
-# CASES are lines "NAME,whirl run SCENE ... --step S --until U"; NAME is SCENE, or SCENE+4s of a part of its motion. ROWS has
-# a header. A case whose counted steps, which are more than a motion by coarse steps has, do not stay finite is told on
-# standard error and left out. Whatever else cannot be counted is an error: exit status 1.
+# CASES has lines "NAME,whirl run SCENE ... --step S --until U". NAME is SCENE, or SCENE+4s for a part of its motion. ROWS
+# has a header. The counted steps are more than a motion with coarse steps has. If they do not stay finite, the case is
+# reported on standard error and omitted. Any other case that cannot be counted is an error: exit status 1.
 set -eu
 here=$(dirname "$0")
 board=$1
@@ -17,7 +17,7 @@ numbers=$(awk -F, -f "$here/words.awk" -f /dev/stdin "$out/all" <<'AWK' | sort -
 AWK
 )
 for number in $numbers; do
-    # ID SCENE OPTIONS, and the command of the same line. IDs have one length, because an image contains them
+    # ID SCENE OPTIONS, and the command of the same line. All IDs have the same length, because an image contains them
     awk -F, -v number="$number" -v out="$out" -f "$here/words.awk" -f /dev/stdin "$out/all" <<'AWK'
 number_of($2) == number {
     printf "c%04d %s %s\n", ++n, scene_of($2), derive_options($2) > (out "/cases_" number)

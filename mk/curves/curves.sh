@@ -1,13 +1,14 @@
 #!/bin/sh
-# curves.sh OUT ROWS.csv SCENE... -- BOARD... -- COUNTED BOARD...: prices and fronts, from what runs.sh has left in OUT.
+# curves.sh OUT ROWS.csv SCENE... -- BOARD... -- COUNTED BOARD...: prices and fronts, from the output of runs.sh in OUT.
 #
-# On boards behind the second -- the front is counted down to the first error within FINEST, and so is a step of each setting that has no predicted price. Rows:
+# On boards after the second "--", the front is counted down to the first error within FINEST. A step of each setting
+# without a predicted price is counted, too. Rows:
 #
 #   scene,board,error,component,records,step_s,until_s,price_of,per_s,instructions,cycles,basis,flash,ram,stack,method,
 #   number,run,front
 #
-# per_s: cycles a simulated second, or instructions where nobody counts cycles. basis: `counted`; `predicted`; `counted at S`,
-# a step of that setting of S seconds was. Instructions and cycles are those of a step, what is not known is empty.
+# per_s: cycles per simulated second, or instructions if there is no count of cycles. basis: `counted`; `predicted`; or
+# `counted at S`, if the counted step had S seconds. Instructions and cycles are per step; unknown values are empty.
 set -eu
 here=$(dirname "$0")
 out=$1
@@ -19,7 +20,7 @@ mkdir -p "$work"
 scenes=
 files=
 until [ "$1" = -- ]; do
-    # without a reference or a setting within the values themselves there is none
+    # without a reference, or without a setting that reaches the smallest error, there is no file
     [ ! -s "$out/$1.csv" ] || scenes="$scenes $out/$1.csv"
     shift
 done
@@ -34,7 +35,7 @@ shift
 counted=$*
 : "${FINEST:=1e-9}"
 
-# prices MORE...: the rows on every board
+# prices MORE...: prints the rows on every board
 prices() {
     awk -F, -v OFS=, -v out="$out" -f "$here/words.awk" -f "$here/priced.awk" "$@" $files $scenes
 }

@@ -1,13 +1,13 @@
-# decades.awk: the errors that tables ask for, before one of the scripts of mk/curves with -f.
+# decades.awk: the errors in the tables. Loaded with -f before one of the other scripts of mk/curves.
 
 BEGIN { DECADES = 9 }
 
 function decade(d) { return 10 ^ -d }
 
-# 1e-3
+# such as 1e-3
 function decade_words(d) { return sprintf("1e-%d", d) }
 
-# 12345 as 12.3k: three digits
+# such as 12.3k for 12345: three digits
 function short(value,    unit, i) {
     unit = split("k M G T", units, " ")
     if (value < 999.5) { return sprintf("%.0f", value) }
@@ -15,7 +15,7 @@ function short(value,    unit, i) {
     return sprintf(value < 9.995 ? "%.2f" : value < 99.95 ? "%.1f" : "%.0f", value) units[i]
 }
 
-# 0.0025 as 2.5 ms
+# such as 2.5 ms for 0.0025
 function step_words(step) {
     return step >= 0.9999e-3 ? sprintf("%.4g ms", step * 1e3) : sprintf("%.4g us", step * 1e6)
 }

@@ -1,5 +1,6 @@
-# default_methods.awk: price of the cheapest row of the default methods divided by that of the cheapest of all, for each
-# scene, board and error of the tables: awk -F, -f words.awk -f decades.awk -f default_methods.awk docs/figures/price.csv
+# default_methods.awk: for each scene, board and error of the tables, divides the price of the cheapest row of the
+# default methods by that of the cheapest row: awk -F, -f words.awk -f decades.awk -f default_methods.awk
+# docs/figures/price.csv
 
 FNR == 1 { header(); next }
 {

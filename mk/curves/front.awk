@@ -1,9 +1,9 @@
-# front.awk: marks the front: what nothing beats that is as cheap. Rows of priced.awk, by scene, board, rising price and
-# error, with the counted ones in place of theirs:
+# front.awk: marks the front: the rows whose error no row with the same or a lower price beats. Its input are rows of
+# priced.awk, with counted rows in place of the predicted ones, sorted by scene, board, rising price and error:
 #
 #   sort ROWS | awk -F, -v counted=BOARDS -f front.awk
 #
-# On the boards of `counted`, whose fronts count.sh has counted, only rows that were counted themselves are marked.
+# On the boards in `counted`, whose fronts count.sh has counted, only counted rows are marked.
 
 {
     if ($1 != scene || $2 != board) {

@@ -1,8 +1,7 @@
 #!/bin/sh
-# pages.sh FOLDER PAGE...: renew the blocks of pages that show prices, from FOLDER/price.csv.
+# pages.sh FOLDER PAGE...: renews the blocks of pages that show prices, from FOLDER/price.csv.
 #
-# A block stands between <!-- price-table WORDS: begin --> and <!-- price-table WORDS: end -->; tables.awk says what WORDS
-# may be.
+# A block stands between <!-- price-table WORDS: begin --> and <!-- price-table WORDS: end -->. tables.awk explains WORDS.
 set -eu
 here=$(dirname "$0")
 folder=$1

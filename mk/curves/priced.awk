@@ -1,9 +1,9 @@
-# priced.awk: every row of runs.sh on each board, with what a step takes there:
+# priced.awk: writes every row of runs.sh for each board, with the price of a step on that board:
 #
 #   awk -F, -v out=OUT -f words.awk -f priced.awk [COUNTED/settings.csv] OUT/SCENE@BOARD.csv... OUT/SCENE.csv...
 #
-# A setting without a predicted price on a board has that of settings.csv, of count.sh, at whatever step it was counted;
-# what is not there either, is left out. `-v missing=BOARD` prints these instead, for count.sh: a row each.
+# A setting without a predicted price on a board gets its price from settings.csv of count.sh, whatever step was counted.
+# If settings.csv lacks the setting, the row is omitted. `-v missing=BOARD` prints such rows instead, for count.sh.
 
 FNR == 1 {
     header()
@@ -21,8 +21,8 @@ FNR == 1 {
 
 { plain_row() }
 
-# To when, as is said beside the rows ("9.54 s of 10 s" where the motion ends the horizon early), and how many records: of
-# the whole motion 1000 to 2500, by 1, 2 or 5 of a decimal unit.
+# Returns the end of the motion as the rows show it ("9.54 s of 10 s" if the horizon ends earlier), and the number of
+# records: 1000 to 2500 for the whole motion, with a spacing of 1, 2 or 5 times a power of ten.
 function horizon(scene,    line, part, whole, spacing) {
     while ((getline line < (out "/" scene ".txt")) > 0) {
         if (line ~ /^  horizon /) {

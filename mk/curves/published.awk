@@ -1,9 +1,9 @@
-# published.awk: the rows of curves.sh that the pages and charts show: docs/figures/price.csv.
+# published.awk: writes docs/figures/price.csv: the rows of curves.sh that the pages and charts show.
 #
 #   awk -F, -v out=OUT -v counted=BOARDS -f words.awk -f decades.awk -f published.awk ROWS.csv
 #
-# Of boards whose front was counted what was counted of it; of the others, whose prices are predicted, the cheapest
-# row within each decade of the error. `core` is what `whirl price` calls the board's processor.
+# For boards with a counted front, these are the counted rows. For the others, whose prices are predicted, it is the
+# cheapest row within each decade of the error. `core` is the name of the board's processor in `whirl price`.
 
 FNR == 1 {
     header()

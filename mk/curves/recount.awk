@@ -1,4 +1,4 @@
-# recount.awk: rows of priced.awk, those of them that were counted with what was counted:
+# recount.awk: prints the rows of priced.awk. Rows that were counted get the counted figures:
 #
 #   awk -F, -f words.awk -f recount.awk COUNTED.csv... ROWS
 

@@ -1,13 +1,13 @@
 #!/bin/sh
-# runs.sh OUT EFFORT SCENE... [-- BOARD...]: error against price by `whirl price`, for `make price`.
+# runs.sh OUT EFFORT SCENE... [-- BOARD...]: runs `whirl price` for `make price`: error against price.
 #
-# SCENE+4s is the scene looked at until 4 s: `whirl price SCENE --horizon 4s`.
+# SCENE+4s is the scene until 4 s: `whirl price SCENE --horizon 4s`.
 #
-# WHIRL  the program; JOBS  so many at a time (2)
+# WHIRL: the program. JOBS: number of jobs at a time (2).
 #
-# Writes OUT/SCENE.csv and OUT/SCENE.txt, every setting by every step on a Cortex-M4F: the errors are those of all boards,
-# which compute the same bits. And for each BOARD OUT/SCENE@BOARD.csv and .txt: what a step of each setting takes there,
-# from a tenth of the motion by few steps, whose errors say nothing.
+# Writes OUT/SCENE.csv and OUT/SCENE.txt: every setting with every step on a Cortex-M4F. All boards compute the same bits,
+# so these errors are valid for all boards. For each BOARD, also writes OUT/SCENE@BOARD.csv and .txt: the price of a step
+# with each setting, from few steps over a tenth of the motion; the errors in these files are meaningless.
 set -eu
 : "${WHIRL:=build/whirl}" "${JOBS:=2}"
 if [ "$1" = one ]; then
@@ -21,7 +21,7 @@ if [ "$1" = one ]; then
     elif [ "$scene" != "${scene%+*}" ]; then
         set -- "$@" --horizon "${scene#*+}"
     fi
-    # Exit status 1: no reference, or no setting with a price; the text beside it says which, and there is no file.
+    # Exit status 1: there is no reference, or no setting with a price. Then there is no file; the text says which.
     nice -n 5 "$WHIRL" price "${scene%+*}" "$@" --csv "$name.csv" >"$name.txt" 2>&1 || [ $? -eq 1 ]
     exit 0
 fi

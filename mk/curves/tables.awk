@@ -1,9 +1,9 @@
-# tables.awk: the blocks of the pages, of docs/figures/price.csv:
+# tables.awk: writes the blocks of the pages from docs/figures/price.csv:
 #
 #   awk -F, -v block=BLOCK -f words.awk -f decades.awk -f tables.awk docs/figures/price.csv
 #
-# BLOCK is `chips SCENE BOARD...`: for each of these boards a table of the cheapest setting within each decade of the error;
-# `boards SCENE`: the prices on every board; `first SCENE BOARD...`: some decades on these boards, in one table.
+# BLOCK is one of: `chips SCENE BOARD...`, for each board a table of the cheapest setting within each decade of the error;
+# `boards SCENE`, the prices on every board; `first SCENE BOARD...`, some decades on these boards, in one table.
 
 FNR == 1 {
     header()
@@ -37,7 +37,7 @@ field("scene") == word[2] {
 
 function about(board, d) { return basis[board, d] == "predicted" ? "~" : "" }
 
-# Bytes: what is predicted in three digits.
+# Bytes; predicted ones have three digits.
 function rounded(board, d, value,    unit) {
     if (about(board, d) == "") { return sprintf("%d", value) }
     for (unit = 1; value >= 1000 * unit; unit *= 10) { }
@@ -78,7 +78,7 @@ function all_boards(    i, d, line) {
     }
 }
 
-# In what form, where it is not the one without an option.
+# The words for the form, if an option selects one.
 function form_words(run) {
     return (run ~ / --tables / ? ", " option_of(run, "--tables") " tables" : "") \
         (run ~ / --matrix / ? ", one matrix" : "")

@@ -1,14 +1,14 @@
-# words.awk: what the scripts of mk/curves have in common, before one of them with -f: rows of CSV files with a header,
-# no field of which is quoted or holds a comma.
+# words.awk: functions that the scripts of mk/curves share; loaded with -f before one of them. CSV files have a
+# header, and no field is quoted or contains a comma.
 
-# Reads the header: at[NAME] is the field of that name.
+# Reads the header: at[NAME] becomes the number of the field with that name.
 function header(    i) {
     sub(/\r$/, "")
     delete at
     for (i = 1; i <= NF; i++) { at[$i] = i }
 }
 
-# The field NAME of this row.
+# Returns the field NAME of this row.
 function field(name) {
     if (!(name in at)) { wrong("there is no column " name) }
     return $(at[name])
@@ -20,19 +20,19 @@ function wrong(what) {
     exit 1
 }
 
-# A row of a file with Windows' ends and without quotes.
+# Removes a Windows line end from this row, and fails if the row has a quote.
 function plain_row() {
     sub(/\r$/, "")
     if (/"/) { wrong("a quoted field") }
 }
 
-# The scene of a command line.
+# Returns the scene of a command line.
 function scene_of(run,    word) {
     split(run, word, " ")
     return word[3]
 }
 
-# What of a command line "whirl run SCENE ... --step S --until U" is the setting: "--method rk4 --number float".
+# Returns the setting in "whirl run SCENE ... --step S --until U", such as "--method rk4 --number float".
 function setting_of(run) {
     sub(/^whirl run [^ ]* /, "", run)
     sub(/ --step .*/, "", run)
@@ -46,11 +46,11 @@ function option_of(run, option) {
     return run
 }
 
-# The number that a setting computes in: what measure_one.sh calls it.
+# Returns the number type of a setting, with the name that measure_one.sh uses.
 function number_of(run) { return run ~ / --number / ? option_of(run, "--number") : "double" }
 
-# The options that `whirl derive` is given, with the step: no number, no end, but in fixed point, whose ranges are those of the
-# motion to there.
+# Returns the options for `whirl derive`, with the step, but without the number type and the end. Fixed point needs
+# the end, too, because its ranges are those of the motion until then.
 function derive_options(run,    step, end) {
     step = option_of(run, "--step")
     end = number_of(run) == "fixed" ? " --until " option_of(run, "--until") : ""
