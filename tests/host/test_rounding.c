@@ -1,10 +1,10 @@
-/* test_rounding.c: error of float, and energy kept: at the usual step, its growth with the number of steps, the gain by compensated
- * sums, and angles after a million turns.
+/* test_rounding.c: the error of float: with the usual step, its growth with the number of steps, the gain by
+ * compensated sums, and angles after a million turns. Also whether compensated float keeps the energy.
  *
- * Bounds come from a model of round-off, not from the runs. u = 2^-24 is half a unit in the last place of one. A
- * plain sum of N steps walks at random: sqrt(N/3) u times the sum's power of two. A compensated sum keeps the rate to
- * about u of itself, and the angle has a relative error of u. The constants of the step (its length, phase units a
- * radian) are rounded by as much. */
+ * Bounds come from a model of round-off, not from the runs. u = 2^-24 is half a unit in the last place of 1. A plain
+ * sum of N steps walks at random: sqrt(N/3) u times the power of two of the sum. A compensated sum keeps the rate to
+ * about u of itself, and the angle has a relative error of u. The constants of the step (its length, phase units in
+ * a radian) are rounded by as much. */
 #include "command.h"
 #include "motion.h"
 
@@ -24,8 +24,8 @@ static double error_at(const char *name, const char *time, stepping how) {
     return error;
 }
 
-/* Error of theta at 9 s by the random walk of theta' (16 ... 32 rad/s at the end) in `steps` steps. It is 9 s / sqrt(3)
- * times the final error of theta'. */
+/* Error of theta at 9 s in `steps` steps: 9 s/sqrt(3) times the error of theta' at the end, whose sum walks at
+ * random (theta' is 16 to 32 rad/s there). */
 static double gear_walk(double steps) { return sqrt(steps / 3.0) * 16.0 * U * 9.0 / sqrt(3.0); }
 
 TEST(rounding, float_on_the_epicyclic_gear) {
@@ -39,7 +39,7 @@ TEST(rounding, float_on_the_epicyclic_gear) {
     expect_within("S6 gain", 10.0, 1000.0, plain / compensated);
 }
 
-/* The motion amplifies an initial change 6e3-fold by 5 s (thomson_is_chaotic). theta2' reaches 16 rad/s: each step
+/* A change of the start is 6e3 times larger after 5 s (thomson_is_chaotic). theta2' reaches 16 rad/s, so each step
  * rounds it by up to 8 U. */
 TEST(rounding, float_on_thomson_device) {
     const double amplified = 6e3 * U;
@@ -51,7 +51,7 @@ TEST(rounding, float_on_thomson_device) {
     expect_within("S8 gain", 10.0, 10000.0, plain / compensated);
 }
 
-/* Largest error of a component; the reference is double with a step of 1/16 ms. */
+/* Largest error of any component at the end. The reference is double with a step of 1/16 ms. */
 static double whole_error(const char *name, const char *start, double until_s, double step_s) {
     double value[2][3 * IMAGE_COMPONENTS_MAX];
     double worst = 0.0;
@@ -77,7 +77,8 @@ static double whole_error(const char *name, const char *start, double until_s, d
 
 enum { STARTS = 9 };
 
-/* The median error for starts that differ by up to 4e-5 rad. Chaos amplifies a change 2e4-fold, so one run says little. */
+/* The median error for starts that differ by up to 4e-5 rad. Chaos makes a change 2e4 times larger, so a single run
+ * says little. */
 static double middle_error(const char *name, double until_s, double step_s) {
     double error[STARTS];
     for (int i = 0; i < STARTS; i++) {
@@ -93,9 +94,9 @@ static double middle_error(const char *name, double until_s, double step_s) {
     return error[STARTS / 2];
 }
 
-/* The step's constants have two parts, the lists' are floats. The error must not grow as steps shrink, nor with steps
- * that float cannot hold. The gear without its carriage has one rounded constant, 25/9; one operation more cannot
- * remove it. */
+/* The constants of the step have two parts; those of the lists are floats. The error must not grow if steps become
+ * shorter, nor with steps that float does not represent. The gear without its carriage has one rounded constant,
+ * 25/9, whose error no further operation can remove. */
 TEST(rounding, no_step_is_too_small_for_compensated_sums) {
     static const double step_s[] = {1e-3, 0.9e-4, 1e-5};
     const double theta_at_9s = 89.63;
@@ -135,8 +136,8 @@ static const char rotor[] = "mechanism rotor\n"
                             "  until 1 [s]\n"
                             "}\n";
 
-/* theta = rate * time: after a million turns the error is that of one product. A sum in float radians resolves only
- * half a radian there. */
+/* theta = rate * time. After a million turns, the error must be that of one product. A sum in radians in float would
+ * resolve only half a radian there. */
 TEST(rounding, a_million_turns_at_constant_rate) {
     const double step_rad = 2500.0 / 1024.0; /* exact in float */
     const unsigned steps = 2573593;
@@ -173,9 +174,9 @@ static const char started[] = "mechanism started_rotor\n"
                               "  until 100 [s]\n"
                               "}\n";
 
-/* theta = a t^2/2 with a = 2^-14 and h = 2^-10 s: every rate is exact, so only the angle is rounded. Rounded to
- * nearest it walks by sqrt(N/12) steps of 1.5e-9 rad. Truncation would lose half of that in each of 1e5 steps, 7e-5
- * rad. The constants of the step add 2 U of the angle. */
+/* theta = a t^2/2 with a = 2^-14 rad/s^2 and h = 2^-10 s: every rate is exact, so only the angle is rounded. Rounded
+ * to nearest, the angle walks by sqrt(N/12) units of 1.5e-9 rad. Truncation would lose half a unit in each of 1e5
+ * steps, or 7e-5 rad. The constants of the step add 2 U of the angle. */
 TEST(rounding, angle_steps_are_rounded_not_cut) {
     const double N = 1e5;
     const double t = N / 1024.0;
@@ -191,7 +192,7 @@ TEST(rounding, angle_steps_are_rounded_not_cut) {
     }
 }
 
-/* A gear that starts a million turns from zero moves with the same bits as one that starts at zero. */
+/* A gear that starts a million turns from zero must move with the same bits as a gear that starts at zero. */
 TEST(rounding, motion_after_a_million_turns_is_the_same) {
     static const char *const others[] = {"X", "theta'", "X'"};
     stepping how = IN_FLOAT;
@@ -215,18 +216,20 @@ TEST(rounding, motion_after_a_million_turns_is_the_same) {
 }
 
 /* === energy kept ============================================================================== */
-/* Random conservative mechanisms with constant mass: for every method of order two or more, compensated float conserves
- * energy as double does. The remaining round-off is unbiased (core/step/step_end.h, wh_square_short). */
+/* Random conservative mechanisms with constant mass. For every method of order two or higher, compensated float must
+ * conserve energy as well as double does. Its remaining round-off is unbiased (core/step/step_end.h,
+ * wh_square_short). */
 
 enum { COORDINATES = 2, STEPS = 20000, LOOKS = 200, APART = 7 };
 
-/* Uncoupled potentials, -a cos q or a q^2/2 + b q^4/4, and one potential of both. */
+/* A mechanism with the potential -a cos q or a q^2/2 + b q^4/4 for each coordinate, and one potential of both
+ * coordinates. */
 typedef struct swinging {
     int coordinates;
-    bool turns[COORDINATES]; /* an angle */
+    bool turns[COORDINATES]; /* the coordinate is an angle */
     double inertia[COORDINATES], a[COORDINATES], b[COORDINATES], start[COORDINATES];
     double both;
-    double fastest_radps; /* upper bound, of small motions */
+    double fastest_radps; /* upper bound, for small motions */
 } swinging;
 
 static swinging drawn(dice *d) {
@@ -303,7 +306,7 @@ static double energy_J(const swinging *s, const motion *m) {
     return sum;
 }
 
-/* Relative energy gain over the run, the mean of some samples; NAN after a refusal. */
+/* Relative gain of energy over the run, as the mean of some samples; NaN if the run is refused. */
 static double gained(const swinging *s, const char *text, stepping how) {
     motion m;
     motion_open_text(&m, text, how);
@@ -316,13 +319,13 @@ static double gained(const swinging *s, const char *text, stepping how) {
     return sum / LOOKS;
 }
 
-/* A relative error of 4.8e-8 in the stage length, as in steps of 1 ms, would change the energy by half of (h w)^2 times
- * that in each step. The random part is h w times a float's last place over the square root of the steps. Dissipative
- * methods lose less energy by themselves if h w is small. */
+/* A stage length that is wrong by a relative 4.8e-8, as with steps of 1 ms, would change the energy by half of (h
+ * w)^2 times that in each step. The random part is h w times one unit in the last place of a float, divided by the
+ * square root of the number of steps. With a small h w, the methods themselves lose less. */
 TEST(energy_kept, energy_does_not_leak_by_rounding) {
     static const struct {
         wh_method method;
-        double least, most; /* range of h w, rad a step */
+        double least, most; /* range of h w in rad a step */
     } tried[] = {{WH_NYSTROEM5, 0.15, 0.3}, {WH_LEAPFROG, 0.15, 0.3},
                  {WH_RK4, 0.1, 0.12},       {WH_SEMI_IMPLICIT_EULER, 0.15, 0.3},
                  {WH_RK38, 0.1, 0.12},      {WH_NYSTROEM4, 0.1, 0.12}};
@@ -353,5 +356,5 @@ TEST(energy_kept, energy_does_not_leak_by_rounding) {
     printf(
         "  (h w)^2 times at most %.1e of the energy a step, %.1e at the root of the mean square\n",
         worst, sqrt(sum / cases));
-    TEST_ASSERT_TRUE(sqrt(sum / cases) > 1e-10 && sqrt(sum / cases) < 1e-8); /* biased: 2.7e-8 */
+    TEST_ASSERT_TRUE(sqrt(sum / cases) > 1e-10 && sqrt(sum / cases) < 1e-8); /* with bias: 2.7e-8 */
 }

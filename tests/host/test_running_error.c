@@ -1,5 +1,6 @@
-/* test_running_error.c: bound on a list's round-off, for random lists of every operation. By definition it is each
- * operation's own rounding plus the operands' errors times the slopes. Here the slopes are finite differences. */
+/* test_running_error.c: the bound on the round-off of an operation list, for random lists of every operation. By
+ * definition, the bound is each operation's own rounding plus its operands' errors times the slopes. Here, the
+ * slopes are finite differences. */
 #include "command.h"
 #include "host/engine/rounding.h"
 
@@ -67,7 +68,7 @@ static bool takes_one(const op *o) {
            op_rows[o->code].kind == OP_IS_WAVE || op_rows[o->code].kind == OP_IS_CALL;
 }
 
-/* Returns false if a value is undefined, large, or near a jump of its slope. */
+/* Computes the values. Returns false if a value is undefined, too large, or near a jump of its slope. */
 static bool compute(drawn_list *l) {
     for (int i = 0; i < l->list->count; i++) {
         const op *o = &l->list->ops[i];
@@ -86,7 +87,7 @@ static bool compute(drawn_list *l) {
     return true;
 }
 
-/* Size of the slope by the first or second operand, from a difference over this part of the operand. */
+/* Absolute slope by the first or second operand, from a difference over this part of the operand. */
 static double slope(const drawn_list *l, const op *o, double x, double y, bool second,
                     double part) {
     const double step = part * fmax(1e-3, fabs(second ? y : x));
@@ -95,7 +96,7 @@ static double slope(const drawn_list *l, const op *o, double x, double y, bool s
     return fabs(up - down) / (2.0 * step);
 }
 
-/* Stored values and operations that change no digit have no rounding. */
+/* Stored values are not rounded, nor are the results of operations that change no digit. */
 static bool is_exact(op_code code) {
     return code == OP_LINEAR || code == OP_RATE || code == OP_INPUT || code == OP_ACCEL ||
            code == OP_TIME || code == OP_RADIANS || code == OP_NEG || code == OP_ABS ||
@@ -118,12 +119,12 @@ static void define(const drawn_list *l, double least, double part, double *error
         const double y = takes_two(o) ? l->value[o->b] : 0.0;
         error[i] = takes_one(o) ? slope(l, o, x, y, false, part) * error[o->a] : 0.0;
         error[i] += takes_two(o) ? slope(l, o, x, y, true, part) * error[o->b] : 0.0;
-        if (o->code == OP_CONSTANT) { /* a constant that float holds is exact */
+        if (o->code == OP_CONSTANT) { /* a constant that float represents is exact */
             error[i] = (double)(float)o->value == o->value ? 0.0 : fabs(o->value);
         } else if (o->code == OP_PHASE) {
             error[i] = phase_error(l, o, error);
         } else if (o->code == OP_SIN || o->code == OP_COS) {
-            /* as from a table: the error is relative to 1 */
+            /* like a value from a table: the error is relative to 1 */
             error[i] += 1.0;
         } else if (!is_exact(o->code)) {
             error[i] += fmax(fabs(l->value[i]), least);
@@ -134,7 +135,8 @@ static void define(const drawn_list *l, double least, double part, double *error
 static int draw_leaf(dice *d, op_list *t) {
     static const op_code leaves[] = {OP_LINEAR, OP_RATE, OP_INPUT, OP_ACCEL};
     switch (dice_one_of(d, 8)) {
-    case 0: return op_list_constant(t, dice_between(d, -2.0, 2.0)); /* float does not hold it */
+    /* float does not represent it */
+    case 0: return op_list_constant(t, dice_between(d, -2.0, 2.0));
     case 1: return op_list_constant(t, 0.25 * (1.0 + dice_one_of(d, 9)));
     case 2: return op_list_leaf(t, OP_TIME, 0);
     case 3: return op_list_leaf(t, OP_RADIANS, (int)dice_one_of(d, ANGLES));
@@ -165,7 +167,7 @@ static int draw_op(dice *d, op_list *t, int a, int b) {
     }
 }
 
-/* The results are the last operations and some others. */
+/* Draws a list. Its results are its last operations and some others. */
 static void draw_list(dice *d, drawn_list *l) {
     int made[LEAVES + DRAWN];
     l->list = op_list_new(ANGLES, 4);
@@ -205,7 +207,7 @@ TEST(running_error, drawn_lists) {
             rounding_of(l.list, &at, got);
             for (int i = 0; i < 4; i++) {
                 const double error = wanted[l.list->result[i]];
-                /* otherwise the difference would reach a sharp bend or the end of a function's range */
+                /* else the difference would reach a sharp bend or the end of a function's range */
                 if (fabs(coarser[l.list->result[i]] - error) < 1e-4 * error) {
                     TEST_ASSERT_DOUBLE_WITHIN(1e-3 * error, error, got[i]);
                     held++;
@@ -226,7 +228,7 @@ TEST(running_error, drawn_lists) {
     }
 }
 
-/* A sum or root of zero operands is exact: no error, except for underflow. */
+/* A sum or a root of operands that are zero is exact, so its bound must be zero, except for underflow. */
 TEST(running_error, nothing_is_off_by_nothing) {
     op_list *t = op_list_new(0, 2);
     const int x = op_list_leaf(t, OP_LINEAR, 0);
@@ -245,7 +247,7 @@ TEST(running_error, nothing_is_off_by_nothing) {
     op_list_free(t);
 }
 
-/* In z/(x*y) the product exceeds float's largest number, so the quotient is lost. In double it is not. */
+/* In z/(x*y), the product exceeds float's largest number, so the quotient is lost in float, but not in double. */
 TEST(running_error, what_is_beyond_float) {
     dice d = dice_of("running_error", 2316);
     op_list *t = op_list_new(0, 1);
@@ -274,7 +276,7 @@ TEST(running_error, what_is_beyond_float) {
     op_list_free(t);
 }
 
-/* An infinite bound stays infinite after a division: z/(y + sqrt(x*w - y)), where x*w - y is zero. */
+/* A bound that is infinite must stay infinite after a division: z/(y + sqrt(x*w - y)), in which x*w - y is zero. */
 TEST(running_error, no_bound_stays_none) {
     dice d = dice_of("running_error", 2317);
     op_list *t = op_list_new(0, 1);

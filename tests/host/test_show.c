@@ -1,6 +1,6 @@
-/* test_show.c: printed expressions: the language's parser reads them back as the same expression, and their LaTeX
- * compiles (latex.h). Random expressions and mechanisms with fixed seeds; SHOW_CASES=N takes N of them instead of
- * some hundreds. Also events. */
+/* test_show.c: printed expressions. The language's parser must read them back as the same expressions, and their
+ * LaTeX must compile (latex.h). Random expressions and mechanisms have fixed seeds; SHOW_CASES=N sets their number
+ * instead of some hundreds. Also events. */
 #include "test.h"
 
 #include "host/emit/emit.h"
@@ -44,7 +44,7 @@ static char *shown(algebra *a, const poly *p, show_style style) {
     return text;
 }
 
-/* A derivation refuses an expression that is never finite. */
+/* Has the expression a finite value at any of eight states? If not, a derivation refuses the expression. */
 static bool is_ever_finite(const poly *p, uint64_t *seed) {
     bool finite = false;
     for (int k = 0; k < 8 && !finite; k++) {
@@ -54,7 +54,7 @@ static bool is_ever_finite(const poly *p, uint64_t *seed) {
     return finite;
 }
 
-/* A batch has BATCH expressions and the slope of each, which has more powers. */
+/* A batch has BATCH expressions, and a derivative of each, which has more powers. */
 enum { BATCH = 10, FORMULAS = 2 * BATCH };
 
 static int check_batch(uint64_t *seed, int depth, int tame) {
@@ -87,7 +87,7 @@ static int check_batch(uint64_t *seed, int depth, int tame) {
         }
         char *one = shown(a, p[i], SHOW_TEXT);
         if (strlen(one) > TEXT_SIZE || strstr(one, "inf") != NULL || strstr(one, "nan") != NULL) {
-            free(one); /* a derivation would have refused it */
+            free(one); /* a derivation would have refused this expression */
             continue;
         }
         char *latex = shown(a, p[i], SHOW_LATEX);
@@ -130,7 +130,7 @@ TEST(show, expressions_are_read_back_as_printed) {
     TEST_ASSERT_TRUE(10 * compared > 6 * made_up);
 }
 
-/* Splits a line in place at each " = " and returns the number of formulas. */
+/* Splits a line in place at each " = ". Returns the number of formulas. */
 static int formulas_of(char *line, char **formula) {
     int count = 0;
     for (char *next = line; next != NULL; line = next) {
@@ -144,7 +144,8 @@ static int formulas_of(char *line, char **formula) {
     return count;
 }
 
-/* The difference of both sides of a printed equation equals the derived A q'' - f. */
+/* The difference of the two sides of a printed equation must be the derived A q'' - f. Returns the number of
+ * compared states. */
 static int compare_sides(const equations *e, int row, const read_back *b, const char *text,
                          uint64_t *seed) {
     algebra *a = e->algebra;
@@ -175,7 +176,8 @@ static double solution_here(const quantity *of, const state *at, double *size) {
     const double top = k == 0 ? f[0] * m[3] - m[1] * f[1] : m[0] * f[1] - f[0] * m[2];
     *size = (fabs(m[0] * m[3]) + fabs(m[1] * m[2])) * fabs(top / bottom / bottom) +
             (fabs(f[0]) + fabs(f[1])) * (fabs(m[k == 0 ? 3 : 0]) + fabs(m[1 + k])) / fabs(bottom);
-    return good ? top / bottom : (double)NAN; /* NaN if products in the form would be too large */
+    /* NaN if products in the formula would be too large */
+    return good ? top / bottom : (double)NAN;
 }
 
 static void check_align(const derived *d) {
@@ -280,8 +282,8 @@ static double q_or_n(void *context, const char *name, int length) {
                           : n;
 }
 
-/* When factored, this right side would contain the expanded square of a large sum, which overflows. A former version printed
- * it without that part. */
+/* The factored form of this right side would contain the expanded square of a large sum, which overflows. The
+ * printed form must still have every term. */
 TEST(show, printing_outlives_an_overflow) {
     char *source_text =
         repeated("mechanism m\ncoordinate q\nparameter n = 0.1\nlet a0 = q\n",
@@ -310,7 +312,7 @@ TEST(show, printing_outlives_an_overflow) {
 }
 
 /* === show events ============================================================================== */
-/* Stops, frictions, holds and crossings as `derive` prints them. */
+/* Stops, frictions, holds and crossings, as `whirl derive` prints them. */
 
 static const char text[] =
     "mechanism block\ncoordinate x [m]\ncoordinate phi [rad]\n"
@@ -322,7 +324,7 @@ static const char text[] =
     "effect wall { stop x <= 3 [m] restitution e }\n"
     "stop x >= 0 [m] restitution e^2\n";
 
-/* The events appear in order, each after `mark`. */
+/* The events must appear in sequence, each after `mark`. */
 static void expect(void (*print)(FILE *, const derived *), const char *mark, bool wanted) {
     static const char *const lines[] = {"stop x >= 0, restitution e^2", "hold phi' = 0 while",
                                         "friction on phi: sticks up to 6*mu, slides with 3*mu",
@@ -365,7 +367,7 @@ static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "blo
 
 TEST(show_events, events_stand_beside_the_equations) {
     expect(as_text, "", true);
-    expect(as_octave, "%", true); /* comments: not part of the function */
+    expect(as_octave, "%", true); /* as comments, outside the function */
 }
 
 TEST(show_events, no_events_no_word_of_them) {
@@ -374,7 +376,7 @@ TEST(show_events, no_events_no_word_of_them) {
     expect(as_octave, "%", false);
 }
 
-/* Lines that begin with the words, after any LaTeX comment sign. */
+/* Number of lines that begin with the words, perhaps after a LaTeX comment sign. */
 static int lines_with(const char *all, const char *words) {
     int found = 0;
     for (const char *line = all; (line = strchr(line, '\n')) != NULL;) {
@@ -384,7 +386,7 @@ static int lines_with(const char *all, const char *words) {
     return found;
 }
 
-/* The rows compile in LaTeX and fit A4 between margins of an inch. */
+/* The rows must compile in LaTeX and fit A4 with margins of one inch. */
 static void check_rows(const char *name, const char *all) {
     enum { PAPER = 455 };
     static const char begin[] = "\\begin{align*}";

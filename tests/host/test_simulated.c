@@ -1,5 +1,5 @@
-/* test_simulated.c: a run from start to end (host/check/simulate.h) in this process. Rows have closed forms. The
- * report covers runs that diverge, have an output that ends, or are not trusted. */
+/* test_simulated.c: a run from start to end (host/check/simulate.h) in this process. The rows have closed forms. The
+ * report is tested for runs that diverge, have an output that ends, or are not trusted. */
 #include "test.h"
 
 #include <unistd.h>
@@ -76,7 +76,8 @@ static const char steady[] =
     "output twice [m] = 2*x\noutput far [km] = 1000*x\n"
     "scene s { start x = %.17g [m], x' = %.17g [m/s], a' = %.17g [rad/s]; step 1 [ms]; until 1 [s] }\n";
 
-/* At constant speed each number of each row is known. `between` and `end` separate columns and rows. */
+/* Expects rows of a motion at constant speed, in which each number is known. `between` and `end` separate columns
+ * and rows. */
 static void expect_rows(const char *text, const char *header, const char *between, const char *end,
                         const double *start, uint64_t every, uint64_t steps) {
     const char *at = said_exactly(text, header);
@@ -127,15 +128,15 @@ TEST(simulated, rows) {
     end();
 }
 
-/* sqrt(c - x) of x = t is undefined from the first step after c on. The report has the count and first time of such
- * records; without records it checks the end. */
+/* sqrt(c - x) with x = t is undefined from the first step after c. The report must have the number of such records
+ * and their first time. If nothing is recorded, the report is about the end. */
 TEST(simulated, outputs_that_end) {
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(20, 8)); c++) {
         char text[500];
         char wanted[400];
         char more[60] = "";
-        const unsigned ends = dice_one_of(&die, c % 4U == 0 ? 1200 : 1000); /* in ms, plus 0.5 */
+        const unsigned ends = dice_one_of(&die, c % 4U == 0 ? 1200 : 1000); /* ms, plus 0.5 */
         const bool second = dice_one_of(&die, 2) == 0;
         const bool recorded = c % 3U > 0;
         const uint64_t every = 1 + dice_one_of(&die, c % 2U == 0 ? 1 : 200);
@@ -158,7 +159,7 @@ TEST(simulated, outputs_that_end) {
                 count++;
             }
         }
-        if (count == 0 && ends < 1000) { /* without records the end is checked */
+        if (count == 0 && ends < 1000) { /* without records, the end is checked */
             first = 1000;
             count = 1;
         }
@@ -184,7 +185,8 @@ TEST(simulated, outputs_that_end) {
     end();
 }
 
-/* x' = x^2 diverges at a known time. The message names the unknown with its primes, and the records end there. */
+/* x' = x^2 diverges at a known time. The message must name the unknown with its primes, and the records must end
+ * there. */
 TEST(simulated, diverged) {
     begin();
     for (unsigned c = 0; c < dice_cases(usual_or(4, 2)); c++) {
@@ -192,7 +194,7 @@ TEST(simulated, diverged) {
         char words[60];
         const double t1_s = dice_between(&die, 0.2, 0.7);
         const bool rate = c % 2U == 1;
-        /* x'' = 2 x x' is the slope of x' = x^2, and grows first in its rate */
+        /* x'' = 2 x x' is the derivative of x' = x^2; its rate grows first */
         snprintf(
             text, sizeof text,
             rate

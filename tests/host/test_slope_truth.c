@@ -1,6 +1,6 @@
-/* test_slope_truth.c: the rig's measurement with noise, jitter and motors of another torque slope than configured.
- * The reference is a rotor integrated finely in double (rig_orbit.c). Seeds are fixed; WHIRL_FULL=1 (`make
- * rig-truth`) takes 200 runs of each kind and prints the loads. */
+/* test_slope_truth.c: the rig's measurement with noise, jitter, and motors whose torque slope differs from the
+ * configured one. The reference is a rotor that is integrated finely in double (rig_orbit.c). Seeds are fixed.
+ * WHIRL_FULL=1 (`make rig-truth`) does 200 runs of each kind and prints the loads. */
 #include "command.h"
 #include "rig_orbit.h"
 
@@ -13,8 +13,8 @@ static rig_orbit orbit;
 
 typedef struct tally {
     unsigned good;
-    unsigned doubted;   /* number of results that are doubtful because of the speed ripple */
-    unsigned lies;      /* results marked good, with an error above the interval plus 1 % */
+    unsigned doubted;   /* results that are doubtful because of the speed ripple */
+    unsigned lies;      /* good results with an error above the interval plus 1 % */
     unsigned prevented; /* doubtful results with such an error */
     double said_rad;    /* sum of the reported loads */
     double phase_rad;   /* sum of the phase errors */
@@ -50,8 +50,8 @@ static tally measure_many(double cell_N, unsigned runs, uint64_t seed) {
     return found;
 }
 
-/* A good result is right: always with the cell's own noise. With more noise a 95 % interval misses some, with any
- * motor. The right slope never causes a doubt. */
+/* With the cell's own noise, every good result must be right. With more noise, a 95 % interval misses some, whatever
+ * the motor. The right slope must never cause a doubt. */
 TEST(slope_truth, other_slopes) {
     static const double rpms[] = {170.0, 200.0, 260.0, 330.0};
     static const double slopes[] = {0.0, 0.3, 0.5, 0.8, 1.0, 1.3, 1.5};

@@ -1,5 +1,5 @@
-/* test_slow_angles.c: warning about float angles with steps too small for their units, and no others. The reference
- * is the same run in double. WH_SLOW=N: number of random rotors. */
+/* test_slow_angles.c: float angles whose steps are too small for their units must cause a warning; no other angles
+ * must. The reference is the same run in double. WH_SLOW=N sets the number of random rotors. */
 #include "host/check/slow.h"
 #include "motion.h"
 
@@ -7,7 +7,7 @@
 
 static uint64_t seed_now;
 
-static double random_share(void) { /* xorshift64 (Marsaglia, 2003) */
+static double random_share(void) { /* the generator xorshift64 (Marsaglia, 2003) */
     seed_now ^= seed_now << 13;
     seed_now ^= seed_now >> 7;
     seed_now ^= seed_now << 17;
@@ -40,8 +40,8 @@ static stepping in_float(wh_method method, bool compensated, double step_s) {
 static const char rotor[] = "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\n"
                             "scene s { start a = %.17g, a' = %.17g [rad/s] }\n";
 
-/* The warning depends on the angle's error. Round-off of rates and constants is allowed for, and so is a larger error before
- * the end. */
+/* Whether there is a warning must depend on the angle's error. Round-off of rates and constants is allowed for, and
+ * so is a larger error before the end. */
 TEST(slow_angles, slow_rates_are_told_and_others_are_not) {
     const char *wanted = getenv("WH_SLOW");
     const int count = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 300;
@@ -50,7 +50,7 @@ TEST(slow_angles, slow_rates_are_told_and_others_are_not) {
     seed_now = UINT64_C(0x510a);
     printf("  %d rotors, seed %" PRIx64, count, seed_now);
     for (int i = 0; i < count; i++) {
-        /* 1e-13 to 1e-3 rad a step, in steps from a microsecond to a second, in both directions */
+        /* steps of 1e-13 to 1e-3 rad and 1 us to 1 s, in both directions */
         const double step_rad =
             (i % 2 != 0 ? -1.0 : 1.0) * pow(10.0, -13.0 + 10.0 * random_share());
         const double step_s = pow(10.0, -6.0 + 6.0 * random_share());
@@ -136,8 +136,8 @@ TEST(slow_angles, of_other_motions_those_that_are_false) {
     }
 }
 
-/* In a step with events some tries are discarded, and only accepted tries count. A second body crosses a point every third
- * step, which must change nothing. */
+/* In a step with events, the run discards some tries, and only accepted tries must count. A second body crosses a
+ * point in every third step, which must change nothing. */
 TEST(slow_angles, steps_with_events_count_once) {
     static const char text[] = "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
                                "T = 1 [kg*m^2]*a'^2/2 + 1 [kg]*x'^2/2\nV = 1e6 [N/m]*x^2/2\n"

@@ -1,5 +1,5 @@
-/* test_springs.c: the scene springs_ring, with forces of every function of the core. The reference integrates its
- * equations, written by hand, by classic Runge-Kutta in long double with libm. */
+/* test_springs.c: the scene springs_ring, whose forces use every function of the core. The reference integrates the
+ * equations, which are written by hand, by Runge-Kutta 4 in long double with libm. */
 #include "motion.h"
 
 #define PI_L 3.141592653589793238462643383279502884L
@@ -43,7 +43,7 @@ static plane stepped(plane at, long double h) {
     return moved(at, k4, h / 6.0L);
 }
 
-/* Largest distance within 5 s from the reference, which has an eighth of the step. */
+/* Largest distance from the reference within 5 s. The reference has an eighth of the step. */
 static double distance(stepping how) {
     motion m;
     motion_open(&m, "springs_ring", how);

@@ -1,5 +1,5 @@
 /* test_stabilized.c: energy restored by --stabilized (core/step/stabilize.h), for random chains of pendulums on a
- * cart. The test computes their energy from positions and velocities. Also motions that must not change. */
+ * cart. The test computes the energy from positions and velocities. Also motions that must not change. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -12,10 +12,10 @@ enum {
     TEXT = 4096,
     GO = 41,
     WINDOW = 25
-}; /* GO: steps between readings; WINDOW: readings in 1024 steps */
+}; /* readings are GO steps apart; WINDOW readings are 1024 steps */
 #define GRAVITY 9.81
 
-/* Point masses on rods in a chain, from a cart on a spring. Angles are from the vertical. */
+/* Point masses on rods in a chain, which hangs from a cart on a spring. Angles count from the vertical. */
 typedef struct chain {
     int links;
     double cart_kg;
@@ -23,7 +23,7 @@ typedef struct chain {
     double mass_kg[LINKS];
     double length_m[LINKS];
     double start_rad[LINKS];
-    double fastest; /* upper bound of the largest angular frequency, rad/s */
+    double fastest; /* upper bound of the angular frequencies, rad/s */
 } chain;
 
 static chain drawn_chain(dice *d) {
@@ -93,8 +93,8 @@ static double energy_J(const chain *c, const motion *m) {
     return sum;
 }
 
-/* The largest energy term relative to the energy at the start, which is at rest. It limits the digits of the balance. V is
- * measured from the cart's height, so it is large if all links hang down. */
+/* The largest energy term, relative to the energy at the start, when all is at rest. This ratio limits the digits of
+ * the balance. V counts from the cart's height, so it is large if all links hang down. */
 static double terms_of(const chain *c) {
     double terms = 0.0;
     double begin = 0.0;
@@ -114,7 +114,7 @@ typedef struct drift {
     double second;
     double whole;
     double last;
-    double steepest; /* largest change within a window */
+    double steepest; /* largest change within a window of readings */
 } drift;
 
 static drift drift_of(const chain *c, stepping how, uint64_t steps) {
@@ -140,13 +140,13 @@ static drift drift_of(const chain *c, stepping how, uint64_t steps) {
     return seen;
 }
 
-/* Each step restores a thousandth of the drift. So the deficit is at most a few times the loss of a thousand steps,
- * in a run of any length. */
+/* Each step restores a thousandth of the drift. So the loss must stay below a few times the loss of a thousand
+ * steps, however long the run. */
 TEST(stabilized, energy_stays) {
     static const struct {
         const engine_kind *kind;
         bool compensated;
-        double rounds; /* round-off relative to the energies' terms */
+        double rounds; /* round-off relative to the energy terms */
     } numbers[] = {
         {&engine_float, true, 5e-7}, {&engine_double, true, 1e-12}, {&engine_double, false, 1e-12}};
     dice d = dice_of("stabilized", 20261128);
@@ -154,10 +154,10 @@ TEST(stabilized, energy_stays) {
     const uint64_t steps = usual_or(200000, 40000);
     double most[3] = {0.0, 0.0, 0.0};
     double without = 0.0;
-    unsigned bursts = 0; /* number of chaotic motions that lose more in their second half */
+    unsigned bursts = 0; /* chaotic motions that lose more in their second half */
     for (unsigned i = 0; i < cases; i++) {
         const chain c = drawn_chain(&d);
-        /* coarse enough for RK4 to lose energy */
+        /* so coarse that RK4 loses energy */
         const double step_s = 0.06 / c.fastest;
         const unsigned n = i % 3;
         const stepping plain = {.kind = numbers[n].kind,
@@ -183,7 +183,7 @@ TEST(stabilized, energy_stays) {
     TEST_ASSERT_TRUE(without > 1e-5 && bursts <= cases / 20);
 }
 
-/* Largest final distance of the coordinates from double with an eighth of the step. */
+/* Largest difference of a coordinate at the end from a run in double with an eighth of the step. */
 static double way_off(const char *text, const chain *c, stepping how, double end_s) {
     double end[2][LINKS + 1];
     stepping fine = {.kind = &engine_double, .method = WH_NYSTROEM5, .compensated = true};
@@ -208,7 +208,8 @@ static double way_off(const char *text, const chain *c, stepping how, double end
     return most;
 }
 
-/* The motion is driven and damped, and its energy balance is right. With and without --stabilized the error is about the same. */
+/* A motion that is driven and damped, and whose energy balance is right. The error with --stabilized must be about
+ * that without it. */
 TEST(stabilized, motion_is_left_alone) {
     dice d = dice_of("stabilized motions", 20261129);
     const unsigned cases = usual_or(dice_cases(few_or_all(16, 80)), 4);
@@ -216,7 +217,7 @@ TEST(stabilized, motion_is_left_alone) {
     for (unsigned i = 0; i < cases; i++) {
         chain c = drawn_chain(&d);
         char text[TEXT];
-        for (int k = 0; k < c.links; k++) { /* small swings: no chaos */
+        for (int k = 0; k < c.links; k++) { /* small swings, so that there is no chaos */
             c.start_rad[k] *= 0.2;
         }
         write_chain(&c, text);
@@ -238,7 +239,7 @@ TEST(stabilized, motion_is_left_alone) {
     printf("%u motions: at most %.1e off after 8 s\n", cases, worst);
 }
 
-/* At rest there is no rate to correct, so nothing is restored. */
+/* At rest there is no rate to correct, so nothing must be restored. */
 TEST(stabilized, rest_stays_rest) {
     dice d = dice_of("stabilized rests", 20261130);
     for (unsigned i = 0; i < 10; i++) {
@@ -269,7 +270,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, what->err);
 }
 
-/* Stabilization must not hide a coarse step: a loss of one hundredth in a thousand steps still gives the warning. */
+/* --stabilized must not hide a coarse step: a loss of a hundredth in a thousand steps must still cause the warning. */
 TEST(stabilized, coarse_steps_are_told) {
     dice d = dice_of("stabilized springs", 20261201);
     for (unsigned i = 0; i < usual_or(8, 2); i++) {
@@ -288,8 +289,8 @@ TEST(stabilized, coarse_steps_are_told) {
     }
 }
 
-/* Two masses have a slow common oscillation and a fast relative one, which is too fast for the step. Stabilization
- * returns the energy that the fast oscillation loses to both. The warning must be the same as without stabilization. */
+/* Two masses have a slow common oscillation, and a relative one that is too fast for the step. --stabilized returns
+ * the energy that the fast oscillation loses to both. The warning must be that of a run without --stabilized. */
 TEST(stabilized, what_others_lost_is_told) {
     dice d = dice_of("stabilized pairs", 20261202);
     const unsigned cases = usual_or(16, 3);
@@ -319,7 +320,7 @@ TEST(stabilized, what_others_lost_is_told) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* Error of `name` at the end of the run with --stabilized. The run without it is right there. */
+/* The error of `name` at the end that --stabilized causes, relative to the run without it, which is right. */
 static double apart(const char *text, const char *name, stepping plain, double end_s) {
     double end[2];
     for (int way = 0; way < 2; way++) {
@@ -333,9 +334,9 @@ static double apart(const char *text, const char *name, stepping plain, double e
     return fabs(end[0] - end[1]);
 }
 
-/* First case: one oscillation, too fast even for half the step, loses energy. --stabilized gives it to another, whose
- * period depends on its energy. Second case: a heavy pendulum beside a light one, to whose energy the last digits of
- * the heavy one's energy matter. */
+/* First case: an oscillation that is too fast even for half the step loses energy. --stabilized gives this energy to
+ * another oscillation, whose period depends on its energy. Second case: a heavy pendulum beside a light one, for
+ * which the last digits of the heavy one's energy matter. Such runs must not be trusted. */
 TEST(stabilized, what_is_made_wrong_is_not_trusted) {
     dice d = dice_of("stabilized wrongly", 20261203);
     const unsigned cases = usual_or(few_or_all(4, 16), 2);
@@ -381,14 +382,15 @@ TEST(stabilized, what_is_made_wrong_is_not_trusted) {
 SUITE(stabilized) { UnitySetTestFile(__FILE__); }
 
 /* === stabilized beside ======================================================================== */
-/* Effect of --stabilized on a slow motion (a free wheel or cart with little energy) next to a swing. With Runge-Kutta 4
- * the swing loses (h w)^6/72 of its energy in each step. All rates must get the same relative correction. If the
- * correction were larger at the swing's turning points, the slow motion would get most of the energy. */
+/* The effect of --stabilized on a slow motion (a free wheel or cart with little energy) beside a swing. With
+ * Runge-Kutta 4, the swing loses (h w)^6/72 of its energy in each step. All rates must get the same relative
+ * correction. If the correction were larger at the turning points of the swing, the slow motion would get most of
+ * the energy. */
 
 typedef struct beside {
     double step_s;
-    double angular_radps; /* rate of the swing */
-    double slow;          /* rate of the slow motion, relative to the largest rate of the swing */
+    double angular_radps; /* angular frequency of the swing */
+    double slow;          /* speed of the slow motion, relative to the largest rate of the swing */
     double start_m;
     double start_mps;
     bool is_angle; /* the slow coordinate is an angle, not a length */

@@ -1,6 +1,6 @@
-/* test_starts.c: checks of a start. Random scenes have stops, any of which may be passed, and losses, which kick-drift
- * methods do not take. The report has each passed stop with its place and depth, and no other. For losses it has the
- * first coordinate. */
+/* test_starts.c: checks of a start. Random scenes have stops, which the start may be beyond, and losses, which
+ * kick-drift methods cannot compute. The report must have each stop that the start is beyond, with its place and
+ * depth, and no other stop. For losses, it must have the first coordinate. */
 #include "command.h"
 #include "derived.h"
 #include "host/engine/engine.h"
@@ -26,7 +26,7 @@ static unsigned times(const char *text, const char *what) {
     return count;
 }
 
-/* Coordinate i is in line 2 + i and its stop in line 10 + i, at 0 m or at 1 m. */
+/* Coordinate i is declared in line 2 + i; its stop, at 0 m or 1 m, is in line 10 + i. */
 TEST(starts, stops_that_are_passed) {
     dice d = dice_of("starts", 2316);
     unsigned refused = 0;
@@ -128,8 +128,8 @@ TEST(starts, kicks_know_no_rates) {
     }
 }
 
-/* Some angles inside a cosine start at more turns than float can count. The report names each such angle, at its declaration
- * or start, and no other. */
+/* Some angles inside a cosine start at more turns than float can represent. The report must name each of these
+ * angles, at its declaration or its start, and no other. */
 TEST(starts, angles_that_start_too_far) {
     dice d = dice_of("starts", 2317);
     for (unsigned n = few_or_all(60, 600); n > 0; n--) {

@@ -1,5 +1,5 @@
-/* test_stepping.c: measures of one run of a sweep (host/study/point.h), compared with closed forms: the choice of
- * samples, early stops, and runs without measures. Also settings of a sweep. */
+/* test_stepping.c: the measures of one run of a sweep (host/study/point.h), compared with closed forms: the choice
+ * of samples, early ends, and runs without measures. Also settings of a sweep. */
 #include "host/base/alloc.h"
 #include "host/check/run_checks.h"
 #include "host/check/slow.h"
@@ -67,7 +67,7 @@ static derived drawn_swing(double *omega_radps) {
     return scene_of(text);
 }
 
-/* The period is that of the spring, whatever the other measures are. */
+/* The period must be that of the spring, whatever the other measures are. */
 TEST(stepping, period) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
         double omega_radps;
@@ -84,7 +84,7 @@ TEST(stepping, period) {
         drop(&p);
         derived_free(&s);
     }
-    /* a small swing has a period if its numbers resolve it */
+    /* a small swing must have a period if its number type resolves it */
     double omega_radps;
     derived little = drawn_swing(&omega_radps);
     const gauged period = {MEASURE_PERIOD, "l", {FROM_OUTPUT, 2}};
@@ -100,11 +100,9 @@ TEST(stepping, period) {
     derived_free(&little);
 }
 
-/* --- given up, and failed --------------------------------------------------------------------------------------*/
-
 #define CLOCK "mechanism m\nstate x [s]\nequation x' = 1\n"
 
-/* The run is interrupted: its measures cover the steps until then. */
+/* If the run is interrupted, its measures must cover the steps until then. */
 TEST(stepping, given_up) {
     derived longest =
         scene_of(CLOCK "scene s { start x = 3 [s]; step 1 [ms]; until 200000 [s] }\n");
@@ -113,13 +111,13 @@ TEST(stepping, given_up) {
     interrupted = 1;
     measured_point p = measure_stepping(&w, longest.image);
     interrupted = 0;
-    /* this mechanism has no energies, so it has no energy residual, value[1] */
+    /* value[1] is the energy residual; this mechanism has no energies */
     TEST_ASSERT_TRUE(p.good && p.value[0] == 3.0 && isnan(p.value[1]));
     drop(&p);
     derived_free(&longest);
 }
 
-/* A run without measures returns a reason, or prints an error with its place. */
+/* Expects a run without measures, which gives a reason, or an error with its place. */
 static void expect_failed(const char *text, const measuring *w, const char *reason,
                           const char *error) {
     derived s = scene_of(text);
@@ -138,12 +136,12 @@ TEST(stepping, failed) {
     w.from_s = 1.5;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
                   "--from 1.5 s is after the last step", "");
-    list.kind = MEASURE_FINAL; /* needs no series: any time will do */
+    list.kind = MEASURE_FINAL; /* needs no series, so any start time is allowed */
     derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
     measured_point p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
     drop(&p);
-    w.from_s = 1.0; /* the last step's end is one sample */
+    w.from_s = 1.0; /* the end of the last step is one sample */
     list.kind = MEASURE_MAX;
     p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
@@ -153,13 +151,13 @@ TEST(stepping, failed) {
     w.from_s = 0.0;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 100000 [s] }\n", &w,
                   "period() takes at most 1e+08 samples: use a later --from or a larger step", "");
-    /* 1/x of x = 1 - t: the step to 0 is the last good one, and the output is undefined there */
+    /* x = 1 - t: the step to 0 is the last good one, and 1/x is undefined there */
     list = (gauged){MEASURE_FINAL, "1/x", {FROM_OUTPUT, 0}};
     expect_failed("mechanism m\nstate x\nequation x' = -1 [1/s]\noutput y = log(x)\n"
                   "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
                   &w, "the expression of the measure '1/x' is not a finite number at every step",
                   "");
-    /* each is finite, their sum is not */
+    /* each value is finite, but not their sum */
     list = (gauged){MEASURE_MEAN, "large", {FROM_OUTPUT, 0}};
     expect_failed("mechanism m\nstate x\nequation x' = 0*x/(1 [s])\noutput y = 1e308*(1 + x)\n"
                   "scene s { step 1 [ms]; until 0.1 [s] }\n",
@@ -167,12 +165,10 @@ TEST(stepping, failed) {
                   "");
 }
 
-/* --- whole runs ------------------------------------------------------------------------------- */
-
 /* Measures of `whirl sweep` over whole runs with closed forms: of coordinates, outputs and expressions, from the
  * start or later, with few steps. */
 
-/* A free motion x = a + v t at each of n + 1 ends of steps. */
+/* Writes a free motion x = a + v t with n steps. */
 static void write_free(char *text, size_t size, double a, unsigned steps) {
     snprintf(text, size,
              "mechanism free\ncoordinate x [m]\ncoordinate b [rad]\nparameter u = 1 [m]\n"
@@ -198,7 +194,7 @@ static double wanted(int measure_stepping, double a, double v, double from_s, do
     case 3: return 2.0 * fmin(first, last);
     case 4: return first + last;
     case 5: return 0.5 * fabs(last - first);
-    /* the mean over chords of a parabola is v^2 h^2/6 above that of the curve */
+    /* the mean over chords of the parabola is v^2 h^2/6 above that of the curve */
     case 6:
         return (first * first + first * last + last * last) / 3.0 +
                (n > 0.0 ? v * v * 0.125 * 0.125 / 6.0 : 0.0);
@@ -255,9 +251,7 @@ TEST(stepping, measures_of_whole_runs) {
 SUITE(stepping) { die = dice_of("stepping", 51); }
 
 /* === sweep settings =========================================================================== */
-/* A sweep's header, the settings stored with its file, and its points as run by workers. */
-
-/* --- headers and settings ----------------------------------------------------------------------------------------*/
+/* A sweep's header, the settings that are stored beside its file, and its points as workers run them. */
 
 static const char settings_text[] =
     "mechanism m\ncoordinate x [m]\ncoordinate a [rad]\nparameter m = 2 [kg]\ninput u = 3 [N]\n"
@@ -265,8 +259,8 @@ static const char settings_text[] =
     "F += b*x'^2/2 }\n"
     "effect tug { F += 1 [N*s/m]*x'^2 }\nscene s { step 1 [ms]; until 3 [s] }\n";
 
-/* Bit k of `changed`: the k-th setting that affects the rows differs. A number differs by one unit in the last place at
- * least. */
+/* The stored settings, in which those of the bits in `changed` differ. A number differs by at least one unit in the
+ * last place. */
 enum { SETTINGS = 18 };
 static char *fingerprint_of(unsigned changed) {
     static const char *const axes[2][2] = {{"x=1..9:9", "m=0.1..7:70,log"},
@@ -299,7 +293,8 @@ static char *fingerprint_of(unsigned changed) {
     return made;
 }
 
-/* A resumed sweep must have the same settings: each setting that affects the rows changes the stored text. */
+/* A sweep can only be resumed with the same settings. So each setting that affects the rows must change the stored
+ * text. */
 TEST(sweep_settings, settings) {
     char *first = fingerprint_of(0);
     char *again = fingerprint_of(0);
@@ -313,9 +308,7 @@ TEST(sweep_settings, settings) {
     free(again);
 }
 
-/* --- points --------------------------------------------------------------------------------------------------------*/
-
-/* Points as run by workers, in this process, in each way they end. */
+/* Points as workers run them, but in this process, with every way to end. */
 TEST(sweep_settings, points) {
     static const struct {
         const char *text;
@@ -324,9 +317,9 @@ TEST(sweep_settings, points) {
         bool good;
     } points[] = {
         {made_sweep_floor, "x=-1..1:2", "x", false},        /* refused at the start */
-        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* no period: still good */
+        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* no period, but good */
         {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* 1/x is infinite */
-        /* the scene is derived again for each point */
+        /* these scenes are derived again for each point */
         {settings_text, "m=1..2:2", "max(x)", true},
         {settings_text, "m=0..2:2", "max(x)", false}, /* m = 0 fails */
         {"mechanism m\nstate x\nequation x' = 1 [1/s]*x^2\nscene s { step 1 [ms]; until 2 [s] }\n",

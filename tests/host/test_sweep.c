@@ -1,4 +1,5 @@
-/* test_sweep.c: grids and measures of `whirl sweep`. Workers: test_jobs.c; files and whole sweeps: tests/cli/sweep.sh. */
+/* test_sweep.c: grids and measures of `whirl sweep`. test_jobs.c tests workers; tests/cli/sweep.sh tests files and
+ * whole sweeps. */
 #include "caught.h"
 #include "command.h"
 #include "host/study/grid.h"
@@ -38,7 +39,7 @@ static void close_sample(void) {
 
 static bool over(const char *text) { return grid_add(&points, parsed->mechanisms[0], text, heard); }
 
-/* A grid has at most 1e12 points. An axis that would exceed that is not added. */
+/* A grid may have up to 1e12 points. An axis that would exceed this number must not be added. */
 TEST(sweep, grids_have_an_end) {
     static const char *const axes[][3] = {{"m=1..2:1000000", "r=1..2:1000000", "M=1..2:2"},
                                           {"m=1..2:1000000000", "r=1..2:1000", "M=1..2:1000"},
@@ -101,7 +102,7 @@ TEST(sweep, numbers_come_back) {
     }
 }
 
-/* The measure of offset + size sin(2 pi t / period + 1) over `samples` steps of `step_s`. */
+/* The measure of offset + size sin(2 pi t/period + 1), over `samples` steps of step_s. */
 static double of_sine(measure_kind kind, double offset, double size, double period_s,
                       uint64_t samples, double step_s) {
     gauge g = gauge_start(kind);
@@ -114,14 +115,15 @@ static double of_sine(measure_kind kind, double offset, double size, double peri
 }
 
 TEST(sweep, series_of_a_sine) {
-    /* ten whole periods of 200 steps: sampled peaks miss by at most size (2 pi/200)^2/8 */
+    /* ten periods of 200 steps: a sampled peak misses the true one by up to size (2 pi/200)^2/8 */
     const double miss = 2.5 * pow(2.0 * PI / 200.0, 2.0) / 8.0;
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MAX, 1.5, 2.5, 0.2, 2001, 1e-3) - 4.0) <= miss);
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MIN, 1.5, 2.5, 0.2, 2001, 1e-3) + 1.0) <= miss);
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_AMPLITUDE, 1.5, 2.5, 0.2, 2001, 1e-3) - 2.5) <= miss);
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_MEAN, 1.5, 2.5, 0.2, 2001, 1e-3) - 1.5) <= 1e-13);
     TEST_ASSERT_TRUE(fabs(of_sine(MEASURE_PERIOD, 1.5, 2.5, 0.2, 2001, 1e-3) - 0.2) <= 1e-13);
-    /* a fractional number of steps per period: linear interpolation errs by less than 1e-3 steps, shared by 18 periods */
+    /* a period of not a whole number of steps: linear interpolation errs by less than 1e-3 steps, divided by 18
+     * periods */
     const double odd_s = 0.1 * sqrt(1.23);
     const double measured_s = of_sine(MEASURE_PERIOD, 0.0, 1.0, odd_s, 2001, 1e-3);
     TEST_ASSERT_TRUE(fabs(measured_s - odd_s) <= 2e-3 * 1e-3);
@@ -131,7 +133,7 @@ TEST(sweep, series_of_a_sine) {
 TEST(sweep, series_without_a_value) {
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 250, 1e-3))); /* one crossing */
     TEST_ASSERT_FALSE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 500, 1e-3)));
-    /* the variation is only round-off */
+    /* only round-off varies */
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 1.0, 1e-15, 0.2, 2001, 1e-3)));
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_MEAN, 0.0, 1.0, 0.2, 0, 1e-3)));
     TEST_ASSERT_TRUE(of_sine(MEASURE_MEAN, 2.0, 0.0, 0.2, 1, 1e-3) == 2.0);
@@ -183,7 +185,7 @@ TEST(sweep, measures_are_read) {
     }
 }
 
-/* The measure is refused with this message first. Returns all that is said; to be freed. */
+/* Expects a refusal that begins with this message. Returns all messages; the caller frees them. */
 static char *expect_wrong(const char *text, const char *wanted) {
     caught told;
     open_sample();
@@ -195,7 +197,8 @@ static char *expect_wrong(const char *text, const char *wanted) {
     return told.text;
 }
 
-/* A measure inside an expression is reported with its place. A longer name that begins like a measure is a name. */
+/* A measure inside an expression must be reported with its place. A longer name that begins like a measure is only a
+ * name. */
 TEST(sweep, measures_inside_are_told) {
     static const char *const words[] = {"amplitude", "mean", "period"};
     static const char *const before[] = {"2*", "theta + ", "1/(3*", "sin(2) - ", "theta*mean_2 + "};

@@ -1,5 +1,6 @@
-/* test_swings.c: energy warnings of `whirl run` for nonlinear systems. Predator and prey has the invariant H = u - ln
- * u + v - ln v; the warning is compared with its drift, in any method, step and number. Also a forced swing. */
+/* test_swings.c: energy warnings of `whirl run` for nonlinear systems. Predator and prey have the invariant H = u -
+ * ln u + v - ln v, whose drift is compared with the warning, for any method, step and number type. Also a forced
+ * swing. */
 #include "host/cli/commands.h"
 
 #include "command.h"
@@ -8,8 +9,9 @@
 
 /* === swings =================================================================================== */
 
-/* If the swing's energy (H - 2, for a = b = 1) changes by more than TOLD of itself, there is a warning. Below SILENT there
- * is no warning if the errors of u and v are below RIGHT of their ranges. */
+/* The energy of the swing is H - 2 for a = b = 1. If it changes by more than TOLD of itself, there must be a
+ * warning. If it changes by less than SILENT, and the errors of u and v are below RIGHT of their ranges, there must
+ * be none. */
 #define TOLD 0.03
 #define SILENT 1e-3
 #define RIGHT 4e-3
@@ -17,7 +19,7 @@
 typedef struct prey {
     double a; /* 1/s */
     double b;
-    double u; /* u at the start; v starts at 1 */
+    double u; /* start of u; v starts at 1 */
     double step_ms;
     wh_method method;
     const engine_kind *kind;
@@ -37,8 +39,8 @@ static double kept(const prey *p, double u, double v) {
     return p->b * (u - 1.0 - log(u)) + p->a * (v - 1.0 - log(v));
 }
 
-/* Relative change of the energy in a run, and the largest error of u and v relative to their ranges. The reference
- * has a twentieth of the step, order 5, in double. NAN: the run fails. */
+/* Relative change of the energy in a run; NaN if the run fails. *off: largest error of u and v relative to their
+ * ranges. The reference has a twentieth of the step, order 5, and double. */
 static double lost_of(const prey *p, const char *text, double *off) {
     enum { PARTS = 20 };
     motion m;
@@ -88,7 +90,7 @@ TEST(swings, predator_and_prey) {
         double off = 0.0;
         const double lost = lost_of(&p, text, &off);
         if (!(lost >= 0.0)) {
-            continue; /* diverged, which has its own warning */
+            continue; /* diverged, which has a warning of its own */
         }
         said what;
         const char *words[] = {model_keep(text),
@@ -117,17 +119,18 @@ TEST(swings, predator_and_prey) {
 }
 
 /* === forced swing ============================================================================= */
-/* A damped or undamped body on a spring, driven by a force that turns 0.3 to 1.8 rad a step. That is fast for the
- * quadrature of its power, but not for the method. The reference is the closed form. A right run gives no warning,
- * even with an energy residual. A wrong one gives a warning or is not trusted. */
+/* A body on a spring, with or without damping, under a force whose phase advances by 0.3 to 1.8 rad in a step. This
+ * is fast for the quadrature of its power, but not for the method. The reference is the closed form. A right run
+ * must have no warning, even with an energy residual; a wrong run must have a warning or not be trusted. */
 
-enum { RECORDS = 20 }; /* divides the steps */
+enum { RECORDS = 20 }; /* divides the number of steps */
 
 typedef struct forced_case {
-    /* the clock is a real number and no turn angle, so the force's angle may advance by more than half a turn a step */
+    /* the clock is a real number instead of a turn angle, so the force's phase may advance by more than half a turn
+     * in a step */
     bool summed;
     double swing_radps;
-    double damping; /* relative to critical */
+    double damping; /* relative to critical damping */
     double force_N; /* amplitude of the force on 1 kg */
     double clock_radps;
     double step_s;
@@ -190,7 +193,8 @@ static void closed_form(const forced_case *c, double time_s, double is[2]) {
             left * (way * (b * cosine - a * sine) - z * w * (a * cosine + b * sine));
 }
 
-/* Largest error relative to the range; the columns are the time, both coordinates, x first, and both rates. */
+/* Largest error of x and x', relative to the range. The columns are time, x, the other coordinate, and the two
+ * rates. */
 static double off_by(const forced_case *c, const char *csv) {
     double low[2] = {(double)INFINITY, (double)INFINITY};
     double high[2] = {-(double)INFINITY, -(double)INFINITY};
@@ -221,7 +225,7 @@ static double run_with(const forced_case *c, const char *const *words, said *wha
     return off_by(c, what->out);
 }
 
-/* A run must be right without a warning, or wrong and not trusted. Each suggested remedy is applied. */
+/* A run must be right without a warning, or wrong and not trusted. Each remedy in a warning is applied. */
 static void hold_one(const forced_case *c, const char *number, const char *method, tally *t) {
     char text[900];
     char every[40];
@@ -280,7 +284,7 @@ TEST(forced_swing, other_methods) {
     hold("double", "nystroem5");
 }
 
-/* The force makes whole turns a step, or slightly more or less. The difference aliases into a slow force. */
+/* The force turns by whole turns in a step, or slightly more or less. The difference looks like a slow force. */
 TEST(forced_swing, nearly_whole_turns) {
     static const int turns[] = {1, 2, 3, 4, 5, 6, 8, 12, 16};
     static const char *const methods[] = {"rk4", "nystroem4", "nystroem5", "rk38", "heun"};
@@ -291,13 +295,13 @@ TEST(forced_swing, nearly_whole_turns) {
         forced_case c = draw(&d);
         const double more = pow(10.0, dice_between(&d, -2.5, -0.05));
         c.summed = true;
-        c.steps =
-            RECORDS * 10 *
-            (1 + (int)dice_one_of(&d, 3)); /* records of whole numbers of the remedies' steps */
+        c.steps = RECORDS * 10 *
+                  /* each record is a whole number of the remedies' steps */
+                  (1 + (int)dice_one_of(&d, 3));
         c.clock_radps = (6.283185307179586 * turns[dice_one_of(&d, 9)] +
                          (dice_one_of(&d, 2) == 0 ? more : -more)) /
                         c.step_s;
-        /* the aliased force may be resonant, or constant */
+        /* the slow force may be resonant, or constant */
         c.swing_radps = dice_one_of(&d, 2) == 0 ? fmin(more, 0.1) / c.step_s : c.swing_radps;
         c.swing_radps = fmin(c.swing_radps, 0.1 / c.step_s);
         c.force_N =

@@ -1,7 +1,7 @@
-/* test_symmetry.c: affine symmetries (host/derive/symmetry.h) of random particles in a plane, connected by springs,
- * some with hidden outside forces. The reference differentiates the energies by its own formulas and takes the rank
- * of their changes at random states. Built-in mechanisms: tests/cli/examine.sh. WHIRL_CASES=5000 WHIRL_SEED=... takes
- * more or other cases. */
+/* test_symmetry.c: affine symmetries (host/derive/symmetry.h) of random particles in a plane that springs connect,
+ * some with a hidden force from outside. The reference differentiates the energies by formulas of its own and takes
+ * the rank of their changes at random states. tests/cli/examine.sh tests the built-in mechanisms. WHIRL_CASES=N and
+ * WHIRL_SEED=N choose other cases. */
 #include "command.h"
 #include "derived.h"
 #include "host/derive/symmetry.h"
@@ -16,16 +16,16 @@ enum {
 };
 
 enum {
-    GRAVITY = 1,  /* V, along y */
-    ANCHOR = 2,   /* a part of V that depends on one x alone and pulls it to a point of the plane */
-    DRAG = 4,     /* F, of one y' */
-    DAMPER = 8,   /* F, between two x': no outside force */
-    HAND = 16,    /* Q, an input along one x */
-    COUPLE = 32,  /* a part of Q: an input that pushes two x apart, which is no outside force */
+    GRAVITY = 1,  /* in V, along y */
+    ANCHOR = 2,   /* in V: pulls one x towards a point of the plane */
+    DRAG = 4,     /* in F, of one y' */
+    DAMPER = 8,   /* in F, between two x', so no force from outside */
+    HAND = 16,    /* in Q, an input along one x */
+    COUPLE = 32,  /* in Q: an input pushes two x apart, so no force from outside */
     WALL = 64,    /* a stop of one y */
-    BUMPER = 128, /* a stop between two x: no outside force */
-    CENTRE = 256, /* V, a spring from the origin: keeps rotations */
-    SLIDER = 512, /* a part of T with the sum of two x', so that a momentum depends on both rates */
+    BUMPER = 128, /* a stop between two x, so no force from outside */
+    CENTRE = 256, /* in V: a spring from the origin, which allows rotations */
+    SLIDER = 512, /* in T: the sum of two x', so that a momentum depends on both rates */
     KICK = 1024,  /* a crossing that sets one x' */
     PUT = 2048,   /* a crossing that sets one x */
     KINDS = 12,
@@ -37,14 +37,14 @@ enum {
 typedef struct particles {
     int bodies;
     unsigned with;
-    int at; /* the body that an outside force acts on */
+    int at; /* the body on which an outside force acts */
     double mass[BODIES];
-    double spring[BODIES]; /* between body i and i + 1 */
+    double spring[BODIES]; /* between body i and body i + 1 */
     double length[BODIES];
-    double strength; /* strength of the hidden force: as small as a millionth */
+    double strength; /* of the hidden force; as small as a millionth */
 } particles;
 
-/* Sums begin with a zero, so that every part can be added. */
+/* Writes the mechanism. Each sum begins with a zero, so that every part can be appended. */
 static void write(const particles *p, char *text) {
     int used = snprintf(text, TEXT, "mechanism m\ninput hand = 0 [N]\n");
 #define ADD(...) used += snprintf(text + used, (size_t)(TEXT - used), __VA_ARGS__)
@@ -100,7 +100,7 @@ static void write(const particles *p, char *text) {
 #undef ADD
 }
 
-/* Forces along the coordinates at a state: first those of V (its slopes), then all others. */
+/* Forces along the coordinates at a state. stored[]: the slopes of V; force[]: all other forces. */
 static void slopes(const particles *p, const double *q, const double *v, double hand,
                    double *stored, double *force) {
     memset(stored, 0, N * sizeof *stored);
@@ -133,7 +133,7 @@ static void slopes(const particles *p, const double *q, const double *v, double 
     force[2] -= inside;
 }
 
-/* The rank of m[rows][columns], which is overwritten: rows scaled to 1, full pivoting. */
+/* The rank of m[rows][columns], by elimination with rows scaled to 1 and full pivoting. Overwrites m. */
 static int rank_by_hand(double *m, int rows, int columns) {
     int rank = 0;
     for (int i = 0; i < rows; i++) {
@@ -179,7 +179,8 @@ static int rank_by_hand(double *m, int rows, int columns) {
     return rank;
 }
 
-/* Coefficient of a symmetry's column k: first A row by row, then b. */
+/* How column k of a symmetry moves coordinate i at the position of[]. The columns are the entries of A, row by row,
+ * then of b. */
 static double moved(int n, int k, int i, const double *of) {
     if (k >= n * n) {
         return k - n * n == i ? 1.0 : 0.0;
@@ -192,7 +193,8 @@ static double mass_of(const particles *p, int i, int j) {
     return (i == j ? p->mass[i / 2] : 0.0) + (slides ? SLIDER_KG : 0.0);
 }
 
-/* Number of motions that leave T and V unchanged, and of those along which no force or contact does work. */
+/* *both: number of motions that leave T and V unchanged. *conserved: those along which no force or contact does
+ * work. */
 static void count_by_hand(const particles *p, uint64_t *seed, int *both, int *conserved) {
     static double energies[2 * STATES][COLUMNS];
     static double all[ROWS * STATES][COLUMNS];
@@ -257,7 +259,7 @@ TEST(symmetry, particles) {
         particles p = {.bodies = 2 + (int)(random_bits(&seed) % 2U)};
         p.at = (int)(random_bits(&seed) % (unsigned)p.bodies);
         p.strength = pow(10.0, random_between(&seed, -6.0, 0.0));
-        /* nothing, one thing, or a few */
+        /* nothing, one kind, or a few kinds */
         const uint64_t half = random_bits(&seed);
         p.with = c % 3U == 0 ? 0U : (unsigned)(half & random_bits(&seed)) & ALL;
         p.with = c % 3U == 1 ? 1U << (random_bits(&seed) % (unsigned)KINDS) : p.with;

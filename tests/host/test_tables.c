@@ -1,5 +1,5 @@
-/* test_tables.c: accelerations from tables of one angle's functions (--tables): error of the tables, error and order
- * of the motion, and refusals. */
+/* test_tables.c: accelerations from tables of functions of one angle (--tables): the error of the tables, the error
+ * and order of the motion, and refusals. */
 #include "command.h"
 #include "core/step/table.h"
 #include "derived.h"
@@ -11,7 +11,7 @@ enum { VALUES = 3 * IMAGE_COMPONENTS_MAX, RESULTS = 8 };
 static const image_tables both[] = {TABLES_LINEAR, TABLES_CUBIC};
 enum { FORMS = 2 };
 
-/* NULL if refused; *report (to be freed) has the reason. */
+/* Makes an image with tables. Returns NULL if it is refused. *report: the reason, which the caller frees. */
 static image *tabled(const derived *d, image_tables form, int cells, char **report) {
     const image_settings settings = {.tables = form, .cells = cells, .method = WH_RK4};
     diags *errors = diags_new();
@@ -34,7 +34,7 @@ static image *tabled_surely(const derived *d, image_tables form, int cells) {
     return im;
 }
 
-/* Samples one of 2^14 phases (one of 2^16 in `make test`); `make tables-exhaustive` takes all. */
+/* Samples one of 2^14 phases (`make test`: one of 2^16). `make tables-exhaustive` tests all phases. */
 static int check_scene(const scene *s) {
     derived d = derived_surely(derived_builtin(s->name), s->name);
     char *report = NULL;
@@ -55,7 +55,7 @@ static int check_scene(const scene *s) {
                      t->off[k]);
             TEST_ASSERT_TRUE_MESSAGE(error[0][k].worst <= error[0][k].bound, text);
             TEST_ASSERT_TRUE_MESSAGE(error[0][k].worst >= 0.7 * t->off[k], text);
-            /* with six weights a sixth harmonic has the error 2/3 (2 pi 6/256)^2/8, relative to its size */
+            /* with six weights, a sixth harmonic has the error 2/3 (2 pi 6/256)^2/8, relative to its size */
             TEST_ASSERT_TRUE_MESSAGE(t->off[k] > 0.0 && t->off[k] < 2e-3 * t->size[k], text);
         }
         image_free(im);
@@ -98,7 +98,7 @@ TEST(tables, pieces_meet_in_values_and_cubic_ones_in_slopes) {
     derived_free(&d);
 }
 
-/* " + 0.123*sin(2*th) ...", at most `most` in size. */
+/* Writes terms such as " + 0.123*sin(2*th)", whose sum is at most `most`. */
 static void write_fourier(FILE *out, uint64_t *seed, double most) {
     const int terms = 1 + (int)(random_bits(seed) % 3);
     for (int i = 0; i < terms; i++) {
@@ -115,7 +115,7 @@ static void write_sum(FILE *out, uint64_t *seed, const char *before, double leas
     fprintf(out, ")%s", behind);
 }
 
-/* A mechanism of `count` coordinates, its mass matrix positive definite by its diagonal. */
+/* Writes a mechanism of `count` coordinates. The diagonal of its mass matrix makes it positive definite. */
 static void write_mechanism(FILE *out, int count, uint64_t *seed) {
     static const char *const name[] = {"th", "x", "y"};
     char product[40];
@@ -156,8 +156,8 @@ static derived drawn_mechanism(unsigned number, char **text) {
     return d;
 }
 
-/* Both lists at a random state, and the bound on their difference: each table's error times the sensitivity of the
- * accelerations, found by shifting the table. */
+/* Both lists at a random state. The bound on their difference is the error of each table times the sensitivity of
+ * the accelerations, which comes from a list with this table shifted. */
 typedef struct comparison {
     evaluator *exact;
     evaluator *tables;
@@ -191,7 +191,7 @@ static void comparison_free(comparison *c) {
     }
 }
 
-/* Largest difference at a random state relative to its bound. */
+/* Largest difference at a random state, divided by its bound. */
 static double compare(const comparison *c, int coordinates, uint64_t *seed, const char *text) {
     double angle[1] = {random_between(seed, -20.0, 20.0)};
     double linear[RESULTS];
@@ -250,7 +250,7 @@ TEST(tables, generated_accelerations_are_as_near_as_the_tables) {
     }
     printf("  %d mechanisms: accelerations off by at most %.3f of what they may be\n", cases,
            worst);
-    TEST_ASSERT_TRUE(worst > 0.5); /* the bound is not too wide */
+    TEST_ASSERT_TRUE(worst > 0.5); /* the bound must not be too wide */
 }
 
 static int after(image *im, double step_s, uint64_t steps, double value[VALUES]) {
@@ -279,8 +279,8 @@ static int by_size(const void *x, const void *y) {
     return (a > b) - (a < b);
 }
 
-/* Error of the motion by cell size. The tables have order 2 and 4, but the mean error over a cell vanishes at that
- * order. Only the cells at the start and end of the motion contribute: one order more. */
+/* The error of the motion by cell size. Tables have order 2 or 4, but the mean of their error over a cell vanishes
+ * at this order. Only the cells at the start and end of the motion remain, which gives one order more. */
 TEST(tables, generated_motions_near_the_exact_ones_by_order) {
     enum { MOST = 300 };
     double order[MOST];
@@ -316,7 +316,7 @@ TEST(tables, generated_motions_near_the_exact_ones_by_order) {
     }
 }
 
-/* Order in the step, against the same form at a 32nd of it: the median over some seconds. */
+/* The order in the step: the median over some seconds. The reference has the same tables and 1/32 of the step. */
 static double order_of(image *im) {
     enum { TIMES = 24 };
     double order[TIMES];
@@ -401,7 +401,7 @@ TEST(tables, what_has_not_that_form_is_refused_with_its_place) {
     }
 }
 
-/* Angles that occur only as a difference, or as multiples of one. */
+/* Angles that occur only as one difference, or as multiples of one difference. */
 TEST(tables, one_sum_of_angles_is_one_phase) {
     derived d =
         derived_surely(derived_text("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"

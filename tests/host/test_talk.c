@@ -1,5 +1,5 @@
-/* test_talk.c: a random firmware on a line (host/pil/lockstep.h). Messages received, stored and hashed are compared with
- * those sent, and each error of a firmware has its message. Also tapes. */
+/* test_talk.c: a random firmware on a line (host/pil/lockstep.h). Messages that the host receives, stores and hashes
+ * are compared with those sent, and each error of a firmware must have its message. Also tapes. */
 #include <unistd.h>
 
 #include "core/cobs.h"
@@ -19,7 +19,7 @@ static void expect_same(const stream *wanted, const uint8_t *bytes, size_t lengt
     TEST_ASSERT_TRUE(memcmp(wanted->bytes, bytes, length) == 0);
 }
 
-/* The host asks for the hello first, stores everything on a tape, and answers the end with the same word. */
+/* The host must first request the hello, store everything on a tape, and answer the end with the same word. */
 TEST(talk, heard_and_kept) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         static talk t;
@@ -58,7 +58,7 @@ TEST(talk, heard_and_kept) {
         talk_expect_report(LOCKSTEP_DONE, talk_drawn.turns);
         TEST_ASSERT_EQUAL_INT(status, talk_report.status.status);
         alloc_text_end(onto);
-        expect_same(&talk_on_tape, (const uint8_t *)kept, length); /* hello and turns, as sent */
+        expect_same(&talk_on_tape, (const uint8_t *)kept, length); /* hello and turns as sent */
         free(kept);
         wanted.length = 0;
         talk_put(&wanted, WH_FRAME_ASK, 0, 0, NULL, 0);
@@ -71,7 +71,8 @@ TEST(talk, heard_and_kept) {
     }
 }
 
-/* After a good hello and the first exchange the firmware sends `line`: the second exchange ends with this error. */
+/* After a good hello and a first exchange, the second exchange must end with this error. The line must contain what
+ * the firmware sends. */
 static void expect_unheard(lockstep_end end, const char *why, bool closed) {
     static talk t;
     static stream heard;
@@ -93,7 +94,7 @@ static void expect_unheard(lockstep_end end, const char *why, bool closed) {
     talk_close_line(&heard);
 }
 
-/* Recodes the last frame of the line with another version. */
+/* Encodes the last frame of the line again, with another version. */
 static void make_version(uint8_t version, unsigned from) {
     uint8_t plain[2000];
     uint8_t room[2000];
@@ -177,7 +178,8 @@ TEST(talk, wrong_words) {
     }
 }
 
-/* A missing or malformed hello, or one without a clock, closes the line. Stale words before a good hello are ignored. */
+/* A hello that is missing, malformed or without a clock must close the line. Words from before a good hello must be
+ * ignored. */
 TEST(talk, hellos) {
     for (unsigned c = 0; c < 5; c++) {
         static talk t;
@@ -249,7 +251,7 @@ TEST(talk, no_reset) {
     talk_close_line(&heard);
 }
 
-/* A change of any relevant field makes a hello a different one. The name and the counts are not relevant. */
+/* A change of any relevant field must make a hello another one. The name and the counts are not relevant. */
 TEST(talk, same_hello) {
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
         wh_signal signal[WH_SIGNALS_MAX];
@@ -292,12 +294,13 @@ TEST(talk, same_hello) {
 SUITE(talk) { talk_die(dice_of("talk", 49)); }
 
 /* === taped ==================================================================================== */
-/* Invalid tapes: channels missing in their hello, words that would break a row, times beyond a wrap of the timer. */
+/* Invalid tapes: channels that their hello does not have, words that would break a row, times beyond a wrap of the
+ * timer. */
 
 static char name[] = "/tmp/whirl_taped_XXXXXX";
 static char rows[8192];
-static unsigned first;   /* index of the hello's first signal in write_tape()'s list */
-static int reset_before; /* exchange before which the watchdog resets the processor; -1: none */
+static unsigned first;   /* number of the hello's first signal in the list of write_tape() */
+static int reset_before; /* the watchdog resets the processor before this exchange; -1: never */
 
 static void write_frame(FILE *to, uint8_t kind, uint16_t sequence, uint32_t ticks,
                         const uint8_t *payload, unsigned length) {
@@ -308,7 +311,8 @@ static void write_frame(FILE *to, uint8_t kind, uint16_t sequence, uint32_t tick
     TEST_ASSERT_TRUE(count > 0 && fwrite(coded, 1, count, to) == count);
 }
 
-/* An output, a note, an edge and a sample, at 1 kHz; `turns` exchanges a second apart with these readings. */
+/* Writes a tape at 1 kHz with an output, a note, an edge and a sample. It has `turns` exchanges, one second apart,
+ * with these readings. */
 static void write_tape(const char *word, const wh_readings *readings, unsigned outputs,
                        unsigned turns) {
     const wh_signal each[] = {{.kind = WH_SIGNAL_OUTPUT, .name = word, .unit = "1"},
@@ -361,7 +365,7 @@ static void write_tape(const char *word, const wh_readings *readings, unsigned o
     fclose(to);
 }
 
-/* Writes to `rows`; the caller handles standard error. */
+/* Writes the tape's rows to `rows`. The caller handles standard error. */
 static bool show(void) {
     char csv[sizeof name + 4];
     snprintf(csv, sizeof csv, "%s.csv", name);
@@ -377,11 +381,11 @@ static bool show(void) {
 static const wh_readings heard = {
     .edges = 1,
     .samples = 2,
-    .edge = {{.ticks = UINT32_MAX, .channel = 0}}, /* one tick before the reading, which is at 0 */
+    .edge = {{.ticks = UINT32_MAX, .channel = 0}}, /* one tick before the reading at 0 */
     .sample = {{.ticks = UINT32_MAX - 2U, .raw = -3, .channel = 0},
                {.raw = 5, .channel = 0, .status = WH_SAMPLE_DISCONNECTED}}};
 
-/* The signals may have any order in the hello; here there is one of each kind. */
+/* Signals may have any sequence in the hello. Here, there is one of each kind. */
 static void test_rows(void) {
     static const char *const wanted = "time,heard,kind,channel,signal,value,unit,status\n"
                                       "-0.003,0.000,sample,1,load,-1.5,N,good\n"
@@ -395,7 +399,7 @@ static void test_rows(void) {
                                       "1.997,2.000,sample,1,load,-1.5,N,good\n"
                                       "1.999,2.000,edge,1,push,,,\n"
                                       "2.000,2.000,sample,1,load,2.5,N,disconnected\n";
-    /* channels in the order of the hello: the output, the note */
+    /* channels in the sequence of the hello: the output, then the note */
     static const unsigned firsts[] = {0, 2, 3};
     for (unsigned i = 0; i < sizeof firsts / sizeof firsts[0]; i++) {
         first = firsts[i];
