@@ -1,4 +1,5 @@
-/* adc.c: ADC1 of the chip model, triggered groups, and its DMA2 stream 0. RM0090, chapters 13 and 10; DS8626, table 67. */
+/* adc.c: ADC1 of the chip model, with triggered groups, and its DMA2 stream 0. RM0090, chapters 13 and 10; DS8626,
+ * table 67. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -29,13 +30,13 @@ enum {
 static struct {
     uint32_t r[20];
     uint32_t ccr;
-    uint64_t stable_at; /* from then on the converter is stable, after ADON */
+    uint64_t stable_at; /* the converter is stable from this time on (after ADON) */
     bool busy, sampled;
-    unsigned at; /* index of the conversion in its group */
+    unsigned at; /* index of the conversion within its group */
     uint64_t hold_at, end_at;
     uint16_t value;
     bool late;
-    bool unread, dma_open; /* DR holds an unread value; requests are served (DDS) */
+    bool unread, dma_open; /* DR holds an unread value; DDS permits requests */
 } adc;
 
 static uint32_t *reg(uint32_t offset) { return &adc.r[offset / 4U]; }
@@ -55,7 +56,7 @@ static unsigned input_at(unsigned at) {
                      : FIELD(*reg(SQR1), 5U * (at - 12U), 5);
 }
 
-/* DS8626, table 9: pins of ADC1's inputs. */
+/* Checks that a pin is an input of ADC1 (DS8626, table 9). */
 static void pin_is_wired(unsigned input) {
     const unsigned port = input < 8 ? 0 : input < 10 ? 1 : 2;
     const unsigned pin = input < 8 ? input : input < 10 ? input - 8U : input - 10U;
@@ -89,7 +90,7 @@ static void begin_group(void) {
         return;
     }
     if ((*reg(SR) & OVR) != 0) {
-        return; /* triggers are ignored until it is cleared */
+        return; /* until OVR is cleared, triggers are ignored */
     }
     adc.busy = true;
     adc.at = 0;
@@ -119,13 +120,13 @@ static uint16_t converted(void) {
 
 static void adc_happens(void) {
     if (!adc.sampled) {
-        adc.value = converted(); /* the voltage is sampled now */
+        adc.value = converted(); /* the voltage is sampled at this time */
         adc.sampled = true;
         return;
     }
     const bool dma = (*reg(CR2) & DMA) != 0;
     if (adc.unread && dma) {
-        *reg(SR) |= OVR; /* DR keeps the unread value; requests end */
+        *reg(SR) |= OVR; /* DR keeps the unread value, and requests end */
         adc.busy = false;
         adc.dma_open = false;
         return;
@@ -153,7 +154,7 @@ static void adc_happens(void) {
     }
 }
 
-/* DMA reads DR. Without DDS no request follows the last transfer. */
+/* DMA reads DR. Without DDS, the last transfer is followed by no request. */
 static uint16_t adc_taken(bool last) {
     adc.unread = false;
     *reg(SR) &= ~EOC;
@@ -187,7 +188,7 @@ static void adc_store(uint32_t offset, uint32_t value) {
         return;
     }
     switch (offset) {
-    case SR: *reg(SR) &= value; break; /* rc_w0 */
+    case SR: *reg(SR) &= value; break; /* type rc_w0 */
     case CR2: {
         const uint32_t before = *reg(CR2);
         *reg(CR2) = value & ~SWSTART;
@@ -237,7 +238,6 @@ const part adc_part = {.name = "ADC1",
                        .happens = adc_happens,
                        .pending = adc_pending};
 
-/* --- DMA2, stream 0 --------------------------------------------------------------------------------- */
 enum {
     LISR = 0x00,
     LIFCR = 0x08,
@@ -257,12 +257,12 @@ enum {
 
 static struct {
     uint32_t cr, left, par, m0ar, m1ar, fcr, flags;
-    uint32_t whole; /* NDTR as it was when the stream began */
+    uint32_t whole; /* NDTR when the stream began */
 } dma;
 
 void dma_request_adc(void) {
     if ((dma.cr & EN) == 0 || FIELD(dma.cr, 25, 3) != 0) {
-        return; /* the value was not read: the next one overruns it */
+        return; /* the value was not read, so the next one overruns it */
     }
     volatile uint16_t *memory = (volatile uint16_t *)memory_at(dma.m0ar);
     if (dma.par != AT_ADC1 + DR || memory == NULL || FIELD(dma.cr, 6, 2) != 0 ||
@@ -274,7 +274,7 @@ void dma_request_adc(void) {
         return;
     }
     memory[dma.whole - dma.left] =
-        adc_taken(dma.left == 1); /* the last of each round, if the stream is circular */
+        adc_taken(dma.left == 1); /* the last value of each round, if the stream is circular */
     dma.left--;
     if (dma.left == dma.whole / 2U) {
         dma.flags |= HTIF;
@@ -328,7 +328,7 @@ static void dma_store(uint32_t offset, uint32_t value) {
             dma.whole = dma.left;
         }
         if ((value & EN) == 0 && (dma.cr & EN) != 0) {
-            dma.flags |= TCIF; /* 10.3.17: disabled before the end */
+            dma.flags |= TCIF; /* 10.3.17: the stream was disabled before its end */
         }
         dma.cr = value;
         break;

@@ -23,13 +23,13 @@ static const part *const parts[] = {
 
 #define INTERRUPTS 82U /* RM0090, table 62 */
 #define NMI 1000U
-/* A handler that runs this often without progress of the program never ends. */
+/* If a handler runs this often without progress of the program, it never ends. */
 #define HANDLED_MOST 20000U
 static struct {
     uint64_t now;
     uint64_t random;
     uint64_t begun, may_take, power_at;
-    uint64_t quiet_until; /* until this time no event and no interrupt comes; 0: unknown */
+    uint64_t quiet_until; /* no event and no interrupt comes before this time; 0: unknown */
     jmp_buf back;
     bool trying, masked, handling, in_nmi, halted, nmi_taken, passing;
     bool power_ends;
@@ -41,7 +41,6 @@ static struct {
     unsigned long taken[INTERRUPTS];
 } chip;
 
-/* --- violations ------------------------------------------------------------------------------------- */
 void forbid_if(bool broken, const char *words, ...) {
     if (broken && chip.violations++ == 0) {
         va_list list;
@@ -61,7 +60,6 @@ uint64_t drawn(void) {
     return chip.random;
 }
 
-/* --- ends ------------------------------------------------------------------------------------------- */
 __attribute__((noreturn)) static void leave(chip_end end) {
     chip.end = end;
     chip.handling = false;
@@ -104,7 +102,6 @@ void chip_power_stays(void) {
 }
 unsigned chip_stores(void) { return chip.stores; }
 
-/* --- time ------------------------------------------------------------------------------------------- */
 uint64_t now_units(void) { return chip.now; }
 uint64_t chip_now(void) { return chip.now; }
 double chip_s(void) { return (double)chip.now / (double)CHIP_UNITS_PER_S; }
@@ -136,7 +133,7 @@ static bool asks(unsigned interrupt) {
     return false;
 }
 
-/* Vectors by name. A driver that this program lacks leaves its vector NULL, and that interrupt is a fault. */
+/* Vectors by name. If this program lacks a driver, the driver's vector is NULL, and its interrupt is a fault. */
 #define WEAK_ROW(number, name) __attribute__((weak)) void on_##name(void);
 BOARD_VECTOR_ROWS(WEAK_ROW)
 __attribute__((weak)) void on_nmi(void);
@@ -181,12 +178,12 @@ static void take_interrupts(void) {
             chip.handling = true;
             handle(vectors[i].handler, n);
             chip.handling = false;
-            i = UINT32_MAX; /* begins again at the lowest number */
+            i = UINT32_MAX; /* the search restarts at the lowest number */
         }
     }
 }
 
-/* The next part with an event, and its time. */
+/* Returns the part with the next event; *when gets the event's time. */
 static const part *next_part(uint64_t *when) {
     const part *first = NULL;
     *when = CHIP_NEVER;
@@ -230,7 +227,8 @@ void chip_pass(uint64_t units) {
 }
 void chip_pass_us(uint64_t us) { chip_pass(us * CHIP_UNITS_PER_US); }
 
-/* An access, with the core's work around it. While the flash is busy the core waits for instructions and takes no interrupt. */
+/* Lets the time of a register access pass, with the core's work around it. While the flash is busy, the core waits for
+ * instructions and takes no interrupt. */
 static void time_passes(void) {
     if (flash_busy()) {
         run_until(flash_busy_until());
@@ -252,7 +250,6 @@ static void time_passes(void) {
     }
 }
 
-/* --- the bus ---------------------------------------------------------------------------------------- */
 static const part *part_at(uint32_t address) {
     for (unsigned i = 0; i < PARTS; i++) {
         if (address - parts[i]->base < parts[i]->bytes) {
@@ -262,7 +259,7 @@ static const part *part_at(uint32_t address) {
     return NULL;
 }
 
-/* The part, if it may be accessed. */
+/* Returns the part at this address. If an access is not allowed, it is a violation. */
 static const part *reached(uint32_t address, const char *how) {
     const part *which = part_at(address);
     if (which == NULL) {
@@ -315,7 +312,7 @@ void reg_go_on(uint32_t before) {
     take_interrupts();
 }
 
-/* Memory by its DMA address: 32 bits, on every machine. */
+/* Memory with its DMA addresses, which have 32 bits on every machine. */
 #define MEMORIES 8U
 #define MEMORY_BYTES 0x4000U
 static volatile void *memories[MEMORIES];
@@ -345,7 +342,7 @@ static uint32_t nvic_load(uint32_t offset) {
 static void nvic_store(uint32_t offset, uint32_t value) {
     const uint32_t i = (offset % 0x80U) / 4U;
     if (offset >= 0x300U) {
-        return; /* priorities: the drivers' are all equal */
+        return; /* priorities are ignored, because all drivers have the same */
     }
     if (i >= 3 || (i == 2 && (value >> (INTERRUPTS - 64U)) != 0)) {
         forbidden("an interrupt that there is none of");
@@ -397,7 +394,7 @@ const part scb_part = {
 #define DWT_CYCCNT 0x04U
 #define DWT_LAR 0xFB0U /* a Cortex-M4 has no lock */
 static struct {
-    uint32_t demcr, ctrl, count; /* count: its value at the time `since` */
+    uint32_t demcr, ctrl, count; /* count is the counter's value at the time `since` */
     uint64_t since;
 } trace;
 
@@ -458,7 +455,6 @@ const part dwt_part = {.name = "DWT",
 
 unsigned chip_resets(void) { return chip.resets; }
 
-/* --- a chip, and its starts ------------------------------------------------------------------------- */
 void chip_new(uint64_t seed) {
     memset(&chip, 0, sizeof chip);
     chip.random = seed * 2654435761U + 88172645463325252U;

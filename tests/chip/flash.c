@@ -18,7 +18,7 @@ enum { ACR = 0x00, KEYR = 0x04, OPTKEYR = 0x08, SR = 0x0C, CR = 0x10, OPTCR = 0x
 #define OPTSTRT BIT(1)
 #define DCEN BIT(10)
 #define DCRST BIT(12)
-#define DELIVERED 0x0FFFAAECU /* option bytes: no brown-out level, no protection */
+#define DELIVERED 0x0FFFAAECU /* factory option bytes: no brown-out level, no protection */
 #define OPTIONS 0x0FFFFFECU
 #define LINES 8U
 #define LINE_BYTES 16U
@@ -32,10 +32,10 @@ typedef enum flash_work { NOTHING, ERASES, PROGRAMS, OPTIONS_CHANGE } flash_work
 
 static struct {
     uint32_t acr, sr, cr, optcr;
-    /* 0, 1: number of keys so far; 2: unlocked; 3: locked until a reset */
+    /* 0, 1: number of correct keys so far; 2: unlocked; 3: locked until a reset */
     unsigned keys, option_keys;
     uint64_t busy_until;
-    bool looked; /* BSY was read as 0 since the previous operation */
+    bool looked; /* the program has read BSY as 0 since the previous operation */
     flash_work does;
     uint32_t at, value; /* address and value of the current operation */
     struct {
@@ -95,7 +95,7 @@ static void begins(flash_work what, uint32_t at, uint32_t value, uint64_t us) {
     f.sr |= BSY;
 }
 
-/* Power loss or a reset in the middle of an operation: the bits being changed are random. */
+/* If power or the chip's state is lost in the middle of an operation, the bits that change become random. */
 void flash_power_goes(void) {
     if (f.does == ERASES) {
         for (uint32_t i = 0; i < sector_bytes(f.at); i++) {
@@ -107,7 +107,8 @@ void flash_power_goes(void) {
         }
     } else if (f.does == OPTIONS_CHANGE) {
         option_bytes =
-            (drawn() & 1U) != 0 ? f.value : option_bytes; /* worse cases are unspecified */
+            /* the manual does not specify worse cases */
+            (drawn() & 1U) != 0 ? f.value : option_bytes;
     }
     f.does = NOTHING;
 }
@@ -175,7 +176,7 @@ static void control(uint32_t value) {
         f.sr |= WRPERR;
     } else {
         static const uint16_t least_ms[4] = {400, 300, 250,
-                                             250}; /* table 40, typical, and twice that */
+                                             250}; /* table 40, typical time, and twice that */
         const uint32_t ms = least_ms[FIELD(value, 8, 2)];
         begins(ERASES, sector, 0, 1000U * (ms + drawn() % ms));
     }
@@ -222,7 +223,7 @@ static void flash_store(uint32_t offset, uint32_t value) {
         f.option_keys = key(f.option_keys, value, 0x08192A3BU, 0x4C5D6E7FU, "FLASH_OPTCR");
         f.optcr = f.option_keys == 2 ? f.optcr & ~OPTLOCK : f.optcr;
         break;
-    case SR: f.sr &= ~(value & 0xF3U); break; /* rc_w1 */
+    case SR: f.sr &= ~(value & 0xF3U); break; /* type rc_w1 */
     case CR: control(value); break;
     case OPTCR: options(value); break;
     default: forbidden("store of FLASH + 0x%02x", offset); break;
@@ -238,12 +239,12 @@ const part flash_part = {.name = "FLASH",
                          .next = flash_next,
                          .happens = ends};
 
-/* --- its memory, on the bus ------------------------------------------------------------------------- */
 static uint32_t word_of(const uint8_t *bytes) {
     return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
-/* Eight lines of 16 bytes, oldest replaced first. A program operation updates them, an erase does not (3.5.2). */
+/* The cache has eight lines of 16 bytes; a new line replaces the oldest. Programming updates them, an erase does not
+ * (3.5.2). */
 static uint32_t memory_load(uint32_t at) {
     if ((f.acr & DCEN) == 0) {
         return word_of(memory + at);

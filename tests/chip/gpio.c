@@ -1,4 +1,5 @@
-/* gpio.c: ports A to I of the chip model (RM0090, chapter 8) and their pins' wiring; alternate functions by DS8626, table 9. */
+/* gpio.c: ports A to I of the chip model (RM0090, chapter 8) and the wiring of their pins. Alternate functions are
+ * those of DS8626, table 9. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -26,7 +27,7 @@ static struct {
     chip_resistor resistor[16];
 } ports[PORTS];
 
-/* The alternate functions that a driver may select: pin, number, meaning. */
+/* The alternate functions that a driver may select, with pin, number and meaning. */
 typedef enum wire { TIM1_CH1N, TIM1_BKIN, TIM2_IN, USART6_TX, USART6_RX, DEBUG } wire;
 static const struct {
     char port;
@@ -44,7 +45,7 @@ static const struct {
 };
 #define FUNCTIONS (sizeof functions / sizeof *functions)
 
-/* Future edges in order of time. */
+/* Scheduled edges, sorted by time. */
 #define EDGES 4096U
 static struct {
     uint64_t when;
@@ -98,7 +99,7 @@ static chip_level level_of(unsigned port, unsigned pin) {
         return inside;
     }
     if (ports[port].resistor[pin] !=
-        CHIP_NO_RESISTOR) { /* 10 kOhm: stronger than the chip's own 40 */
+        CHIP_NO_RESISTOR) { /* the board's 10 kOhm are stronger than the chip's 40 kOhm */
         return ports[port].resistor[pin] == CHIP_TO_SUPPLY ? CHIP_HIGH : CHIP_LOW;
     }
     const uint32_t pull =
@@ -114,7 +115,7 @@ bool pin_input(unsigned port, unsigned pin) {
     return level == CHIP_OPEN ? (drawn() & 1U) != 0 : level == CHIP_HIGH;
 }
 
-/* Informs the other parts that an input pin of theirs has changed. */
+/* Tells other parts of the model that one of their input pins has changed. */
 static void tell(unsigned port, unsigned pin) {
     const uint8_t *channel = function_row(port, pin, TIM2_IN);
     if (channel != NULL) {
@@ -124,7 +125,7 @@ static void tell(unsigned port, unsigned pin) {
 }
 void pins_changed(void) { tim1_break_input(); }
 
-/* The level at the break's input, if a pin is selected for it. An unconnected input is low. */
+/* True if the break's input is high. Without a selected pin it is low. */
 bool break_pin_is_high(void);
 bool break_pin_is_high(void) {
     for (unsigned i = 0; i < FUNCTIONS; i++) {
@@ -196,7 +197,7 @@ static uint32_t gpio_load(uint32_t offset) {
     }
 }
 
-/* PA13 and PA14 are the debugger's: a driver that reassigns them locks it out. */
+/* PA13 and PA14 belong to the debugger. If a driver reassigns them, it locks the debugger out: a violation. */
 static void debug_stays(unsigned port) {
     forbid_if(port == 0 && (!pin_is_function(0, 13, 0) || !pin_is_function(0, 14, 0)),
               "the debugger's pins are taken away");
@@ -213,7 +214,7 @@ static void gpio_store(uint32_t offset, uint32_t value) {
     case ODR: r[ODR / 4U] = value & 0xFFFFU; break;
     case BSRR:
         r[ODR / 4U] = (r[ODR / 4U] & ~(value >> 16)) | (value & 0xFFFFU);
-        break; /* a bit that is both set and reset is set */
+        break; /* if a bit is both set and reset, it is set */
     case MODER:
     case OTYPER:
     case OSPEEDR:
@@ -224,7 +225,7 @@ static void gpio_store(uint32_t offset, uint32_t value) {
     }
     debug_stays(port);
     for (unsigned pin = 0; pin < 16; pin++) {
-        (void)level_of(port, pin); /* a change may make a short circuit */
+        (void)level_of(port, pin); /* a change may cause a short circuit */
         const uint8_t *channel = function_row(port, pin, TIM2_IN);
         if (channel != NULL) {
             tim2_input(*channel, pin_input(port, pin));

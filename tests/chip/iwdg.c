@@ -8,11 +8,11 @@ enum { KR = 0x00, PR = 0x04, RLR = 0x08, SR = 0x0C };
 #define RVU BIT(1)
 
 static struct {
-    uint32_t pr, rlr;           /* registers as written */
+    uint32_t pr, rlr;           /* registers as the program wrote them */
     uint32_t pr_used, rlr_used; /* values in use, after the update */
     uint64_t pr_at, rlr_at;
     uint64_t bites_at;
-    uint64_t held_at; /* when a debugger stopped it */
+    uint64_t held_at; /* time at which a debugger stopped the watchdog */
     bool open, runs;
 } w;
 
@@ -21,7 +21,7 @@ static uint64_t count_units(void) {
     return period_units() * (UINT64_C(4) << (w.pr_used < 6 ? w.pr_used : 6U));
 }
 
-/* The prescaler runs freely: the first count may take almost no time. */
+/* The prescaler runs freely, so the first count may take almost no time. */
 static void reload(void) {
     w.bites_at = now_units() + w.rlr_used * count_units() + drawn() % (count_units() + 1U);
 }
@@ -67,7 +67,7 @@ static uint32_t iwdg_load(uint32_t offset) {
     }
 }
 
-/* "Up to five periods" of the oscillator, which has to run. */
+/* Returns the time at which an update ends: after "up to five periods" of the oscillator, which must run. */
 static uint64_t update_ends(void) {
     return w.runs || lsi_is_on() ? now_units() + period_units() * (1U + drawn() % 5U)
                                  : CHIP_NEVER - 1U;

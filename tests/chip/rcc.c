@@ -30,13 +30,13 @@ enum {
 
 static struct {
     uint32_t r[REGISTERS];
-    uint64_t hsi_at, hse_at, pll_at,
-        lsi_at; /* times at which they become ready; CHIP_NEVER: never, or already ready */
-    uint64_t hse_gone_at; /* HSERDY falls six HSE cycles after HSEON (7.3.1) */
+    /* Times at which they become ready. CHIP_NEVER: never, or already ready. */
+    uint64_t hsi_at, hse_at, pll_at, lsi_at;
+    uint64_t hse_gone_at; /* HSERDY falls six HSE cycles after HSEON is cleared (7.3.1) */
     bool crystal_runs, lsi_forced, vos_1;
     uint32_t core, hclk;
-    uint32_t
-        enabled_late; /* enable register with a new bit, and the bit: the next access must not go to that peripheral */
+    /* Register and bit that enabled a peripheral: the next access must not go to it. */
+    uint32_t enabled_late;
 } rcc;
 
 static uint32_t *reg(uint32_t offset) { return &rcc.r[offset / 4U]; }
@@ -110,7 +110,7 @@ static void clocks_change(void) {
     clocks_are_allowed();
 }
 
-/* SW requests, SWS reports: the switch happens when the source is ready. */
+/* Switches the core's clock when the source that SW requests is ready. SWS reports the present source. */
 static void switch_source(void) {
     static const uint32_t ready[3] = {HSIRDY, HSERDY, PLLRDY};
     const uint32_t asked = FIELD(*reg(CFGR), 0, 2);
@@ -230,7 +230,7 @@ static void rcc_store(uint32_t offset, uint32_t value) {
 }
 
 static void rcc_reset(void) {
-    /* Every reset of the system pulls the pin NRST low, and so sets PINRSTF (RM0090, figure 20). */
+    /* Every reset of the system pulls the pin NRST low, and therefore sets PINRSTF (RM0090, figure 20). */
     static const uint32_t flags[] = {[CHIP_BY_POWER] = BIT(27) | BIT(26) | BIT(25),
                                      [CHIP_BY_DIP] = BIT(26) | BIT(25),
                                      [CHIP_BY_PIN] = BIT(26),
@@ -282,7 +282,7 @@ bool lsi_is_on(void) { return rcc.lsi_forced || (*reg(CSR) & 2U) != 0; }
 void lsi_forced(void) { rcc.lsi_forced = true; }
 bool nmi_pending(void) { return (*reg(CIR) & CSSF) != 0; }
 
-/* RM0090, 7.2.7. Without the clock security system the chip stops, and only the watchdog ends that. */
+/* Without the clock security system the chip stops, and only the watchdog resets it (RM0090, 7.2.7). */
 void chip_crystal_stops(void) {
     world.crystal = false;
     if ((*reg(CR) & HSERDY) == 0) {
@@ -309,7 +309,7 @@ void chip_crystal_stops(void) {
 
 bool part_is_clocked(const part *which) {
     if (which == &gpio_part || which->clock_register == 0) {
-        return true; /* ports: gpio.c reads each */
+        return true; /* ports: gpio.c reads the state of each */
     }
     if (rcc.enabled_late == which->clock_register) {
         rcc.enabled_late = 0;
@@ -337,7 +337,7 @@ const part rcc_part = {.name = "RCC",
                        .next = rcc_next,
                        .happens = rcc_happens};
 
-/* --- PWR: CR's VOS, bit 14 alone on this chip -------------------------------------------------------- */
+/* --- PWR: this chip's CR has only VOS, bit 14 --- */
 static uint32_t pwr[2];
 static uint32_t pwr_load(uint32_t offset) { return pwr[offset / 4U] | (offset == 4 ? BIT(14) : 0); }
 static void pwr_store(uint32_t offset, uint32_t value) {
@@ -361,7 +361,7 @@ const part pwr_part = {.name = "PWR",
                        .store = pwr_store,
                        .reset = pwr_reset};
 
-/* --- DBGMCU: which clocks stop when a debugger holds the core; a system reset does not reset it -------- */
+/* --- DBGMCU: the clocks that stop while a debugger holds the core. A system reset does not reset it. --- */
 static uint32_t dbgmcu[4];
 static uint32_t dbgmcu_load(uint32_t offset) {
     return offset == 0 ? 0x10076413U : dbgmcu[offset / 4U];

@@ -1,4 +1,5 @@
-/* start.c: an image's start on the chip model, as in boards/cortexm/startup.c, and the memory that a reset preserves. */
+/* start.c: starts an image on the chip model, as boards/cortexm/startup.c does, and has the memory that a reset
+ * preserves. */
 #include "tests/chip/start.h"
 
 #include <stdlib.h>
@@ -9,15 +10,15 @@
 
 #include "unity.h"
 
-/* The linker's symbols around the drivers' variables (mk/tests.mk). */
+/* The linker's symbols at the ends of the drivers' variables (mk/tests.mk). */
 extern uint8_t __start_drivers_bss[], __stop_drivers_bss[];
-/* Absent while no variable has an initial value. */
+/* These do not exist while no variable has an initial value. */
 __attribute__((weak)) extern uint8_t __start_drivers_data[], __stop_drivers_data[];
 
 static uint8_t image[16384];
 static size_t image_bytes;
 
-/* Byte by byte: a sanitizer has guards between variables. */
+/* Copies byte by byte, because a sanitizer puts guards between variables. */
 __attribute__((no_sanitize("address", "undefined"), noinline)) static void
 put(volatile uint8_t *to, const uint8_t *from, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -39,7 +40,7 @@ void drivers_as_flashed(void) {
     put(__start_drivers_bss, NULL, (size_t)(__stop_drivers_bss - __start_drivers_bss));
 }
 
-/* Wiring by the table of docs/boards.md; the inputs of ADC1 by DS8626, table 9. */
+/* Returns the wiring of docs/boards.md; the inputs of ADC1 are those of DS8626, table 9. */
 const chip_wiring *chip_wires(void) {
     static const chip_wiring boards[] = {
         {"netduinoplus2", 25000000U, {'A', 'A'}, {0, 2}, 10, 11},

@@ -1,4 +1,4 @@
-/* test_chip_cell.c: the load cell's samples on the chip model: each is the force at its time stamp. */
+/* test_chip_cell.c: the load cell's samples on the chip model. Each must be the force at its time stamp. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -17,10 +17,10 @@
 
 #define ROOM 2048U
 static hal_load_sample got[ROOM];
-static double got_s[ROOM]; /* arrival, in the chip's time */
+static double got_s[ROOM]; /* time of arrival, in the chip's time */
 static unsigned got_count;
 
-/* Converts a timer tick at most half the timer's range away from now to the chip's time. */
+/* Converts a timer tick to the chip's time. The tick is at most half of the timer's range away from now. */
 static double second_of(uint32_t tick) {
     return chip_s() - (double)(int32_t)(chip_tim2_count() - tick) / 1e6;
 }
@@ -31,7 +31,7 @@ static void take(void) {
     }
 }
 static void run_take(void) { chip_run(take); }
-/* Takes this many samples of the present force, after the samples that were already under way. */
+/* Takes this many samples of the present force. Samples that were already in progress are dropped. */
 static void collect(unsigned samples) {
     for (unsigned i = 0; i < 4; i++) {
         chip_pass_us(2000);
@@ -50,8 +50,8 @@ static double sine(double s) {
     return MIDDLE_V + offset_V + swing_V * sin(2.0 * PI * turns_Hz * s + phase);
 }
 
-/* Fits a sine of known frequency to the samples at their stamps, by least squares. Results: its amplitude and the stamps'
- * error. */
+/* Fits a sine of known frequency to the samples at their time stamps, by least squares. Results: its amplitude, the
+ * error of the time stamps, and its mean. */
 static void fit(double *amplitude, double *late_s, double *mean) {
     double m[3][4] = {{0}};
     const double from = got_s[0];
@@ -90,21 +90,21 @@ static void begin(uint64_t seed) {
     swing_V = 0;
     turns_Hz = 1;
     chip_tim2_count_is(seed % 3U == 0 ? UINT32_MAX - 50000U : (uint32_t)scattered());
-    for (unsigned i = 0; i < 6; i++) { /* samples under way when the timer was set */
+    for (unsigned i = 0; i < 6; i++) { /* samples that were in progress when the timer was set */
         chip_pass_us(2000);
         run_take();
     }
     got_count = 0;
 }
 
-/* Sines of the rig's frequencies, and of higher ones at which a plain mean would be 1 % too low. The amplitude is right
- * to 0.05 %, the time stamps to 1.5 us. */
+/* Sines of the rig's frequencies, and of higher frequencies at which a plain mean would be 1 % too small. The amplitude
+ * must be right to 0.05 %, the time stamps to 1.5 us. */
 TEST(chip_cell, sines) {
     for (unsigned i = 0; i < 14; i++) {
         begin(i + 1U);
         turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0
                                : 25.0 + (double)(scattered() % 1000U) / 66.0;
-        /* together with the offset at least 0.2 V */
+        /* The sum with the offset is at least 0.2 V. */
         swing_V = 0.7 + (double)(scattered() % 690U) / 1000.0;
         phase = (double)(scattered() % 6283U) / 1000.0;
         offset_V = 0.1 * ((double)(scattered() % 1000U) / 1000.0 - 0.5);
@@ -125,7 +125,7 @@ TEST(chip_cell, sines) {
     }
 }
 
-/* A sample is a mean over a window, corrected for the attenuation. For a parabola the correction is exact, so only the
+/* A sample is a mean over a window, corrected for the attenuation. For a parabola the correction is exact. So only the
  * converter's truncation remains: one count is 16 units. */
 static double bend_from;
 static double parabola(double s) {
@@ -148,7 +148,8 @@ TEST(chip_cell, parabolas) {
             const double V = parabola(got_s[at]);
             if (fabs(got_s[at] - bend_from) < 0.008) {
                 TEST_ASSERT_DOUBLE_WITHIN(12.0, (V - MIDDLE_V) * RAW_OF_V - 8.0,
-                                          got[at].raw); /* without the correction the error is 99 */
+                                          /* without the correction the error would be 99 */
+                                          got[at].raw);
                 seen++;
             }
         }
@@ -164,7 +165,7 @@ static double level(double s) {
 TEST(chip_cell, ends) {
     begin(60);
     chip_cell_V = level;
-    /* after a broken wire the pin's leakage remains; an amplifier stops short of its rails */
+    /* After a broken wire, the pin has the voltage of its leakage. An amplifier stops short of its rails. */
     static const struct {
         double least_V, most_V;
         uint8_t status;
@@ -176,7 +177,7 @@ TEST(chip_cell, ends) {
         const unsigned row = i % (sizeof rows / sizeof *rows);
         const double part = i < 4 ? 0.0 : i < 8 ? 1.0 : (double)(scattered() % 10001U) / 10000.0;
         level_V = rows[row].least_V + part * (rows[row].most_V - rows[row].least_V);
-        chip_pass_us(10000); /* waits for samples from before, and for those with both voltages */
+        chip_pass_us(10000); /* waits until no sample contains an earlier voltage */
         run_take();
         collect(5);
         for (unsigned at = 0; at < got_count; at++) {
@@ -191,7 +192,7 @@ TEST(chip_cell, ends) {
     }
 }
 
-/* A sample with a window that contains a clipped part of the force is not valid. */
+/* If the force clips in a part of a sample's window, the sample is not valid. */
 static double clip_V;
 static double clipped(double s) {
     const double in_turn = fmod(s, 0.05);
@@ -205,7 +206,8 @@ static void clipped_at(double V) {
     unsigned marked = 0;
     for (unsigned at = 0; at < got_count; at++) {
         const double next =
-            fmod(got_s[at] + 0.001, 0.05); /* the window's end, since the last clip began */
+            /* end of the window, counted from the begin of the last clip */
+            fmod(got_s[at] + 0.001, 0.05);
         const bool has = next < 0.00238 && next > 0.00005;
         marked += got[at].status == HAL_LOAD_SATURATED ? 1U : 0U;
         if (has && next > 0.0003 && next < 0.0021) {
@@ -224,7 +226,7 @@ TEST(chip_cell, clipped_for_a_moment) {
     clipped_at(0.0);
 }
 
-/* At least four are buffered; the newest are lost. */
+/* At least four samples are stored; if more come, the newest are lost. */
 TEST(chip_cell, kept) {
     begin(62);
     run_take();
@@ -241,8 +243,8 @@ TEST(chip_cell, kept) {
 
 static void erase(void) { (void)hal_settings_erase(0); }
 
-/* The core stops at any instant for any time, as during an erase or under a debugger. The force of every sample reported as
- * good still belongs to its stamp. */
+/* The core stops at any instant for any time, as during an erase or under a debugger. If a sample is reported as good,
+ * its force still belongs to its time stamp. */
 static double ramp(double s) { return 0.4 + 2.4 * fabs(remainder(s, 1.0)); }
 TEST(chip_cell, core_that_stood) {
     for (unsigned i = 0; i < 30; i++) {
@@ -276,8 +278,8 @@ TEST(chip_cell, core_that_stood) {
     }
 }
 
-/* An overrun ends the converter's requests (13.8.1). The driver does not restart it: no further sample comes, and the
- * controller detects a silent cell. A reset restores the samples. */
+/* After an overrun the converter makes no more requests (13.8.1). The driver does not restart it: no further sample
+ * comes, and the controller detects a silent cell. A reset restores the samples. */
 TEST(chip_cell, overrun) {
     begin(110);
     chip_cell_V = ramp;
@@ -296,7 +298,7 @@ TEST(chip_cell, overrun) {
     collect(5);
 }
 
-/* Also on the chip's internal oscillator a pair is converted before the next request, and the force is right. */
+/* On the chip's own oscillator, too, a pair is converted before the next request, and the force is right. */
 TEST(chip_cell, fallback) {
     chip_wired(111);
     world.crystal = false;
@@ -311,7 +313,7 @@ TEST(chip_cell, fallback) {
     }
 }
 
-/* The supply channel gives the supply's value within the last 2 ms. */
+/* The supply channel gives a value of the supply from the last 2 ms. */
 static float supply;
 static void read_supply(void) { supply = hal_motor_supply_V(); }
 TEST(chip_cell, supply) {
@@ -324,8 +326,9 @@ TEST(chip_cell, supply) {
     }
 }
 
-/* The supply has any voltage up to 60 V, its divider 1 % resistors (1.8 % of the ratio). The guard accepts 12 to 30 V and
- * never more than 31.5 V plus the divider's error, whether its own limit or a setting applies. */
+/* The supply has any voltage up to 60 V. Its divider has 1 % resistors, an error of 1.8 % of the ratio. The guard
+ * accepts 12 to 30 V. It never accepts more than 31.5 V plus the divider's error, whether its own limit or a setting
+ * applies. */
 TEST(chip_cell, supplies) {
     wh_guard_config guard = {.supply_min_V = 10.8F, .supply_max_V = hal_motor_supply_most_V()};
     begin(121);

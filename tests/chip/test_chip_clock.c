@@ -1,5 +1,5 @@
-/* test_chip_clock.c: start and time of the STM32F405 on the chip model. Every limit of clock tree and flash holds at every
- * instant, and a dead clock delays the start only briefly. */
+/* test_chip_clock.c: start and time of the STM32F405 on the chip model. No limit of the clock tree or the flash is
+ * exceeded at any instant. A dead clock delays the start only briefly. */
 #include "tests/suites.h"
 
 #include "boards/stm32f4/registers.h"
@@ -10,7 +10,7 @@
 static uint32_t ticks;
 static void read_ticks(void) { ticks = hal_clock_ticks(); }
 
-/* Error of the timer's ticks over `s` seconds, in ppm; a tick is a microsecond. */
+/* Returns the error of the timer's ticks over `s` seconds, in ppm. A tick is a microsecond. */
 static double ppm_over(double s) {
     chip_run(read_ticks);
     const uint32_t before = ticks;
@@ -26,7 +26,8 @@ TEST(chip_clock, crystals_that_start) {
     for (unsigned i = 0; i < 20; i++) {
         chip_wired(scattered());
         world.crystal_units =
-            (200U + scattered() % 5000U) * CHIP_UNITS_PER_US; /* DS8626, table 36: 2 ms typical */
+            /* typically 2 ms (DS8626, table 36) */
+            (200U + scattered() % 5000U) * CHIP_UNITS_PER_US;
         chip_restart(CHIP_BY_POWER);
         TEST_ASSERT_EQUAL(HAL_CLOCK_CRYSTAL, hal_clock_source_now());
         TEST_ASSERT_EQUAL(100, hal_clock_tolerance_ppm());
@@ -35,7 +36,7 @@ TEST(chip_clock, crystals_that_start) {
         TEST_ASSERT_EQUAL(42000000, now.apb1_Hz);
         TEST_ASSERT_EQUAL(84000000, now.apb2_Hz);
         TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 &&
-                         ppm_over(0.05) > -25.0); /* a tick in 50 ms is 20 ppm */
+                         ppm_over(0.05) > -25.0); /* one tick in 50 ms is 20 ppm */
     }
 }
 
@@ -62,7 +63,8 @@ TEST(chip_clock, no_lock) {
     fallback_is_taken(1000);
 }
 
-/* A crystal starts about when the driver's timeout ends: the core runs on either source, and all limits hold. */
+/* A crystal starts at about the end of the driver's timeout. The core runs on either source, and no limit is
+ * exceeded. */
 TEST(chip_clock, crystals_that_are_late) {
     scattered_state = chip_seed(7);
     unsigned taken = 0;
@@ -81,18 +83,18 @@ TEST(chip_clock, crystals_that_are_late) {
     TEST_ASSERT_EQUAL(15, taken);
 }
 
-/* A loader in ROM has left the core on its own PLL, at any speed, with any crystal, buses and wait states. */
+/* A loader in ROM has left the core on a PLL, at any speed, with any crystal, bus dividers and wait states. */
 #define RCC_AT(offset) (0x40023800U + (offset))
 static void wait_for(uint32_t offset, uint32_t bit) {
     while ((reg_load(RCC_AT(offset)) & bit) == 0) {
     }
 }
-static bool bypassed; /* the amplifier of the oscillator is bypassed */
+static bool bypassed; /* the oscillator's amplifier is bypassed */
 static void loader(void) {
     reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | (bypassed ? 0x40000U : 0U));
     reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | 0x10000U);
     wait_for(0x00U, 0x20000U);
-    reg_store(RCC_AT(0x04U), 16U | 240U << 6 | 1U << 16 | 5U << 24); /* 60 MHz of HSI */
+    reg_store(RCC_AT(0x04U), 16U | 240U << 6 | 1U << 16 | 5U << 24); /* 60 MHz from HSI */
     reg_store(RCC_AT(0x00U), reg_load(RCC_AT(0x00U)) | 0x1000000U);
     wait_for(0x00U, 0x2000000U);
     reg_store(0x40023C00U, 1U);
@@ -134,7 +136,7 @@ TEST(chip_clock, from_every_reset) {
 static uint32_t target;
 static void wait_there(void) { hal_clock_wait_until(target); }
 
-/* A wait is never too short and at most 0.1 ms too long, also over the timer's wrap and with interrupts. */
+/* A wait is never too short and at most 0.1 ms too long, even if the timer wraps or interrupts come. */
 TEST(chip_clock, waits) {
     scattered_state = chip_seed(5);
     chip_on(5);
@@ -155,7 +157,7 @@ TEST(chip_clock, waits) {
     TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 20U * CHIP_UNITS_PER_US,
                              "it waits for what is past");
     TEST_ASSERT_TRUE(hal_clock_late_ticks() >= 1000U);
-    TEST_ASSERT_EQUAL(0, hal_clock_late_ticks()); /* no late wait since the last call */
+    TEST_ASSERT_EQUAL(0, hal_clock_late_ticks()); /* no wait was late since the last call */
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }
 
@@ -164,7 +166,7 @@ static void drive(void) {
     hal_motor_set_voltage(6.0F);
 }
 
-/* The crystal stops while the motor turns: the hardware pulls the output low before the NMI. */
+/* The crystal stops while the motor turns. The hardware pulls the output low before the NMI. */
 TEST(chip_clock, crystal_dies) {
     scattered_state = chip_seed(6);
     for (unsigned i = 0; i < 10; i++) {

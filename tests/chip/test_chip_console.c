@@ -1,4 +1,4 @@
-/* test_chip_console.c: the console on the chip model, both ways, at 115,200 baud and random times. */
+/* test_chip_console.c: the console on the chip model, in both directions, at 115,200 baud and random times. */
 #include <string.h>
 
 #include "tests/suites.h"
@@ -24,8 +24,8 @@ TEST(chip_console, rate) {
         0.01, 1.0, (double)CHIP_UNITS_PER_S * 10.0 / 115200.0 / (double)chip_serial_byte_units());
 }
 
-/* A write waits until all bytes are sent; an offer does not wait. Each byte arrives once and in order, in bursts, with or
- * without pauses. */
+/* A write waits until all bytes are sent; an offer does not wait. Each byte comes out once and in order, in bursts,
+ * with or without pauses. */
 TEST(chip_console, out) {
     static uint8_t mine[16384];
     scattered_state = chip_seed(2);
@@ -59,7 +59,7 @@ TEST(chip_console, out) {
     }
 }
 
-/* As above, with long delays between accesses and with incoming bytes, so that interrupts come between accesses. */
+/* The same test with long delays between accesses and with incoming bytes, so that interrupts come between accesses. */
 TEST(chip_console, out_between_accesses) {
     scattered_state = chip_seed(10);
     chip_on(10);
@@ -100,8 +100,8 @@ TEST(chip_console, out_is_full) {
     TEST_ASSERT_TRUE(chip_serial_sent() - from > 1100U);
 }
 
-/* Bytes arrive in order, and none is lost if the program reads each control step. A byte with noise or a framing error is
- * read as zero, but an Escape remains an Escape. */
+/* If the program reads in each control step, bytes arrive in order and none is lost. A byte with noise or a framing
+ * error is read as zero, but an Escape remains an Escape. */
 TEST(chip_console, in) {
     static uint8_t mine[4096];
     scattered_state = chip_seed(5);
@@ -166,7 +166,8 @@ TEST(chip_console, both) {
     }
 }
 
-/* Unread bytes are lost, also while the core stands. The program gets the others in order, with a zero for each gap. */
+/* Unread bytes are lost, for example while the core stands (`held`). The program gets the other bytes in order, with a
+ * zero for each gap. */
 static void lost(bool held) {
     static uint8_t seen[4096];
     chip_on(7U + (held ? 1U : 0U));
@@ -185,7 +186,7 @@ static void lost(bool held) {
         if (held) {
             chip_halt(false);
         }
-        for (unsigned i = 0; i < 3; i++) { /* the next line, which is complete */
+        for (unsigned i = 0; i < 3; i++) { /* the next line is complete */
             chip_serial_comes(chip_now() + (i + 1U) * byte_units, 251U);
         }
         unsigned got = 0;
@@ -227,7 +228,7 @@ TEST(chip_console, core_that_stood) {
     lost(true);
 }
 
-/* With interrupts off, as in a fault's handler, all bytes are sent by polling. */
+/* With interrupts off, as in a fault's handler, polling sends all bytes. */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 static void write_held(void) {

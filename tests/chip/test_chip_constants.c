@@ -1,6 +1,6 @@
-/* test_chip_constants.c: compares every constant of boards/stm32f4/rm0090.h with a second source. The drivers' author had the
- * manual. ST's header for the chip (stm32f405xx.h of STM32CubeF4) gives bases, offsets and interrupts. Headers generated from
- * ST's SVD files give clocks, flash, timers, DMA, converter, serial interface, watchdog and debug. */
+/* test_chip_constants.c: compares every constant of boards/stm32f4/rm0090.h with a second source; the drivers' author
+ * used the manual. ST's header for the chip (stm32f405xx.h of STM32CubeF4) gives bases, offsets and interrupts. Headers
+ * generated from ST's SVD files give clocks, flash, timers, DMA, converter, serial interface, watchdog and debug. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 
 #include "boards/stm32f4/rm0090.h"
 
-/* Bases by the second source's names. */
+/* Base addresses, with the names of the second source. */
 #define APB1 0x40000000U
 #define APB2 0x40010000U
 #define AHB1 0x40020000U

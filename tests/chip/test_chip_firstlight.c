@@ -1,6 +1,6 @@
 /* test_chip_firstlight.c: the image boards/programs/firstlight.c on the chip model. The record agrees with the random
  * state of the modelled board: clock, cycles, cell, supply, stop and slots. After the Enter key the image prints the
- * record again. Neither enable nor PWM is ever high. */
+ * record again. Neither the enable nor the PWM is ever high. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,8 +17,8 @@
 
 int firstlight_main(void);
 
-#define RUN_UNITS (CHIP_UNITS_PER_S * 3U) /* two seconds, and the record's output */
-/* Cycles per access, so large that the run takes this machine a second or two. */
+#define RUN_UNITS (CHIP_UNITS_PER_S * 3U) /* two seconds, and the output of the record */
+/* Core cycles per access: so many that the run takes this machine only a second or two. */
 #define ACCESS_CYCLES(crystal) ((crystal) ? 400U : 40U)
 
 unsigned board_stack_used_bytes(void) { return 1000; }
@@ -60,7 +60,7 @@ static const char *value(const char *name) {
     return "";
 }
 
-/* The whole numbers at a field's start. */
+/* Reads the whole numbers at the start of a field. */
 static void numbers(const char *name, int count, int *const *number) {
     const char *at = value(name);
     for (int i = 0; i < count; i++) {
@@ -93,7 +93,7 @@ TEST(chip_firstlight, drawn_worlds) {
         chip_reset(CHIP_BY_POWER);
         chip_stored = look_at_pins;
         const uint64_t now = chip_now();
-        for (unsigned p = 0; p < 4; p++) { /* 150 us each, in the second half */
+        for (unsigned p = 0; p < 4; p++) { /* pulses of 150 us, in the second half */
             for (unsigned s = 0; s < 2; s++) {
                 if (p < pulses[s]) {
                     const uint64_t at =

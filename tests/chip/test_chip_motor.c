@@ -36,8 +36,8 @@ static void set_to(float V) {
 #define PERIOD_UNITS (CHIP_UNITS_PER_S / 20000U)
 #define TICKS 8400U
 
-/* Number of ticks in one period during which the pin is high. Interrupts are off, because they would take time between
- * two reads. */
+/* Returns the number of ticks in one period during which the pin is high. Interrupts are off, because they would take
+ * time between two reads. */
 static unsigned high_ticks(void) {
     unsigned high = 0;
     const uint32_t before = reg_hold();
@@ -57,7 +57,7 @@ static void is_low_for(uint64_t units) {
 }
 static bool enabled(void) { return chip_pin('B', 14) == CHIP_HIGH; }
 
-/* The pin is low in reset and before any start, also if hal_motor_off() is called then. */
+/* In reset and before any start the pin is low, even if hal_motor_off() is called. */
 TEST(chip_motor, before_the_start) {
     chip_wired(1);
     chip_reset(CHIP_BY_POWER);
@@ -67,7 +67,7 @@ TEST(chip_motor, before_the_start) {
     TEST_ASSERT_EQUAL(CHIP_RETURNED, chip_try(off));
     is_low_for(PERIOD_UNITS);
     TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
-    chip_forgive(); /* the motor's peripherals have no clock yet, so the stores have no effect */
+    chip_forgive(); /* The motor's peripherals have no clock yet, so the stores have no effect. */
     chip_on(1);
     is_low_for(PERIOD_UNITS);
     TEST_ASSERT_EQUAL(CHIP_LOW, chip_pin('B', 14));
@@ -77,10 +77,10 @@ static void never_driven(void) {
     TEST_ASSERT_FALSE(chip_pin('B', 13) == CHIP_HIGH);
     TEST_ASSERT_FALSE(chip_pin('B', 14) == CHIP_HIGH);
 }
-/* A loader in ROM may leave any output levels latched under its inputs. */
+/* A loader in ROM may have set any levels in the output registers of its inputs. */
 static uint32_t left_levels;
 static void leave_levels(void) {
-    reg_store(0x40023830U, reg_load(0x40023830U) | 2U); /* RCC_AHB1ENR: port B */
+    reg_store(0x40023830U, reg_load(0x40023830U) | 2U); /* clock of port B (RCC_AHB1ENR) */
     (void)reg_load(0x40023830U);
     reg_store(0x40020414U, left_levels); /* GPIOB_ODR */
 }
@@ -139,7 +139,7 @@ TEST(chip_motor, what_is_out_of_range) {
     TEST_ASSERT_EQUAL(0, high_ticks());
 }
 
-/* The first store of hal_motor_off() suffices, at any instant of the period and at any duty. */
+/* The first store of hal_motor_off() switches the output off, at any instant of the period and at any duty. */
 static unsigned stores;
 static void first_store(void) {
     if (stores++ == 0) {
@@ -169,8 +169,8 @@ TEST(chip_motor, off_at_once) {
     }
 }
 
-/* A fault's first stores (boards/cortexm/fault.c), before any use of the stack. The first turns the PWM off, the second the
- * enable. */
+/* The first stores of a fault (boards/cortexm/fault.c), made before any use of the stack. The first turns the PWM off,
+ * the second the enable. */
 static void fault_stores(void) {
 #define SAFE_STORE(address, value) reg_store((address), (value));
     BOARD_SAFE_ROWS(SAFE_STORE)
@@ -191,8 +191,8 @@ TEST(chip_motor, fault_from_anywhere) {
     }
 }
 
-/* The stop input or a fault of the drive stage pulls the output low without software, and keeps it low until the motor has
- * been switched off. For pulses of any length, in any order. */
+/* The stop input, or a fault of the drive stage, pulls the output low without software. The output stays low until the
+ * motor has been switched off. Pulses have any length, in any order. */
 TEST(chip_motor, break) {
     scattered_state = chip_seed(6);
     chip_on(6);
@@ -231,7 +231,7 @@ TEST(chip_motor, break) {
     }
 }
 
-/* A voltage that is set while stop is pressed has no effect, also after stop is released. The motor must be switched
+/* A voltage that is set while stop is pressed has no effect, even after stop is released. The motor must be switched
  * off and started again. */
 TEST(chip_motor, ordered_while_pressed) {
     chip_on(7);
@@ -297,7 +297,8 @@ TEST(chip_motor, voltage_alone) {
     }
 }
 
-/* An interrupt switches the motor off after the store that sets a voltage. The output stays off, whatever voltages follow. */
+/* After the store that sets a voltage, an interrupt switches the motor off. The output stays off, whatever voltages
+ * follow. */
 static void off_behind(void) {
     chip_stored = NULL;
     hal_motor_off(way);
@@ -322,7 +323,8 @@ TEST(chip_motor, off_from_an_interrupt) {
     }
 }
 
-/* A start is atomic: an interrupt that switches the motor off comes before the first store of the start or after its last. */
+/* A start is atomic. An interrupt that switches the motor off comes before the first store of the start or after the
+ * last one. */
 static void is_held(void) { TEST_ASSERT_TRUE_MESSAGE(chip_is_masked(), "an off may come between"); }
 TEST(chip_motor, start_is_whole) {
     chip_on(15);
@@ -348,8 +350,8 @@ TEST(chip_motor, no_supply) {
     TEST_ASSERT_EQUAL(0, high_ticks());
 }
 
-/* A debugger halts the core at any instant: the motor goes off, either at once because the halt disables the outputs,
- * or by the watchdog's reset. Settings that a debugger left before the start change nothing. */
+/* A debugger halts the core at any instant, and the motor goes off. Either the halt disables the outputs at once, or
+ * the watchdog resets the chip. Settings that a debugger made before the start change nothing. */
 static void freeze_watchdog(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
 static void watch(void) { hal_watchdog_start(20000); }
 TEST(chip_motor, debugger) {
@@ -377,7 +379,7 @@ TEST(chip_motor, debugger) {
     }
 }
 
-/* After a reset at any instant both pins float, and their resistors pull them low. */
+/* After a reset at any instant, both pins float, and resistors pull them low. */
 TEST(chip_motor, reset_at_any_instant) {
     scattered_state = chip_seed(10);
     for (unsigned i = 0; i < 12; i++) {

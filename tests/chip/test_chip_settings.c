@@ -1,5 +1,5 @@
-/* test_chip_settings.c: erase, write and read of the settings' flash on the chip model. A power failure before any store or at
- * any instant leaves the old content or the new. */
+/* test_chip_settings.c: erase, write and read of the settings' flash on the chip model. A power failure before any
+ * store, or at any instant, leaves the old content or the new. */
 #include <string.h>
 
 #include "tests/suites.h"
@@ -104,7 +104,7 @@ TEST(chip_settings, refused) {
     }
 }
 
-/* A write to a word that is not erased: the flash reports nothing, the reader of store.h detects it. */
+/* After a write to a word that is not erased, the flash reports no error. The reader of store.h detects it. */
 
 static const wh_store_memory memory = {erases, writes, reads};
 static uint8_t payload[WH_STORE_PAYLOAD_MOST];
@@ -131,8 +131,8 @@ static void drawn_payload(void) {
 static uint8_t old[WH_STORE_PAYLOAD_MOST], new[WH_STORE_PAYLOAD_MOST];
 static unsigned old_bytes, new_bytes;
 
-/* Reads the settings after a power-off in the middle of a save. True: the new ones are read. Anything but the old or the new
- * ones fails. */
+/* Reads the settings after a power-off in the middle of a save. Returns true if they are the new ones, false if the old
+ * ones. The test fails if they are neither. */
 static bool new_is_there(void) {
     chip_power_stays();
     chip_clocks_again();
@@ -195,7 +195,7 @@ TEST(chip_settings, torn_at_any_instant) {
     unsigned kept = 0;
     for (unsigned i = 0; i < 300; i++) {
         one_more();
-        /* half of the failures come during the erase, half during the write that follows */
+        /* Half of the failures come during the erase, half during the write that follows. */
         chip_power_off_at(chip_now() + (i % 2U == 0 ? scattered() % (CHIP_UNITS_PER_S / 3U)
                                                     : CHIP_UNITS_PER_S / 4U +
                                                           scattered() % (CHIP_UNITS_PER_S / 4U)));

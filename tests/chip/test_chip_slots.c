@@ -1,4 +1,4 @@
-/* test_chip_slots.c: slot pulses on the chip model: each edge once, with its time, in order. */
+/* test_chip_slots.c: slot pulses on the chip model. Each edge is reported once, with its time, in order. */
 #include "tests/suites.h"
 
 #include "hal/slots.h"
@@ -37,7 +37,7 @@ static void begin(uint64_t seed) {
     got_count = 0;
 }
 
-/* Schedules an edge and computes its timer reading from the present one, at one tick per microsecond. */
+/* Schedules an edge. Computes its timer reading from the present one, at one tick per microsecond. */
 static void edge_at(uint64_t units, unsigned sensor, hal_slot_end end) {
     made[made_count].units = units;
     made[made_count].sensor = (uint8_t)sensor;
@@ -58,8 +58,8 @@ static void pulse_at(uint64_t units, unsigned sensor, uint64_t high_us) {
     edge_at(units + high_us * CHIP_UNITS_PER_US, sensor, HAL_SLOT_TRAILING);
 }
 
-/* The filter's delay is 10.7 to 12.2 us (18.4.7: eight samples of 84 MHz, divided by 4 and by 32). Two roundings to ticks are
- * added. */
+/* Bounds of the delay from an edge to its time stamp. The filter takes 10.7 to 12.2 us (18.4.7: eight samples of 84
+ * MHz, divided by 4 and by 32). Two roundings to ticks are added. */
 #define LATE_LEAST 10U
 #define LATE_MOST 14U
 
@@ -74,7 +74,8 @@ static void all_are_there(void) {
     }
 }
 
-/* Both sensors, pulses of a monostable's length, 300 us to 100 ms apart, polled each millisecond. */
+/* Pulses of both sensors, with the length of the monostable, 300 us to 100 ms apart. The program polls once per
+ * millisecond. */
 static void turn(unsigned pulses, uint32_t from_ticks) {
     chip_tim2_count_is(from_ticks);
     for (unsigned i = 0; i < pulses; i++) {
@@ -106,8 +107,8 @@ TEST(chip_slots, over_the_wrap) {
     }
 }
 
-/* Pulses of both sensors at or near the same time, also over the wrap, come in order of time, even if one interrupt reports
- * both. */
+/* Pulses of both sensors come at the same time, or nearly so, also while the timer wraps. They are reported in order of
+ * time, even if one interrupt handles both. */
 TEST(chip_slots, together) {
     begin(11);
     for (unsigned i = 0; i < 200; i++) {
@@ -117,7 +118,7 @@ TEST(chip_slots, together) {
         const uint64_t at = chip_now() + CHIP_UNITS_PER_US * (1000U + scattered() % 10U);
         const unsigned first = (unsigned)(scattered() % 2U);
         const uint64_t apart_us =
-            4U + scattered() % 8U; /* at least two samples of the filter: different ticks */
+            4U + scattered() % 8U; /* at least two samples of the filter, so the ticks differ */
         made_count = got_count = 0;
         edge_at(at, first, HAL_SLOT_LEADING);
         chip_pass(at - chip_now());
@@ -157,7 +158,7 @@ static unsigned leading(void) {
     return count;
 }
 
-/* A level that is high when the timer starts is no pulse; when it falls, only the end of a pulse is reported. */
+/* A level that is high when the timer starts is no pulse. When it falls, only the end of a pulse is reported. */
 TEST(chip_slots, high_at_the_start) {
     chip_wired(13);
     chip_slot_is(0, CHIP_HIGH);
@@ -174,12 +175,12 @@ TEST(chip_slots, high_at_the_start) {
     run_take(ROOM);
     TEST_ASSERT_EQUAL_MESSAGE(at_start, leading(), "a fall was taken for a pulse");
     TEST_ASSERT_EQUAL(at_start + 2U, got_count);
-    /* The input reads low before its pin is connected. So a sensor may show one rise at the start, and no more. */
+    /* Before its pin is connected, an input reads low. So at the start each sensor may show one rise, and no more. */
     TEST_ASSERT_TRUE(at_start <= 2U);
 }
 
-/* If pulses are not read, at least 8 are stored, the oldest ones, and the others are counted as overruns. Later pulses
- * are stored again. */
+/* If the program does not read the pulses, at least the 8 oldest are stored, and the others are counted as overruns.
+ * Later pulses are stored again. */
 TEST(chip_slots, full) {
     scattered_state = chip_seed(14);
     for (unsigned round = 0; round < 10; round++) {
@@ -209,7 +210,7 @@ TEST(chip_slots, full) {
     }
 }
 
-/* While the core is halted, one pulse of each sensor comes. Both times are captured, and the pulses are delivered in
+/* While the core is halted, one pulse of each sensor comes. Both times are captured, and both pulses are delivered in
  * order. */
 TEST(chip_slots, core_that_stood) {
     begin(19);
@@ -236,7 +237,7 @@ TEST(chip_slots, core_that_stood) {
     TEST_ASSERT_EQUAL(0, overruns);
 }
 
-/* A second pulse comes before the first was read: one is lost and counted, the other is complete. */
+/* A second pulse comes before the first was read. One is lost and counted, the other is complete. */
 TEST(chip_slots, overrun) {
     begin(20);
     for (unsigned i = 0; i < 40; i++) {
@@ -258,7 +259,8 @@ TEST(chip_slots, overrun) {
     }
 }
 
-/* Both inputs have 5 kHz or 30 kHz, and the program polls each millisecond: interrupts take a bounded share of the time. */
+/* Both inputs have 5 kHz or 30 kHz, and the program polls once per millisecond. Interrupts take a bounded share of the
+ * time. */
 static void storm(uint64_t period_us, uint64_t ms) {
     begin(15 + period_us);
     const uint64_t end = chip_now() + ms * 1000U * CHIP_UNITS_PER_US;

@@ -1,4 +1,5 @@
-/* test_chip_watchdog.c: the watchdog on the chip model, at any oscillator speed: never early, and within three times its time. */
+/* test_chip_watchdog.c: the watchdog on the chip model, at any speed of its oscillator: it never resets before the
+ * timeout, and always within three timeouts. */
 #include "tests/suites.h"
 
 #include "boards/stm32f4/stm32f4.h"
@@ -61,7 +62,7 @@ TEST(chip_watchdog, any_time_and_speed) {
     }
 }
 
-/* The time becomes longer for an erase, then short again, at any instant and in quick succession. */
+/* The timeout is lengthened for an erase, then shortened again, at any instant and in quick succession. */
 TEST(chip_watchdog, other_times) {
     scattered_state = chip_seed(2);
     for (unsigned i = 0; i < 8; i++) {
@@ -89,7 +90,7 @@ TEST(chip_watchdog, other_times) {
     }
 }
 
-/* Setting a new time at the last moment counts as a kick. */
+/* A new timeout set at the last moment counts as a kick. */
 TEST(chip_watchdog, told_late) {
     scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 40; i++) {
@@ -105,7 +106,8 @@ TEST(chip_watchdog, told_late) {
     }
 }
 
-/* If a debugger has asked for it (docs/boards.md), the watchdog stops while the debugger holds the core, and then continues. */
+/* If a debugger has requested it (docs/boards.md), the watchdog stops while the debugger holds the core, and then
+ * continues. */
 static void freeze(void) { reg_store(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG); }
 TEST(chip_watchdog, debugger) {
     scattered_state = chip_seed(3);

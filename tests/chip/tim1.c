@@ -1,4 +1,4 @@
-/* tim1.c: TIM1's channel 1 of the chip model, with break, idle state and lock. RM0090, chapter 17, table 94. */
+/* tim1.c: channel 1 of TIM1 in the chip model, with break, idle state and lock. RM0090, chapter 17, table 94. */
 #include <string.h>
 
 #include "tests/chip/inner.h"
@@ -42,7 +42,7 @@ static struct {
     uint32_t r[20];
     uint32_t psc, arr, ccr1; /* values in use, after the preload */
     uint32_t count;
-    uint64_t base; /* time at which `count` was valid */
+    uint64_t base; /* time to which `count` belongs */
     bool locked_once, failed;
 } t;
 
@@ -115,14 +115,14 @@ void tim1_clock_failed(void) {
     t.failed = false;
 }
 
-/* OC1REF (17.4.7, OC1M): PWM modes 1 and 2 when counting up, and the forced levels. */
+/* Returns OC1REF (17.4.7, OC1M): PWM modes 1 and 2 when counting up, and the forced levels. */
 static bool reference(void) {
     const uint32_t count = count_now() % (t.arr + 1U);
     switch (FIELD(*reg(CCMR1), 4, 3)) {
     case 5: return true;
     case 6: return count < t.ccr1;
     case 7: return count >= t.ccr1;
-    case 0: /* frozen, as after a reset */
+    case 0: /* frozen: the mode after a reset */
     case 4: return false;
     default:
         forbidden("OC1M: a match toggles or sets, which the played chip does not");
@@ -130,7 +130,7 @@ static bool reference(void) {
     }
 }
 
-/* The outputs by table 94. The dead time must be 0, because a single output needs none. */
+/* Returns the output's level by table 94. The dead time must be 0, because a single output needs none. */
 chip_level tim1_ch1n(void) {
     const uint32_t ccer = *reg(CCER);
     const uint32_t bdtr = *reg(BDTR);
@@ -169,7 +169,7 @@ static uint32_t tim1_load(uint32_t offset) {
     }
 }
 
-/* The bits of a register that a lock protects. A store that leaves them unchanged is allowed. */
+/* Returns the bits of a register that the lock protects. A store that leaves them unchanged is allowed. */
 static uint32_t kept_by_lock(uint32_t offset) {
     const uint32_t level = FIELD(*reg(BDTR), 8, 2);
     uint32_t kept = 0;
@@ -193,7 +193,7 @@ static void tim1_store(uint32_t offset, uint32_t value) {
     const uint32_t next = (value & ~kept) | (*reg(offset) & kept);
     tim1_hold_count();
     switch (offset) {
-    case SR: *reg(SR) &= value | ~UINT32_C(0x1EFF); break; /* rc_w0 */
+    case SR: *reg(SR) &= value | ~UINT32_C(0x1EFF); break; /* type rc_w0 */
     case EGR:
         if ((value & 1U) != 0) {
             update();
@@ -219,7 +219,7 @@ static void tim1_store(uint32_t offset, uint32_t value) {
         *reg(BDTR) = next;
         t.locked_once = true;
         forbid_if((next & 0xFFU) != 0, "a dead time, which the played chip has not");
-        tim1_break_input(); /* MOE stays off while a break is active */
+        tim1_break_input(); /* while a break is active, MOE stays off */
         break;
     case CR1:
     case CR2:
@@ -238,7 +238,7 @@ void tim1_new(void) {
     t.base = now_units();
 }
 
-/* Interrupt requests: BIF with BIE for the break (24), UIF with UIE for the update (25). */
+/* True if TIM1 requests an interrupt: the break (24) if BIF and BIE are set, the update (25) if UIF and UIE are. */
 static bool tim1_pending(unsigned interrupt) {
     const uint32_t asked = *reg(SR) & *reg(DIER);
     return (interrupt == 24 && (asked & BIF) != 0) || (interrupt == 25 && (asked & 1U) != 0) ||

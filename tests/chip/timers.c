@@ -28,15 +28,15 @@ enum {
 
 typedef struct timer {
     uint32_t r[21];
-    uint32_t psc, arr; /* the values in use */
+    uint32_t psc, arr; /* values in use */
     uint64_t count, base;
-    uint64_t most; /* the largest count */
+    uint64_t most; /* largest count */
     unsigned interrupt;
-    unsigned debug_bit; /* the bit of DBGMCU_APB1_FZ that stops the timer */
-    unsigned trigger;   /* the ADC's trigger at this timer's update */
+    unsigned debug_bit; /* bit of DBGMCU_APB1_FZ that stops this timer */
+    unsigned trigger;   /* trigger of the ADC at this timer's update */
     struct {
         bool level, filtered;
-        uint64_t accepted_at; /* when the filter passes the new level */
+        uint64_t accepted_at; /* time at which the filter passes the new level */
     } input[4];
 } timer;
 
@@ -55,7 +55,7 @@ static bool counts(timer *t) {
 static uint64_t count_now(timer *t) {
     return counts(t) ? t->count + (now_units() - t->base) / tick_units(t) : t->count;
 }
-/* Keeps the elapsed fraction of a tick when the clock does not change. */
+/* Stores the count. If the clock does not change, the elapsed fraction of a tick is kept. */
 static void hold(timer *t, bool clock_changes) {
     const uint64_t count = count_now(t);
     t->base =
@@ -95,8 +95,9 @@ static uint32_t mode_of(timer *t, unsigned i) {
     return *reg(t, i < 2 ? CCMR1 : CCMR2) >> (8U * (i % 2U)) & 0xFFU;
 }
 
-/* A capture (18.3.5) of channel i, from its own input or its pair's (CCxS 1 or 2). It sets CCRx, the flag, and the over-capture
- * flag if the flag was still set. The filter is the input's, the edge the channel's (figures of 18.3.4). */
+/* Captures (18.3.5) with channel i, from its own input or from its pair's (CCxS 1 or 2). This sets CCRx and the flag;
+ * if the flag is still set, also the over-capture flag. The filter is that of the input, the edge that of the channel
+ * (figures of 18.3.4). */
 static void capture(timer *t, unsigned input, unsigned i) {
     const uint32_t cc = *reg(t, CCER) >> (4U * i) & 0xFU;
     const uint32_t mode = mode_of(t, i);
@@ -113,7 +114,7 @@ static void capture(timer *t, unsigned input, unsigned i) {
     *reg(t, SR) |= BIT(1U + i);
 }
 
-/* IC1F: the number of agreeing samples and their distance (18.4.7), in units. */
+/* Computes from IC1F the number of samples that must agree, and their distance in units of time (18.4.7). */
 static void filter(timer *t, unsigned i, unsigned *samples, uint64_t *apart) {
     static const uint8_t many[16] = {0, 2, 4, 8, 6, 8, 6, 8, 6, 8, 5, 6, 8, 5, 6, 8};
     static const uint8_t divided[16] = {1, 1, 1, 1, 2, 2, 4, 4, 8, 8, 16, 16, 16, 32, 32, 32};
@@ -131,14 +132,14 @@ void tim2_input(unsigned channel, bool high) {
     }
     t->input[i].level = high;
     if (high == t->input[i].filtered) {
-        t->input[i].accepted_at = CHIP_NEVER; /* the time went back */
+        t->input[i].accepted_at = CHIP_NEVER; /* the level has changed back */
         return;
     }
     unsigned samples = 0;
     uint64_t apart = 0;
     filter(t, i, &samples, &apart);
     if (samples == 0) {
-        t->input[i].accepted_at = now_units() + 3U * apart; /* the synchronizer */
+        t->input[i].accepted_at = now_units() + 3U * apart; /* three samples for the synchronizer */
     } else {
         const uint64_t first = (now_units() / apart + 1U) * apart;
         t->input[i].accepted_at = first + (samples - 1U) * apart;
@@ -171,7 +172,7 @@ static uint32_t load_of(timer *t, uint32_t offset) {
     if (offset >= CCR1 && offset <= CCR1 + 12U) {
         const unsigned i = (offset - CCR1) / 4U;
         if ((mode_of(t, i) & 3U) != 0) {
-            *reg(t, SR) &= ~BIT(1U + i); /* reading clears CCxIF, not CCxOF */
+            *reg(t, SR) &= ~BIT(1U + i); /* reading clears CCxIF, but not CCxOF */
         }
     }
     return offset == EGR ? 0 : *reg(t, offset);
@@ -184,7 +185,7 @@ static void store_of(timer *t, uint32_t offset, uint32_t value) {
         forbid_if((value & 0x78U) != 0, "a timer that does not count up for ever");
         *reg(t, CR1) = value;
         break;
-    case SR: *reg(t, SR) &= value; break; /* rc_w0 */
+    case SR: *reg(t, SR) &= value; break; /* type rc_w0 */
     case EGR:
         if ((value & 1U) != 0) {
             t->count = 0;
@@ -246,7 +247,7 @@ void chip_tim2_count_is(uint32_t count) {
 }
 uint32_t chip_tim2_count(void) { return (uint32_t)(count_now(&tim2) % ((uint64_t)tim2.arr + 1U)); }
 
-/* The part of a timer, from the functions above. */
+/* Defines the part of a timer, with the functions above. */
 #define TIMER_PART(tim, called, at, bit) \
     static uint32_t tim##_load(uint32_t offset) { return load_of(&tim, offset); } \
     static void tim##_store(uint32_t offset, uint32_t value) { store_of(&tim, offset, value); } \

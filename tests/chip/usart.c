@@ -28,7 +28,7 @@ static struct {
     uint8_t received, next, shifts;
     bool shifting;
     uint64_t end_at;
-    uint32_t seen; /* flags at the last load of SR */
+    uint32_t seen; /* flags of SR when the program last read it */
 } u;
 
 bool serial_pin_out(void);
@@ -79,9 +79,9 @@ static void usart_happens(void) {
         const uint8_t byte = coming[coming_from++ % COMING].byte;
         if ((u.cr1 & (UE | RE)) == (UE | RE) && serial_pin_in()) {
             if ((u.sr & RXNE) != 0) {
-                u.sr |= ORE; /* DR keeps the previous byte; this one is lost */
+                u.sr |= ORE; /* DR keeps the previous byte, and this one is lost */
             } else {
-                u.received = byte; /* also an invalid byte (30.3.3) */
+                u.received = byte; /* an invalid byte is stored, too (30.3.3) */
                 u.sr |= RXNE | flags;
             }
         }
@@ -109,7 +109,7 @@ static void usart_store(uint32_t offset, uint32_t value) {
     switch (offset) {
     case SR:
         u.sr &= value | ~(uint32_t)(BIT(9) | BIT(8) | TC | RXNE);
-        break; /* rc_w0, only these */
+        break; /* only these are of type rc_w0 */
     case DR:
         if ((u.cr1 & (UE | TE)) != (UE | TE)) {
             forbidden("a byte to a USART that does not send");
