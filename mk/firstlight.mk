@@ -1,7 +1,8 @@
-# firstlight.mk: first light of a board (boards/programs/firstlight.c, docs/firstlight.md): scenes' hashes, cycles and a self-test in
-# one record. The motor is never enabled.
+# firstlight.mk: first light of a board (boards/programs/firstlight.c, docs/firstlight.md): the scenes' hashes, cycles
+# and a self-test in one record. The motor is never enabled.
 
-# A board with hardware uses the rig's, compiled like its other programs, so that cycles are those of `make bench`.
+# On a board with hardware, first light uses that hardware, compiled as in other programs: its cycles are those of
+# `make bench`.
 LIGHT := $(ELF)/firstlight.elf
 LIGHT_AS := $(if $(filter -flto,$(BOARD_FLASHED_FLAGS)),$(BOARD),$(FLASHED))
 LIGHT_SCENES := $(patsubst %,$(GEN)/%.c,$(shell sed -n 's/^    X(\([a-z_]*\)).*/\1/p' core/light_fields.h))

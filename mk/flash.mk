@@ -1,20 +1,20 @@
 # flash.mk: flashing a board, and a debugger on it. Both print the command that they run.
 PROBE ?= stlink
 PROBES := stlink cmsis-dap dfu
-# The rig with its console; its control software with the plant at the other end of that line (`whirl pil --port`); first light
-# (firstlight.mk).
+# The program to flash: the rig with its console; its control software, with the plant at the other end of the line
+# (`whirl pil --port`); or first light (firstlight.mk).
 PROGRAM ?= station
 PROGRAMS := station pil_line firstlight
 FLASH_IMAGE := $(ELF)/$(PROGRAM).elf
 
-# Only sectors of the image are erased and written: settings stay.
+# Only the image's sectors are erased and written, so the stored settings are kept.
 OPENOCD_FOR = openocd -f interface/$(PROBE).cfg -f target/stm32f4x.cfg
 FLASH_COMMAND = $(if $(filter dfu,$(PROBE)),$(DFU_COMMAND),$(OPENOCD_FOR) -c "program $(FLASH_IMAGE) verify reset exit")
-# The loader in the chip's ROM (BOOT0 high in a reset, USB) takes plain bytes, in two pieces. The vectors come last, so that
-# an incomplete image does not start.
+# The loader in the chip's ROM (BOOT0 high at reset, USB) takes plain bytes, in two pieces. The vectors come last, so
+# that an incomplete image does not start.
 DFU_COMMAND = dfu-util -d 0483:df11 -a 0 -s 0x0800C000 -D $(ELF)/flash_code.bin && \
     dfu-util -d 0483:df11 -a 0 -s 0x08000000:leave -D $(ELF)/flash_vectors.bin
-# OpenOCD lets the watchdog stand still while the core is halted (DBG_IWDG_STOP): not here (docs/boards.md).
+# OpenOCD stops the watchdog while the core is halted (DBG_IWDG_STOP); this command does not (docs/boards.md).
 DEBUG_COMMAND = gdb-multiarch $(FLASH_IMAGE) -ex 'target extended-remote | $(OPENOCD_FOR) -c "gdb_port pipe; log_output $(ELF)/openocd.log"' \
     -ex 'monitor mmw 0xE0042008 0 0x1000'
 

@@ -1,9 +1,9 @@
-# hard.mk: the hard cases of docs/hard (docs/hard_cases.md) with the same bits everywhere: fast rotation, whole turns far
-# from zero, resonance and the passage through it, dead centres, subnormals and the rest. Few steps each, so that boards
-# which take long for a step take part.
+# hard.mk: compares the bits of the hard cases of docs/hard (docs/hard_cases.md) on all hosts and boards: fast
+# rotation, whole turns far from zero, resonance and the passage through it, dead centres, subnormal numbers and
+# others. Each case has few steps, so that slow boards can take part.
 
-# FILE:SCENE of docs/hard, with options of `whirl derive` behind it as :+compensated+stabilized; the scene's name is its
-# name in the table.
+# FILE:SCENE of docs/hard. Options of `whirl derive` follow as :+compensated+stabilized. The scene's name is its name
+# in the table.
 HARD := rotor:rotor_fast rotor:rotor_weighted rotor:rotor_far rotor:rotor_slow resonance:resonance_grows \
     sommerfeld:shaker_through dead_centre:crank_turns dead_centre:crank_starts polar:polar_passes disc:disc_swings \
     masses:masses_swing stiff_spring:stiff_spring_swings stiff_stop:floor_of_spring stiff_stop:floor_of_stop \
@@ -40,12 +40,12 @@ print-hard-hashes:
 	@$(call print_of,$(hard_elf))
 else
 hard-images: $(ELF)/scenes_hard.elf
-print-hard-hashes: # of the hard cases
+print-hard-hashes: # hashes of the hard cases
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes_hard.elf)
 endif
 
-# Beside the interpreter: this machine's compilers, other processors, boards. HARD_BOARDS="mps2-an386": on these.
+# Compared with the interpreter: this machine's compilers, other processors, boards (or HARD_BOARDS="mps2-an386").
 HARD_BUILDS ?= gcc-O0 gcc-O2 clang-O2
 HARD_HOSTS ?=
 HARD_BOARDS ?= $(BOARDS)

@@ -1,5 +1,5 @@
-# hosts.mk: the output of whirl must not depend on the compiler and the host of its build. Each host's build writes the
-# built-in scenes and generated mechanisms; tests/hosts/compare.sh compares them, byte by byte.
+# hosts.mk: the output of whirl must not depend on the compiler and the host of its build. Each host's build writes
+# the built-in scenes and generated mechanisms. tests/hosts/compare.sh compares them byte by byte.
 
 # Generated mechanisms, and the seed of the first.
 MECHANISMS ?= 500
@@ -10,8 +10,8 @@ HOSTS := gcc clang gcc-O0 musl m32 aarch64 armhf wasm
 HOSTS_CI := gcc-O2 clang-O2 musl wasm
 MULTIARCH = $(shell gcc -print-multiarch)
 
-# For each its words in the table; what they do not say of its compiler, of settings of its build and of what runs it. Two are where
-# the warnings' gates have built them (mk/check.mk).
+# For each host: its compiler in the table (if the name does not say it), settings of its build, and the command that
+# runs it. The warning gates have built two of them (mk/check.mk).
 host_is_gcc     = gcc -O1, x86-64
 host_is_clang   = clang -O1, x86-64
 host_is_gcc-O0  = gcc -O0, x86-64
@@ -29,7 +29,7 @@ host_cc_aarch64 = aarch64-linux-gnu-gcc
 host_cc_armhf   = arm-linux-gnueabihf-gcc
 host_cc_wasm    = clang --target=wasm32-wasi --sysroot=/usr
 host_set_gcc-O0 = OPT=-O0
-# WebAssembly has no processes and no signals (host/os/none), and by default a small stack.
+# WebAssembly has no processes and no signals (host/os/none), and its default stack is too small.
 host_set_wasm   = SYSTEM=none AR=llvm-ar EXTRA=-D_WASI_EMULATED_SIGNAL LINK_EXTRA=-Wl,-z,stack-size=8388608
 host_run_aarch64 = qemu-aarch64
 host_run_armhf  = qemu-arm
@@ -47,7 +47,7 @@ hosts-now:
 	+@$(MAKE) -j $(JOBS) $(addprefix host-,$(HOSTS))
 	@sh tests/hosts/compare.sh build/hosts/out $(foreach h,$(HOSTS),$(h) "$(host_is_$(h))")
 
-# In `make check`: fewer of them, and fewer mechanisms.
+# In `make check`: fewer hosts, and fewer mechanisms.
 gate-hosts:
 	+@$(MAKE) -j $(JOBS) MECHANISMS=40 $(addprefix host-,$(HOSTS_CI))
 	@sh tests/hosts/compare.sh build/hosts/out $(foreach h,$(HOSTS_CI),$(h) "$(host_is_$(h))")

@@ -1,18 +1,18 @@
-# price.mk: instructions a step (bench) and bytes (size). Figures are added to build/figures/*.csv.
+# price.mk: instructions per step (bench) and bytes (size). The figures are appended to build/figures/*.csv.
 
 BENCH_C := boards/programs/bench.c
 PLUGIN := build/count_plugin.so
 FIGURES := build/figures
 # The same mechanisms written by hand, to compare with.
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
-# Some scenes also with many steps a call, on the board. On this machine, functions are counted without the functions that they
-# call.
+# On the board, some scenes also run with many steps per call. On this machine, the instructions of a function are
+# counted without those of the functions that it calls.
 AHEAD := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
 again_matrix := --matrix exact
 again_c = $(patsubst %,build/$(1)/%.c,scenes $($(2)))
 AHEAD_C := $(call again_c,ahead,AHEAD)
 MATRIX_C := $(call again_c,matrix,MATRIX)
-# What of the flags belongs beside a figure.
+# The flags that are stored beside a figure.
 TOLD = $(filter -O% -m%,$(1))
 
 PLUGIN_C := mk/count/count_plugin.c mk/count/thumb_cycles.c
@@ -31,7 +31,7 @@ $(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) \
     $(call libraries,double,scenes whirl)
 	$(link)
 
-# scenes_again FOLDER SCENES: these scenes' C, with again_FOLDER as options, and the table of them.
+# scenes_again FOLDER SCENES: writes the C of these scenes, with the options in again_FOLDER, and their table.
 define scenes_again
 $(2:%=build/$(1)/%.c): build/$(1)/%.c: build/whirl mk/price.mk
 	@mkdir -p $$(@D)
@@ -54,7 +54,7 @@ count_board = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" PLUGIN=$(PLUGIN) TIMING=$(BOARD_TIMING) EMULATE="$(call emulate,$(1))" \
     mk/count/count_rows.sh $(FIGURES)/bench.csv $(1)
 
-# The longest step of scenes with contacts, with all effects of their mechanisms, over this many random steps.
+# Number of random steps, with all effects, from which the longest step of scenes with contacts is taken.
 WORST_STEPS ?= 1000000
 WORST_MODELS ?= $(MODELS)
 WORST_C := boards/programs/worst.c $(wildcard build/worst_step/*.c)
@@ -88,7 +88,7 @@ bench-now: $(GEN)/.stamp
 	@$(call count_board,$(ELF)/bench_ahead.elf)
 
 # --- every board beside the others ----------------------------------------------------------------
-# These scenes' steps, counted as for price-rows: instructions, cycles where something counts or estimates them, bytes.
+# The steps of these scenes are counted as for price-rows: instructions, cycles if something counts or estimates them, bytes.
 PRICED := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
 .PHONY: bench-boards-now
 bench-boards-now: build/whirl
@@ -100,7 +100,7 @@ bench-boards-now: build/whirl
 	@mk/price/into_page.sh build/boards.md docs/dev/price.md boards
 	@cat build/boards.md
 
-# Flash, memory and stack of images: from the compiler's call graph or, if a family says so (BOARD_SIZE_BY), from the code.
+# Flash, memory and stack of images: from the compiler's call graph, or from the code (a family's BOARD_SIZE_BY).
 size_of = BOARD=$(BOARD) CC=$(BOARD_CC) NM=$(BOARD_NM) SIZE=$(BOARD_SIZE) OBJDUMP=$(BOARD_OBJDUMP) OBJECTS="$(sort $(ELF) $(B)/$(FLASHED))" $(SIZE_MOST) \
     FLAGS="$(call TOLD,$(BOARD_CFLAGS))" $(or $(BOARD_SIZE_BY),mk/size/size.sh) $(FIGURES)/size.csv $(1)
 
@@ -119,7 +119,7 @@ size-now: $(GEN)/.stamp
 	    $(call libraries,$(BOARD),whirl rig virtual scenes)
 endif
 
-# What programs that build and count scenes of their own are told.
+# Settings for programs that build and count scenes of their own.
 TO_PRICE = WHIRL=build/whirl BOARD=$(BOARD) BOARD_CC=$(BOARD_CC) BOARD_NM=$(BOARD_NM) \
     BOARD_SIZE=$(BOARD_SIZE) BOARD_CFLAGS="$(BOARD_CFLAGS)" BOARD_LDFLAGS="$(BOARD_LDFLAGS)" \
     BOARD_LDLIBS="$(BOARD_LDLIBS)" BOARD_OBJECTS="$(BOARD_OBJECTS)" LIB_BOARD=$(call libraries,$(BOARD),whirl) \
@@ -131,12 +131,12 @@ PRICE_CASES ?= $(PRICE_OUT)/cases
 PRICE_CSV ?= $(PRICE_OUT)/rows.csv
 NUMBERS ?= float
 
-# The board's core in double, for what is counted in it.
+# The board's core in double, for cases that are counted in double.
 $(eval $(call build,double_$(BOARD),$(BOARD_CC),$(BOARD_CFLAGS) -DWH_DOUBLE=1 -w))
 $(eval $(call library,$(B)/double_$(BOARD)/libwhirl.a,$(call objects,double_$(BOARD),$(CORE_C))))
 LIB_DOUBLE_BOARD := $(B)/double_$(BOARD)/libwhirl.a
 
-# What counting takes: the files that are compiled once, and the emulator.
+# Needed for counting: the files that are compiled once, and the emulator.
 .PHONY: price-ready-board price-ready-host price-measure-board price-measure-host price-count-run-board
 price-ready-board: build/whirl
 	@$(if $(filter single,$(BOARD_IMAGES)),true,$(call need,$(BOARD_EMULATOR)))
@@ -162,7 +162,7 @@ price-measure-host: price-ready-host
 $(B)/tools/price_table: $(call objects,host,mk/price/table.c) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
-# Cases on every board in float, on some in double and in fixed point.
+# Counts cases on every board in float, on some boards in double and in fixed point.
 PRICE_SEED ?= 1
 PRICE_MANY := mps2-an386
 PRICE_DOUBLE := mps2-an386 mps2-an385-m0 mps2-an385

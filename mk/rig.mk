@@ -4,7 +4,8 @@
 RIG_STEP_MOST ?= 1500
 # The named board, if any. Without one, the firmware runs as a program of this machine.
 ASKED_BOARD := $(if $(filter command environment,$(firstword $(origin BOARD))),$(BOARD))
-# What is flashed as a whole is counted so, but for who counts.
+# If the flashed image is optimised as a whole, steps are counted in that form; only the counting program is not
+# optimised with it.
 RIG_STEPS_AS := $(if $(filter -flto,$(BOARD_FLASHED_FLAGS)),$(FLASHED),$(BOARD))
 $(B)/rig_steps: $(call objects,float,boards/programs/rig_steps.c boards/host/board.c) $(call libraries,float,whirl rig virtual scenes)
 	$(link)
@@ -39,7 +40,7 @@ rig-truth-now: $(GEN)/.stamp
 	@$(MAKE) build/tests/host
 	@WHIRL_FULL=1 build/tests/host lockin_truth slope_truth repeats_truth
 
-# Faults in the plant and the links of the rig's firmware: of this machine; with BOARD= given, in its emulator.
+# Runs with faults in the plant and on the links of the rig's firmware, on this machine or in the emulator of BOARD.
 RUNS ?= $(if $(ASKED_BOARD),2000,20000)
 FAULTS_OUT := build/faults$(addprefix _,$(ASKED_BOARD)).md
 faults-now: $(GEN)/.stamp

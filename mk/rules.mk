@@ -11,18 +11,18 @@ Q :=
 say = @:
 else
 Q := @
-# On a terminal, each file writes over one line. A log has only the programs.
+# On a terminal, each file's message overwrites the last one. A log has only the programs.
 say = @said() { if [ -t 1 ]; then printf '\033[K  %-5s %s\r' "$$@"; elif [ "$$1" = LINK ]; then printf '  %-5s %s\n' "$$@"; fi; }; said
 endif
 
-# A long target names its stages, also in a log.
+# A long target prints its stages, also into a log.
 stage = @[ ! -t 1 ] || printf '\033[K'; echo "$(1)"
 
 comma := ,
 WARN := -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Wswitch-enum
 # One arithmetic everywhere: no contraction to fused multiply-adds, no -ffast-math.
 BASE := -std=c11 -ffp-contract=off -I. $(WARN)
-# Lines for a backtrace; variables for a debugger take a quarter more of the time: make OPT="-O0 -g".
+# Line numbers for a backtrace. Variables for a debugger would take a quarter more time: make OPT="-O0 -g".
 NATIVE := -g1 $(OPT) $(EXTRA)
 
 FLAGS_host := $(BASE) $(NATIVE) -D_POSIX_C_SOURCE=200809L
@@ -31,11 +31,11 @@ FLAGS_double := $(FLAGS_float) -DWH_DOUBLE=1
 
 FORCE:
 
-# need COMMAND: stop with advice, not with a shell error, when a tool is missing.
+# need COMMAND: if the tool is missing, stops with advice instead of a shell error.
 need = command -v $(firstword $(1)) >/dev/null 2>&1 || \
     { echo "make: '$(firstword $(1))' is missing; 'make deps' installs what Whirl needs." >&2; exit 1; }
 
-# listed FILE WORDS: a file that contains these words, rewritten only if they change.
+# listed FILE WORDS: makes a file with these words, and rewrites it only if they change.
 define listed
 $(1): FORCE
 	@mkdir -p $$(@D)
@@ -59,10 +59,10 @@ $(eval $(call build,host,$(CC),$(FLAGS_host)))
 $(eval $(call build,float,$(CC),$(FLAGS_float)))
 $(eval $(call build,double,$(CC),$(FLAGS_double)))
 
-# objects BUILD FILES: where the objects of these files are.
+# objects BUILD FILES: the paths of these files' objects.
 objects = $(patsubst %.c,$(B)/$(1)/%.o,$(2))
 
-# library ARCHIVE OBJECTS: the archive is made anew as a whole, also when a file joins or leaves.
+# library ARCHIVE OBJECTS: the archive is always made as a whole, so that files may join or leave.
 define library
 $(1): $(2) $(1:.a=.list)
 	$$(say) AR $$@
@@ -70,9 +70,9 @@ $(1): $(2) $(1:.a=.list)
 $(call listed,$(1:.a=.list),$(2))
 endef
 
-# The program and the firmware need no mathematical library. Tests and tools compare with one.
+# The program and the firmware need no mathematical library. Tests and tools compare results with one.
 LIBM = $(if $(filter $(B)/tests/% $(B)/tools/%,$@),-lm)
-# The linker for WebAssembly looks through all archives anyway, and knows no groups.
+# The linker for WebAssembly searches all archives without groups, and does not know groups.
 GROUP := $(if $(filter none,$(SYSTEM)),,-Wl$(comma)--start-group)
 GROUP_END := $(if $(filter none,$(SYSTEM)),,-Wl$(comma)--end-group)
 

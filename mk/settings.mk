@@ -2,13 +2,13 @@
 # some scenes with every setting that they accept, and the interpreter's hashes (host/cli/scenes.c). The compiled code, on
 # this machine and on boards, must print the same hashes.
 
-# Between them: a matrix, tables, angles that turn and that are looked up, every method, first order, stops, fixed point.
+# Together they have: a matrix, tables, turned and looked-up angles, every method, first order, stops, fixed point.
 SETTINGS_WHOLE := two_mass_relative epicyclic_conserved mk/price/separable.whirl \
     tests/boards/settings.whirl:mixed_turns tests/boards/settings.whirl:clapper_claps
-# One of four: they are those of the gear, but with an input and gravity.
+# One setting in four: they are the same as the gear's, but the scene has an input and gravity.
 SETTINGS_PARTS := rig_fixed
 SETTINGS_STEPS := 500
-# `all` of them, or `some`: one in so many, and all that have a word that none before has, as in the gate hashes.
+# `all` settings, or `some`: one in so many, and each that has a new word, as in the gate hashes.
 SETTINGS ?= all
 SETTINGS_SCENES_all := $(foreach s,$(SETTINGS_WHOLE),1 $(s)) $(foreach s,$(SETTINGS_PARTS),4 $(s))
 SETTINGS_SCENES_some := $(foreach s,$(SETTINGS_WHOLE),$(if $(findstring .whirl,$(s)),11,37) $(s)) \
@@ -16,7 +16,7 @@ SETTINGS_SCENES_some := $(foreach s,$(SETTINGS_WHOLE),$(if $(findstring .whirl,$
 SETTINGS_KINDS ?= float double fixed
 SETTINGS_IN := build/settings/$(SETTINGS)
 
-# What was compiled from as it was is left alone.
+# Files that come out unchanged are not touched.
 settings-written: new = $(SETTINGS_IN).new
 settings-written: hashed = $$(sed 's/^scene //; s/ .*//' $(1).hashes)
 settings-written: build/whirl
@@ -28,7 +28,7 @@ settings-written: build/whirl
 	$(Q)cp $(new)/*.hashes $(new)/settings.txt $(SETTINGS_IN)
 	$(Q)sh mk/setup/update_files.sh $(new) $(SETTINGS_IN)
 
-# Which files there are is known to the makes behind that one.
+# Only the make that runs after these files are written knows which exist.
 settings_c_fixed = $(wildcard $(SETTINGS_IN)/*_fixed.c)
 settings_c_float = $(filter-out $(settings_c_fixed) $(SETTINGS_IN)/table_%.c,$(wildcard $(SETTINGS_IN)/*.c)) $(SETTINGS_IN)/table_real.c
 settings_c_double = $(settings_c_float)
@@ -37,7 +37,7 @@ settings_main_double := $(settings_main_float)
 settings_main_fixed := boards/programs/fixed_scenes.c
 settings_files = $(settings_main_$(1)) $(settings_c_$(1))
 
-# Boards once more, in double.
+# The boards again, in double.
 BOARD_IN_DOUBLE := $(BOARD)/double
 $(eval $(call build,$(BOARD_IN_DOUBLE),$(BOARD_CC),$(BOARD_CFLAGS) $(WARN) -DWH_DOUBLE=1 $(BOARD_EXTRA)))
 $(eval $(call library,$(B)/$(BOARD_IN_DOUBLE)/libwhirl.a,$(call objects,$(BOARD_IN_DOUBLE),$(CORE_C))))
@@ -68,7 +68,7 @@ endif
 settings-programs: $(SETTINGS_KINDS:%=$(B)/bits/$(SETTINGS)_%)
 
 ifeq ($(BOARD_IMAGES),single)
-# An image a scene. What it counts as double is float.
+# One image per scene, in float and in fixed point: double is float on these boards.
 BITS := $(ELF)/bits/$(SETTINGS)
 settings_elf = $(patsubst $(SETTINGS_IN)/%.c,$(BITS)/%.elf,$(filter-out $(SETTINGS_IN)/table_%,$(settings_c_$(1))))
 $(BITS)/%.elf: $(B)/$(BOARD)/$(SETTINGS_IN)/%.o $(SCENE_NEEDS)
@@ -78,7 +78,7 @@ print-settings:
 	@$(call print_of,$(call settings_elf,$(KIND)))
 else
 settings-images: $(SETTINGS_KINDS:%=$(ELF)/bits/$(SETTINGS)_%.elf)
-print-settings: # of KIND
+print-settings: # hashes of the settings of KIND
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/bits/$(SETTINGS)_$(KIND).elf)
 endif

@@ -1,7 +1,7 @@
-# single.mk: boards with too little memory for whole images: one image a suite and one a scene.
+# single.mk: boards with too little memory for whole images have one image for each suite and for each scene.
 #
-# Programs that do not fit are in boards/<board>/too_large.txt, each a line "suite NAME", "scene NAME" or "program NAME".
-# `make too-large` makes that list; `make hashes-all` and `make test-boards` find when it is out of date.
+# boards/<board>/too_large.txt lists the programs that do not fit, with lines "suite NAME", "scene NAME" or "program NAME".
+# `make too-large` makes that list. `make hashes-all` and `make test-boards` report if it is out of date.
 
 SINGLE := $(ELF)/single
 TOO_LARGE := boards/$(BOARD)/too_large.txt
@@ -11,8 +11,8 @@ SUITE_NAMES := $(patsubst test_%,%,$(notdir $(basename $(wildcard tests/core/tes
 single_link = $(BOARD_CC) $(BOARD_CFLAGS) $(WARN) $(2) $(BOARD_LDFLAGS) -o $@ $(1) $(filter %.o,$^) \
     -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(BOARD_LDLIBS)
 
-# scene_link PROGRAM FOLDER FLAGS KIND: an image of the scene $*, whose object is among the prerequisites and whose header is in
-# FOLDER. KIND is --fixed, of scenes in fixed point.
+# scene_link PROGRAM FOLDER FLAGS KIND: links an image of the scene $*, whose object is among the prerequisites and
+# whose header is in FOLDER. KIND is --fixed for scenes in fixed point.
 define scene_link
 	@mkdir -p $(@D)
 	$(say) LINK $@
@@ -20,9 +20,9 @@ define scene_link
 	$(Q)$(call single_link,$(1) $(@:.elf=.c),-I$(2) -include $(2)/$*.h -DWH_SCENE_WORDS=$*_MEMORY_WORDS $(3))
 endef
 SCENE_NEEDS := $(wildcard boards/programs/*.[ch]) $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl) mk/count/index.sh
-# Behind a command: an image that does not fit is an empty file.
+# Appended to a link command: if the image does not fit, the result is an empty file.
 or_empty = 2>$(@:.elf=.log) || { grep -qE 'region|overflowed' $(@:.elf=.log) || { cat $(@:.elf=.log) >&2; exit 1; }; : >$@; }
-# print_of ELF...: their output; "without NAME" if one is empty or its stack had too little room (exit status 123).
+# print_of ELF...: prints their output; "without NAME" if an image is empty or its stack too small (status 123).
 print_of = printf '%s\n' $(1) | xargs -r -P $(JOBS) -n 1 sh -c 'name=$$(basename $$1 .elf | sed s/^hard_//); \
     [ -s $$1 ] || { echo "without $$name"; exit 0; }; status=0; \
     $(call emulate,$$1) >$${1%.elf}.said || status=$$?; \
@@ -30,11 +30,11 @@ print_of = printf '%s\n' $(1) | xargs -r -P $(JOBS) -n 1 sh -c 'name=$$(basename
 
 $(SINGLE)/scene_%.elf: $(B)/$(BOARD)/$(GEN)/%.o $(SCENE_NEEDS)
 	$(call scene_link,boards/programs/scenes.c,$(GEN),-DSCENE_STEPS_MOST=$(SINGLE_STEPS)U)
-# A linear scene again, a step as one matrix (mk/price.mk).
+# A linear scene again, with its step as one matrix (mk/price.mk).
 $(SINGLE)/matrix_%.elf: $(B)/$(BOARD)/build/matrix/%.o $(SCENE_NEEDS)
 	$(call scene_link,boards/programs/scenes.c,build/matrix)
 
-# Files shared by several suites: each uses what it needs.
+# Files that several suites share; each suite links the parts that it needs.
 $(SINGLE)/shared.a: $(call objects,$(BOARD),$(filter-out tests/core/test_%,$(wildcard tests/core/*.c)))
 	@mkdir -p $(@D)
 	$(say) AR $@
@@ -55,7 +55,7 @@ SINGLE_SUITES = $(patsubst %,$(SINGLE)/suite_%.elf,$(filter-out $(LARGE_SUITES),
 IMAGES = $(SINGLE_SCENES)
 board-images: $(SINGLE_SCENES) $(BOARD_RUN_BY)
 board-tests: $(SINGLE_SUITES) $(BOARD_RUN_BY)
-run-suites: # each says how many tests failed
+run-suites: # each image prints its number of failed tests
 	@status=0; for elf in $(SINGLE_SUITES); do echo "$$elf:"; $(call emulate,$$elf) || status=1; done; exit $$status
 # A line for each scene, with the hash of its last state, or "without NAME".
 print-hashes:
@@ -64,7 +64,7 @@ print-hashes:
 print-matrix-hashes: $(MATRIX:%=$(SINGLE)/matrix_%.elf) $(BOARD_RUN_BY)
 	@for scene in $(MATRIX); do $(call emulate,$(SINGLE)/matrix_$$scene.elf) || exit 1; done
 
-# Programs that do not link, or whose stack has too little room when they run (exit status 123).
+# Lists the programs that do not link, or whose stack is too small when they run (exit status 123).
 too-large-now: $(BOARD_RUN_BY)
 	@mkdir -p $(SINGLE); : >$(TOO_LARGE)
 	@for image in $(SUITE_NAMES:%=suite_%) $(SCENE_NAMES:%=scene_%); do \

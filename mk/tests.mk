@@ -33,7 +33,7 @@ $(UNITY_DIR)/unity.c:
 	@UNITY="$(UNITY)" mk/setup/unity.sh $(UNITY_DIR)
 
 # --- programs -----------------------------------------------------------------------------------
-# suites_of FILES: their suites, a line "test_NAME.c" each: a file has one or several.
+# suites_of FILES: the suites in these files, a line "test_NAME.c" each. A file has one or more suites.
 suites_of = sh tests/suites.sh list $(1) | sed 's|\(.*\) .*|test_\1.c|'
 $(foreach t,core host chip,$(B)/tests/$(t)_suites.list): $(B)/tests/%_suites.list: FORCE
 	@mkdir -p $(@D)
@@ -49,9 +49,9 @@ $(foreach t,core host chip,$(B)/tests/$(t)_suites.c): $(B)/tests/%_suites.c: tes
 	$(Q)sh $< tests/$*/test_*.c >$@
 
 CORE_TEST_PARTS := $(CORE_TEST_C) $(B)/tests/core_suites.c $(UNITY_DIR)/unity.c
-# Suites that the emulator leaves to this machine, except in `make full` and `make test-boards`: whole runs of the rig, which
-# run here in float and double, and whose bits are equal on all boards (gate-hashes). Boards keep suites of conversions,
-# roots, functions and the core's steps, which differ between processors.
+# Suites that the emulator leaves to this machine, except in `make full` and `make test-boards`: whole runs of the
+# rig. They run here in float and double, and their bits are equal on all boards (gate-hashes). Boards keep the suites
+# of conversions, roots, functions and the core's steps, which differ between processors.
 CORE_RUNS := rig_gravity rig_lead rig_motor rig_observer rig_off rig_pulses rig_run rig_slope rig_swing rig_swing_pulses \
     virtual_rig_faults
 CORE_LESS_C := $(filter-out $(CORE_RUNS:%=tests/core/test_%.c),$(CORE_TEST_C))
@@ -83,7 +83,7 @@ $(eval $(call build,chip,$(CC),$(FLAGS_host) $(CHIP_FLAGS)))
 $(B)/chip/tests/%.o $(B)/chip/$(B)/tests/%.o: FILE_FLAGS = $(UNITY_FLAGS) $(LESS_O2)
 CHIP_TEST_PARTS := $(CHIP_TEST_C) $(B)/tests/chip_suites.c $(UNITY_DIR)/unity.c
 $(call objects,chip,$(CHIP_TEST_PARTS)): | $(UNITY_DIR)/unity.c
-# The chip model runs the image of first light as a whole (firstlight.mk).
+# The chip model runs the whole image of first light (firstlight.mk).
 CHIP_LIGHT_C := boards/programs/firstlight.c
 $(foreach b,$(CHIP_BOARDS),$(B)/chip_$(b)/$(CHIP_LIGHT_C:.c=.o)): private FILE_FLAGS = -Dmain=firstlight_main -DLIGHT_HARDWARE=1
 $(foreach b,$(CHIP_BOARDS),$(B)/chip_$(b)/$(CHIP_LIGHT_C:.c=.o)): | $(GEN)/.stamp
@@ -123,13 +123,12 @@ part = "host suites$(comma) part $(1) of 4" 'WHIRL_FEW=1 sh tests/each.sh $(B)/t
 run_host = $(foreach p,0 1 2 3,$(call part,$(p),$(1)))
 CLI_LONG := $(foreach t,docs commands embed_sketch,tests/cli/$(t).sh)
 run_cli = $(foreach t,$(1),"$(t)" "sh $(t)")
-# Left to gate-long, so that `make test` takes less than five minutes: suites that take long, or that compare digits of
-# things that others run too.
+# Left to gate-long, so that `make test` takes less than five minutes: suites that take long, or that compare digits
+# of code that other suites run, too.
 CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names emitted_c faults figures fixed flags headers map measure odd_values pil plots price \
     printed_zeros prove recorded_lists settings_bits structure trust,\
     tests/cli/$(t).sh)
-# Of these, `make full` alone runs the suites that compare many runs for a minute or more. Of price.sh gate-long takes few
-# cases.
+# Of these, only `make full` runs suites that compare many runs for a minute or more, and all cases of price.sh.
 CLI_FULL := $(foreach t,map measure price,tests/cli/$(t).sh)
 HOST_FULL := asked_first choice lockin_truth trajectory trust trust_scenes turned_errors
 HOST_GATED := asked_first busy busy_beside choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
@@ -165,8 +164,8 @@ test-boards-now: $(GEN)/.stamp
 	+@$(foreach b,$(BOARDS_ALL),$(call on_board,$(b),image-rules) &&) true
 	@TEST_BEGINS=1 TEST_SECONDS=7200 sh tests/run.sh build/tests/log_boards $(foreach b,$(BOARDS_SUITES),$(call run_board,$(b)))
 
-# Generated mechanisms against references of another kind. The seed is printed; without a given one it is new. The suites'
-# figures stay in build/tests/log_properties and are printed at the end.
+# Generated mechanisms are compared with references of another kind. The seed is printed; if none is given, it is new.
+# The suites' figures stay in build/tests/log_properties and are printed at the end.
 PROPERTIES ?= 10000
 PROPERTY_SUITES := hybrids hard_scales linkages
 properties-now: $(GEN)/.stamp
@@ -177,12 +176,12 @@ properties-now: $(GEN)/.stamp
 	    $(foreach s,$(PROPERTY_SUITES),"random $(s)" "build/tests/host $(s)") || status=1; \
 	grep -h '^  ' build/tests/log_properties/*.log; exit $$status
 
-# The flag matrix: other people's flags give the interpreter's bits or are refused.
+# The flag matrix: code compiled with unusual flags must give the interpreter's bits or be refused.
 flags-now: build/whirl
 	@WHIRL=build/whirl sh tests/flags.sh
 
 # --- tools --------------------------------------------------------------------------------------
-# tool NAME LIBRARIES MORE-FILES: of tests/tools/NAME.c.
+# tool NAME LIBRARIES MORE-FILES: builds tests/tools/NAME.c.
 define tool
 $(B)/tools/$(1): $(call objects,host,tests/tools/$(1).c $(3)) $(2)
 	$$(link)
@@ -199,7 +198,7 @@ $(eval $(call tool,faults,$(LIB_HOST) $(call libraries,float,rig whirl) $(LIB_DO
 $(B)/tools/sim_station: $(call objects,float,boards/programs/station.c tests/tools/sim_board.c) \
     $(call libraries,float,station rig virtual whirl scenes)
 	$(link)
-# A bench for the rig's firmware that is written from docs/dev/pil.md and links nothing of the project.
+# A bench for the rig's firmware that was written from docs/dev/pil.md and links no code of the project.
 $(B)/tools/rig_bench: $(call objects,host,$(wildcard tests/outside/*.c))
 	$(link)
 
@@ -233,8 +232,9 @@ fuzz-now:
 	+@$(FUZZ_BUILD) fuzz-programs
 	@sh tests/fuzz.sh $(FUZZ_SECONDS) $(FUZZERS)
 
-# The program and its suites with a call at the head of each block, for `make mutants` (mk/mutants/reach.c), in a copy of the tree
-# where REACHED is set. Generated scenes have none: a change of the core does not compile them anew there.
+# The program and its suites with a call at the head of each block, for `make mutants` (mk/mutants/reach.c), in a copy
+# of the tree in which REACHED is set. Generated scenes have no such calls, so a change of the core does not compile
+# them again.
 ifdef REACHED
 $(foreach b,host float double,$(foreach d,core host tests/core tests/host,$(eval $(B)/$(b)/$(d)/%.o: FILE_FLAGS += $(REACHED))))
 LINK_EXTRA += $(call objects,host,mk/mutants/reach.c)

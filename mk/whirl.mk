@@ -23,8 +23,8 @@ $(call library,$(B)/$(1)/libframes.a,$(call objects,$(1),$(FRAMES_C)))
 $(call scenes_library,$(B)/$(1)/libscenes.a,$(1))
 endef
 
-# The list of scenes is known only after they are made. A target that needs their library has them made first; a second
-# make, which reads the folder anew, packs the library.
+# The list of scenes is known only after the scenes are made. A target that needs their library has them made first; a
+# second make, which reads the folder again, builds the library.
 ifdef SCENES_ARE_MADE
 scenes_library = $(call library,$(1),$(call objects,$(2),$(SCENE_C)))
 else
@@ -72,11 +72,11 @@ $(GEN)/.stamp: build/whirl $(MODELS) mk/setup/update_files.sh
 	$(Q)sh mk/setup/update_files.sh build/gen.new $(GEN) builtin_models.c
 	@touch $@
 else
-$(GEN)/.stamp: # if it is missing: by the main configuration, with none of the settings of this one
+$(GEN)/.stamp: # if it is missing, the main configuration makes it, without this one's settings
 	@env -i PATH="$$PATH" $(MAKE_COMMAND) $@
 endif
 
-# What includes their headers.
+# The objects that include the scenes' headers.
 $(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,boards/programs/size \
     $(addprefix tests/core/,fed_rotor test_rig_bounds test_rig_observed test_rig_observer test_scenes))): \
     | $(GEN)/.stamp
@@ -88,7 +88,7 @@ define staged
 endef
 
 # --- make run -----------------------------------------------------------------------------------
-# The third is for the commands of README.md.
+# The third image is for the commands of README.md.
 RUN_IMAGES = $(addprefix $(ELF)/,scenes.elf firmware.elf pil_rig.elf)
 run-now:
 	$(staged)

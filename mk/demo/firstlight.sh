@@ -1,6 +1,6 @@
 #!/bin/sh
-# firstlight.sh OUT COMMAND: runs a board's image of first light by its emulator's COMMAND until it has printed a whole
-# record, and stores that in OUT. A flashed image never ends by itself.
+# firstlight.sh OUT COMMAND: runs a board's first-light image by its emulator's COMMAND until it has printed a whole
+# record, and stores the record in OUT. A flashed image never ends by itself.
 set -u
 
 : >"$1"

@@ -1,10 +1,10 @@
 #!/bin/sh
-# pil.sh: the rig's control software in an emulator, against a plant that is not its own model (`make pil`).
+# pil.sh: the rig's control software in an emulator, with a plant that differs from the model in the firmware (`make pil`).
 #
 #     sh mk/demo/pil.sh WHIRL BOARD...
 #
-# Runs it on the first board, keeps a tape, and replays that on this PC and on every board named. Exit status 0 when the
-# run was done and all answers were the same.
+# Runs it on the first board, keeps a tape, and replays the tape on this PC and on all boards that are named. Exit status 0
+# if the run was done and all answers were the same.
 set -eu
 
 whirl=$1

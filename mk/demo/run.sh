@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh WHIRL SCENES_ELF FIRMWARE_ELF EMULATE...: energies, equations, motion and firmware once, for a first look at Whirl.
-# `make run` calls it after it has built everything. EMULATE is the command that runs an image, with IMAGE in place of its
-# path. Exit status 0 if everything agreed.
+# run.sh WHIRL SCENES_ELF FIRMWARE_ELF EMULATE...: energies, equations, motion and firmware, for a first look at
+# Whirl. `make run` builds everything and then calls this script. EMULATE is the command that runs an image; it has
+# IMAGE in place of the image's path. Exit status 0 if everything agreed.
 set -eu
 
 whirl=$1 scenes=$2 firmware=$3

@@ -1,6 +1,6 @@
 #!/bin/sh
-# drift.sh WHIRL SCENE COLUMN: how far COLUMN, which should stay, gets from its start with steps of
-# 0.03125 to 4 ms, looked at every millisecond or every step, whichever is longer. Prints
+# drift.sh WHIRL SCENE COLUMN: prints the largest distance of COLUMN, which should be constant, from its start, for
+# steps of 0.03125 to 4 ms. The motion is sampled every millisecond or every step, whichever is longer. Prints
 # `step_ms,drift` in SI.
 set -eu
 whirl=$1 scene=$2 column=$3

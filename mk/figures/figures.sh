@@ -36,7 +36,7 @@ record() {
     file=$out/data/$kind-$(printf '%s' "$*" | tr -c 'A-Za-z0-9.\n' '_').csv
     raw=$file.raw status=0
     if [ ! -s "$file" ]; then
-        rm -f "$raw" "$raw.sweep" # a sweep would go on with it
+        rm -f "$raw" "$raw.sweep" # otherwise the sweep would continue from it
         case $kind in
         run) "$whirl" run "$@" --strict=off --quiet --csv "$raw" ;;
         sweep) "$whirl" sweep "$@" --strict=off --csv "$raw" >/dev/null ;;
@@ -54,7 +54,7 @@ for fig in $figures; do
     grep -E '^(run|sweep|table) ' "$fig" >"$out/data/$name.records" || true
     set --
     while read -r kind label words; do
-        file=$(eval "record $kind $label $words") # the words may be quoted
+        file=$(eval "record $kind $label $words") # because the words may be quoted
         set -- "$@" --data "$label=$file"
     done <"$out/data/$name.records"
     for kind in svg png; do

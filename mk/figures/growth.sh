@@ -1,7 +1,6 @@
 #!/bin/sh
-# growth.sh WHIRL SCENE CHANGE SIZE OPTIONS...: how a small change of the start grows. Runs SCENE twice,
-# once with `--start CHANGE`, and prints `time,growth`: the largest difference of any coordinate or
-# rate, divided by SIZE.
+# growth.sh WHIRL SCENE CHANGE SIZE OPTIONS...: the growth of a small change of the start. Runs SCENE twice, once with
+# `--start CHANGE`, and prints `time,growth`: the largest difference of any coordinate or rate, divided by SIZE.
 set -eu
 whirl=$1 scene=$2 change=$3 size=$4
 shift 4
@@ -11,7 +10,7 @@ trap 'rm -rf "$scratch"' EXIT
 "$whirl" run "$scene" --start "$change" "$@" --quiet --columns "$scratch/other"
 paste -d ' ' "$scratch/one" "$scratch/other" | awk -v size="$size" '
     NR > 1 && /^%/ { next }
-    NR == 1 { # a percent sign, the names, and both again
+    NR == 1 { # a percent sign, the names, and both once more
         for (i = 3; i <= NF / 2; i++) {
             if ($i ~ /^der\(/) last = i - 1
         }

@@ -1,12 +1,12 @@
 #!/bin/sh
-# rig.sh WHIRL samples|spikes|ratios|speeds|radii: what the rig's firmware heard and measured, in the loop with its bench
-# (docs/plants), by the tape of the run or by what it tells. build/pil_rig and build/pil_carriage stand beside WHIRL.
+# rig.sh WHIRL samples|spikes|ratios|speeds|radii: measurements of the rig's firmware in the loop with its bench
+# (docs/plants), from the tape of a run or from its report. build/pil_rig and build/pil_carriage must be in WHIRL's folder.
 #
-#   samples   the load of 2 s of the record, the tare subtracted as the firmware does: time [s], load [N]
-#   spikes    of the same 2 s a spike for each slot pulse, on the load at its time: time [s], of sensor 1 and of sensor 2
-#             as an oscilloscope shows them, which sees 6 V at 10 lbf and pulses of 10 V and of 6 V
-#   ratios    the force on carriages, of that on a mount that does not move: ratio of the weights, part
-#   speeds    the carriage's displacement by what the cell feels, over the speed [rpm]: displacement [mm], frequency [Hz]
+#   samples   the load in 2 s of the record, after the firmware's tare: time [s], load [N]
+#   spikes    in the same 2 s a spike for each slot pulse, with the load at its time as height: time [s], sensor 1,
+#             sensor 2, as an oscilloscope shows them: 6 V for 10 lbf, pulses of 10 V and of 6 V
+#   ratios    the force on carriages, divided by that on a fixed mount: ratio of the weights, quotient
+#   speeds    the carriage's displacement from the measured force, over speed [rpm]: displacement [mm], frequency [Hz]
 #   radii     the same, over the radius of the discs [in]
 set -eu
 whirl=$1 what=$2
@@ -14,7 +14,7 @@ build=$(dirname "$whirl")
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# carriage OPTION...: amplitude [N], displacement [m] and speed [rpm], as the firmware on the carriage tells them
+# carriage OPTION...: amplitude [N], displacement [m] and speed [rpm], as the firmware on the carriage reports them
 carriage() {
     "$whirl" pil docs/plants/carriage.whirl --with cell_noise --firmware "$build/pil_carriage" "$@" >"$scratch/said" &&
         awk '$1 == "speed" && !n++ { speed = $2 }
@@ -34,7 +34,7 @@ samples | spikes)
                 at, from, at, high, at, from
         }
         BEGIN { print what == "samples" ? "time,load" : "time,one,two" }
-        $5 == "state" { state = $6; if (state == 13) begin = $1 } # of core/rig: 9 is the tare, 13 the record
+        $5 == "state" { state = $6; if (state == 13) begin = $1 } # states of core/rig: 9 is the tare, 13 the record
         $5 == "cell_force" && state == 9 { tare += $6; tares++ }
         state < 13 || $1 - begin > 2 { next }
         $5 == "cell_force" {

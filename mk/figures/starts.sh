@@ -1,8 +1,8 @@
 #!/bin/sh
-# starts.sh WHIRL SPEED HOLD: Thomson's device started with the arm at SPEED [rad/s] and disc 33 at HOLD
-# [rad], and eight more times with disc 33 a milliradian further each: since the motion is chaotic, one
-# run says little. Prints `reversals,width_m`: how often the carriage turns back in 10 s, and between
-# which extremes it moves. Neither needs the fine step of the scene.
+# starts.sh WHIRL SPEED HOLD: starts Thomson's device with the arm at SPEED [rad/s] and disc 33 at HOLD [rad], and
+# eight more times with disc 33 a milliradian further each time. The motion is chaotic, so a single run says little.
+# Prints `reversals,width_m`: the number of reversals of the carriage in 10 s, and the distance between its extremes.
+# The scene's fine step is not needed for these.
 set -eu
 whirl=$1 speed=$2 hold=$3
 echo reversals,width_m

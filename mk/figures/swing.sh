@@ -19,7 +19,7 @@ if [ "${2:?usage: swing.sh WHIRL cycles|law}" = law ]; then
         print "time,amplitude"
         for (A = 1.04; A < 2.0; A += 0.02) {
             sum = 0
-            for (i = 0; i < n; i++) { # phi = A sin u takes the root away at the end of the swing
+            for (i = 0; i < n; i++) { # with phi = A sin u, the root vanishes at the end of the swing
                 u = (i + 0.5) / n * 1.5707963267948966
                 phi = A * sin(u)
                 B = b + a * cos(phi)

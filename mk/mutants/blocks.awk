@@ -1,7 +1,7 @@
-# blocks.awk FILES -: which lines of FILES (a list of them) each block of a program has code of, by what objdump -dl says of the
-# program: lines "place file:line file:line ...", the place that of the byte, from 1, that reach.c sets when the block is reached.
-# A block's lines are those from one call at a block's head to the next. The objects may have been another folder's (ccache):
-# a path counts from where it is one of FILES.
+# blocks.awk FILES -: prints, for each block of a program, the lines of FILES (a list of names) that have code in it,
+# from the output of objdump -dl: "place file:line file:line ...". `place` is the number, from 1, of the byte that
+# reach.c sets when the block is reached. A block's lines are those from the call at its head to the next such call.
+# The objects may come from another folder (ccache), so a path counts from the point at which it is one of FILES.
 FILENAME == ARGV[1] { is_file[$0]; next }
 /^\// {
     at = $1
@@ -9,7 +9,7 @@ FILENAME == ARGV[1] { is_file[$0]; next }
     enter(place[at])
     next
 }
-# The head of a function: what stands before its first call belongs to its first block.
+# The head of a function. The lines before its first call belong to its first block.
 /^[0-9a-f]+ <.*>:$/ { tell(); begins = 1; next }
 called && /^ *[0-9a-f]+:/ { address = substr($1, 1, length($1) - 1); called = 0 }
 /call .*<__sanitizer_cov_trace_pc>/ {

@@ -1,8 +1,8 @@
-# candidates.awk FILE...: every small change that could be made to C files, one a line, tab separated:
+# candidates.awk FILE...: lists every small change that could be made to C files, one a line, separated by tabs:
 #   file  line  column  length  replacement  kind
-# The text of `length` characters at `column` (from 1) is to be replaced. Comments, strings, assertions and lines of the
-# preprocessor have none. Whether a change compiles is for the compiler to say. The files are laid out by clang-format: binary
-# operators stand between spaces, a star of a type does not.
+# The `length` characters at `column` (from 1) are replaced. Comments, strings, assertions and preprocessor lines are not
+# changed. A change may fail to compile. The files must be laid out by clang-format: spaces stand around binary operators,
+# but not around the star of a type.
 
 FNR == 1 { in_comment = in_directive = in_assert = 0; before = ";" }
 {
@@ -27,7 +27,7 @@ FNR == 1 { in_comment = in_directive = in_assert = 0; before = ";" }
     before = substr(trimmed, length(trimmed))
 }
 
-# The line without what is no code: comments become spaces, characters inside quotes underscores.
+# Returns the line with comments replaced by spaces, and characters inside quotes by underscores.
 function masked(line,    out, i, c, two, quote) {
     for (i = 1; i <= length(line); i++) {
         c = substr(line, i, 1)
@@ -59,8 +59,8 @@ function change(column, size, replacement, kind) {
         printf "%s\t%d\t%d\t%d\t%s\t%s\n", FILENAME, FNR, column, size, replacement, kind
 }
 
-# find(PATTERN): the next match in the code from `from` on (0: none): `at` and `found`; the next search begins behind the first
-# `skip` characters of it, behind the whole of it without.
+# find(PATTERN): finds the next match in the code from `from` on (0: none): `at` and `found`. The next search begins
+# after the first `skip` characters of the match, or after the whole match if `skip` is not given.
 function find(pattern, skip) {
     if (!match(substr(code, from), pattern)) return from = 0
     at = from + RSTART - 1
@@ -87,7 +87,7 @@ function operators(    i, to) {
     for (from = 1; find("\\+\\+|--");) change(at, 2, found == "++" ? "--" : "++", "operator")
 }
 
-# A sign or a "not" that is lost.
+# Removes a sign or a "not".
 function signs() {
     for (from = 1; find("[(\\[ ][-!][A-Za-z_(0-9]", 2);)
         change(at + 1, 1, "", substr(found, 2, 1) == "!" ? "condition" : "operator")
@@ -114,14 +114,14 @@ function constant(size, word,    digits, suffix, last, power) {
     if (word ~ /^0[xX]/) { # another last digit
         last = substr(digits, RLENGTH)
         change(at, size, substr(digits, 1, RLENGTH - 1) (last == "0" ? "1" : "0") suffix, "constant")
-    } else if (length(digits) <= 15) { # one more before the point; one less of a whole number
+    } else if (length(digits) <= 15) { # one more before the point; a whole number becomes one less
         change(at, size, sprintf("%.0f", digits + 1) suffix, "constant")
         if (digits + 0 > 0 && suffix !~ /[.eE]/) change(at, size, sprintf("%.0f", digits - 1) suffix, "constant")
     }
 }
 
 # --- conditions -------------------------------------------------------------------------------------
-# The column of what closes the bracket at `open`; 0 if it stands on another line.
+# Returns the column of the bracket that closes the one at `open`; 0 if it is on another line.
 function closing(open,    depth, i, c) {
     for (i = open; i <= length(code); i++) {
         c = substr(code, i, 1)
@@ -139,7 +139,7 @@ function conditions(    open, end) {
     }
 }
 
-# a ? b : c with b and c exchanged.
+# Exchanges b and c in a ? b : c.
 function choices(    ask, i, c, depth, colon, end) {
     ask = index(code, " ? ")
     for (i = ask + 3; ask > 0 && i <= length(code) && end == 0; i++) {
@@ -164,7 +164,7 @@ function returns(    start, size, what) {
     }
 }
 
-# A statement on a line of its own that is left out.
+# Removes a statement that has a line of its own.
 function statements(    start) {
     if (before !~ /[;{}:]/ || code !~ /;[ ]*$/ || code ~ /^[ ]*(return|goto|for|while|if|}|typedef)/ ||
         code !~ /[=(]|\+\+|--|(break|continue);/) return
@@ -172,7 +172,7 @@ function statements(    start) {
     change(start, match(code, /;[ ]*$/) - start, "", "statement")
 }
 
-# Two neighbouring arguments of a call exchanged.
+# Exchanges two neighbouring arguments of a call.
 function arguments(    end, i, c, depth, n, first, last) {
     for (from = 1; find("[A-Za-z_0-9]+\\(");) {
         end = closing(from - 1)
@@ -196,7 +196,7 @@ function exchange(a, b, c, d,    left, right) {
     if (left != right) change(a, d - a + 1, right ", " left, "arguments")
 }
 
-# The neighbour in an array.
+# Takes the neighbour in an array.
 function places(    what) {
     for (from = 1; find("\\[[a-z_]+\\]");) {
         what = substr(found, 2, length(found) - 2)

@@ -1,5 +1,5 @@
-# draw.awk -v seed=N -v count=N: lines of candidates.awk in an order drawn at random, at most `count`,
-# numbered, none twice: a line of code first, all lines alike, then one of its changes.
+# draw.awk -v seed=N -v count=N: prints at most `count` different lines of candidates.awk, numbered, in random order:
+# first a line of code is drawn, with equal probabilities, then one of its changes.
 BEGIN { FS = OFS = "\t" }
 {
     if (!(($1, $2) in index_of)) index_of[$1, $2] = places++

@@ -1,7 +1,7 @@
 #!/bin/sh
-# guards.sh [ROW...]: takes each guard of guards.rows away, in a copy of the tree under build/guards, and asks the suites beside
-# it: one must fail. Rows are numbers from 1 on; all when left out. The tree itself is only read. Exit status 1: a guard is
-# held by nothing, or its line is not found.
+# guards.sh [ROW...]: removes each guard of guards.rows in a copy of the tree under build/guards, and runs the suites
+# in its row, of which one must fail. Rows are numbers from 1 on; without numbers, all rows. The tree itself is only
+# read. Exit status 1: no suite notices a missing guard, or its line is not found.
 set -eu
 
 here=mk/mutants

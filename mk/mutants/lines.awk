@@ -1,6 +1,7 @@
-# lines.awk [-v all=1] [BLOCKS MAP]...: the lines that a test reached, of each file one line: "file line line ...". BLOCKS are of
-# blocks.awk, MAP what cmp -l says of that program's map and /dev/zero: the places of bytes that are set (one line at least). With
-# `all` there are no MAPs: all lines that there is code of.
+# lines.awk [-v all=1] [BLOCKS MAP]...: prints the lines that a test reached, a line for each file: "file line line
+# ...". BLOCKS is an output of blocks.awk. MAP is the output of cmp -l for that program's map and /dev/zero: the
+# places of bytes that are set (at least one line). With `all`, there are no MAPs, and all lines with code are
+# printed.
 FNR == 1 && (table = all || ++file % 2 == 1) { split("", block) }
 table && !all { block[$1] = $0; next }
 table || $1 in block {

@@ -1,10 +1,10 @@
-# reaching.awk -v file=FILE -v line=N SOURCE FOUND: the tests that reach a line, one a line, such as "host.diag"; "all" where that
-# cannot be told. SOURCE is the text of FILE; FOUND what lines.awk said of that file, a line for each test that reaches it,
-# "counted:FILE line ..." (the lines that there is code of) before all others, "host.diag.lines:FILE line ...".
+# reaching.awk -v file=FILE -v line=N SOURCE FOUND: prints the tests that reach a line, one a line, such as "host.diag";
+# "all" if this cannot be determined. SOURCE is the text of FILE. FOUND has the output of lines.awk for that file: a first
+# line "counted:FILE line ..." with all lines that have code, then "host.diag.lines:FILE line ..." for each test.
 #
-# A line without code of its own, such as a declaration or what the compiler joined with its neighbours, counts as reached
-# where the nearest line with code before it or behind it in its function is; one outside functions, such as a table,
-# where any line of its file is. Where a function, or a file, has no code of its own: all.
+# A line without code of its own, such as a declaration or a line that the compiler joined with others, counts as reached
+# if the nearest line with code before or after it in its function is reached. A line outside functions, such as a table,
+# counts as reached if any line of its file is. If a function or a file has no code of its own, the result is "all".
 FILENAME == ARGV[1] {
     if (!inside && /^[A-Za-z_]/ && !/^extern "C"/) begins = FNR
     if (begins && !inside && /\{$/) { inside = 1; is_function = /\) \{$/ }

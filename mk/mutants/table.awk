@@ -1,5 +1,5 @@
-# table.awk -v wanted=N -v row=NAME DRAWN FOUND: the score of one row, of the first N mutants in the order drawn,
-# and those that survived. What no test can see (equivalents) counts as survived.
+# table.awk -v wanted=N -v row=NAME DRAWN FOUND: prints the score of one row, for the first N mutants in the order
+# drawn, and the mutants that survived. Equivalent mutants, which no test can notice, count as survived.
 BEGIN { FS = "\t" }
 FILENAME == ARGV[1] {
     file[$1] = $2; line[$1] = $3; column[$1] = $4; size[$1] = $5; text[$1] = $6; kind[$1] = $7
@@ -22,7 +22,7 @@ END {
         printf "  %s:%d: %s: %s (%s)\n", file[n], line[n], kind[n], shown(n), by[n] == "0 asked" ? "not reached" : by[n]
     }
 }
-# The changed line, the change between brackets.
+# Returns the changed line, with the change in brackets.
 function shown(n,    all, i) {
     for (i = 0; i < line[n]; i++) if ((getline all < file[n]) <= 0) return ""
     close(file[n])

@@ -18,12 +18,12 @@ export WHIRL=build/whirl
 
 sum_of() { cat "$@" | cksum | tr -d ' '; }
 
-used() { # used LIMIT WALL COMMAND...: seconds of a processor, of it and its children, and the exit status
+used() { # used LIMIT WALL COMMAND...: prints the processor seconds of the command and its children, and its exit status
     sh -c 'limit=$1 wall=$2; shift 2; (ulimit -t $limit && ulimit -c 0 && exec timeout --kill-after=5 $wall "$@") >/dev/null 2>&1 </dev/null; status=$?; times; echo $status' sh "$@" |
         awk 'NR == 2 { split($1, user, /[ms]/); split($2, sys, /[ms]/) }
              NR == 3 { print user[1] * 60 + user[2] + sys[1] * 60 + sys[2], $1 }'
 }
-lines_of() { # lines_of FOLDER: what the programs' maps there say, as FOLDER.lines
+lines_of() { # lines_of FOLDER: writes the lines in the programs' maps there to FOLDER.lines
     blocks=""
     for of in whirl host; do
         [ ! -e "$1/$of.map" ] || cmp -l "$1/$of.map" /dev/zero >"$1/$of" 2>/dev/null || true
@@ -32,7 +32,7 @@ lines_of() { # lines_of FOLDER: what the programs' maps there say, as FOLDER.lin
     if [ -n "$blocks" ]; then awk -f "$here/lines.awk" $blocks; fi >"$1.lines"
     rm -rf "$1"
 }
-told() { # told KIND NAME KEY PROGRAM...: a line of one; a name in .failed where it fails
+told() { # told KIND NAME KEY PROGRAM...: prints the line of a test; if it fails, its name goes to .failed
     kind=$1 name=$2 key=$3
     shift 3
     line=$(grep -E "^[0-9.]+ $kind $name $key" "$known" | tail -n 1 || true)
@@ -48,7 +48,7 @@ told() { # told KIND NAME KEY PROGRAM...: a line of one; a name in .failed where
     wall=$((360 * SLACK))
     if [ "$1" != sh ] && [ -z "$always" ]; then
         limit=$((${LONGEST%.*} + 2))
-        wall=$((limit * SLACK + 60)) # for programs that it starts
+        wall=$((limit * SLACK + 60)) # wall-clock limit, for programs that the test starts
     fi
     if [ -z "$reached" ]; then
         took=$(used "$limit" "$wall" "$@")
@@ -77,7 +77,7 @@ if [ $# -gt 2 ]; then
     exit 0
 fi
 
-# What is one suite's or script's alone is not in the sum of the others.
+# Files that belong to a single suite or script are not in the sum of the others.
 common=$(sum_of Makefile $(find core hal boards host tests -type f ! -path 'tests/*/test_*' ! -path 'tests/cli/*.sh' | sort))
 pages=$(sum_of $(find docs -type f ! -name testing.md ! -name mutants.md | sort))
 export common pages JOBS

@@ -1,6 +1,6 @@
 #!/bin/sh
-# tree.sh TREE: a copy of the tree and of what was built, in the folder TREE. One that is there already is renewed and may have been
-# built of something else: what is the same stays, with its time, and what differs is newer than what was built of it.
+# tree.sh TREE: makes or renews a copy of the tree and of its build in TREE. An existing copy may have been built from
+# something else: equal files keep their time, others become newer than everything built from them.
 set -eu
 export LC_ALL=C
 tree=$1

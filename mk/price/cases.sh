@@ -1,16 +1,16 @@
 #!/bin/sh
-# cases.sh FOLDER SEED COUNT float|fixed: so many cases whose steps are counted for the table of figures, a line
-# "ID TARGET OPTIONS..." each, on standard output. Files that it writes go to FOLDER. WHIRL is the program.
+# cases.sh FOLDER SEED COUNT float|fixed: prints COUNT cases whose steps are counted for the table of figures, a line
+# "ID TARGET OPTIONS..." each. The files that it writes go to FOLDER. WHIRL is the program.
 #
-# Scenes without contacts, in an order of SEED: built-in ones, pendulums of 1 to 6 links, mechanisms that call functions
-# (build/tools/mechanisms), and drawn ones (scenes.awk), of which some rest or fly. Each takes the next of the settings
-# below that it can be written in.
+# The scenes have no contacts, and are in a random order by SEED: built-in ones, pendulums of 1 to 6 links, mechanisms that
+# call functions (build/tools/mechanisms), and random ones (scenes.awk), of which some rest or fly. Each scene takes the
+# next of the settings below in which it can be written.
 set -eu
 here=$(dirname "$0")
 folder=$1 seed=$2 count=$3 number=$4
 mkdir -p "$folder"
 
-# drawn N [KIND]: so many drawn scenes of a kind
+# drawn N [KIND]: writes N random scenes of a kind
 drawn() {
     file=$folder/drawn$2_$seed.whirl
     awk -v n="$1" -v seed="$seed" ${2:+-v "$2=1"} -f "$here/scenes.awk" </dev/null >"$file"
@@ -30,7 +30,7 @@ drawn() {
     drawn 6 flies
 } | awk -v seed="$seed" 'BEGIN { srand(seed) } { print rand(), $0 }' | sort -k1,1g | cut -d' ' -f2- >"$folder/scenes"
 
-# One list of what every scene takes, and one of what few do.
+# One list of settings that every scene accepts, and one of settings that few scenes accept.
 if [ "$number" = fixed ]; then
     printf '%s\n' '--step 1ms' '--step 0.3ms' | tee "$folder/few" >"$folder/most"
 else
@@ -65,7 +65,7 @@ fi
 form=
 [ "$number" != fixed ] || form='--number fixed'
 
-# A scene and the first setting of a list that it takes, behind the one that was taken last.
+# Prints a scene with the first setting of a list that it accepts, beginning after the setting that was taken last.
 take() {
     settings=$(wc -l <"$1")
     more=1

@@ -1,22 +1,22 @@
 #!/bin/sh
-# count_run.sh CASES ROW.csv: every step of a scene's run counted on a board, and the most that a step of it may take.
-# measure_one.sh --whole-run calls it with what TO_PRICE of mk/price.mk says, and
+# count_run.sh CASES ROW.csv: counts every step of a scene's run on a board, and computes the bound on a step.
+# measure_one.sh --whole-run calls it with the settings TO_PRICE of mk/price.mk and these:
 #
-#   OUT         a folder to work in
+#   OUT         working folder
 #   NUMBER      float or double; LIB_DOUBLE is the core's library in double
-#   RUN_EVERY   intervals that the counter tells as one. Default: 100
-#   WORST       random steps (boards/programs/worst.c) whose stretches the bound is made of. Default: 2000
+#   RUN_EVERY   number of intervals that the counter reports as one. Default: 100
+#   WORST       number of random steps (boards/programs/worst.c) whose stretches give the bound. Default: 2000
 #
 # CASES has one line "ID TARGET OPTIONS OF whirl derive...". Writes a header and a row:
 #
 #   board,number,steps,instructions,instructions_most,instructions_bound,cycles,cycles_most,cycles_bound,cycles_obtained,
 #   flash_bytes,ram_bytes,stack_bytes
 #
-# Mean and most are of all steps from the start to --until. The bound is that of docs/dev/events.md: the longest stretch to a
-# step's first evaluation, after one of the accelerations and after one of the signals, times how many of each a step is
-# declared to make. Stretches are those of WORST random steps; they are marked in a build of their own, which tells nothing
-# else. There is no bound where the emulator takes no marks (AVR). Bytes are as in measure.sh.
-# Exit status 1: it cannot be derived, does not fit or does not run, told.
+# The mean and the largest number are those of all steps from the start to --until. The bound is that of
+# docs/dev/events.md: the longest stretch to a step's first evaluation, after an evaluation of the accelerations and after
+# one of the signals, each times the declared number of such evaluations in a step. Stretches come from WORST random
+# steps, with marks in a build of their own. There is no bound if the emulator knows no marks (AVR). Bytes are as in
+# measure.sh. Exit status 1, with a message: the scene cannot be derived, does not fit or does not run.
 set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"
@@ -35,7 +35,7 @@ fail() {
     exit 1
 }
 
-set -f # no word is a pattern
+set -f # so that no word is taken for a pattern
 set -- $(head -n 1 "$cases")
 set +f
 id=$1 target=$2
@@ -67,7 +67,7 @@ link() {
         fail "$target: it does not fit into $BOARD: $(head -n 1 "$work/errors")"
 }
 
-# emulated ELF: its emulator, for longer than a usual program has
+# emulated ELF: prints the emulator's command, with a longer time limit than usual
 emulated() { echo "$EMULATE" | sed "s|@|$1|; s|limit.sh [0-9]*|limit.sh 120|"; }
 
 compile "$gen.c" "$mine/plain.o"
@@ -95,7 +95,7 @@ grep -q "^run " "$work/console" 2>/dev/null ||
 mv "$work/counts" "$work/run"
 mv "$work/console" "$work/said"
 
-# The stretches, from marked code.
+# The stretches, from code with marks.
 : >"$work/counts"
 if [ -n "${PLUGIN:-}" ]; then
     {
@@ -131,7 +131,7 @@ awk -v head="$BOARD,$NUMBER" -v obtained="$obtained" '
         if (members != steps || steps == 0) { exit 1 }
         bound = longest[0] + evaluations * longest[1] + signals * longest[2]
         bound_c = longest_c[0] + evaluations * longest_c[1] + signals * longest_c[2]
-        if (evaluations == "" || bound < most - around) { bound = bound_c = "" } # no bound at all
+        if (evaluations == "" || bound < most - around) { bound = bound_c = "" } # then there is no bound
         printf "%s,%d,%.6f,%d,%s,", head, steps, sum / steps - around, most - around, bound
         if (obtained != "") { printf "%.6f,%d,%s,", sum_c / steps - around_c, most_c - around_c, bound_c }
         else { printf ",,," }

@@ -1,5 +1,6 @@
-# links.awk: a pendulum of n links, as a file: awk -v n=N -v scene=1 -f links.awk </dev/null. Angles from hanging straight
-# down; speeds and heights are those of the link above, and what is added. With `scene`, one from rest.
+# links.awk: writes a pendulum of n links as a file: awk -v n=N -v scene=1 -f links.awk </dev/null. Angles are
+# measured from hanging straight down. Speeds and heights are those of the link above plus the link's own part. With
+# `scene`, the file has a scene from rest.
 BEGIN {
     if (n !~ /^[1-9][0-9]*$/) {
         print "links.awk: error: n=" n ": a number of links, 1 or more" > "/dev/stderr"

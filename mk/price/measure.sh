@@ -27,9 +27,9 @@ export OUT BOARD BOARD_CC BOARD_CFLAGS BOARD_LDFLAGS BOARD_LDLIBS BOARD_OBJECTS 
 COST_HEADER="commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most,"
 COST_HEADER="${COST_HEADER}cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 
-# --- one case: derive it, compile it, link the smallest firmware (run by xargs, two at a time) -----------------
+# --- one case: derive it, compile it, link the smallest firmware (run by xargs, several at a time) ---------------
 if [ "$1" = case ]; then
-    set -f # no word is a pattern: m=2[kg]
+    set -f # so that no word is taken for a pattern: m=2[kg]
     set -- $2
     set +f
     id=$1 number=$2 target=$3
@@ -55,7 +55,7 @@ if [ "$1" = case ]; then
     [ "$number" != double ] || BOARD_CFLAGS="$BOARD_CFLAGS -DWH_DOUBLE=1" lib=$LIB_DOUBLE
     smallest="-DPRICE_SCENE=$id boards/programs/size.c"
     [ "$number" != fixed ] || smallest="-DFIXED_SCENE=$id boards/programs/size_fixed.c"
-    if ! $BOARD_CC $BOARD_CFLAGS -w -c "$gen.c" -o "$mine.o" 2>"$mine.errors"; then # a table larger than an array may be
+    if ! $BOARD_CC $BOARD_CFLAGS -w -c "$gen.c" -o "$mine.o" 2>"$mine.errors"; then # for example, a table is too large
         echo "measure.sh: $target $*: $BOARD's compiler refuses it: $(grep -m 1 error "$mine.errors")" >&2
         rm -f "$mine.o"
         exit 0
@@ -80,7 +80,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$OUT/gen" "$OUT/gen_fixed"
 
-# bench ID...: one image of these, and its counts appended to $work/counted: ID MEAN MOST CYCLES MOST STACK
+# bench ID...: builds one image of these cases; appends its counts to $work/counted: ID MEAN MOST CYCLES MOST STACK
 bench() {
     elf=$mine/bench.elf
     one=

@@ -1,11 +1,11 @@
 #!/bin/sh
 # measure_one.sh [--whole-run] BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]: what a step of one scene costs, counted.
 #
-# From the tree's root. BOARD is a folder of boards/, or `host`; NUMBER is float, double or fixed. Builds what is missing of the
-# board's core, and prints the header and one row of host/study/cost.h (COST_HEADER). Exit status 2: words are wrong or a
-# tool is missing; 1: the scene cannot be derived, does not fit or does not run.
+# Call it from the tree's root. BOARD is a folder of boards/, or `host`; NUMBER is float, double or fixed. Builds the missing
+# parts of the board's core, and prints the header and one row of host/study/cost.h (COST_HEADER). Exit status 2: wrong
+# arguments, or a tool is missing; 1: the scene cannot be derived, does not fit or does not run.
 #
-# --whole-run, of a scene with contacts: all steps to its end (--until) are counted, and it prints what count_run.sh does.
+# --whole-run, for a scene with contacts: counts all steps to its end (--until), and prints the output of count_run.sh.
 set -eu
 way=price-measure
 if [ "${1:-}" = --whole-run ]; then
@@ -31,7 +31,7 @@ if [ "$board" != host ] && [ ! -f "boards/$board/board.mk" ]; then
 fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# A case is words between blanks: a file whose name has some gets another, and a value can do without ("k=20 [N/m]").
+# A case is words between blanks: a file with blanks in its name gets another name; values need none ("k=20[N/m]").
 case $1 in
 *[[:blank:]]*)
     case $1 in

@@ -1,14 +1,14 @@
-# scenes.awk: smooth mechanisms drawn at random, a scene each, to count steps of: awk -v n=N -v seed=S -f scenes.awk </dev/null.
-# With -v rest=1 mechanisms of which something does not move: what rests, goes on evenly, falls freely, or lies where
-# its force is zero, beside something that swings. (Software arithmetic takes less time of zeros.) With -v flies=1 such
-# of which no part swings: all accelerations are constants, which compilers fold away.
+# scenes.awk: writes random smooth mechanisms with a scene each, for counting steps: awk -v n=N -v seed=S -f scenes.awk
+# </dev/null. With -v rest=1, a part of each mechanism does not accelerate: it rests, moves evenly, falls freely, or lies at
+# a place without force, beside a part that swings. (Software arithmetic takes less time for zeros.) With -v flies=1, no
+# part swings: all accelerations are constants, which compilers fold away.
 #
-# Ten families, by turns, so that the classes of work come in other proportions than in the built-in scenes, and apart
-# from each other: masses in a row with springs (no sine), a cart with pendulums, arms that carry each other with
-# springs between them (angles in radians), particles in potentials of functions, systems of first order, wheels on one
-# shaft; what is linear, of second and of first order (a step is one matrix); masses in a row that one wheel out of
-# balance shakes (tables of one angle), and systems of first order with turn angles. Of the first six every third has
-# books, every second outputs. Numbers are drawn by a generator of our own: the same files from every awk.
+# There are ten families in turn, so that the classes of work occur in other proportions than in the built-in scenes: masses
+# in a row with springs (no sine), a cart with pendulums, arms that carry each other with springs between them (angles in
+# radians), particles in potentials of functions, first-order systems, wheels on one shaft; linear mechanisms of second and
+# of first order (a step is one matrix); masses in a row that an unbalanced wheel shakes (tables of one angle), and
+# first-order systems with turn angles. Of the first six, every third has a ledger, every second outputs. The random
+# numbers come from a generator in this file, so that every awk writes the same files.
 function draw(bound) { # Park and Miller, Random number generators: good ones are hard to find, 1988
     state = (state * 16807) % 2147483647
     return int(state / 2147483647 * bound)
@@ -184,8 +184,8 @@ function first_order_turning(k,    i, e) {
     starts = ""
 }
 
-# A part of mechanism `rest`: kind 0 swings, 1 rests, 2 goes on evenly, 3 falls, 4 rests where its spring is slack, 5 is
-# tied to the first one.
+# A part of mechanism `rest`: kind 0 swings, 1 rests, 2 moves evenly, 3 falls, 4 rests at the end of a slack spring, 5
+# is tied to the first part.
 function resting(k,    i, T, V, F, kind, turns, x) {
     for (i = 1; i <= k; i++) {
         kind = i == 1 ? (draw(3) ? 0 : 3) : draw(6)
@@ -210,7 +210,7 @@ function resting(k,    i, T, V, F, kind, turns, x) {
     starts = ""
 }
 
-# All of it falls, rolls down or goes on evenly.
+# A mechanism whose parts all fall, roll down or move evenly.
 function flying(k,    i, T, V, turns, x) {
     for (i = 1; i <= k; i++) {
         turns = draw(3) == 0

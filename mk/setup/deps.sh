@@ -1,21 +1,21 @@
 #!/bin/sh
-# deps.sh GROUP...: install the Debian packages that a make target needs, and only those missing.
+# deps.sh GROUP...: installs the Debian packages that a make target needs and that are missing.
 #
 # Groups: host (compiler), plot, firmware (Arm compiler and emulator), boards (those of all processors) or a folder of
 # boards/ with a packages.sh (its own), tests, quality (linters, sanitizers), bench; hosts (other compilers, C libraries and
-# processors) and flash (programmers and a debugger) only when they are named.
-# What is there already is recognised by its command or file, not by its package, so a compiler from elsewhere
-# counts. With nothing missing this says nothing and takes milliseconds. What will be installed is told before, with
-# what needs it and the size; where it cannot be, the line that does it (exit status 1).
-# DEPS_DRY_RUN=1 only says what is missing (exit status 1 if anything is).
+# processors) and flash (programmers and a debugger) only if they are named.
+# Installed tools are recognised by their command or file, not by their package, so a compiler from another source counts.
+# If nothing is missing, the script prints nothing and takes milliseconds. Before it installs, it prints the packages, what
+# needs them, and the size. If it cannot install, it prints the command to do so (exit status 1).
+# DEPS_DRY_RUN=1 only prints what is missing (exit status 1 if anything is).
 set -eu
 boards=${0%/*}/../../boards
 
 missing="" # packages to install
-told=""    # a line for each: the package, the part of Whirl that needs it, what for
-part=""    # what needs the group in hand
+told=""    # a line for each package: its name, the part of Whirl that needs it, and its purpose
+part=""    # the part of Whirl that needs the current group
 
-# want PACKAGE "what for" TEST...: note the package as missing when the test fails.
+# want PACKAGE "purpose" TEST...: notes the package as missing if the test fails.
 want() {
     package=$1 what=$2
     shift 2
@@ -31,9 +31,9 @@ have_file() {
     for file in "$@"; do [ ! -e "$file" ] || return 0; done
     return 1
 }
-# gcc-multilib would do for -m32, but cannot be installed beside the cross compilers.
+# gcc-multilib would allow -m32, but cannot be installed beside the cross compilers.
 can_m32() { have gcc && echo 'int main(void) { return 0; }' | gcc -m32 -x c - -o /dev/null 2>/dev/null; }
-# What a family of boards takes is in its folder: `want` lines.
+# The packages of a family of boards are `want` lines in its folder.
 family() {
     # shellcheck source=/dev/null
     . "$boards/$1/packages.sh"
@@ -106,7 +106,7 @@ give_up() {
 }
 have apt-get || give_up "This is no Debian: these are the packages' names there."
 
-# The total size with everything that these packages need; fails if the package lists lack them.
+# Prints the total size with all dependencies. Fails if the package lists lack a package.
 size() {
     LC_ALL=C apt-get install --no-install-recommends -o Debug::NoLocking=1 --print-uris $missing 2>/dev/null </dev/null |
         sed -n 's/^Need to get /To be fetched: /p; s/^After this operation, /On disk: /p' | grep .
@@ -129,9 +129,9 @@ update() {
 }
 install() { $as_root env DEBIAN_FRONTEND=noninteractive $line >"$log" 2>&1 </dev/null; }
 
-# The package lists are fetched only when they are absent or too old to install from.
+# The package lists are fetched only if they are absent or too old to install from.
 size || { update && size; } || true
 echo "Installing them: $as_root${as_root:+ }$line"
 install || { update && install; } || { tail -n 5 "$log" >&2; give_up "Installing did not work."; }
-# The tools decide, not the package manager.
+# Success is decided by the tools, not by the package manager.
 DEPS_DRY_RUN=1 "$0" "$@" || give_up "Still missing after installing."

@@ -59,7 +59,7 @@ for list in "$etc"/sources.list.d/*.sources; do
     sed 's/^[Tt]ypes:.*/Types: deb-src/' "$list" >"$work/sources/$(basename "$list")"
 done
 
-# apt's own sandbox user may not read a home folder; these files are ours alone anyway.
+# apt's sandbox user may be unable to read a home folder, but these files are in one.
 apt() {
     apt-get -q -o APT::Sandbox::User="$(id -un)" \
         -o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$work/sources" \
@@ -67,7 +67,7 @@ apt() {
 }
 
 log=$work/log
-# One unreachable extra source must not matter as long as ours answers.
+# An extra package source that cannot be reached does not matter if the needed one answers.
 apt update >"$log" 2>&1 || echo "unity.sh: note: apt-get update complained; trying what it got" >&2
 (cd "$work/src" && apt source --download-only "$package") >>"$log" 2>&1 || {
     tail -n 5 "$log" >&2

@@ -1,6 +1,6 @@
 #!/bin/sh
-# update_files.sh NEW OLD [KEEP...]: make OLD's .c and .h files those of NEW, touching only those that
-# differ; files of OLD named KEEP stay. NEW is used up.
+# update_files.sh NEW OLD [KEEP...]: makes OLD's .c and .h files equal to those of NEW, and touches only files that
+# differ. Files of OLD named KEEP stay. NEW is used up.
 set -eu
 new=$1 old=$2
 shift 2

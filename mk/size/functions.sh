@@ -1,9 +1,10 @@
 #!/bin/sh
-# functions.sh OBJECTS LIST LIBRARY...: bytes of all that each library holds, of which a program takes only the parts that it calls;
-# of the core's own functions, each with all that it calls, linked alone from the first library, and of all together; and of steps:
-# no scene of LIST, lines "SCENE BYTES", may have a longer one. OBJECTS holds the scenes' objects. Where steps still looked every
-# sine up at every stage (commit 31fbe43) they took the bytes of boards/mps2-an386/most_bytes.txt; what is cheaper since must not
-# be larger. Exit status 1: a step is longer, or there is none of that name. CC, CPU, SIZE: of the board.
+# functions.sh OBJECTS LIST LIBRARY...: prints the bytes of each library, of which a program links only the parts that
+# it calls; of each of the core's own functions with all that it calls, linked alone from the first library, and of
+# all functions together; and of steps. No scene of LIST, with lines "SCENE BYTES", may have a longer step. OBJECTS
+# has the scenes' objects. LIST has the bytes of steps that looked up every sine at every stage (commit 31fbe43);
+# later ones are cheaper and must not be larger. Exit status 1: a step is longer, or a scene is missing. CC, CPU and
+# SIZE are those of the board.
 set -eu
 objects=$1 list=$2
 shift 2
@@ -16,14 +17,14 @@ for library in "$@"; do
         $NF == "(TOTALS)" { printf "%-28s %8d %8d\n", name, $1 + $2, $2 + $3 }'
 done
 
-function_bytes() { # function_bytes NAME FUNCTION...: code and constants of an image of these
+function_bytes() { # function_bytes NAME FUNCTION...: prints code and constants of an image of these functions
     name=$1
     shift
     $CC $CPU -nostdlib -Wl,--gc-sections -Wl,-e,"$1" $(printf ' -Wl,-u,%s' "$@") -o "$work/image" "$library" -lgcc
     "$SIZE" "$work/image" | awk -v name="$name" 'NR == 2 { printf "%-28s %8d\n", name, $1 + $2 }'
 }
 library=$1
-# All that core/function.h lists.
+# All functions that core/function.h lists.
 all=$(printf '#include "core/function.h"\n#define NAME(name) wh_##name\nWH_FUNCTIONS(NAME, NAME)\n' |
     $CC -ffreestanding -E -P -I. -x c - | tail -n 1)
 printf '%-28s %8s\n' "function" "flash B"

@@ -23,7 +23,7 @@ figures_into "$1"
 shift
 failed() { echo "size.sh: $elf: $1" >&2; touch "$work/failed"; }
 
-# of_image FILE...: those whose object is in the image: objects by their path, members of archives by their name.
+# of_image FILE...: prints those whose object is in the image. Members of archives go by their name.
 of_image() {
     awk -v map="${elf%.elf}.map" '
         BEGIN {
@@ -41,7 +41,7 @@ of_image() {
             if (object in whole || (name in member && !as_a_whole)) print
         }'
 }
-# graphs: the .ci files of the objects in the image. From a compiler's cache objects come without: those are compiled anew.
+# graphs: the .ci files of the image's objects. Objects from a compiler's cache have none; these are compiled again.
 graphs() {
     find $OBJECTS -name '*.o' | of_image | while read -r object; do [ -e "${object%.o}.ci" ] || echo "$object"; done >"$work/without"
     if grep -q '^LOAD .*ltrans\.o$' "${elf%.elf}.map"; then
@@ -52,14 +52,14 @@ graphs() {
     fi
     find $OBJECTS -name '*.ci' | sort | of_image
 }
-# worst_stack ROOT: answers of stack.awk, to $work/stack.
+# worst_stack ROOT: writes the output of stack.awk to $work/stack.
 worst_stack() {
     { sed 's/^/symbol /' "$work/symbols" && sed '/^#/d; s/^/pointer /' "$here/pointers.rows" && xargs cat <"$work/graphs"; } |
         awk -v root="$1" -f "$here/stack.awk" | sort -u >"$work/stack"
     ! grep -E '^(recursion|unbounded)' "$work/stack" >&2 || failed "the stack of $1 has no bound"
     sed -n 's/^stack //p' "$work/stack"
 }
-# at_most WHAT BYTES MOST: says how far below it is; or complains.
+# at_most WHAT BYTES MOST: prints the distance from the limit, or an error.
 at_most() {
     if [ "$2" -gt "$3" ]; then
         failed "$2 $1, $(($2 - $3)) more than the $3 that it may have"

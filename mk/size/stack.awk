@@ -12,7 +12,7 @@
 function plain(title) { sub(/^.*:/, "", title); return title } # file-local functions are titled file:name
 function text(key) { return match($0, key ": \"[^\"]*\"") ? substr($0, RSTART + length(key) + 3, RLENGTH - length(key) - 4) : "" }
 
-# Bytes from `at` downwards; fills next_of[] with the deepest way on.
+# Returns the bytes from `at` downwards. next_of[] gets the deepest path.
 function depth(at,    i, best) {
     if (at in known) return known[at]
     if (at in busy) { print "recursion " plain(at); failed = 1; return 0 }
@@ -37,7 +37,7 @@ function deeper(at, to, best,    deep) {
     next_of[at] = to
     return deep
 }
-# Whom a call of `to` reaches.
+# Returns the functions that a call of `to` reaches.
 function reached(to,    name) {
     name = plain(to)
     return !(to in frame) && name in kept && kept[name] in at_address ? at_address[kept[name]] : to

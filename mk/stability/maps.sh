@@ -1,6 +1,6 @@
 #!/bin/sh
-# maps.sh WHIRL DOCS: draws the stability maps of docs/stability.md, DOCS/figures/map_*.svg, each by the command printed
-# below it on the page, so that the two agree.
+# maps.sh WHIRL DOCS: draws the stability maps of docs/stability.md, DOCS/figures/map_*.svg. Each command is the one
+# printed below the map on the page, so that the two agree.
 set -eu
 whirl=${1:?usage: maps.sh WHIRL DOCS}
 docs=${2:?usage: maps.sh WHIRL DOCS}
