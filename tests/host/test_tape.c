@@ -1,6 +1,6 @@
-/* test_tape.c: operations entered at random (host/image/op_list.c), compared with another evaluation. No operation is
- * duplicated, and each has its canonical form. Finding and dropping are compared with a search over all. Also
- * freedoms and gauges. */
+/* test_tape.c: random operations that enter a list (host/image/op_list.c), compared with another evaluation. No
+ * operation may occur twice, and each must have its canonical form. Finding and dropping are compared with a search
+ * over all operations. Also scaling freedoms and gauges. */
 #include "host/image/op_list.h"
 #include "host/image/op_list_scaling.h"
 
@@ -20,8 +20,6 @@ static int pooled;
 static void expect_near(double wanted, double got) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-8 * (1e-3 + fabs(wanted)), wanted, got);
 }
-
-/* --- entering at random ---------------------------------------------------------------------------------------- */
 
 static int entered_leaf(double *value) {
     static const op_code codes[] = {OP_LINEAR, OP_RATE, OP_INPUT, OP_ACCEL, OP_RADIANS, OP_TIME};
@@ -55,7 +53,7 @@ static int entered_wave(int radians, double value, double *wave) {
     const int entered = op_list_phase(list, multiple, offset, radians);
     const op *o = &list->ops[entered];
     for (int k = 0; k < ANGLES; k++) {
-        /* integers are multiples of the angle, others are parts of it */
+        /* integers are multiples of the angle, other numbers are parts of it */
         const bool whole = multiple[k] == floor(multiple[k]);
         TEST_ASSERT_TRUE((o->turns != NULL ? o->turns[k] : 0) == (whole ? multiple[k] : 0.0));
         TEST_ASSERT_TRUE((o->parts != NULL ? o->parts[k] : 0.0) == (whole ? 0.0 : multiple[k]));
@@ -65,7 +63,7 @@ static int entered_wave(int radians, double value, double *wave) {
     return op_list_unary(list, is_sine ? OP_SIN : OP_COS, entered);
 }
 
-/* An operation on values at a and at b of the list. */
+/* Enters a random operation on the operations a and b of the list, whose values are x and y. *value: its value. */
 static int entered_operation(int a, double x, int b, double y, double *value) {
     static const double exponents[] = {2.0, 3.0, 0.5, 1.5, -1.0, -2.0, -0.5, 7.0, 0.3, 1.0, 0.0};
     const double e = exponents[dice_one_of(&die, 11)];
@@ -113,15 +111,13 @@ static void enter_some(void) {
                        : what == 1
                            ? entered_wave(what % 2 == 0 ? -1 : pool[p], meant[p], &value)
                            : entered_operation(pool[p], meant[p], pool[q], meant[q], &value);
-        /* an undefined value, or one without digits or sign, is not used again; there is one zero */
+        /* operations without a value, digits or a sign are not used again, and only one zero is */
         const bool is_zero = value == 0.0 && list->ops[at].code == OP_CONSTANT;
         if (isfinite(value) && ((fabs(value) < 1e6 && fabs(value) > 1e-3) || is_zero)) {
             keep(at, is_zero ? 0.0 : value);
         }
     }
 }
-
-/* --- forms ----------------------------------------------------------------------------------------------------- */
 
 static bool is_number(int i, double *value) {
     *value = list->ops[i].value;
@@ -242,8 +238,6 @@ TEST(tape_entered, entered_operations_come_to_what_was_asked) {
     }
 }
 
-/* --- dropped operations ---------------------------------------------------------------------------------------- */
-
 static void mark(bool *needed, int i) {
     int operand[2];
     needed[i] = true;
@@ -266,7 +260,7 @@ static int uses_of(int i) {
     return uses;
 }
 
-/* 1/y, used only here, times x becomes x/y. */
+/* Is operation i a quotient 1/y that is used only once? Then its product with x must become x/y. */
 static bool is_reciprocal(int i) {
     double one;
     return is_code(i, OP_DIV) && is_number(list->ops[i].a, &one) && one == 1.0 && uses_of(i) == 1;
@@ -300,8 +294,6 @@ TEST(tape_entered, what_no_result_needs_is_dropped) {
     }
 }
 
-/* --- powers ----------------------------------------------------------------------------------------------------- */
-
 static int count_of(op_code code) {
     int count = 0;
     for (int i = 0; i < list->count; i++) {
@@ -310,7 +302,8 @@ static int count_of(op_code code) {
     return count;
 }
 
-/* By squaring: binary digits plus ones of the exponent, less two. */
+/* Powers are computed by squaring: the number of products is the number of binary digits, plus that of ones, minus
+ * two. */
 TEST(tape_entered, powers_take_few_products) {
     static double v[EVALUATED_MOST];
     for (int half = 1; half <= 160; half++) {
@@ -338,7 +331,7 @@ TEST(tape_entered, powers_take_few_products) {
     }
 }
 
-/* Phases are multiplied only by integers in the range of int. */
+/* Phases may be multiplied only by integers in the range of int. */
 TEST(tape_entered, what_turns_a_phase) {
     static const double whole[] = {0.0, 1.0, -3.0, 2147483647.0, -2147483647.0};
     static const double not_whole[] = {0.5, -1e-9, 2147483648.0, -2147483648.0, 1e300, 3.0000001};
@@ -353,15 +346,13 @@ TEST(tape_entered, what_turns_a_phase) {
 SUITE(tape_entered) { die = dice_of("tape_entered", 4170); }
 
 /* === tape freed =============================================================================== */
-/* Parts of op_list_scale() (host/image/op_list_scaling.h): lists have known freedoms, and scaled by them they compute
- * the same. */
+/* Parts of op_list_scale() (host/image/op_list_scaling.h). The lists have known scaling freedoms. A list that is
+ * scaled by them must compute the same. */
 
-/* A number from 0.001 to 10, a multiple of 1/999.7, which float does not hold. */
+/* A number from 0.001 to 10, a multiple of 1/999.7, which float does not represent. */
 static double decimal(void) { return (double)(1 + dice_one_of(&die, 9990)) / 999.7; }
 
-/* --- lists whose freedoms are known ------------------------------------------------------------------------------ */
-
-/* A sum of products with constants can be scaled without a cost. `which` selects its leaves. */
+/* A sum of products with constants, which can be scaled without cost. `which` selects its leaves. */
 static int free_sum(op_list *t, int which) {
     const int x = op_list_leaf(t, OP_LINEAR, which);
     const int y = op_list_leaf(t, OP_RATE, which);
@@ -401,8 +392,8 @@ static void expect_same_results(const op_list *t, const op_list *made) {
     }
 }
 
-/* The list scaled along each freedom by a random factor has the same results. With `if_alone` and without leaves that have
- * no constant, it also has no more operations. */
+/* Scaled by a random factor along each freedom, the list must have the same results. If `if_alone`, and if no leaf
+ * is without a constant, it must have no more operations either. */
 static void expect_free(const op_list *t, const op_list_freedoms *f, bool if_alone) {
     double *times = calloc((size_t)f->length, sizeof *times);
     TEST_ASSERT_NOT_NULL(times);
@@ -414,7 +405,7 @@ static void expect_free(const op_list *t, const op_list_freedoms *f, bool if_alo
             times[i] = pow(x, exponent[i]);
             least = exponent[i] != 0.0 ? fmin(least, fabs(exponent[i])) : least;
         }
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, least); /* the least exponent is 1 */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, 1.0, least); /* the least exponent must be 1 */
         op_list *made = op_list_multiplied(t, times);
         expect_same_results(t, made);
         if (if_alone && !multiplies_raw(f, k)) {
@@ -433,7 +424,7 @@ static int without_raw(const op_list_freedoms *f) {
     return count;
 }
 
-/* Leaves without constants in the sums must be multiplied: up to two are accepted, three are not. */
+/* In the sums, leaves without constants must be multiplied. Up to two such leaves are accepted, three are not. */
 TEST(tape_freed, few_raw_values_are_multiplied) {
     for (int raws = 0; raws <= 3; raws++) {
         for (int in_denominator = 0; in_denominator < 2; in_denominator++) {
@@ -456,8 +447,6 @@ TEST(tape_freed, few_raw_values_are_multiplied) {
         }
     }
 }
-
-/* --- any list ------------------------------------------------------------------------------------------------------ */
 
 static int some_operation(op_list *t, int a, int b) {
     const double two[2] = {1.0, -0.5};
@@ -507,8 +496,8 @@ static op_list *some_list(void) {
     return t;
 }
 
-/* Scaled by one, the list has the same results and no more operations. Scaled by any other factors, it has the same
- * results, because further products compensate. */
+/* Scaled by one, the list must have the same results and no more operations. Scaled by other factors, it must have
+ * the same results, because further products compensate. */
 TEST(tape_freed, multiplied_lists_compute_the_same) {
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(60, 20), 400)); c++) {
         op_list *t = some_list();
@@ -531,7 +520,7 @@ TEST(tape_freed, multiplied_lists_compute_the_same) {
         expect_free(t, &f, false);
         op_list_freedoms_free(&f);
         free(times);
-        TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* negative or NaN, if the bias is unknown */
+        TEST_ASSERT_FALSE(op_list_bias(t, t) < 0.0); /* negative or NaN if the bias is not known */
         op_list_free(t);
     }
 }
@@ -546,8 +535,8 @@ static int place_of(const op_list *t, double constant) {
     return place;
 }
 
-/* Products for operands are entered in a fixed order, the second operand's first. So code and hash do not depend on a
- * compiler's order of evaluation. */
+/* Products for operands must enter in a fixed sequence, those for the second operand first. Then code and hash do
+ * not depend on the sequence in which a compiler evaluates arguments. */
 TEST(tape_freed, operands_are_entered_in_one_order) {
     for (int what = 0; what < 6; what++) {
         op_list *t = op_list_new(0, 1);
@@ -578,10 +567,10 @@ TEST(tape_freed, operands_are_entered_in_one_order) {
 SUITE(tape_freed) { die = dice_of("tape_freed", 4190); }
 
 /* === tape gauged ============================================================================== */
-/* Gauges that op_list_scale() must find (host/image/op_list_scaling.h). The lists have a factor that makes all
- * constants exact: products of small primes. */
+/* The gauges that op_list_scale() must find (host/image/op_list_scaling.h). Each list has a factor that makes all
+ * its constants exact in float: a product of small primes. */
 
-/* A sum of two products of leaves with integers below 120 times `unit`. */
+/* A sum of two products of leaves, with integers below 120 times `unit`. */
 static int sum_of(op_list *t, int which, double unit) {
     const int x = op_list_leaf(t, OP_LINEAR, which);
     const int y = op_list_leaf(t, OP_RATE, which);
@@ -609,7 +598,8 @@ static void results_of(const op_list *t, double *result) {
     }
 }
 
-/* Gauges the list. Then float holds all constants, and there are the same results and no more operations. */
+/* Scales the list. Then float must represent all constants, the results must be the same, and there must be no more
+ * operations. */
 static void expect_none_off(op_list *t) {
     double before[1];
     double after[1];
@@ -631,7 +621,7 @@ static double primes(int fives, int threes, int sevens) {
     return pow(5.0, fives) * pow(3.0, threes) * pow(7.0, sevens);
 }
 
-/* Returns true if float holds all multiples in sum_of(). Then there is no gauge to find. */
+/* Does float represent all multiples in sum_of()? Then there is no gauge to find. */
 static bool is_held(double unit) {
     bool held = true;
     for (int number = 61; number < 120; number += 2) {
@@ -640,7 +630,7 @@ static bool is_held(double unit) {
     return held;
 }
 
-/* Integers, divided by powers of five, three and seven or multiplied by them, within the range of the search. */
+/* The units are powers of five, three and seven and their quotients, within the range of the search. */
 TEST(tape_gauged, decimals_and_thirds_become_whole) {
     const unsigned few = few_or_all(usual_or(4, 12), 1);
     for (int fives = -6; fives <= 6; fives++) {
@@ -653,7 +643,7 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
                     if (op_list_bias(t, t) > 1e-10) {
                         expect_none_off(t);
                     } else {
-                        op_list_free(t); /* float holds the constants already */
+                        op_list_free(t); /* float represents the constants already */
                     }
                 }
             }
@@ -661,7 +651,7 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
     }
 }
 
-/* Lists of up to 250 operations, with constants and leaves, are searched; longer ones are not changed. */
+/* Lists of up to 250 operations (with constants and leaves) are searched; longer lists must not change. */
 TEST(tape_gauged, long_lists_are_left_alone) {
     for (int over = 0; over < 2; over++) {
         const double unit = 0.01;

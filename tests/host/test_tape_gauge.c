@@ -1,6 +1,7 @@
-/* test_tape_gauge.c: lists with compensated sums are gauged so that float holds their constants. Results in double
- * stay the same, operations stay within the limit, and the bias by rounded constants falls. Over generated
- * mechanisms, with other states than the search's and another evaluator. */
+/* test_tape_gauge.c: lists with compensated sums are scaled so that float represents their constants. Results in
+ * double must stay the same, the number of operations must stay within its limit, and the bias from rounded
+ * constants must fall. Generated mechanisms are tested with other states than those of the search, and with another
+ * evaluator. */
 #include "host/derive/program.h"
 #include "host/image/op_list_scaling.h"
 
@@ -15,8 +16,8 @@ static double decimal(uint64_t *seed) {
     return digits / (random_bits(seed) % 2 == 0 ? 100.0 : 1000.0);
 }
 
-/* Scenes: an epicyclic gear on a carriage, a driven pendulum on a carriage, a pendulum of two links, one pendulum on a
- * carriage. */
+/* Writes a scene of kind `kind`: an epicyclic gear on a carriage, a driven pendulum on a carriage, a pendulum of two
+ * links, or a single pendulum on a carriage. */
 static void write_decimal(unsigned kind, uint64_t *seed, char text[TEXT]) {
     static const char *const bodies[] = {
         "coordinate a [rad]\ncoordinate X [m]\ninput M = 2 [N*m]\n"
@@ -66,7 +67,7 @@ static image *compensated_image(const derived *d) {
     return im;
 }
 
-/* Rounds the list's constants to float in place; kept[t->count] receives the originals. */
+/* Rounds the list's constants to float in place. kept[t->count]: the original constants. */
 static void round_constants(op_list *t, double *kept) {
     for (int i = 0; i < t->count; i++) {
         kept[i] = t->ops[i].value;
@@ -84,8 +85,8 @@ static void put_back(op_list *t, const double *kept) {
 
 enum { RESULTS = 64, OPERATIONS = 4000 };
 
-/* Bias of a decimal mechanism's angular accelerations by rounded constants: the mean error over many states relative
- * to the mean size, averaged over the accelerations. */
+/* The bias of angular accelerations by rounded constants: the mean error over many states divided by the mean size,
+ * averaged over the accelerations. */
 static double bias_of(op_list *t, const op_list *like, const derived *d, uint64_t seed) {
     double kept[OPERATIONS];
     double meant[RESULTS];
@@ -113,7 +114,8 @@ static double bias_of(op_list *t, const op_list *like, const derived *d, uint64_
     return sum;
 }
 
-/* Equal up to round-off in double: each constant may change by a relative 1e-15, nine units in the last place. */
+/* Expects equal results up to round-off in double. Each constant may change by a relative 1e-15, which is nine units
+ * in the last place. */
 static void expect_equal(const op_list *t, const op_list *other, const derived *d, uint64_t seed,
                          const char *what) {
     double x[RESULTS];
@@ -139,9 +141,9 @@ static void expect_equal(const op_list *t, const op_list *other, const derived *
 typedef struct tally {
     int lists;
     int changed;
-    int worse;     /* number of lists whose bias is larger than before */
-    int more;      /* operations added */
-    double before; /* sums of biases of changed lists */
+    int worse;     /* number of lists whose bias has grown */
+    int more;      /* number of added operations */
+    double before; /* sums of the biases of changed lists */
     double after;
 } tally;
 
@@ -209,13 +211,13 @@ TEST(tape_gauge, any_mechanism_keeps_its_results) {
     }
     tell("any", &all);
     TEST_ASSERT_TRUE(all.lists > (int)cases / 2 && all.changed > (int)cases / 10);
-    TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* at other states than the search's */
+    TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* at states that the search did not use */
     TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
 }
 
 TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
-    /* for each scene, the limit of the bias relative to that before; op_list_scale() promises 0.5 */
+    /* limit of the bias for each scene, relative to that before; op_list_scale() promises 0.5 */
     static const double left[] = {0.1, 0.5};
     for (int k = 0; k < 2; k++) {
         derived d = derived_builtin(names[k]);
@@ -232,7 +234,7 @@ TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
     }
 }
 
-/* Lists without constants, with exact constants only, or with one constant that costs a product more. */
+/* Lists without constants, with exact constants only, or with one constant whose scaling would cost a product. */
 TEST(tape_gauge, what_needs_nothing_stays) {
     static const double number[] = {1.0, 0.375, 0.3};
     for (int k = 0; k < 3; k++) {

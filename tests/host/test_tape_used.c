@@ -1,5 +1,5 @@
-/* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, image.c). The
- * results for random lists are compared with the test's own counts, path searches and comparisons. */
+/* test_tape_used.c: properties of finished lists and images (host/image/op_list_use.c, image.c). The results for
+ * random lists are compared with counts, searches of paths and comparisons by the test itself. */
 #include "drawn_scene.h"
 #include "evaluated.h"
 #include "host/base/alloc.h"
@@ -14,7 +14,8 @@ static op_list_cost counted(const op_list *t) {
         const op_code code = t->ops[i].code;
         c.arithmetic += code == OP_ADD || code == OP_SUB || code == OP_MUL || code == OP_NEG ||
                         code == OP_ABS || code == OP_SIGN || code == OP_MIN || code == OP_MAX;
-        c.arithmetic += code == OP_LINE ? 2 : code == OP_CUBIC ? 6 : 0; /* a + y b, and so on */
+        /* a product and a sum for a linear table, and so on */
+        c.arithmetic += code == OP_LINE ? 2 : code == OP_CUBIC ? 6 : 0;
         c.look_ups += code == OP_LINE || code == OP_CUBIC;
         c.divisions += code == OP_DIV;
         c.roots += code == OP_SQRT;
@@ -26,7 +27,7 @@ static op_list_cost counted(const op_list *t) {
 
 static bool is_operation(op_code code) {
     return code >= OP_SIN &&
-           code != OP_CELL; /* in the order of the rows: after leaves and phases */
+           code != OP_CELL; /* in the sequence of the rows, after leaves and phases */
 }
 
 static void check_counts(const op_list *t) {
@@ -80,7 +81,7 @@ static bool leads_from(const op_list *t, int i, int by) {
 static void check_finite(scene_list *l) {
     op_list *t = &l->list;
     if (t->count > 40) {
-        return; /* the number of paths is large */
+        return; /* the number of paths becomes too large */
     }
     TEST_ASSERT_EQUAL_INT(-1, op_list_not_finite(t));
     const int by = (int)dice_one_of(&die, (unsigned)t->count);
@@ -127,7 +128,8 @@ TEST(tape_used, what_float_has_no_room_for) {
     each_list(100, check_fit);
 }
 
-/* image_out_of_float() covers the lists that move the scene, and the inputs, but no list that serves only outputs. */
+/* image_out_of_float() must consider the lists that move the scene, and the inputs, but no list that only serves
+ * outputs. */
 TEST(tape_used, images_know_what_float_has_no_room_for) {
     for (unsigned c = 0; c < dice_cases(300); c++) {
         drawn_scene_draw(&drawn, &die);
@@ -181,7 +183,7 @@ TEST(tape_used, images_are_read) {
                                       image_shown(u, si) * u->scale / u->divisor);
         }
     }
-    /* the energy balance stays on the host, so it needs no function on a board */
+    /* the energy balance is computed on the host, so a board does not need its functions */
     op_list *books = op_list_new(0, 1);
     books->result[0] = op_list_call(books, FN_EXP, op_list_leaf(books, OP_LINEAR, 0), -1);
     image im = {.list = {[IMAGE_BOOKS] = books}};
@@ -234,8 +236,8 @@ TEST(tape_used, a_hash_is_of_everything) { each_list(60, check_hash); }
 
 enum { PAIRS_MOST = 6, WAYS = 8 };
 
-/* Two sums of two leaves; in one of them a part is doubled. Returns whether one can be made from the other with one product
- * less. */
+/* Enters two sums of two leaves; in one of them a part is doubled. Returns whether one sum can be computed from the
+ * other with one product less. */
 static bool enter_pair(op_list *t, int k, unsigned way) {
     const int a = op_list_leaf(t, OP_LINEAR, 2 * k);
     const int b = op_list_leaf(t, OP_RATE, 2 * k + 1);
@@ -260,7 +262,7 @@ static bool enter_pair(op_list *t, int k, unsigned way) {
     }
     t->result[3 * k] = half;
     t->result[3 * k + 1] = whole;
-    t->result[3 * k + 2] = way == 3 ? times : other; /* 3: the double itself is a result */
+    t->result[3 * k + 2] = way == 3 ? times : other; /* for 3, the doubled part is a result */
     return way < 3 || way == 7;
 }
 

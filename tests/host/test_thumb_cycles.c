@@ -1,5 +1,6 @@
-/* test_thumb_cycles.c: the estimate of a Cortex-M's cycles (mk/count/thumb_cycles.h) against Arm's published timing: one
- * instruction at least of each row of its tables, as the assembler encodes it, and pairs that overlap or wait. */
+/* test_thumb_cycles.c: the estimated cycles of a Cortex-M (mk/count/thumb_cycles.h), compared with Arm's published
+ * timing. There is at least one instruction of each row of its tables, as the assembler encodes it, and pairs that
+ * overlap or wait. */
 #include "test.h"
 
 #include "mk/count/thumb_cycles.h"
@@ -8,7 +9,7 @@ typedef struct timed {
     const char *text;
     unsigned first;
     unsigned second;
-    unsigned cycles[3]; /* cycles on M0, M3 and M4; 0: the core has no such instruction */
+    unsigned cycles[3]; /* on M0, M3 and M4; 0: no such instruction */
 } timed;
 
 static const timed instructions[] = {
@@ -101,7 +102,8 @@ TEST(thumb_cycles, each_instruction_takes_what_arm_publishes) {
     TEST_ASSERT_EQUAL(THUMB_NONE, thumb_core_of("m7"));
 }
 
-/* A load overlaps the next load or indexed store; an address, and the FPU, wait for a result. */
+/* A load overlaps the next load or indexed store. A load or store waits for its address, and the FPU for its
+ * operand. */
 TEST(thumb_cycles, pairs_overlap_or_wait) {
     static const struct {
         const char *last;

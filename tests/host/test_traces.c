@@ -1,5 +1,5 @@
-/* test_traces.c: waveform files of a run (host/io/records.h). The unit of time is compared with integers, names with
- * random scenes, and times of contacts with closed forms, to one unit. Also VCD. */
+/* test_traces.c: waveform files of a run (host/io/records.h). The unit of time is compared with integer arithmetic,
+ * names with those of random scenes, and times of contacts with closed forms, to one unit of time. Also VCD. */
 #include "test.h"
 
 #include <unistd.h>
@@ -18,10 +18,9 @@ enum { POWERS = 16, NAME = 60, CHANGES = 4000, SIGNALS = 60 };
 
 static dice die;
 
-/* --- the unit of time ------------------------------------------------------------------------------------------*/
-
-/* The coarsest power of ten that divides every spacing and, with contacts, a thousandth of a step. Else the finest
- * with the end below 2^52 and separate records. -1: none. */
+/* The expected power k of the unit 10^-k s: the coarsest unit that divides every spacing and, with contacts, a
+ * thousandth of a step. If there is none: the finest unit in which the end is below 2^52 and records have different
+ * times. -1: none. */
 static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double until_s,
                         bool contacts) {
     int whole = -1;
@@ -31,7 +30,7 @@ static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double un
         if ((long double)until_s * units_per_s >= 0x1p52L) {
             break;
         }
-        /* over * every * 10^k is a multiple of `under`: a factor of ten at a time avoids overflow */
+        /* is over * every * 10^k a multiple of `under`? One factor of ten at a time cannot overflow */
         uint64_t rest = (over % under) * (every % under) % under;
         for (int i = 0; i < k; i++) {
             rest = rest * 10 % under;
@@ -82,7 +81,7 @@ TEST(traces, units) {
     }
 }
 
-/* The end must be below 2^52 units of time. At 2^52 or more the next coarser unit applies, if there is one. */
+/* The end must be below 2^52 units of time. If it is not, the next coarser unit must be used, if there is one. */
 TEST(traces, ends) {
     for (int k = 0; k < POWERS; k++) {
         double per_s = 1.0;
@@ -99,8 +98,6 @@ TEST(traces, ends) {
     }
 }
 
-/* --- a dump, read back -----------------------------------------------------------------------------------------*/
-
 typedef struct told_change {
     int64_t time;
     int signal;
@@ -116,7 +113,7 @@ static struct {
     int64_t end;
 } dump;
 
-/* With so few signals each identifier code has one character. */
+/* With so few signals, each identifier code is a single character. */
 static void read_dump(const char *path) {
     char line[400];
     char mark[SIGNALS] = {0};
@@ -169,7 +166,7 @@ static int signal_named(const char *name) {
     return -1;
 }
 
-/* Compares the changes, from the first on: their times to one unit, and their values. */
+/* Compares the changes of a signal: values, and times to one unit. */
 static void expect_changes(const char *name, const double *time_s, const double *value, int count,
                            double units_per_s) {
     const int signal = signal_named(name);
@@ -193,7 +190,7 @@ static const char *in_head(const char *words) {
     return at;
 }
 
-/* --- a body that falls, one that slides, one that passes, one that is held -----------------------------------------*/
+/* --- four bodies: one falls, one slides, one passes, one is held --- */
 
 static void run_to(const char *path, const image *im, const engine_kind *kind, uint64_t every) {
     const simulation_settings s = {.kind = kind, .every = every, .vcd = path, .quiet = true};
@@ -219,8 +216,8 @@ typedef struct bodies {
     bool inputs;
 } bodies;
 
-/* In every third case, the held body is released and the other crosses in the first step. In another third it crosses
- * in the step of the first hit, before it. */
+/* In one third of the cases, the held body is released and the passing body crosses in the first step. In another
+ * third the passing body crosses before the first hit, in the same step. */
 static bodies draw_bodies(unsigned c) {
     bodies b = {.height_m = dice_between(&die, 0.5, 0.7),
                 .restitution = dice_between(&die, 0.5, 0.9),
@@ -312,7 +309,7 @@ TEST(traces, moments) {
         const double above_s[] = {0.0, b.crosses_m / b.passes_mps};
         static const double rises[] = {0.0, 1.0};
         static const double falls[] = {1.0, 0.0};
-        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s, as float sums x */
+        const double off = kind == &engine_float ? 3e-6 : 0.0; /* in s, as float sums x */
         if (off == 0.0 && rests_s > 0.95 && fabs(next_s - 0.9) > 1e-3 &&
             (hits == 0 || fabs(hits_s[hits - 1] - 0.9) > 1e-3)) {
             expect_changes("stop2_hit", hits_s, ones, hits, units_per_s);
@@ -338,8 +335,8 @@ TEST(traces, moments) {
 SUITE(traces) { die = dice_of("traces", 64); }
 
 /* === vcd ====================================================================================== */
-/* Value change dumps (host/io/vcd.h), parsed by the test: random changes of many signals, slightly out of order, come
- * out sorted, each once. Late changes are counted, and notes follow their signals. */
+/* Value change dumps (host/io/vcd.h), read by the test. Random changes of many signals, slightly out of sequence,
+ * must appear sorted and once each. Late changes must be counted, and notes must follow their signals. */
 
 enum { VCD_SIGNALS = 100, VCD_CHANGES = 400, VCD_VALUE = 40, JITTER = 20 };
 typedef enum kind_of { WIRE, REAL, EVENT } kind_of;
@@ -366,7 +363,7 @@ static void print_value(happening *h, double value) {
     }
 }
 
-/* Reads the identifier codes, such as ! in "$var wire 1 ! s0 $end". */
+/* Reads the identifier codes, such as "!" in "$var wire 1 ! s0 $end". Returns the text after the head. */
 static const char *read_head(const char *text) {
     char line[80];
     for (int i = 0; i < VCD_SIGNALS; i++) {
@@ -407,7 +404,7 @@ static int signal_of(const char *code) {
     return -1;
 }
 
-/* Reads the changes, whose times must rise. Returns their number; *end is the last time. */
+/* Reads the changes, whose times must rise. Returns the number of changes; *end: the last time. */
 static int read_changes(const char *at, int64_t *end) {
     int count = 0;
     int64_t now = -1;
@@ -455,7 +452,8 @@ static void add_signals(vcd *v) {
     }
 }
 
-/* The expected order: by time, then by arrival. Unchanged values are omitted, except events. */
+/* Sorts the changes as the file must have them: by time, then by arrival. Leaves out values that do not change,
+ * except those of events. Returns the number of changes. */
 static int sort_made(int count) {
     char last[VCD_SIGNALS][VCD_VALUE];
     int kept = 0;
@@ -505,7 +503,7 @@ TEST(vcd, changes_come_in_order) {
             highest = h->time > highest ? h->time : highest;
             now += (int64_t)dice_one_of(&d, 4);
             if (dice_one_of(&d, 10) == 0) {
-                vcd_settle(v, now - JITTER); /* no earlier change follows */
+                vcd_settle(v, now - JITTER); /* no earlier change will follow */
                 highest = now - JITTER > highest ? now - JITTER : highest;
             }
         }
@@ -523,7 +521,7 @@ TEST(vcd, changes_come_in_order) {
     }
 }
 
-/* A late change appears at the last time written, and is counted. */
+/* A late change must appear at the last written time, and must be counted. */
 TEST(vcd, what_is_late_is_counted) {
     dice d = dice_of("vcd", 52);
     for (unsigned round = 0; round < 10U; round++) {

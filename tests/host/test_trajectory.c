@@ -1,19 +1,18 @@
-/* test_trajectory.c: `whirl run` in double compared with independent end states of 18 digits
+/* test_trajectory.c: `whirl run` in double, compared with independent end states of 18 digits
  * (tests/reference/trajectory.txt, made by trajectory.py).
  *
- * The method has an error of its own, so the test checks its order: halving the step must divide it by about 2^4,
- * RK4's order, until round-off dominates. Error: the largest difference of a state, relative to the largest entry of
- * the reference state.
+ * The method has an error, so the test checks its order: half the step must divide the error by about 2^4 (RK4's order)
+ * until round-off dominates. The error is the largest difference of a state, relative to the largest entry of the
+ * reference state.
  *
  * - The measured order log2(e(h)/e(h/2)) is at least 3.7, or e(h/2) is below 1e-11 (round-off). There is no upper
- * bound: in fast swings RK4's amplitude error, of order 5, exceeds its phase error, and orders of 5 to 6 occur.
- *
+ *   bound: in fast swings RK4's amplitude error, of order 5, exceeds its phase error, and orders of 5 to 6 occur.
  * - e(h/2) is below 1e-5, because a wrong trajectory may converge too.
  *
- * The step resolves the fastest swing of each mechanism. Thomson's set B is chaotic before 5 s, so only the error at
- * a fine step is checked.
+ * The step resolves the fastest swing of each mechanism. Thomson's set B is chaotic before 5 s, so only the error at a
+ * fine step is checked.
  *
- * The program is build/whirl or $WHIRL; run from the root. */
+ * The program is build/whirl or $WHIRL. Run from the root. */
 #include "test.h"
 
 #define REFERENCE "tests/reference/trajectory.txt"
@@ -23,7 +22,7 @@
 #define VALUES_MAX 16
 #define TEXT_MAX 4096
 
-/* The last row of a run's CSV. Returns false if the run failed or had no row. */
+/* Reads the header and the last row of a run's CSV. Returns false if the run failed or had no row. */
 static bool last_row(const char *scene, const char *until, double step_ms, char header[TEXT_MAX],
                      char row[TEXT_MAX]) {
     const char *whirl = getenv("WHIRL");
@@ -46,7 +45,7 @@ static bool last_row(const char *scene, const char *until, double step_ms, char 
     return true;
 }
 
-/* The value of a column; the fields have no quotes. */
+/* The value of a column. The fields have no quotes. */
 static double column(const char *header, const char *row, const char *name) {
     const size_t length = strlen(name);
     for (;;) {
@@ -65,7 +64,7 @@ static double column(const char *header, const char *row, const char *name) {
     }
 }
 
-/* Error of the run against `wanted` ("theta=1 theta'=2"); NaN when it failed. */
+/* The error of a run, compared with `wanted` ("theta=1 theta'=2"). NaN if the run failed. */
 static double run_error(const char *scene, const char *until, double step_ms, const char *wanted) {
     char header[TEXT_MAX];
     char row[TEXT_MAX];
@@ -97,7 +96,7 @@ static double run_error(const char *scene, const char *until, double step_ms, co
     return largest / scale;
 }
 
-/* Checks the reference lines that contain `part`, of which there must be `lines_wanted`. */
+/* Checks the reference lines that contain `part`. There must be `lines_wanted` such lines. */
 static void check_lines(const char *part, double step_ms, int lines_wanted) {
     FILE *file = fopen(REFERENCE, "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, REFERENCE " cannot be read: run from the project's root");

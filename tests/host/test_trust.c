@@ -1,4 +1,4 @@
-/* test_trust.c: accuracy horizon estimated by `whirl trust`, compared with independent references in long double:
+/* test_trust.c: the horizon that `whirl trust` estimates, compared with independent references in long double, for
  * four chaotic systems in float, compensated float and double. Also built-in scenes. */
 #include "command.h"
 #include "horizons.h"
@@ -19,7 +19,7 @@ static const arithmetic arithmetics[] = {
 };
 enum { ARITHMETICS = sizeof arithmetics / sizeof arithmetics[0] };
 
-/* At the run's true horizon, the references may differ by this part of the tolerance. */
+/* At the true horizon of a run, the references may differ by this part of the tolerance. */
 #define KNOWN 0.05
 
 static void say(const char *what, const horizons *h) {
@@ -46,7 +46,7 @@ static void expect_near(const char *what, const horizons *h, double least, doubl
     }
 }
 
-/* `file` with a scene of this start and end, in each arithmetic. */
+/* Runs a scene of `file` with this start and end, with each number type. */
 static void chaotic(const char *name, bool builtin, const char *file, const char *starts,
                     const double *until_s) {
     const int count = (int)few_or_all(3, ARITHMETICS);
@@ -89,8 +89,9 @@ TEST(trust, lorenz) {
 }
 
 /* === trust scenes ============================================================================= */
-/* Horizons of built-in scenes. Without divergence they reach the end. With coarse steps, simple methods or small
- * tables they agree with the reference. With contacts the reference has steps a 32nd as long and finds its own events. */
+/* Horizons of built-in scenes. Without divergence, they must reach the end. With coarse steps, simple methods or
+ * small tables, they must agree with the reference. With contacts, the reference has 1/32 of the step and finds
+ * events by itself. */
 
 /* A built-in scene with its own step, or with another step and end. */
 static horizons built_in(const char *file, const char *name, horizons_setting how,
@@ -141,8 +142,8 @@ static void expect_ratio(const char *what, const horizons *h, double least, doub
     TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(h) >= least && horizons_ratio(h) <= most, what);
 }
 
-/* In these runs the error grows proportionally to time, so an estimate that omits a part of the error is too late in
- * proportion. */
+/* In these runs the error grows in proportion to time. An estimate that omits a part of the error would be too late
+ * by the same part. */
 TEST(trust_scenes, steps_and_methods_that_are_too_coarse) {
     static const struct {
         wh_method method;
@@ -153,7 +154,7 @@ TEST(trust_scenes, steps_and_methods_that_are_too_coarse) {
         {WH_RK4, 5.0, 3e-8},       {WH_RK38, 20.0, 1e-4},    {WH_NYSTROEM5, 20.0, 1e-5},
         {WH_NYSTROEM3, 5.0, 1e-4}, {WH_HEUN, 1.0, 1e-5},     {WH_LEAPFROG, 5.0, 1e-3},
         {WH_EULER, 0.1, 1e-2},     {WH_LEAPFROG, 5.0, 3e-4}, {WH_SEMI_IMPLICIT_EULER, 0.5, 1e-4}};
-    const size_t apart = few_or_all(1, 0) == 1 ? 2 : 1; /* every second one, or all */
+    const size_t apart = few_or_all(1, 0) == 1 ? 2 : 1; /* all methods, or every second one */
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i += apart) {
         char text[500];
         char what[100];
@@ -168,7 +169,7 @@ TEST(trust_scenes, steps_and_methods_that_are_too_coarse) {
     }
 }
 
-/* Round-off of float and of tables, for any tolerance. */
+/* Round-off of float, and the error of tables, for any tolerance. */
 TEST(trust_scenes, rounding_and_tables) {
     static const double tolerances[] = {1e-4, 3e-6, 3e-7};
     static const horizons_setting settings[] = {
@@ -194,8 +195,8 @@ TEST(trust_scenes, rounding_and_tables) {
     TEST_ASSERT_TRUE(ended >= 4);
 }
 
-/* The estimate is near the true time; a tolerance near float's resolution may end the estimate earlier. Returns 1 if
- * the estimate ended before the run. */
+/* The estimate must be near the true time, or earlier if the tolerance is near float's resolution. Returns 1 if the
+ * estimate is before the end of the run, else 0. */
 static unsigned expect_contacts(const char *name, horizons_setting how, double tolerance) {
     horizons h = built_in(strncmp(name, "thomson", 7) == 0    ? "thomson.whirl"
                           : strncmp(name, "carriage", 8) == 0 ? "eccentric.whirl"
@@ -231,7 +232,8 @@ TEST(trust_scenes, contacts) {
     TEST_ASSERT_TRUE(ended >= count);
 }
 
-/* Both runs exceed the event limit of the first step and let the ball rest. They agree, but are trusted until 0 s only. */
+/* In both runs, the first step has too many events, and the ball comes to rest. The runs agree, but must be trusted
+ * until 0 s only. */
 TEST(trust_scenes, steps_with_too_many_events) {
     horizons h = built_in("contacts.whirl", "ball_between", in_double, HORIZON_TOLERANCE);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.twins->overrun_s);

@@ -1,14 +1,12 @@
-/* test_trust_drawn.c: time until which chaotic runs are accurate, on random mechanisms. They are
- * pendulums of two and three links, on carriages and springs, turning arms, and planetary gears with a disc on a
- * hinge. Masses, lengths, springs, starts, number format and method vary. WHIRL_CASES=30 takes thirty and prints them.
+/* test_trust_drawn.c: the time until which chaotic runs are accurate, for random mechanisms: pendulums of two and three
+ * links, on carriages and springs, turning arms, and planetary gears with a disc on a hinge. Masses, lengths, springs,
+ * starts, number type and method vary. WHIRL_CASES=30 tests thirty mechanisms and prints them.
  *
- * The same mechanisms measure an alternative for boards: twin runs in the board's own arithmetic
+ * The same mechanisms measure an alternative for boards: two runs with the board's own number type
  * (docs/dev/stability.md). */
 #include "command.h"
 #include "horizons.h"
 #include "motion.h"
-
-/* --- drawing ---------------------------------------------------------------------------------------*/
 
 enum { TEXT = 3000, KINDS = 6 };
 
@@ -110,8 +108,6 @@ static int planet(dice *d, char *to) {
 static int (*const kinds[KINDS])(dice *, char *) = {double_pendulum, triple_pendulum, on_a_carriage,
                                                     on_a_spring,     on_an_arm,       planet};
 
-/* --- settings ----------------------------------------------------------------------------------------*/
-
 typedef struct drawn_setting {
     const char *name;
     horizons_setting how;
@@ -136,13 +132,14 @@ static drawn_setting setting_of(dice *d) {
     return s;
 }
 
-/* --- twin runs for boards --------------------------------------------------------------------------- */
+/* --- two runs on a board --- */
 
 typedef enum board_twin { TWIN_PERTURBED, TWIN_HALF, TWIN_METHOD, TWINS } board_twin;
 static const char *const twin_names[TWINS] = {"start off by one rounding", "half the step",
                                               "another method"};
 
-/* Time at which two runs in one arithmetic first differ by the tolerance, relative to the truth. */
+/* The time at which two runs with one number type differ by the tolerance for the first time, divided by the true
+ * time. */
 static double twin_ratio(const horizons *h, board_twin which) {
     const engine_kind *kind = h->twins->shape->kind;
     image other = *h->image;
@@ -193,8 +190,6 @@ static double twin_ratio(const horizons *h, board_twin which) {
     return ratio_times(step, h->image->step) / h->true_until_s;
 }
 
-/* --- the measurement ---------------------------------------------------------------------------------*/
-
 static int by_size(const void *a, const void *b) {
     const double x = *(const double *)a;
     const double y = *(const double *)b;
@@ -229,7 +224,7 @@ TEST(trust_drawn, drawn_mechanisms) {
         horizons h = horizons_of(text, "s", s.how, HORIZON_TOLERANCE);
         char what[60] = "";
         sscanf(text, "mechanism drawn \"%59[^\"]", what);
-        if (h.known >= 0.05) { /* the references differ earlier: not accurate enough */
+        if (h.known >= 0.05) { /* the references are not accurate enough */
             beyond++;
         } else if (h.estimate.to_the_end && h.true_until_s >= h.twins->end_s) {
             regular++; /* both are accurate to the end */

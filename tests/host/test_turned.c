@@ -1,5 +1,5 @@
-/* test_turned.c: scenes that rotate their sines, and agreement of rotation with table lookup, for generated
- * mechanisms and every built-in scene. */
+/* test_turned.c: which scenes rotate their sines, and whether rotation and lookup agree, for generated mechanisms
+ * and every built-in scene. */
 #include "test.h"
 
 #include "core/step/stage_turn.h"
@@ -33,14 +33,14 @@ TEST(turned, settings_and_lists_choose) {
         TEST_ASSERT_TRUE(turns("", "a' = 3000 [rad/s]", turned) ==
                          wh_method_turns((wh_method)m)); /* whatever the speed */
     }
-    /* a sine of an angle and a length is not of a sum of angles, and is looked up */
+    /* a sine of an angle plus a length is looked up, because its argument is not a sum of angles */
     TEST_ASSERT_TRUE(turns(" + 0.01 [N/m]*x^2", "a = 1", plainly));
     TEST_ASSERT_FALSE(turns(" + 0.01 [J]*cos(a + x/(1 [m]))", "a = 1", plainly));
 }
 
 enum { VALUES = 3 * IMAGE_COMPONENTS_MAX };
 
-/* Fills the state after `steps` steps and returns its size, 0 if a step is refused. */
+/* Computes the state after `steps` steps. Returns the number of values, 0 if a step is refused. */
 static int after(image *im, const engine_kind *kind, image_angles angles, uint64_t steps,
                  double value[VALUES]) {
     im->settings.angles = angles;
@@ -71,7 +71,7 @@ static double distance(int count, const double *x, const double *y) {
     return sum;
 }
 
-/* Difference of both forms relative to the error of lookup. -1: lookup is refused, or both are exact. */
+/* Difference between rotation and lookup, relative to the error of lookup. -1: lookup is refused, or both are exact. */
 static double apart(image *im, const char *text) {
     double turned[VALUES];
     double looked_up[VALUES];
@@ -91,9 +91,9 @@ static double apart(image *im, const char *text) {
     return error > 1e-11 * size ? distance(count, turned, looked_up) / error : -1.0;
 }
 
-/* A scene `s` with angles only inside sines: coupled pendulums and masses, with sums, differences and multiples of
- * angles. Every third is a system of equations of first and second order. Drives reach `drive` rad/s^2, initial rates
- * `speed` rad/s. */
+/* Writes a scene `s` with angles only in sines: coupled pendulums and masses, with sums, differences and multiples
+ * of angles. Every third scene is a system of equations of first and second order. Drives reach `drive` rad/s^2,
+ * initial rates `speed` rad/s. */
 static void write_mechanism(unsigned number, double drive, double speed, uint64_t *seed, char *text,
                             size_t size) {
     const int angles = 1 + (int)(random_bits(seed) % 3);
@@ -149,7 +149,7 @@ static void write_mechanism(unsigned number, double drive, double speed, uint64_
     fclose(out);
 }
 
-/* The share of mechanisms in which the two forms differ by more than `within` times the error of lookup. */
+/* The share of mechanisms in which rotation and lookup differ by more than `within` times the error of lookup. */
 static double share_apart(double within, double drive, double speed) {
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 24), 200));
     uint64_t seed = 20261122;
@@ -179,14 +179,14 @@ TEST(turned, generated_mechanisms_move_alike) {
     TEST_ASSERT_TRUE(share_apart(0.02, 0.1, 3.0) == 0.0);
 }
 
-/* Rates above the small-rotation limit, here at most 100 rad/s, from the start or later: rotation still runs wherever
- * lookup does. The error is that of an unresolved motion. */
+/* Rates above the limit of small rotations, which is up to 100 rad/s here, at the start or later. If lookup runs,
+ * rotation must run, too. The error is that of a motion that the steps do not resolve. */
 TEST(turned, generated_mechanisms_that_become_fast_go_on) {
     TEST_ASSERT_TRUE(share_apart(0.45, 300.0, 250.0) < 0.1);
 }
 
-/* First-order systems with rates that depend strongly on the angles, near the stability limit. The slopes at the stages
- * differ much from that at the begin, and after half a turn the system moves to another equilibrium. */
+/* Systems of first order whose rates depend strongly on the angles, near the limit of stability. The slopes at the
+ * stages differ much from the slope at the begin, and after half a turn the system moves to another equilibrium. */
 TEST(turned, stiff_angles_of_first_order_move_alike) {
     const unsigned cases = dice_cases(few_or_all(usual_or(100, 40), 300));
     uint64_t seed = 20261122;

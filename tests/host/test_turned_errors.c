@@ -1,12 +1,12 @@
-/* test_turned_errors.c: errors of rotated sines by method, a table for docs/dev/numerics.md, compared with lookup at each
- * stage. It is a pendulum in double with compensated sums, so that the errors are the method's. */
+/* test_turned_errors.c: the error of rotated sines for each method, compared with lookup at each stage; a table for
+ * docs/dev/numerics.md. A pendulum in double with compensated sums shows the methods' errors only. */
 #include "command.h"
 #include "motion.h"
 
 #define SWING_S 30.0 /* about five periods */
 enum { SWING_POINTS = 20 };
 
-/* A pendulum with w = 1 rad/s from 2 rad: angle and rate at some times. */
+/* Computes angle and rate at some times of a pendulum with w = 1 rad/s that starts at 2 rad. */
 static void swing(wh_method method, image_angles angles, double step_s,
                   double value[2 * SWING_POINTS]) {
     static const char text[] =
@@ -34,7 +34,7 @@ static double apart(const double *a, const double *b) {
     return most;
 }
 
-/* Rotation has an error of h^6, not small next to a method of order 5. */
+/* Rotation has an error of order h^6, which is not small beside a method of order 5. */
 TEST(turned_errors, turning_beside_the_error_of_each_method) {
     static const wh_method methods[] = {WH_NYSTROEM3, WH_RK4, WH_RK38, WH_NYSTROEM4, WH_NYSTROEM5};
     static const double step_s[] = {0.05, 0.1, 0.3, 0.5};
@@ -54,7 +54,7 @@ TEST(turned_errors, turning_beside_the_error_of_each_method) {
                    error, apart(turned, exact), 100.0 * share);
             const double wh = step_s[n];
             const bool fifth = wh_methods[methods[k]].order == 5;
-            /* `share` is relative to the method's error: it falls as h^2 for order 4, as h for order 5 */
+            /* relative to the method's error: falls as h^2 for order 4, as h for order 5 */
             TEST_ASSERT_TRUE_MESSAGE(
                 share < (fifth ? 2.5 * wh + 10.0 * wh * wh : 0.5 * wh * wh + 0.001),
                 wh_methods[methods[k]].word);

@@ -1,11 +1,11 @@
-/* test_undefined.c: undefined expressions end a run. In generated mechanisms one expression of a contact, an energy,
- * a force or an output becomes undefined at a known time. The run must end then with status 1 and name the
- * expression's line and text. */
+/* test_undefined.c: an undefined expression must end the run. In generated mechanisms, one expression of a contact,
+ * an energy, a force or an output becomes undefined at a known time. The run must end there with status 1 and name
+ * the line and text of the expression. */
 #include "command.h"
 
 #include "host/cli/commands.h"
 
-/* The kind of expression that becomes undefined; the others stay defined. */
+/* The expression that becomes undefined; all others stay defined. */
 typedef enum victim {
     GAP,
     CONDITION,
@@ -25,7 +25,7 @@ typedef enum victim {
     VICTIMS
 } victim;
 
-/* `d` falls through zero at a known time; the forms are undefined after it. */
+/* `d` falls through zero at a known time. After that, these forms are undefined. */
 static const char *const forms[] = {"sqrt(d)",     "1/(sign(d) + 1)",     "sqrt(sign(d))",
                                     "d^1.5",       "min(2, sqrt(d))",     "max(sqrt(d), 0.25)",
                                     "log(d)",      "asin(1 - min(d, 1))", "acos(2*sqrt(d)/(1 + d))",
@@ -35,16 +35,16 @@ enum { FORMS = sizeof forms / sizeof forms[0], FORMS_IN_FLOAT = 6 };
 typedef struct trial {
     victim victim;
     char text[2048];
-    char statement[160]; /* quoted by the message */
-    int line;            /* line of the statement */
-    double end_s;        /* time of the end */
+    char statement[160]; /* the message must quote it */
+    int line;            /* its line */
+    double end_s;        /* time at which the run must end */
     double step_s;
     bool is_float;
-    bool is_infinite; /* infinite, not NaN, after end_s; an event may end that step first */
-    bool ends_later;  /* a restitution is evaluated later, when the stop is hit */
+    bool is_infinite; /* infinite instead of NaN after end_s; an event may end that step first */
+    bool ends_later;  /* a restitution is evaluated later, at the hit */
 } trial;
 
-/* The statement that contains `form`. `y` is free, at rest or sliding, and has no other events. */
+/* Writes the statement that contains `form`. `y` is free, at rest or sliding, and has no other events. */
 static void state(trial *t, const char *form, dice *d) {
     const double a = dice_between(d, 0.1, 0.9);
     char *s = t->statement;
@@ -89,16 +89,16 @@ static void make(trial *t, dice *d) {
     const double c = dice_between(d, 0.2, 1.5) * v; /* x reaches c after 0.2 to 1.5 s */
     unsigned form = dice_one_of(d, t->is_float ? FORMS_IN_FLOAT : FORMS);
     if (t->victim == CONDITION_AND || t->victim == CONDITION_OR) {
-        form += form == 1; /* infinity is valid in `and` and `or` */
+        form += form == 1; /* infinity is allowed in `and` and `or` */
     } else if (t->victim == HELD && (form == 1 || form == 2 || form == 6)) {
-        form = 0; /* a hold uses only the rate, and that of a logarithm is defined everywhere */
+        form = 0; /* a hold uses only the rate, which is defined everywhere for a logarithm */
     }
     t->is_infinite = form == 1;
     const bool slides = t->victim == NORMAL_SLIDING || t->victim == KINETIC;
     t->step_s = 1e-3 * (1.0 + dice_one_of(d, 5));
     t->end_s = c / v;
     t->ends_later = t->victim == RESTITUTION;
-    /* A name defined on another line: the message still has the statement's line. */
+    /* If a name of another line is used, the message must still have the statement's line. */
     const bool named = t->victim != HELD && dice_one_of(d, 2) == 0;
     state(t, named ? "e" : forms[form], d);
     const int blank = (int)dice_one_of(d, 4);
@@ -110,7 +110,7 @@ static void make(trial *t, dice *d) {
         snprintf(around, sizeof around, "%s%s", t->statement, t->victim == CROSSING ? " }" : "");
     }
     snprintf(t->text, sizeof t->text,
-             "mechanism trial\n" /* 1 */
+             "mechanism trial\n" /* line 1 */
              "coordinate x [m]\ncoordinate y [m]\n"
              "parameter c = %.9f [m]\nparameter u = 1 [m]\n"
              "let d = (c - x)/u\n"
@@ -123,7 +123,7 @@ static void make(trial *t, dice *d) {
     t->line = 9 + blank;
 }
 
-/* "... after t = 1.2 s": the number, or -1. */
+/* The number in "... after t = 1.2 s"; -1 if there is none. */
 static double time_told(const char *text) {
     const char *at = strstr(text, "t = ");
     return at != NULL ? strtod(at + 4, NULL) : -1.0;
@@ -143,7 +143,7 @@ static void check(const trial *t, const char *file) {
     TEST_ASSERT_TRUE_MESSAGE(strncmp(what.err, place, strlen(place)) == 0, note);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "is not a finite number"), note);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, t->statement), note);
-    /* The reported step starts at most a step earlier; an output is evaluated at the step's end. */
+    /* the reported step may begin up to one step early; an output is evaluated at the end of the step */
     const double late_s = time_told(what.err) - t->end_s;
     const double most = t->ends_later                           ? 5.0
                         : t->victim == OUTPUT || t->is_infinite ? 1.01 * t->step_s
@@ -159,7 +159,8 @@ TEST(undefined, expressions_that_stop_being_numbers) {
     unsigned tried = 0;
     for (unsigned i = 0; i < rounds; i++) {
         for (victim v = 0; v < VICTIMS; v++) {
-            for (unsigned k = 0; k < usual_or(2, 1); k++) { /* in both numbers, or in one of them */
+            /* in float and double, or in one of them */
+            for (unsigned k = 0; k < usual_or(2, 1); k++) {
                 trial t = {.victim = v, .is_float = (v + k) % 2U == 1U};
                 make(&t, &d);
                 check(&t, model_keep(t.text));
@@ -171,7 +172,7 @@ TEST(undefined, expressions_that_stop_being_numbers) {
     printf("  %u runs ended with the expression's name\n", tried);
 }
 
-/* The same mechanisms give no message if they stop before that time. */
+/* The same mechanisms must give no message if they end before that time. */
 TEST(undefined, expressions_that_are_numbers_throughout) {
     dice d = dice_of("defined", 20262);
     const unsigned rounds = dice_cases(usual_or(3, 1));
@@ -200,8 +201,8 @@ TEST(undefined, expressions_that_are_numbers_throughout) {
     model_drop();
 }
 
-/* A stop ends the motion at the place where an expression becomes undefined. The step evaluates beyond it, but the motion
- * does not go there. */
+/* A stop ends the motion at the place where an expression becomes undefined. The step evaluates the expression
+ * beyond that place, but the motion does not go there. */
 TEST(undefined, expressions_that_end_where_a_stop_is) {
     static const char *const effects[] = {"hold y while sqrt(x/u) > 9",
                                           "when sqrt(x/u) crosses 9 { set y = 1 [m] }",
@@ -244,7 +245,7 @@ TEST(undefined, accelerations_that_are_no_numbers) {
     model_drop();
 }
 
-/* A step over a pole leaves the force defined and the energy undefined: the energy balance reports it. */
+/* A step over a pole leaves the force defined and the energy undefined. The energy balance must report this. */
 TEST(undefined, energies_that_are_no_numbers) {
     dice d = dice_of("energies", 20263);
     for (unsigned i = 0; i < dice_cases(usual_or(10, 4)); i++) {
@@ -252,7 +253,7 @@ TEST(undefined, energies_that_are_no_numbers) {
         said what;
         char when[60];
         const double h = 1e-6 * floor(dice_between(&d, 1e2, 1e4));
-        const unsigned before = i % 4U; /* steps */
+        const unsigned before = i % 4U; /* in steps */
         const double v = dice_between(&d, 5.0, 20.0) / sqrt(h);
         snprintf(text, sizeof text,
                  "mechanism m\ncoordinate x [m]\nparameter u = 1 [m]\nT = 1 [kg]*x'^2/2\n"

@@ -1,4 +1,4 @@
-/* test_undefined_where.c: location of undefined expressions (host/check/nonfinite.h): the innermost part of random
+/* test_undefined_where.c: where an expression is undefined (host/check/nonfinite.h): the innermost part of random
  * formulas, by its column; the sampled places of a step; and a sine whose angle is too large. */
 #include "command.h"
 #include "derived.h"
@@ -9,7 +9,7 @@ enum { FORMULA = 600 };
 
 static dice die;
 
-/* The message, "" if there is no finding; to be freed. */
+/* The message of `ask`, "" if nothing was found. The caller frees the text. */
 static char *told_of(const nonfinite_at *at, bool (*ask)(const nonfinite_at *, diags *)) {
     char *told = NULL;
     size_t length = 0;
@@ -25,12 +25,12 @@ static char *told_of(const nonfinite_at *at, bool (*ask)(const nonfinite_at *, d
 
 static derived scene_of(const char *text) { return derived_surely(derived_scene(text, "s"), text); }
 
-/* '@' is replaced by the undefined part. Each form is undefined if and only if that part is. */
+/* '@' stands for the undefined part. Each form is undefined if that part is, and only then. */
 static const char *const around[] = {
     "-(@)",  "2*(@)",  "(@)*x/u",    "1 + (@)",         "(@) - 3",  "(@)/2",       "1/((@)^2 + 1)",
     "(@)^2", "abs(@)", "cos(@ - 1)", "max(1, 2 - (@))", "e0 + (@)", "min(@, 0.5)", "3 - x/u - (@)"};
 static const char *const parts[] = {"log(x/u)", "sqrt(x/u)", "sqrt(9 + log(x/u))", "(x/u)^0.5"};
-/* Offset in each of `parts` of the place that the message names; of a power, its ^. */
+/* For each of `parts`, the offset of the place that the message must name. For a power, this is its ^. */
 static const int inside[] = {0, 0, 9, 5};
 
 static void put_around(char *formula, int *column, const char *wrapper) {
@@ -83,7 +83,8 @@ TEST(undefined_where, the_innermost_part_is_named) {
     }
 }
 
-/* A term is undefined in a window of the step. It is found if a sampled place lies in that window and within the range. */
+/* A term is undefined within a window of the step. The term must be found if a sampled place is in the window and
+ * within the range. */
 TEST(undefined_where, the_places_on_the_way) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     for (unsigned c = 0; c < dice_cases(usual_or(150, 40)); c++) {

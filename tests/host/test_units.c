@@ -1,6 +1,7 @@
-/* test_units.c: every unit compared with the standards. These are the SI Brochure (9th edition, 2019: tables 2, 4, 7
- * and 8), the agreement of 1959 for inch, foot and pound, and the standard gravity of 1901. From host/lang/units.c it
- * reads only names. A unit outside this table that is not an SI prefix with one of its SI symbols fails. */
+/* test_units.c: every unit, compared with the standards: the SI Brochure (9th edition, 2019: tables 2, 4, 7 and 8),
+ * the agreement of 1959 for inch, foot and pound, and the standard gravity of 1901. The test reads only names from
+ * host/lang/units.c. A unit that is not in this table fails, unless it is an SI prefix with an SI symbol of the
+ * table. */
 #include "host/lang/units.h"
 #include "test.h"
 
@@ -10,16 +11,16 @@
 #define GRAVITY_M_S2 9.80665
 #define TURN_RAD 6.283185307179586476925
 
-/* One of these units is `si` times the SI unit with these exponents. */
+/* A unit: `si` times the SI unit with these exponents. */
 typedef struct definition {
     const char *name;
     double si;
     int m, kg, s, A, K;
-    bool prefixed; /* the unit takes SI prefixes */
+    bool prefixed; /* SI prefixes are allowed */
 } definition;
 
 static const definition definitions[] = {
-    /* SI base units; prefixes of mass belong to the gram */
+    /* SI base units; the prefixes of mass belong to the gram */
     {"m", 1, 1, 0, 0, 0, 0, true},
     {"g", 1e-3, 0, 1, 0, 0, 0, true},
     {"s", 1, 0, 0, 1, 0, 0, true},
@@ -39,14 +40,14 @@ static const definition definitions[] = {
     {"Wb", 1, 2, 1, -2, -1, 0, true},
     {"T", 1, 0, 1, -2, -1, 0, true},
     {"H", 1, 2, 1, -2, -2, 0, true},
-    /* units outside SI */
+    /* units that are not SI units */
     {"min", 60, 0, 0, 1, 0, 0, false},
     {"h", 3600, 0, 0, 1, 0, 0, false},
     {"deg", TURN_RAD / 360, 0, 0, 0, 0, 0, false},
     {"rev", TURN_RAD, 0, 0, 0, 0, 0, false},
     {"rpm", TURN_RAD / 60, 0, 0, -1, 0, 0, false},
     {"bar", 1e5, -1, 1, -2, 0, 0, false},
-    /* inch and pound */
+    /* from the inch and the pound */
     {"in", INCH_M, 1, 0, 0, 0, 0, false},
     {"ft", FOOT_M, 1, 0, 0, 0, 0, false},
     {"lb", POUND_KG, 0, 1, 0, 0, 0, false},
@@ -112,8 +113,8 @@ TEST(units, every_unit_is_what_the_standards_say) {
     TEST_ASSERT_TRUE(count >= 60);
 }
 
-/* A factor is an integer ratio if the unit is defined as a power of ten or one over it. So 7 [ms] is 7/1000, correctly
- * rounded, like 7e-3. */
+/* If a unit is a power of ten or one over it, its factor must be a ratio of integers. So 7 [ms] must be 7/1000 and
+ * correctly rounded, like 7e-3. */
 TEST(units, prefixes_round_as_decimal_numbers_do) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         definition wanted;
@@ -134,7 +135,7 @@ TEST(units, prefixes_round_as_decimal_numbers_do) {
     }
 }
 
-/* `whirl list --units` gives each unit as a number of an SI unit of the same dimension. */
+/* `whirl list --units` must give each unit as a number of an SI unit of the same dimension. */
 TEST(units, every_unit_is_told_in_si) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         char si[DIM_TEXT_SIZE];
@@ -149,7 +150,7 @@ TEST(units, every_unit_is_told_in_si) {
     }
 }
 
-/* m^1.5 of Hertz's law: decimal exponents equal those written as fractions. */
+/* A decimal exponent, as in m^1.5 of Hertz's law, must equal the same exponent written as a fraction. */
 TEST(units, decimal_exponents) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         for (int halves = -7; halves <= 7; halves++) {
@@ -167,7 +168,7 @@ TEST(units, decimal_exponents) {
     }
     unit_scale result;
     unit_error error;
-    /* the exponent is no multiple of a twelfth */
+    /* 1.05 is not a multiple of 1/12 */
     TEST_ASSERT_FALSE(unit_parse("m^1.05", 6, &result, &error));
 }
 
@@ -176,7 +177,7 @@ TEST(units, names_are_apart) {
         for (int k = 0; k < i; k++) {
             TEST_ASSERT_TRUE_MESSAGE(strcmp(unit_name(i), unit_name(k)) != 0, unit_name(i));
         }
-        const char *name = unit_name(i); /* in the order of units.h */
+        const char *name = unit_name(i); /* in the sequence of units.h */
         const bool angle =
             strcmp(name, "rad") == 0 || strcmp(name, "deg") == 0 || strcmp(name, "rev") == 0;
         TEST_ASSERT_TRUE_MESSAGE(unit_is_angle(name, strlen(name)) == angle, name);
@@ -243,7 +244,8 @@ TEST(units, hints_for_habits_mean_the_same) {
     }
 }
 
-/* The unit that records and hints print for a dimension is an SI unit of that dimension, and the usual one if there is one. */
+/* The unit that records and hints print for a dimension must be an SI unit of that dimension, and the usual unit if
+ * there is one. */
 TEST(units, dimensions_are_written_in_their_usual_units) {
     static const char *const recorded[] = {"N", "N*m", "W", "N*m*s", "V"};
     static const char *const hinted[] = {"N",       "N*m", "W",   "Pa", "N/m", "N*s/m", "rad/s",
@@ -270,7 +272,7 @@ TEST(units, dimensions_are_written_in_their_usual_units) {
     }
 }
 
-/* Exponents of up to 99 and down to -99, in each base unit. */
+/* In each base unit, exponents must be limited to 99 and -99. */
 TEST(units, exponents_end_at_both_ends) {
     for (int i = 0; i < 2 * DIM_BASES; i++) {
         const int sign = i < DIM_BASES ? 1 : -1;

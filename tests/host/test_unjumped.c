@@ -1,5 +1,5 @@
-/* test_unjumped.c: expressions that look like a pole but have a limit or can be integrated are not reported
- * (host/check/pole.h); nor are rates that an impact carries past a pole. A true pole is. */
+/* test_unjumped.c: expressions that look like a pole, but have a limit or can be integrated, must not be reported
+ * (host/check/pole.h), nor rates that an impact carries past a pole. A true pole must be reported. */
 #include "jumps.h"
 #include "test.h"
 
@@ -7,7 +7,7 @@ static dice die;
 
 static char *no_more[JUMPS_WORDS];
 
-/* s' = v passes s = a: each form has a limit there or is integrable. */
+/* s' = v passes s = a. Each form has a limit there, or can be integrated. */
 static const char *const harmless[] = {
     "sin(s - a)/(s - a)",
     "(s^2 - a^2)/(s - a)",
@@ -23,10 +23,10 @@ static const char *const harmless[] = {
     "abs(s - a)^(-0.8)",
     "1/tanh(s - a) - 1/(s - a)",
     "1/tanh((s - a)/0.1) - 0.1/(s - a)",
-    "1/(exp(s - a) - 1) - 1/(s - a)", /* the round-off grows near the pole */
+    "1/(exp(s - a) - 1) - 1/(s - a)", /* round-off grows near the pole */
     "(exp(s - a) - 1 - (s - a))/(s - a)^2",
     "1/(s - a + 1e-9/(s - a))", /* grows up to its end */
-    /* its divisor touches zero, or nearly */
+    /* the divisor touches zero, or nearly does */
     "(s - a)^2/(1 - cos(s - a))",
     "sin(s - a)^2/(s^2 - 2*a*s + a^2)",
     "1/sqrt(sqrt(s^2 - 2*a*s + a^2))",
@@ -36,7 +36,7 @@ static const char *const harmless[] = {
     "1/((s - a)^2 + y^2*1e-3 + 1e-6)",
     "(s - a)^3/(s^3 - 3*a*s^2 + 3*a^2*s - a^3)",
     "(3 - 4*cos(s - a) + cos(2*(s - a)))/(1 - cos(s - a))^2",
-    "(s - a)/sqrt((s - a)^2 + 1e-12)", /* bounded, with a small width */
+    "(s - a)/sqrt((s - a)^2 + 1e-12)", /* bounded, but with a narrow bend */
     "1e-6/sqrt((s - a)^2 + 1e-12)",
     "1e-9/sqrt((s - a)^2 + 1e-18)",
 };
@@ -58,8 +58,8 @@ TEST(unjumped, what_has_limits) {
     }
 }
 
-/* Losses of one body while another passes s = a. Those with an even index can be integrated across a: they only slow the
- * body down. Those with an odd index are poles. */
+/* Losses of one body while another body passes s = a. Losses with an even number can be integrated across a and only
+ * slow the body down; those with an odd number are poles. */
 TEST(unjumped, losses) {
     static const char *const laws[] = {
         "/sqrt(abs(s - a))", "/abs(s - a)",          "/(1 - cos(s - a))^0.25", "/(s - a)^2",
@@ -81,10 +81,10 @@ TEST(unjumped, losses) {
     }
 }
 
-/* An impact turns a rate past a zero of its divisor without reaching it. */
+/* An impact turns a rate to the other side of a zero of its divisor. The rate never is at the zero. */
 TEST(unjumped, impacts) {
     static const char *const laws[] = {"v0/(x' + v0)", "v0/(x' - v0)",
-                                       "tan(x'/v0 + 1)"}; /* tangent of 2, then of 0, about */
+                                       "tan(x'/v0 + 1)"}; /* about tan(2), then tan(0) */
     for (unsigned c = 0; c < jumps_cases(3, 12, 3); c++) {
         char text[JUMPS_TEXT];
         const double v = dice_between(&die, 1.0, 2.0);
@@ -102,8 +102,8 @@ TEST(unjumped, impacts) {
     }
 }
 
-/* A pole of a force, a friction's pressure or its coefficient, passed at constant rate. Steps are with and without
- * impacts of another body. Also poles after the end. */
+/* A constant rate passes a pole of a force, of a friction's normal force or of its coefficient, in steps with and
+ * without impacts of another body. Also poles after the end. */
 TEST(unjumped, places_at_events) {
     static const char *const laws[] = {
         "Q(x) = 1e-6 [N*m]/(x - %.17g [m])\n",

@@ -1,8 +1,8 @@
-/* test_verdict.c: `whirl sweep` and `whirl run` share one judge, so their findings and exit statuses agree. The
- * status is 1 exactly after a warning, 0 with --strict=off, and follows the energy ratio with a limit. Random:
- * springs, dampers, swings of systems, flights past a pole, fast forces, springs far from the origin, and balls
- * between stops. Steps range from fine to useless, with all methods. Rods that do not fit at the start get the same
- * words from `whirl trust`. Every kind of finding occurs, and many runs have no finding. */
+/* test_verdict.c: findings and exit statuses of `whirl run` and `whirl sweep` must agree. The status must be 1 after
+ * a warning and only then, 0 with --strict=off, and with a limit follow the energy ratio. Random springs, dampers,
+ * swings of systems, flights past a pole, fast forces, springs far from the origin, and balls between stops run with
+ * fine to useless steps and all methods. For rods that do not fit at the start, `whirl trust` must give the same
+ * words. Every kind of finding must occur, and many runs must have none. */
 #include "test.h"
 
 #include <glob.h>
@@ -43,7 +43,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  "scene s { start a = 1 [m]\nstep %.12g [s]\nuntil %.12g [s] }\n",
                  coarse, until);
         break;
-    case 3: { /* a straight motion in the plane past the origin, in polar coordinates */
+    case 3: { /* a straight motion past the origin, in polar coordinates */
         const double past = pow(10.0, dice_between(d, -4.0, -0.5));
         const double r = sqrt(1.0 + past * past);
         snprintf(text, TEXT,
@@ -54,7 +54,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  r, -4.0 / r, 4.0 * past / (r * r));
         break;
     }
-    case 4: /* a driven spring, up to 900 periods a step */
+    case 4: /* a driven spring, up to 900 periods in a step */
         snprintf(text, TEXT,
                  "mechanism m\ncoordinate x [m]\ncoordinate y [rad]\nparameter p = 1\n"
                  "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*y'^2/2\nV = 1 [N/m]*x^2/2\nQ(x) = 1 [N]*cos(y)\n"
@@ -76,7 +76,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  pow(10.0, dice_between(d, 0.0, 1.7)));
         break;
     case 7: {
-        /* a pendulum on a rod of right or wrong length, with an impulse along the rod or across it */
+        /* a pendulum on a rod of right or wrong length, with a speed along the rod or across it */
         const double rod_m = dice_between(d, 0.2, 3.0);
         const double angle_rad = dice_between(d, -3.0, 3.0);
         const double at_m = rod_m * (dice_one_of(d, 2) == 0 ? 1.0 : dice_between(d, 0.8, 1.2));
@@ -97,7 +97,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
     }
 }
 
-/* Runs the command on these words and one more. */
+/* Runs the command with these words and one more. */
 static void say_with(const char *more, int (*command)(int, char **), const char *const *words,
                      said *what) {
     int count = 0;
@@ -149,7 +149,8 @@ static void expect_json(int (*command)(int, char **), const char **words, const 
     TEST_ASSERT_EQUAL_INT(is_failed(before) ? 0 : told, (int)in_text);
 }
 
-/* The next CSV field, and the JSON value at that path: null is an empty or non-finite field. */
+/* Compares the next field of the CSV with the JSON value at this path. null stands for a field that is empty or not
+ * finite. */
 static void expect_field(char **at, const said *what, const char *path) {
     char *end = *at + strcspn(*at, ",\r");
     const char behind = *end;
@@ -167,7 +168,7 @@ static void expect_field(char **at, const said *what, const char *path) {
     *at = behind == '\0' ? end : end + 1;
 }
 
-/* The rows of --csv=- equal those of `list` in the object of --json, and so do the exit statuses. */
+/* The rows of --csv=- must equal those of `list` in the object of --json, and the exit statuses must be equal. */
 static void expect_rows(int (*command)(int, char **), const char *const *words, const char *list,
                         const char *const *keys) {
     static said csv;
@@ -191,7 +192,7 @@ static void expect_rows(int (*command)(int, char **), const char *const *words, 
     TEST_ASSERT_EQUAL_INT(json_length(object.out, list), rows);
 }
 
-/* The JSON contains the findings, the sentence about the run, and the pairs of a map. */
+/* The JSON text must have the findings, the sentence about the run, and the pairs of a map. */
 TEST(verdict, json_of_trust_and_map) {
     static const char *const columns[] = {"name",  "unit", "verdict", "until_s",
                                           "range", "off",  NULL};
@@ -229,7 +230,7 @@ TEST(verdict, json_of_trust_and_map) {
     TEST_ASSERT_TRUE(told[0] > 1 && told[1] > 1);
 }
 
-/* The JSON of `price` contains its table, that of `choose` the command lines that run its answers. */
+/* The JSON text of `price` must have its table; that of `choose` must have the command lines of its answers. */
 TEST(verdict, json_of_price_and_choose) {
     static const char *const columns[] = {
         "front",       "error",     "error_unit",  "error_basis", "error_bound", "component",
@@ -263,7 +264,7 @@ TEST(verdict, json_of_price_and_choose) {
     }
 }
 
-/* A title with all characters that need escapes. */
+/* A title with every character that needs an escape. */
 TEST(verdict, json_of_a_title) {
     said what;
     char why[100];
@@ -280,7 +281,7 @@ TEST(verdict, json_of_a_title) {
     model_drop();
 }
 
-/* The JSON of a failed run contains the reason, as on standard error. Other runs have no reason. */
+/* The JSON text of a failed run must have the reason that is on standard error. Other runs must have no reason. */
 TEST(verdict, json_of_failures) {
     dice d = dice_of("json_failed", 29112026);
     for (int i = 0; i < 12; i++) {
@@ -304,7 +305,7 @@ TEST(verdict, json_of_failures) {
     }
 }
 
-/* Runs without an option, with --strict=off and with a random limit. Returns whether a finding gives status 1. */
+/* Runs without an option, with --strict=off, and with a random limit. Returns whether a finding gives status 1. */
 static bool expect_statuses(dice *d, const char **run, const char **sweep, const said *ran,
                             const said *swept, const char *about) {
     said off[2];
@@ -392,7 +393,7 @@ TEST(verdict, a_point_is_judged_as_its_run) {
                                "--jobs",   "1",       NULL};
         command_say(command_run, run, &ran);
         command_say(command_sweep, sweep, &swept);
-        if (shape == 7) { /* other findings are not tested here */
+        if (shape == 7) { /* this case does not test other findings */
             const char *trust[] = {file, "--quiet", "--number", number, NULL};
             command_say(command_trust, trust, &trusted);
         }
@@ -426,9 +427,9 @@ TEST(verdict, a_point_is_judged_as_its_run) {
     TEST_ASSERT_TRUE(of[FINDING_ALIASED] + of[FINDING_EVENTS] > 0);
 }
 
-/* --- a common speed ---------------------------------------------------------------------------------------------*/
+/* --- a speed that all bodies share --- */
 
-/* Wagons on a line, or discs on a shaft, with springs and possibly a damper, all moving with a common `speed`. */
+/* Writes wagons on a line, or discs on a shaft, with springs and perhaps a damper. All move at a common speed. */
 static void write_chain(dice d, double speed, char text[TEXT]) {
     const bool turns = dice_one_of(&d, 2) == 0;
     const int count = 2 + (int)dice_one_of(&d, 3);
@@ -490,9 +491,9 @@ TEST(verdict, a_common_speed_changes_nothing) {
     TEST_ASSERT_TRUE(told > cases / 4);
 }
 
-/* --- cost of the checks ----------------------------------------------------------------------------------- */
+/* --- the cost of the checks --- */
 
-/* Operations of `whirl run`, printed on standard error after its messages. */
+/* Runs `whirl run`, then prints its number of operations on standard error. */
 static int run_counted(int count, char **words) {
     const uint64_t before = engine_operations;
     const int status = command_run(count, words);
@@ -500,7 +501,7 @@ static int run_counted(int count, char **words) {
     return status;
 }
 
-static double total; /* largest share of the limit */
+static double total; /* largest part of the limit that was used */
 static void expect_cost(const char *target, double share) {
     said what;
     char until[40];
@@ -567,19 +568,19 @@ static int of_files(const char *pattern) {
     return scenes;
 }
 
-/* Checks take at most twice the run's steps and a fixed number of operations. All scenes, built in or of the
- * catalogue, run at 10 % of their time and, with all cases, at 1 and 100 %. */
+/* The checks may take as many operations as twice the run's steps, plus a fixed number. All scenes, built in or in
+ * the catalogue, run for 10 % of their time and, with all cases, for 1 and 100 %. */
 TEST(verdict, looks_take_what_they_may) {
     expect_cost("cuff_equal", 0.004);
     expect_cost("tests/reference/stack.whirl", 0.2);
     expect_cost("tests/reference/stack.whirl", 1.0);
-    TEST_ASSERT_TRUE(total > 0.5); /* the balls use more than half of the allowance */
+    TEST_ASSERT_TRUE(total > 0.5); /* the balls use more than half of the limit */
     TEST_ASSERT_TRUE(each_builtin_scene(built_in) > 60);
     TEST_ASSERT_TRUE(of_files("docs/*/*.whirl") + of_files("tests/mechanisms/*.whirl") > 35);
     printf("  looks: at most %.2f of what they may take\n", total);
 }
 
-/* A run of many steps leaves no time for the finer run, or for the third one. `run`, `sweep` and `trust` must then
+/* A run of many steps leaves no time for the finer run, or for the third run. Then `run`, `sweep` and `trust` must
  * report that the run was not checked. */
 TEST(verdict, what_was_not_looked_at) {
     static const struct {

@@ -1,8 +1,8 @@
-/* test_vocabulary.c: the order of rows that hashes depend on, and messages for rare input.
+/* test_vocabulary.c: the sequence of rows on which hashes depend, and messages for rare input.
  *
- * Models are hashed, and sums ordered, by the places of rows. A row inserted between others would change the hashes
- * of models that never use it, and break sweeps and boards. The lists here are the record: append a new row to both,
- * and never change an existing one. */
+ * Models are hashed, and sums are ordered, by the numbers of rows. A row inserted between others would change the
+ * hashes of models that never use it, and so break sweeps and boards. The lists here are the record: append a new
+ * row to both lists, and never change a row. */
 #include "test.h"
 
 #include "core/contact.h"
@@ -47,7 +47,7 @@ TEST(vocabulary, operations_are_in_their_recorded_order) {
     }
 }
 
-/* The order of contacts is not hashed, but the core and the output handle simultaneous contacts in this order. */
+/* The sequence of contacts is not hashed. But the core and the output handle simultaneous contacts in this sequence. */
 TEST(vocabulary, contacts_are_in_the_core_s_order) {
 #define SAME(id, ...) TEST_ASSERT_EQUAL_INT_MESSAGE(WH_##id, CONTACT_##id, #id);
     CONTACT_KIND_ROWS(SAME)
@@ -66,8 +66,8 @@ static bool is_among(const char *word, const char *words) {
     return false;
 }
 
-/* At the start of a line inside a block, these words show that its brace is missing; all others are parsed there, or
- * refused. The block is closed before them, without a second error. */
+/* At the start of a line inside a block, these words show that the block's brace is missing. Then the block must end
+ * before the word, without a second error. All other words are read as part of the block, or refused. */
 TEST(vocabulary, which_words_end_a_block) {
     static const struct {
         const char *before;
@@ -133,8 +133,8 @@ static void expect_word_hint(const char *form, const char *word) {
     expect_report(line, wanted);
 }
 
-/* Words of other languages, and words that users try first, anywhere in a file. Each has its own hint, never the hint
- * of the nearest spelling. */
+/* Words of other languages, and words that users try first, anywhere in a file. Each must have a hint of its own
+ * instead of the hint of the nearest spelling. */
 TEST(vocabulary, first_words_get_a_hint) {
     static const char *const words[] = {
         "t",          "time",       "if",      "floor", "heaviside",  "table",
@@ -178,7 +178,8 @@ TEST(vocabulary, first_words_get_a_hint) {
     }
 }
 
-/* Statements of other languages with random names and numbers. The statement changed by the hint is accepted. */
+/* Statements of other languages, with random names and numbers. If a statement is changed as the hint asks, it must
+ * be accepted. */
 TEST(vocabulary, other_notations_are_mended) {
     static const char names[][6] = {"q", "theta", "x_1", "arm"};
     static const char units[][8] = {"kg", "m/s", "N*s/m", "deg", "kg*m^2"};

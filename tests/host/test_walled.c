@@ -1,10 +1,11 @@
 /* test_walled.c: a body in a potential well such as -log(1 - (x/l)^2), which the motion never leaves. A coarse step
- * leaves it, to where the potential is undefined. The run fails and names the expression and a remedy, which works. */
+ * leaves the well and meets the undefined potential. Then the run must fail, and name the expression and a remedy
+ * that works. */
 #include "command.h"
 #include "host/cli/commands.h"
 #include "named_cures.h"
 
-/* Potentials with energy E and length l. Each confines a body with the energy 0.9 E. */
+/* Potentials with an energy E and a length l. Each confines a body whose energy is 0.9 E. */
 static const char *const potentials[] = {
     "-E*log(1 - (x/l)^2)",
     "E/(1 - (x/l)^2)",
@@ -59,7 +60,7 @@ TEST(walled, failed_runs_name_a_cure) {
     TEST_ASSERT_TRUE(failed > cases / 16);
 }
 
-/* A slider crank whose crank and rod have the same length. The run ends when both lie flat, and the message must not
+/* A slider-crank whose crank and rod have the same length. The run must end when both lie flat. Its message must not
  * suggest a step that would pass this position. */
 TEST(walled, flat_linkages_name_no_step) {
     dice d = dice_of("flat linkages", 4463);

@@ -1,6 +1,7 @@
-/* test_warnings.c: warnings of `whirl run`, both ways. A loss above a hundredth of the energy gives one, a loss below
- * a ten-thousandth does not. Singular coordinates give one if the step is too coarse. The suggested remedy, applied,
- * removes the warning and the error. Energies come from formulas in this file and closed forms. */
+/* test_warnings.c: warnings of `whirl run`, both ways. A loss of more than a hundredth of the energy must cause one,
+ * a loss of less than a ten-thousandth must not. So must singular coordinates if the step is too coarse for them.
+ * With the suggested remedy, warning and error must vanish. Energies come from formulas in this file and from closed
+ * forms. */
 #include "command.h"
 
 #include "host/cli/commands.h"
@@ -19,12 +20,12 @@ typedef struct made_up {
     int masses;
     double mass[MASSES];
     double stiffness
-        /* stiffness of the spring to the previous mass or, for the first, to the wall; of a pendulum, m g l */
+        /* stiffness of the spring to the previous mass (mass 0: to the wall); for a pendulum, m g l */
         [MASSES];
-    double damping; /* damping of the first body to the wall, N s/m */
+    double damping; /* between the first body and the wall, N s/m */
     double start[MASSES];
     double rate;
-    double fastest; /* 1/s, about */
+    double fastest; /* about this frequency, 1/s */
     char text[TEXT];
 } made_up;
 
@@ -112,7 +113,7 @@ static double truth_J(const made_up *m, double start_J, double t) {
     return m->mass[0] * v * v / 2.0 + m->stiffness[0] * q * q / 2.0;
 }
 
-/* Largest energy error of the run relative to the initial energy; infinite if it diverges. */
+/* Largest energy error of a run, relative to the energy at the start; infinite if the run diverges. */
 static double energy_off(const made_up *m, wh_method method, double step_s, uint64_t steps,
                          bool is_float, bool compensated) {
     motion at;
@@ -151,7 +152,8 @@ static wh_method method_named(const char *word) {
     return (wh_method)m;
 }
 
-/* Applies each remedy of a warning: no warning, and the right energy. Returns the number of remedies. */
+/* Applies each remedy of a warning. There must be no warning, and the energy must be right. Returns the number of
+ * remedies. */
 static int cure(const made_up *m, const said *warned, wh_method method, double step_s,
                 double until_s, bool is_float) {
     int done = 0;
@@ -228,7 +230,7 @@ TEST(warnings, energy_that_the_method_takes_is_told) {
     TEST_ASSERT_TRUE(without <= gone / 20);
 }
 
-/* A particle in spherical coordinates passes the axis: its final error, m. */
+/* Final error in m of a particle that passes the axis of spherical coordinates. */
 static double flight_off(const char *text, const double end[3], double step_s, bool is_float,
                          bool compensated) {
     motion at;
@@ -263,7 +265,7 @@ TEST(warnings, passing_a_pole_is_told) {
         const bool is_float = i % 3 == 2;
         const double rho = sqrt(away * away + past_m * past_m);
         const double r = sqrt(rho * rho + height * height);
-        /* at x = away, y = past: towards the axis with -speed along x, rising */
+        /* at x = away, y = past: towards the axis at the rate -speed along x, and rising */
         const double phi = atan2(past_m, away);
         const double rho_rate = -speed * cos(phi);
         const double phi_rate = speed * sin(phi) / rho;
@@ -311,7 +313,7 @@ TEST(warnings, passing_a_pole_is_told) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-/* The ball rests after eight of about 25000 bounces, with a warning. The remedy removes the warning. */
+/* The ball rests after eight of about 25000 bounces, with a warning. The remedy must remove the warning. */
 static void expect_ball_between(said *what, const char **words) {
     named_cure is;
     const char *again[12];
@@ -323,8 +325,8 @@ static void expect_ball_between(said *what, const char **words) {
     command_say(command_run, again, what);
 }
 
-/* All built-in scenes run to their ends, in both number formats or alternately. Only the one scene that demonstrates a
- * warning has one. */
+/* All built-in scenes run to their ends, in both number types or by turns. Only the one scene that demonstrates a
+ * warning may have one. */
 TEST(warnings, built_in_scenes_say_nothing) {
     said list;
     said what;
@@ -342,12 +344,12 @@ TEST(warnings, built_in_scenes_say_nothing) {
         }
         for (unsigned k = 0; k < numbers && scenes % each == 0; k++) {
             const bool is_ball = strcmp(name, "ball_between") == 0;
-            /* in float the remedy for ball_between exceeds the budget */
+            /* in float, the remedy for ball_between exceeds the effort */
             const bool is_float = (scenes / each + k) % 2 == 1 && !is_ball;
             const char *words[] = {name, "--quiet", "--number", is_float ? "float" : "double",
                                    NULL};
             command_say(command_run, words, &what);
-            if (is_ball) { /* made to be too much for its step */
+            if (is_ball) { /* this scene has too many events for its step */
                 expect_ball_between(&what, words);
             }
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, name);

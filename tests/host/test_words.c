@@ -1,12 +1,12 @@
-/* test_words.c: words and units of the language follow from their rows: reserved names, hints, refusals in the wrong
- * place, and the lists in docs/language.md and events.md. Every row is tested, also new ones. */
+/* test_words.c: the words and units of the language follow from their rows: reserved names, hints, refusals in the
+ * wrong place, and the lists in docs/language.md and events.md. Every row is tested. */
 #include "derived.h"
 #include "host/lang/model.h"
 #include "host/lang/words.h"
 
 enum { TEXT_SIZE = 1200, PAGE_SIZE = 200000 };
 
-/* A mechanism that declares names for every form and contains `statement`; its scene contains `within`. */
+/* A mechanism that declares names for every form and contains `statement`. Its scene contains `within`. */
 static const char *in_mechanism(const char *statement, const char *within) {
     static char text[TEXT_SIZE];
     snprintf(text, sizeof text,
@@ -46,7 +46,7 @@ TEST(words, reserved_words_name_nothing) {
     TEST_ASSERT_TRUE(reserved >= 20);
 }
 
-/* Two neighbouring letters are swapped: the word is one mistake away, and no other word is as near. */
+/* With two neighbouring letters swapped, the word is one mistake away from the right one, and from no other. */
 TEST(words, a_misspelt_statement_is_offered_its_word) {
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         const statement_word *word = word_row((word_id)i);
@@ -66,14 +66,14 @@ TEST(words, a_misspelt_statement_is_offered_its_word) {
             const bool body = (word->stands & (IN_FILE | IN_MECHANISM)) != 0;
             const char *text = body ? in_mechanism(line, "until 1 [s]") : in_mechanism("", line);
             const char *report = report_of_text(text);
-            if (strcmp(wrong, "setp") != 0) { /* its spelling is as near to `set` */
+            if (strcmp(wrong, "setp") != 0) { /* as near to `set` */
                 expect_in(report, wanted, text);
             }
         }
     }
 }
 
-/* Other names of energies, set or added to, alone and in an effect: the hint has T, V or F. */
+/* Other names of energies, set or added to, alone and in an effect. The hint must name T, V or F. */
 TEST(words, energies_by_other_names) {
     static const char *const meant[][2] = {{"t", "T = ..."},       {"k", "T = ..."},
                                            {"K", "T = ..."},       {"Ekin", "T = ..."},
@@ -153,7 +153,7 @@ static void read_page(void) {
     page[length] = '\0';
 }
 
-/* Is `word` in the page between `from` and `to`, at the start of a text in backticks? */
+/* Does the page have `word` between `from` and `to`, at the start of a text in backticks? */
 static bool listed(const char *word, const char *from, const char *to) {
     char open[60];
     snprintf(open, sizeof open, "`%s", word);
@@ -174,7 +174,7 @@ TEST(words, the_page_lists_every_word) {
     for (int i = 0; i < WORD_COUNT; i++) {
         const statement_word *word = word_row((word_id)i);
         const bool said =
-            listed(word->text, page, end) || i >= STATEMENT_WORDS; /* those appear in examples */
+            listed(word->text, page, end) || i >= STATEMENT_WORDS; /* others are in examples */
         TEST_ASSERT_TRUE_MESSAGE(said && strstr(page, word->text) != NULL, word->text);
         TEST_ASSERT_TRUE_MESSAGE(
             listed(word->text, reserved, stop) == ((word->rules & RESERVED) != 0), word->text);

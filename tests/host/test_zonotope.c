@@ -1,6 +1,6 @@
-/* test_zonotope.c: uncertainty of a point as a sum of generators (host/prove/flowpipe.h), under random maps. The
- * reference is the support function in long double: the extent of a set in a direction. A convex set contains another
- * if its extent is at least as large in all directions. Bounds of the excess have closed forms. */
+/* test_zonotope.c: the uncertainty of a point as a sum of generators (host/prove/flowpipe.h), under random maps. The
+ * reference is the support function in long double: how far a set extends in a direction. A convex set contains
+ * another one if it extends at least as far in every direction. The bounds on the excess have closed forms. */
 #include "command.h"
 #include "host/prove/flowpipe.h"
 
@@ -46,7 +46,7 @@ static long double reach_of(const exact_set *s, const long double *direction) {
 
 static long double length_of(int n, const long double *a) { return sqrtl(along(n, a, a)); }
 
-/* A positive or negative axis, or any direction; of length 1. */
+/* A direction of length 1: a positive or negative axis, or any direction. */
 static void draw_direction(int n, long double *direction) {
     const int axis = (int)dice_one_of(&die, 2U * (unsigned)n);
     for (int i = 0; i < n; i++) {
@@ -81,7 +81,8 @@ static long double drawn_in(enclosure a) {
                         : (long double)dice_between(&die, a.low, a.high);
 }
 
-/* Extent of `before` in the direction, after one random matrix within `map` is applied and the box `more` is added. */
+/* How far `before` extends in the direction after a random matrix within `map` is applied and the box `more` is
+ * added. */
 static long double mapped_reach(const exact_set *before, const enclosure *map,
                                 const enclosure *more, const long double *direction) {
     const int n = before->n;
@@ -108,8 +109,9 @@ static zonotope *drawn_zonotope(int n, int most, unsigned maps) {
     return z;
 }
 
-/* The image always contains the exact one, however often it is reduced. Without a reduction the excess is round-off.
- * With one it is at most that of a box over its contents: the shortest generators, each up to sqrt(n) as long. */
+/* The image must always contain the exact one, however often it is reduced. Without a reduction, the excess is
+ * round-off. With a reduction, the excess is that of a box around the shortest generators, up to sqrt(n) times their
+ * length. */
 TEST(zonotope, mapped) {
     unsigned reductions = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(150, 50)); c++) {
@@ -130,7 +132,7 @@ TEST(zonotope, mapped) {
             TEST_ASSERT_TRUE(now.count <= (reduced ? z->most / 2 + 2 * n : before.count + n));
             TEST_ASSERT_TRUE(!reduced || now.count >= z->most / 2 + n);
             long double size = 1.0L;
-            long double shorter = 0.0L; /* total length of those turned into a box */
+            long double shorter = 0.0L; /* total length of the generators that become a box */
             long double length[MOST] = {0.0L};
             for (int k = 0; k < before.count; k++) {
                 long double to[SIZE] = {0.0L};
@@ -144,7 +146,7 @@ TEST(zonotope, mapped) {
             }
             if (reduced) {
                 reductions++;
-                for (int k = z->most / 2; k < before.count; k++) { /* the shortest that remain */
+                for (int k = z->most / 2; k < before.count; k++) { /* the shortest ones */
                     int least = 0;
                     for (int l = 1; l < before.count; l++) {
                         least = length[l] < length[least] ? l : least;
@@ -196,7 +198,7 @@ TEST(zonotope, box) {
     }
 }
 
-/* The inverse of a nearly orthogonal matrix by Newton's iteration from its transpose. */
+/* The inverse of a nearly orthogonal matrix, by Newton's iteration from the transpose. */
 static void inverse_of(int n, const double *axes, long double *inverse) {
     long double rest[SIZE * SIZE] = {0.0L};
     long double next[SIZE * SIZE] = {0.0L};
@@ -220,7 +222,7 @@ static void inverse_of(int n, const double *axes, long double *inverse) {
     }
 }
 
-/* Orthogonal axes, the first along the longest generator, and the smallest box along them. */
+/* The axes must be orthogonal, the first along the longest generator, and the box along them must be the smallest. */
 static void expect_frame(const zonotope *z) {
     const int n = z->n;
     const exact_set s = copy_of(z);
@@ -279,7 +281,8 @@ TEST(zonotope, frame) {
             z->generator[i] = 1.0;
             z->generator[n + i] = -2.0;
             z->generator[2 * n + i] = 0.0;
-            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0; /* not counted, so never read */
+            /* does not count, so must never be read */
+            z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0;
         }
         expect_frame(z);
         zonotope_free(z);

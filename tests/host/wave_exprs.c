@@ -1,5 +1,5 @@
-/* wave_exprs.c: random expressions of sines and their error bounds. The bounds follow from documented values: the
- * sine's worst error, the phase unit, one rounding per operation (docs/dev/numerics.md). */
+/* wave_exprs.c: random expressions of sines, and bounds on their errors. The bounds follow from documented values:
+ * the sine's worst error, the phase unit, and one rounding for each operation (docs/dev/numerics.md). */
 #include "wave_exprs.h"
 
 #include "derived.h"
@@ -22,7 +22,7 @@ static int any(uint64_t *seed, int count) { return (int)(random_bits(seed) % (un
 static wave_argument make_argument(uint64_t *seed) {
     wave_argument made = {.pieces = 1 + any(seed, WAVE_PIECES)};
     const int first = any(seed, WAVE_SYMBOLS);
-    for (int i = 0; i < made.pieces; i++) { /* each symbol appears once */
+    for (int i = 0; i < made.pieces; i++) { /* each symbol once */
         wave_piece *p = &made.piece[i];
         p->symbol = (first + i) % WAVE_SYMBOLS;
         p->form = any(seed, FORMS);
@@ -125,21 +125,21 @@ wave_expr wave_expr_plain(uint64_t *seed) {
 }
 
 typedef struct arithmetic {
-    long double unit;      /* relative error of one rounding */
+    long double unit;      /* relative error of a rounding */
     long double sine;      /* worst error of a sine */
-    long double phase_rad; /* rounding of a phase; 0 for a number in radians */
+    long double phase_rad; /* rounding of a phase; 0 for numbers in radians */
 } arithmetic;
 
 static const arithmetic in_float = {0x1p-24L, 6.3e-8L, 1.463e-9L};
 static const arithmetic in_double = {0x1p-53L, 1.4e-16L, 0.0L};
 
-/* An argument, its error bound, and how far it depends on sines that are computed from other sines. */
+/* An argument and its error bound, and whether its sine may be computed from other sines. */
 typedef struct reckoned {
     long double value;
     long double error;
     long double size;
-    long double beside; /* error of the angles whose sines may yield this one's */
-    /* the argument contains a fraction of a turn angle, so its sine is not computed from others */
+    long double beside; /* error of the angles from whose sines this one may come */
+    /* the argument contains a fraction of a turn angle, so its sine is not computed from other sines */
     bool evaluated;
 } reckoned;
 
@@ -154,22 +154,22 @@ static reckoned reckon(const wave_argument *of, const long double *state, const 
         r.size += fabsl(p->number) * (turns ? 1.0L : 3.0L);
         r.evaluated = r.evaluated || (turns && p->number != rintl(p->number));
         if (turns && in->phase_rad > 0.0L) {
-            /* the multiple is an integer of any size, so the error is at most 0.75 units; the number is a double */
+            /* the multiple may be any integer, so the error is up to 0.75 units; the number is a double */
             r.error += in->phase_rad + 0x1p-53L * fabsl(part);
         } else {
             added += fabsl(part);
         }
     }
     r.error += 4.0L * in->unit * added;
-    /* sin(3 u) may come from u + b and 2 u - b: in double, the sines of both have the round-off of a large b */
+    /* sin(3 u) may come from u + b and 2 u - b: in double, both have the round-off of a large b */
     for (int i = 0; i < WAVE_SYMBOLS; i++) {
         r.beside += in->phase_rad > 0.0L ? in->phase_rad : 4.0L * in->unit * fabsl(state[i]);
     }
     return r;
 }
 
-/* A sine of r, or of its sum with the angle of another factor. When its pair is derived from others, errors add up and
- * grow fourfold with each doubling of an angle. */
+/* Error of a sine of r or, if `multiplied`, of r plus the angle of another factor. If the sine is computed from
+ * other sines, errors add up, and become four times larger with each doubling of an angle. */
 static long double sine_error(const reckoned *r, const arithmetic *in, bool multiplied) {
     const bool evaluated = r->evaluated && !multiplied;
     const long double growth = evaluated ? 1.0L : (1.0L + r->size) * (1.0L + r->size);
@@ -191,13 +191,13 @@ static share factor_share(const wave_factor *f, const long double *state, const 
         r.value += 0.3L * sinl(inner.value);
         r.error += 0.3L * sine_error(&inner, in, false) + in->phase_rad + in->unit;
     }
-    if (f->product >= 0) { /* in radians the round-off is relative to the product's size */
+    if (f->product >= 0) { /* in radians, round-off is relative to the size of the product */
         const long double product = state[WAVE_ANGLES] * state[f->product] / 100.0L;
         r.value += product;
         r.error += 6.0L * in->unit * fabsl(product) + in->phase_rad;
     }
     const bool multiplied = beside != NULL && f->function != WAVE_TAN;
-    if (multiplied) { /* the list turns a product of sines into a sum of sines of summed angles */
+    if (multiplied) { /* the operation list makes a product of sines a sum of sines */
         r.error += beside->error;
         r.size += beside->size;
     }
