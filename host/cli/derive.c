@@ -6,14 +6,13 @@
 #include "commands.h"
 #include "host/cli/load.h"
 #include "host/emit/emit.h"
-#include "host/emit/matrix.h"
 #include "host/engine/start.h"
 #include "host/fixed/c_fixed.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/lang/lexer.h"
 #include "host/os/atomic_file.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 #include "options.h"
 
 /* The properties of a form. A form that shows prints the equations of each mechanism of a file in turn, and their derivation

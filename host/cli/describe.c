@@ -9,7 +9,7 @@
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
-#include "host/emit/description.h"
+#include "host/emit/emit.h"
 #include "host/engine/engine.h"
 #include "host/number/functions.h"
 

@@ -8,7 +8,7 @@
 #include "host/cli/load.h"
 #include "host/derive/symmetry.h"
 #include "host/emit/emit.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 #include "options.h"
 
 static const command_usage usage = {

@@ -9,7 +9,6 @@
 #include "host/cli/load.h"
 #include "host/cli/options.h"
 #include "host/cli/run.h"
-#include "host/io/figure_draw.h"
 #include "host/io/gnuplot.h"
 #include "host/io/plot.h"
 #include "host/lang/builtin.h"

@@ -15,7 +15,7 @@
 #include "host/derive/lagrange.h"
 #include "host/lang/hints.h"
 #include "host/lang/override.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 
 #ifdef __wasi__ /* no full path: only the name that was given */
 static char *realpath(const char *path, char *resolved) {

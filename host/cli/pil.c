@@ -15,8 +15,6 @@
 #include "host/os/system.h"
 #include "host/pil/fault.h"
 #include "host/pil/lockstep.h"
-#include "host/pil/report.h"
-#include "host/pil/taped.h"
 #include "options.h"
 
 #define FINE_STEP "50us"
@@ -304,7 +302,7 @@ static bool open_tape(const pil_options *o, const source_model *from, FILE **fil
 }
 
 static int run_image(const pil_options *o, const source_model *from, const image *im,
-                     lockstep_wish *wish) {
+                     lockstep_wish *wish, double every_s) {
     lockstep_report report;
     recorded rows;
     if (!start_has_method(im, im->settings.method, from->errors) ||
@@ -313,7 +311,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
         return EXIT_BAD_INPUT;
     }
     if (would_be_lost(o, from, "--csv", o->csv) || !open_tape(o, from, &wish->tape) ||
-        !recorded_open(&rows, o->csv, im, o->every != NULL ? wish->every_s : -1.0)) {
+        !recorded_open(&rows, o->csv, im, o->every != NULL ? every_s : -1.0)) {
         return EXIT_BAD_INPUT;
     }
     wish->plant.rows = &rows;
@@ -374,6 +372,7 @@ static int run_source(pil_options *o, source_model *from) {
     const mechanism *of;
     const scene *in;
     lockstep_wish wish = wish_of(o);
+    double every_s;
     int code = source_open(from, o->target);
     code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
     if (code != EXIT_DONE) {
@@ -381,8 +380,7 @@ static int run_source(pil_options *o, source_model *from) {
     }
     if (!read_time("jitter", o->jitter, of, &wish.plant.jitter_s) ||
         !read_time("delay", o->delay, of, &wish.plant.delay_s) ||
-        !read_time("every", o->every, of, &wish.every_s) ||
-        !plant_read_places(o->place, &wish.plant)) {
+        !read_time("every", o->every, of, &every_s) || !plant_read_places(o->place, &wish.plant)) {
         return EXIT_BAD_INPUT;
     }
     loaded made;
@@ -393,7 +391,7 @@ static int run_source(pil_options *o, source_model *from) {
     code = load_plant(o, from, of, in, &made);
     source_forget(from);
     if (code == EXIT_DONE) {
-        code = run_image(o, from, made.image, &wish);
+        code = run_image(o, from, made.image, &wish, every_s);
     }
     unload(&made);
     return code;

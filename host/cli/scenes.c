@@ -16,7 +16,7 @@
 #include "host/lang/builtin.h"
 #include "host/number/decimal.h"
 #include "host/os/atomic_file.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 #include "host/study/trial.h"
 
 /* === every scene ============================================================================== */

@@ -1,11 +1,11 @@
 /* description.c: an image as JSON, and for readers. */
-#include "host/emit/description.h"
+#include "host/emit/emit.h"
 
 #include <inttypes.h>
 #include <string.h>
 
 #include "host/base/diag.h"
-#include "host/emit/matrix.h"
+#include "host/base/json.h"
 #include "host/image/core_rows.h"
 
 const char *const describe_roles[IMAGE_ROLES] = {
@@ -268,6 +268,33 @@ static void put_sizes(json *j, const image *im) {
     json_close(j, '}');
 }
 
+static void put_matrix_rows(json *j, const image *im, const char *key, int first, int end) {
+    json_open(j, key, '[');
+    for (int i = 0; i < im->matrix.states; i++) {
+        json_open(j, NULL, '[');
+        for (int k = first; k < end; k++) {
+            json_number(j, NULL, im->matrix.entry[i * im->matrix.columns + k]);
+        }
+        json_close(j, ']');
+    }
+    json_close(j, ']');
+}
+
+/* Writes the setting; for an image with a matrix also "phi", "gamma" and "g", rows of the components in their order. */
+static void put_matrix(json *j, const image *im) {
+    const int states = im->matrix.states;
+    json_text(j, "matrix", image_matrix_words[im->settings.matrix]);
+    if (im->settings.matrix != MATRIX_NONE) {
+        put_matrix_rows(j, im, "phi", 0, states);
+        put_matrix_rows(j, im, "gamma", states, states + im->inputs);
+        json_open(j, "g", '[');
+        for (int i = 0; i < states; i++) {
+            json_number(j, NULL, im->matrix.entry[(i + 1) * im->matrix.columns - 1]);
+        }
+        json_close(j, ']');
+    }
+}
+
 void describe_json(FILE *out, const image *im, const char *file) {
     json j = {.out = out};
     json_open(&j, NULL, '{');
@@ -288,7 +315,7 @@ void describe_json(FILE *out, const image *im, const char *file) {
               im->settings.tables != TABLES_NONE
                   ? "tables"
                   : image_angles_words[image_turns(im) ? ANGLES_TURNED : ANGLES_LOOKUP]);
-    matrix_json(&j, im);
+    put_matrix(&j, im);
     put_tables(&j, im);
     put_time(&j, im);
     put_effects(&j, im);

@@ -38,4 +38,29 @@ void emit_c_header(FILE *out, const image *im, const char *file);
 /* Writes the scene as C for the core: constants, start, straight-line right-hand side, one step. */
 void emit_c(FILE *out, const image *im, const char *file);
 
+/* === a whole step as one matrix (IMAGE_MATRIX) ================================================ */
+
+/* Writes tables of Phi, Gamma and g with ten digits. */
+void matrix_text(FILE *out, const image *im);
+void matrix_latex(FILE *out, const image *im);
+
+/* A function file `function [Phi, Gamma, g0] = NAME()` for Octave and Matlab, to the last digit, with a run as a comment.
+ * Phi and Gamma are the names of Matlab's c2d(). */
+void matrix_octave(FILE *out, const image *im, const char *file);
+
+/* === the contents of an image, for programs (docs/describe.md) and for readers ================ */
+
+/* Increased when a field changes its meaning or is removed; new fields may appear at any time. */
+#define DESCRIBE_VERSION 1
+
+/* Writes one JSON object. `file` is the name of the .whirl file. */
+void describe_json(FILE *out, const image *im, const char *file);
+
+/* Writes the description as text for readers. */
+void describe_text(FILE *out, const image *im, const char *file);
+
+/* Words of both descriptions. */
+extern const char *const describe_roles[IMAGE_ROLES];
+const char *describe_ledger_kind(ledger_kind kind);
+
 #endif

@@ -1,5 +1,4 @@
 /* matrix.c: a whole step as one matrix, for readers, for LaTeX and for Octave. */
-#include "matrix.h"
 
 #include "emit.h"
 
@@ -175,30 +174,4 @@ void matrix_octave(FILE *out, const image *im, const char *file) {
     put_octave(out, im, "Gamma", states, states + im->inputs);
     put_octave(out, im, "g0", states + im->inputs, im->matrix.columns);
     fputs("end\n", out);
-}
-
-static void put_json(json *j, const image *im, const char *key, int first, int end) {
-    json_open(j, key, '[');
-    for (int i = 0; i < im->matrix.states; i++) {
-        json_open(j, NULL, '[');
-        for (int k = first; k < end; k++) {
-            json_number(j, NULL, entry(im, i, k));
-        }
-        json_close(j, ']');
-    }
-    json_close(j, ']');
-}
-
-void matrix_json(json *j, const image *im) {
-    const int states = im->matrix.states;
-    json_text(j, "matrix", image_matrix_words[im->settings.matrix]);
-    if (im->settings.matrix != MATRIX_NONE) {
-        put_json(j, im, "phi", 0, states);
-        put_json(j, im, "gamma", states, states + im->inputs);
-        json_open(j, "g", '[');
-        for (int i = 0; i < states; i++) {
-            json_number(j, NULL, entry(im, i, im->matrix.columns - 1));
-        }
-        json_close(j, ']');
-    }
 }

@@ -1,6 +1,4 @@
 /* figure_draw.c: the picture of a figure's description. */
-#include "figure_draw.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

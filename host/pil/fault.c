@@ -501,11 +501,7 @@ static void tap_readings(void *of, double time_s, wh_readings *readings) {
 }
 
 tap fault_tap(fault_plan *plan) {
-    return (tap){.name = "faults",
-                 .of = plan,
-                 .start = tap_start,
-                 .orders = tap_orders,
-                 .readings = tap_readings};
+    return (tap){.of = plan, .start = tap_start, .orders = tap_orders, .readings = tap_readings};
 }
 
 /* === faults in words ========================================================================== */

@@ -9,7 +9,7 @@
 #ifndef PIL_FAULT_H
 #define PIL_FAULT_H
 
-#include "host/pil/report.h"
+#include "host/pil/lockstep.h"
 
 typedef enum fault_place {
     FAULT_EDGES,

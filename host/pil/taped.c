@@ -1,5 +1,5 @@
 /* taped.c: the reader of tapes of `whirl pil --tape`. */
-#include "host/pil/taped.h"
+#include "host/pil/lockstep.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -12,7 +12,6 @@
 #include "host/io/plot.h"
 #include "host/os/atomic_file.h"
 #include "host/os/guest.h"
-#include "host/pil/lockstep.h"
 
 /* === the reader =============================================================================== */
 /* A tape has the frames of the line in order: hello, then readings and orders in turns; hello and a reset after each

@@ -1,5 +1,5 @@
 /* show_equations.c: the equations of motion, events and derivation, for screen and paper. */
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 
 #include <ctype.h>
 #include <math.h>

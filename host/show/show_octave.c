@@ -7,7 +7,6 @@
 #include "host/lang/lexer.h"
 #include "host/lang/value.h"
 #include "host/show/show.h"
-#include "host/show/show_equations.h"
 
 /* A variable of the generated file, for a symbol or its derivative. Symbol NULL: the file itself needs the name. */
 typedef struct variable {

@@ -13,7 +13,7 @@
 #include "host/derive/lagrange.h"
 #include "host/emit/emit.h"
 #include "host/engine/engine.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 
 enum { TEXT_SIZE = 16384, UNKNOWNS_MAX = 4, LETS_MAX = 8, CONTACTS = 3, STEPS = 3 };
 

@@ -4,7 +4,7 @@
 #include "host/emit/emit.h"
 #include "host/engine/engine.h"
 #include "host/lang/builtin.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 
 const image_settings plainly = IMAGE_SETTINGS_DEFAULT;
 

@@ -814,7 +814,7 @@ tap judge_tap(judge *j, const campaign_case *of, const fault_plan *plan, double 
         .on_shown_s = -1.0,
         .off_shown_s = -1.0,
         .verdict = {.row = of->row, .target_rpm = of->target_rpm, .stage = -1, .off_s = -1.0}};
-    return (tap){.name = "judge", .of = j, .start = start, .orders = hear, .watch = watch};
+    return (tap){.of = j, .start = start, .orders = hear, .watch = watch};
 }
 
 void judge_end(judge *j, const lockstep_report *report) {

@@ -6,7 +6,7 @@
 #include <dirent.h>
 
 #include "host/emit/emit.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 
 void each_mechanism(checker *check) {
     static const char *const own[] = {"spherical_particle",  "masses_relative", "masses_absolute",

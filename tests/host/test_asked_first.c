@@ -5,7 +5,7 @@
 #include "command.h"
 #include "derived.h"
 #include "host/emit/emit.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 #include "mechanism.h"
 
 enum { POOL = 24, QUESTIONS = 60, SIZE_MAX_ASKED = 60, MECHANISMS_FEW = 10, MECHANISMS = 30 };

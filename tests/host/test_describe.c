@@ -2,7 +2,7 @@
  * test_image.c checks every field on random scenes. */
 #include "test.h"
 
-#include "host/emit/description.h"
+#include "host/emit/emit.h"
 #include "host/lang/units.h"
 
 #include "derived.h"

@@ -6,7 +6,6 @@
 #include "drawn_scene.h"
 #include "host/base/alloc.h"
 #include "host/emit/c_header.h"
-#include "host/emit/description.h"
 #include "host/emit/emit.h"
 
 static dice die;

@@ -394,8 +394,8 @@ static void test_listening(void) {
     run(&wish);
     const lockstep_report without = report;
     listener heard = {.orders = 0};
-    const tap taps[] = {{.name = "orders", .of = &heard, .orders = hear_orders},
-                        {.name = "readings", .of = &heard, .readings = hear_readings}};
+    const tap taps[] = {{.of = &heard, .orders = hear_orders},
+                        {.of = &heard, .readings = hear_readings}};
     wish.taps = taps;
     wish.tap_count = 2;
     run(&wish);
@@ -413,8 +413,8 @@ static void test_watching(void) {
     for (int late = 0; late < 2; late++) {
         lockstep_wish wish = wish_until(1.5);
         listener seen = {.orders = 0};
-        const tap taps[] = {{.name = "late", .orders = late ? take_ten_ms : NULL},
-                            {.name = "watch", .of = &seen, .start = see_start, .watch = see_plant}};
+        const tap taps[] = {{.orders = late ? take_ten_ms : NULL},
+                            {.of = &seen, .start = see_start, .watch = see_plant}};
         wish.taps = taps;
         wish.tap_count = 1;
         run(&wish);
@@ -430,7 +430,7 @@ static void test_watching(void) {
 
 static void test_refused_start(void) {
     lockstep_wish wish = wish_until(1.0);
-    const tap taps[] = {{.name = "no", .start = refuse_start}};
+    const tap taps[] = {{.start = refuse_start}};
     wish.taps = taps;
     wish.tap_count = 1;
     lockstep_run(&wish, cart.image, &report);
@@ -441,7 +441,7 @@ static void test_refused_start(void) {
 /* A plant that loses its orders must move as it would alone. */
 static void test_deaf_plant(void) {
     lockstep_wish wish = wish_until(1.0);
-    const tap taps[] = {{.name = "deaf", .orders = forget_orders}};
+    const tap taps[] = {{.orders = forget_orders}};
     wish.taps = taps;
     wish.tap_count = 1;
     run(&wish);
@@ -453,8 +453,7 @@ static void test_deaf_plant(void) {
 static void test_blind_firmware(void) {
     lockstep_wish wish = wish_until(0.2);
     listener heard = {.orders = 0};
-    const tap taps[] = {{.name = "blind", .readings = lose_samples},
-                        {.name = "orders", .of = &heard, .orders = hear_orders}};
+    const tap taps[] = {{.readings = lose_samples}, {.of = &heard, .orders = hear_orders}};
     wish.taps = taps;
     wish.tap_count = 2;
     run(&wish);
@@ -486,8 +485,7 @@ static void tape_of_a_tapped_run(const tap *only, uint64_t exchanges) {
 }
 
 static void test_tapes_of_tapped_runs(void) {
-    const tap taps[] = {{.name = "blind", .readings = lose_samples},
-                        {.name = "deaf", .orders = forget_orders}};
+    const tap taps[] = {{.readings = lose_samples}, {.orders = forget_orders}};
     tape_of_a_tapped_run(&taps[0], 300);
     tape_of_a_tapped_run(&taps[1], 300);
 }

@@ -8,7 +8,6 @@
 #include "host/check/nonfinite.h"
 #include "host/check/slow.h"
 #include "host/check/summary.h"
-#include "host/emit/description.h"
 #include "host/emit/emit.h"
 #include "host/engine/start.h"
 #include "host/image/image.h"

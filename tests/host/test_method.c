@@ -4,7 +4,7 @@
 #include "core/step/ledger_step.h"
 #include "host/cli/commands.h"
 #include "host/engine/start.h"
-#include "host/show/show_equations.h"
+#include "host/show/show.h"
 
 #include "command.h"
 #include "derived.h"

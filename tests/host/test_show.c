@@ -5,7 +5,6 @@
 
 #include "host/emit/emit.h"
 #include "host/show/show.h"
-#include "host/show/show_equations.h"
 
 #include "derived.h"
 #include "expressions.h"

@@ -7,7 +7,6 @@
 #include "host/base/alloc.h"
 #include "host/os/system.h"
 #include "host/pil/lockstep.h"
-#include "host/pil/taped.h"
 
 #include "drawn_talk.h"
 #include "test.h"
