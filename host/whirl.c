@@ -45,7 +45,6 @@ static const command commands[] = {
      "firmware in an emulator, with a scene as its plant"},
     {"monitor", command_monitor, "PORT", "a rig's console, with a record of its telemetry"},
     {"firstlight", command_firstlight, "FILE|PORT", "comparison of a board's first record"},
-    {"emit-settings", command_emit_settings, NULL, NULL},
     {"emit-scenes", command_emit_scenes, NULL, NULL},
     {"hashes", command_hashes, NULL, NULL},
 };

@@ -1,6 +1,6 @@
-# settings.mk: the same bits on every board with every setting of `whirl price` (host/study/trial.h). The program writes
-# some scenes with every setting that they accept, and the interpreter's hashes (host/cli/scenes.c). The compiled code, on
-# this machine and on boards, must print the same hashes.
+# settings.mk: the same bits on every board with every setting of `whirl price` (host/study/trial.h). tests/settings_hashes.sh
+# writes some scenes with every setting that they accept, and the interpreter's hashes. The compiled code, on this machine
+# and on boards, must print the same hashes.
 
 # Together they have: a matrix, tables, turned and looked-up angles, every method, first order, stops, fixed point.
 SETTINGS_WHOLE := two_mass_relative epicyclic_conserved mk/price/separable.whirl \
@@ -19,13 +19,13 @@ SETTINGS_IN := build/settings/$(SETTINGS)
 # Files that come out unchanged are not touched.
 settings-written: new = $(SETTINGS_IN).new
 settings-written: hashed = $$(sed 's/^scene //; s/ .*//' $(1).hashes)
-settings-written: build/whirl
+settings-written: build/whirl tests/settings_hashes.sh
 	$(say) GEN "$(SETTINGS_IN)/*.c"
 	$(Q)rm -rf $(new) && mkdir -p $(new) $(SETTINGS_IN)
-	$(Q)build/whirl emit-settings $(new) $(SETTINGS_STEPS) $(SETTINGS_SCENES_$(SETTINGS))
+	$(Q)sh tests/settings_hashes.sh build/whirl $(new) $(SETTINGS_STEPS) $(SETTINGS_SCENES_$(SETTINGS))
 	$(Q)mk/count/index.sh $(call hashed,$(new)/float) >$(new)/table_real.c
 	$(Q)mk/count/index.sh --fixed $(call hashed,$(new)/fixed) >$(new)/table_fixed.c
-	$(Q)cp $(new)/*.hashes $(new)/settings.txt $(SETTINGS_IN)
+	$(Q)cp $(new)/*.hashes $(SETTINGS_IN)
 	$(Q)sh mk/setup/update_files.sh $(new) $(SETTINGS_IN)
 
 # Only the make that runs after these files are written knows which exist.

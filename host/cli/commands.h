@@ -23,7 +23,6 @@ int command_pil(int count, char **words);
 int command_monitor(int count, char **words);
 int command_firstlight(int count, char **words);
 int command_emit_scenes(int count, char **words);
-int command_emit_settings(int count, char **words);
 int command_hashes(int count, char **words);
 
 #endif

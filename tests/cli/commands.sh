@@ -4,7 +4,7 @@
 . "$(dirname "$0")/../checks.sh"
 
 # All commands of host/cli/commands.h, except those that only the project's own build calls.
-hidden='emit-scenes|emit-settings|hashes'
+hidden='emit-scenes|hashes'
 sed -n 's/^int command_\([a-z_]*\)(.*/\1/p' host/cli/commands.h | tr _ - | grep -vxE "$hidden" >"$scratch/commands"
 "$whirl" --help >"$scratch/help" 2>"$scratch/err"
 verdict $? "whirl --help"
