@@ -52,38 +52,25 @@ static bool is_csv(const char *name) {
     return length > 4 && options_same(name + length - 4, ".csv");
 }
 
-/* The text "l=20cm" if word i is --set l=20cm or --set=l=20cm, or --start with such a value; else NULL. */
-static const char *assigned(const plot_options *o, int i) {
-    static const char *const options[] = {"--set", "--start"};
-    for (int k = 0; k < 2; k++) {
-        const size_t length = strlen(options[k]);
-        if (strncmp(o->passed[i], options[k], length) == 0) {
-            return o->passed[i][length] == '='                           ? o->passed[i] + length + 1
-                   : o->passed[i][length] == '\0' && i < o->passed_count ? o->passed[i + 1]
-                                                                         : NULL;
-        }
-    }
-    return NULL;
-}
-
 /* Options apply to every scene, so no name can have two values. */
 static bool sets_once(const plot_options *o) {
-    for (int i = 1; i <= o->passed_count; i++) {
-        for (int k = i + 1; k <= o->passed_count; k++) {
-            const char *first = assigned(o, i);
-            const char *second = assigned(o, k);
-            const size_t length = first != NULL ? strcspn(first, "= ") : 0;
-            const char *option = strncmp(o->passed[i], "--start", 7) == 0 ? "start" : "set";
-            if (first != NULL && second != NULL && strcspn(second, "= ") == length &&
-                strncmp(first, second, length) == 0) {
+    const change_options *c = &o->common.change;
+    for (int i = 0; i < c->set_count + c->start_count; i++) {
+        const bool is_set = i < c->set_count;
+        const char *const *all = is_set ? c->sets : c->starts;
+        const int at = is_set ? i : i - c->set_count;
+        const size_t length = strcspn(all[at], "= ");
+        const char *option = is_set ? "set" : "start";
+        for (int k = 0; k < at; k++) {
+            if (strcspn(all[k], "= ") == length && strncmp(all[k], all[at], length) == 0) {
                 fprintf(stderr,
                         "whirl plot: error: %.*s is given twice, and options change every scene\n"
                         "hint: record each run, then draw both:\n"
                         "  whirl run %s --%s \"%s\" --csv a.csv\n"
                         "  whirl run %s --%s \"%s\" --csv b.csv\n"
                         "  whirl plot a.csv b.csv --out %s\n",
-                        (int)length, first, o->target[0], option, first, o->target[o->targets - 1],
-                        option, second, o->out);
+                        (int)length, all[k], o->target[0], option, all[k],
+                        o->target[o->targets - 1], option, all[at], o->out);
                 return false;
             }
         }

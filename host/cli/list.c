@@ -93,27 +93,22 @@ static void put_effects(const mechanism *m, const bool *with, bool ledger) {
 
 /* The kinds of the mechanism's statements in `effect`, or outside every effect. */
 static void put_what_is_in(const mechanism *m, int within) {
+    static const char *const words[] = {"terms", "contacts", "noise"};
+    bool has[3] = {false};
     bool any = false;
-    bool has_terms = false;
-    bool has_contacts = false;
-    bool has_noise = false;
     for (int i = 0; i < m->term_count; i++) {
-        has_terms = has_terms || m->terms[i].effect == within;
+        has[0] = has[0] || m->terms[i].effect == within;
     }
     for (int i = 0; i < m->contact_count; i++) {
-        has_contacts = has_contacts || m->contacts[i].effect == within;
+        has[1] = has[1] || m->contacts[i].effect == within;
     }
     for (int i = 0; i < m->noise_count; i++) {
-        has_noise = has_noise || m->noises[i].effect == within;
+        has[2] = has[2] || m->noises[i].effect == within;
     }
-    if (has_terms) {
-        add_word(&any, "terms");
-    }
-    if (has_contacts) {
-        add_word(&any, "contacts");
-    }
-    if (has_noise) {
-        add_word(&any, "noise");
+    for (int i = 0; i < 3; i++) {
+        if (has[i]) {
+            add_word(&any, words[i]);
+        }
     }
     end_words(any);
 }
@@ -135,14 +130,10 @@ static void put_what_is_in_scene(const scene *in) {
 
 /* An arbitrary text, escaped as in C: it contains no separators of fields or lines. */
 static void put_text(const char *text) {
+    static const char escaped[] = "\t\n\r\\";
     for (const char *at = text; *at != '\0'; at++) {
-        switch (*at) {
-        case '\t': fputs("\\t", stdout); break;
-        case '\n': fputs("\\n", stdout); break;
-        case '\r': fputs("\\r", stdout); break;
-        case '\\': fputs("\\\\", stdout); break;
-        default: putchar(*at); break;
-        }
+        const char *found = strchr(escaped, *at);
+        printf("%s%c", found != NULL ? "\\" : "", found != NULL ? "tnr\\"[found - escaped] : *at);
     }
 }
 

@@ -69,23 +69,16 @@ static void put_quantity(json *j, const image_quantity *q, int index, bool has_v
     put_place(j, q->at);
 }
 
+/* `range`: the quantities' ranges, or NULL. */
 static void put_quantities(json *j, const char *key, const image_quantity *q, int count,
-                           bool has_value) {
+                           const image_range *range) {
     json_open(j, key, '[');
     for (int i = 0; i < count; i++) {
         json_open(j, NULL, '{');
-        put_quantity(j, &q[i], i, has_value);
-        json_close(j, '}');
-    }
-    json_close(j, ']');
-}
-
-static void put_inputs(json *j, const image *im) {
-    json_open(j, "inputs", '[');
-    for (int i = 0; i < im->inputs; i++) {
-        json_open(j, NULL, '{');
-        put_quantity(j, &im->input[i], i, true);
-        put_range(j, &im->range[im->reals + i]);
+        put_quantity(j, &q[i], i, true);
+        if (range != NULL) {
+            put_range(j, &range[i]);
+        }
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -125,17 +118,15 @@ static void put_state(json *j, const image *im) {
 
 static void put_outputs(json *j, const image *im) {
     json_open(j, "outputs", '[');
-    for (int i = 0; i < im->own_outputs; i++) {
+    for (int i = 0; i < im->outputs; i++) {
+        const int k = i - im->own_outputs; /* of coordinates recovered from their momentum */
         json_open(j, NULL, '{');
-        put_quantity(j, &im->output[i], i, false);
-        json_close(j, '}');
-    }
-    for (int i = im->own_outputs; i < im->outputs; i++) {
-        /* outputs of coordinates that are recovered from their momentum */
-        const int k = i - im->own_outputs;
-        json_open(j, NULL, '{');
-        put_component(j, im, (component){im->from_momentum[k / 2], k % 2}, i);
-        json_bool(j, "from_momentum", true);
+        if (k < 0) {
+            put_quantity(j, &im->output[i], i, false);
+        } else {
+            put_component(j, im, (component){im->from_momentum[k / 2], k % 2}, i);
+            json_bool(j, "from_momentum", true);
+        }
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -319,9 +310,9 @@ void describe_json(FILE *out, const image *im, const char *file) {
     put_tables(&j, im);
     put_time(&j, im);
     put_effects(&j, im);
-    put_quantities(&j, "parameters", im->parameter, im->parameters, true);
+    put_quantities(&j, "parameters", im->parameter, im->parameters, NULL);
     put_state(&j, im);
-    put_inputs(&j, im);
+    put_quantities(&j, "inputs", im->input, im->inputs, &im->range[im->reals]);
     put_outputs(&j, im);
     put_contacts(&j, im);
     put_ledger(&j, im);

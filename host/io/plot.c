@@ -379,11 +379,9 @@ bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *comman
                       const char *scene) {
     const bool described = keep && csv != NULL && csv != stdout && atomic_file_is_regular(csv);
     /* The description is written last: if the CSV cannot be written, the old CSV and its description remain. */
-    if (!atomic_file_close(csv, name, keep)) {
-        return false;
-    }
-    if (!described) {
-        return true;
+    const bool closed = atomic_file_close(csv, name, keep);
+    if (!closed || !described) {
+        return closed;
     }
     char *file = alloc_words("%s.toml", name);
     FILE *to = atomic_file_open(file);
@@ -721,17 +719,17 @@ static int quantities_in(const panels *p, int panel) {
 /* The names of a panel's quantities, or of all (-1), separated by commas. If they are too long for an axis, the number
  * of quantities. The caller frees the result. */
 static char *names_of(const panels *p, int panel, size_t most) {
-    char *names = alloc_words("%s", "");
+    char *names;
+    size_t length;
+    FILE *to = alloc_text(&names, &length);
     int count = 0;
     for (int i = 0; i < p->quantities; i++) {
         if (panel < 0 || p->quantity[i].panel == panel) {
-            char *longer =
-                alloc_words("%s%s%s", names, count++ > 0 ? ", " : "", p->quantity[i].name);
-            free(names);
-            names = longer;
+            fprintf(to, "%s%s", count++ > 0 ? ", " : "", p->quantity[i].name);
         }
     }
-    if (strlen(names) > most && count > 1) {
+    alloc_text_end(to);
+    if (length > most && count > 1) {
         free(names);
         names = alloc_words("%d quantities", count);
     }
@@ -914,23 +912,23 @@ static char *title_of(const panels *p, const plot_choice *choice, const plot_run
 
 /* A description of the picture for readers who cannot see it; to be freed. */
 static char *alternative_text(const panels *p, const plot_run *runs) {
-    char *text = alloc_words("Curves over %s.", p->x_name);
+    char *text;
+    size_t length;
+    FILE *to = alloc_text(&text, &length);
+    fprintf(to, "Curves over %s.", p->x_name);
     for (int i = 0; i < p->quantities; i++) {
         const panels_quantity *q = &p->quantity[i];
         const char *unit = p->unit[q->panel];
         for (int k = 0; k < p->runs; k++) {
             const extent e = joined(nothing, &runs[k], q->column[k]);
-            if (!(e.least <= e.most)) {
-                continue;
+            if (e.least <= e.most) {
+                fprintf(to, " %s%s%s lies between %.4g and %.4g%s%s.", q->name,
+                        p->runs > 1 ? " of " : "", p->runs > 1 ? p->label[k] : "", e.least, e.most,
+                        unit != NULL ? " " : "", unit != NULL ? unit : "");
             }
-            char *longer =
-                alloc_words("%s %s%s%s lies between %.4g and %.4g%s%s.", text, q->name,
-                            p->runs > 1 ? " of " : "", p->runs > 1 ? p->label[k] : "", e.least,
-                            e.most, unit != NULL ? " " : "", unit != NULL ? unit : "");
-            free(text);
-            text = longer;
         }
     }
+    alloc_text_end(to);
     return text;
 }
 

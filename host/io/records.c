@@ -241,7 +241,7 @@ static void name_quantity(traces *w, int *signal, const char *name, const char *
     char *shown =
         image_shows_si(unit) ? alloc_words("%s", name) : alloc_words("%s [%s]", name, unit->shown);
     char *note = alloc_words("%s [%s]%s%s", name, unit->shown, text[0] != '\0' ? ": " : "", text);
-    const int made = vcd_real(w->vcd, shown, note);
+    const int made = vcd_add(w->vcd, VCD_REAL, shown, note);
     if (signal != NULL) {
         *signal = made;
     } else {
@@ -295,12 +295,12 @@ static void name_contacts(traces *w) {
         statement_text(c->at, statement, sizeof statement);
         const int number = ++of_kind[c->kind];
         char *name = alloc_words("%s%d_%s", c->word, number, words[c->kind].does);
-        w->mode_of[k] = vcd_wire(w->vcd, name, statement);
+        w->mode_of[k] = vcd_add(w->vcd, VCD_WIRE, name, statement);
         free(name);
         w->event_of[k] = -1;
         if (words[c->kind].happens != NULL) {
             name = alloc_words("%s%d_%s", c->word, number, words[c->kind].happens);
-            w->event_of[k] = vcd_event(w->vcd, name, NULL);
+            w->event_of[k] = vcd_add(w->vcd, VCD_EVENT, name, NULL);
             free(name);
         }
     }

@@ -12,8 +12,6 @@
 /* Size of a value's text. */
 enum { VALUE_SIZE = 40 };
 
-typedef enum vcd_kind { VCD_WIRE, VCD_REAL, VCD_EVENT } vcd_kind;
-
 typedef struct vcd_signal {
     vcd_kind kind;
     char value[VALUE_SIZE]; /* the last written value; "": not written yet */
@@ -114,7 +112,7 @@ static void write_mark(FILE *out, int64_t signal) {
     } while (signal >= 0);
 }
 
-static int add_signal(vcd *v, vcd_kind kind, const char *name, const char *note) {
+int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note) {
     static const char *const words[] = {
         [VCD_WIRE] = "wire 1", [VCD_REAL] = "real 64", [VCD_EVENT] = "event 1"};
     v->signal = alloc_more(v->signal, v->signals + 1, sizeof v->signal[0]);
@@ -128,18 +126,6 @@ static int add_signal(vcd *v, vcd_kind kind, const char *name, const char *note)
         write_comment(v->out, note);
     }
     return (int)v->signals++;
-}
-
-int vcd_wire(vcd *v, const char *name, const char *note) {
-    return add_signal(v, VCD_WIRE, name, note);
-}
-
-int vcd_real(vcd *v, const char *name, const char *note) {
-    return add_signal(v, VCD_REAL, name, note);
-}
-
-int vcd_event(vcd *v, const char *name, const char *note) {
-    return add_signal(v, VCD_EVENT, name, note);
 }
 
 /* --- changes -------------------------------------------------------------------------------------------------- */

@@ -12,6 +12,7 @@
 enum { VCD_FINEST = 15 };
 
 typedef struct vcd vcd;
+typedef enum vcd_kind { VCD_WIRE, VCD_REAL, VCD_EVENT } vcd_kind;
 
 /* Writes to `out`, which the caller owns: the head, with the text `what`, a unit of 10^-power s, and a scope. Reals
  * have `digits` digits. */
@@ -23,9 +24,7 @@ void vcd_scope(vcd *v, const char *scope);
 /* Add a signal, before the first change. In its name blanks become _, and brackets, which would denote vectors, are
  * removed. If the result is not a simple identifier, such as der(x), it is escaped with a backslash. `note`, or NULL,
  * is a comment after it. Returns its number. */
-int vcd_wire(vcd *v, const char *name, const char *note);
-int vcd_real(vcd *v, const char *name, const char *note);
-int vcd_event(vcd *v, const char *name, const char *note);
+int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note);
 
 /* The value from this time on, at the earliest from 0. A wire is 0, 1 for any other number, or unknown for NaN. An
  * event occurs at this time. */

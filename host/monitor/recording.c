@@ -271,15 +271,15 @@ static void head(recording *r, const schema_channel *c) {
         if (r->csv != NULL) {
             fprintf(r->csv, ",%s", field->name);
         }
-        r->signal[i] = r->vcd != NULL ? vcd_real(r->vcd, field->name, NULL) : -1;
+        r->signal[i] = r->vcd != NULL ? vcd_add(r->vcd, VCD_REAL, field->name, NULL) : -1;
     }
     if (r->csv != NULL) {
         fputs("\r\n", r->csv);
     }
     if (r->vcd != NULL) {
-        r->trip = vcd_real(r->vcd, "trip", NULL);
-        r->pulse[0] = vcd_wire(r->vcd, "slot1", NULL);
-        r->pulse[1] = vcd_wire(r->vcd, "slot2", NULL);
+        r->trip = vcd_add(r->vcd, VCD_REAL, "trip", NULL);
+        r->pulse[0] = vcd_add(r->vcd, VCD_WIRE, "slot1", NULL);
+        r->pulse[1] = vcd_add(r->vcd, VCD_WIRE, "slot2", NULL);
         for (int i = 0; i < 2; i++) {
             vcd_change(r->vcd, r->pulse[i], 0, 0.0);
         }

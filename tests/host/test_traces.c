@@ -445,9 +445,8 @@ static void add_signals(vcd *v) {
         char name[20];
         const char *note = i % 4 == 0 ? "m" : i % 4 == 1 ? "a note" : i % 4 == 2 ? "" : NULL;
         snprintf(name, sizeof name, "s%d", i);
-        const int number = kind(i) == WIRE   ? vcd_wire(v, name, note)
-                           : kind(i) == REAL ? vcd_real(v, name, note)
-                                             : vcd_event(v, name, note);
+        static const vcd_kind kinds[] = {[WIRE] = VCD_WIRE, [REAL] = VCD_REAL, [EVENT] = VCD_EVENT};
+        const int number = vcd_add(v, kinds[kind(i)], name, note);
         TEST_ASSERT_EQUAL_INT(i, number);
     }
 }
