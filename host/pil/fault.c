@@ -59,25 +59,23 @@ static uint32_t ticks_of(const fault_plan *plan, double time_s) {
 
 /* Changes one pulse. Returns false if the pulse is lost or comes later. */
 static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_edge *edge) {
-    if (f->kind == FAULT_EDGE_DEAD) {
-        return false;
-    }
-    if (f->kind == FAULT_EDGE_LOST && f->left > 0) {
-        f->left--;
-        return false;
-    }
-    if (f->kind == FAULT_EDGE_SWAPPED && edge->channel < 2) {
-        edge->channel ^= 1U;
-    }
-    if (f->kind == FAULT_EDGE_STAMP) {
-        edge->ticks += ticks_of(plan, f->size);
-    }
-    if (f->kind == FAULT_EDGE_LATE || f->kind == FAULT_EDGE_DOUBLE) {
-        const bool again = f->kind == FAULT_EDGE_DOUBLE;
-        fault_pending later = {.at_s = time_s + f->size, .is_edge = true, .edge = *edge};
-        later.edge.ticks += again ? ticks_of(plan, f->size) : 0;
+    fault_pending later = {.at_s = time_s + f->size, .is_edge = true, .edge = *edge};
+    switch ((int)f->kind) {
+    case FAULT_EDGE_DEAD: return false;
+    case FAULT_EDGE_LOST:
+        if (f->left > 0) {
+            f->left--;
+            return false;
+        }
+        break;
+    case FAULT_EDGE_SWAPPED: edge->channel ^= edge->channel < 2; break;
+    case FAULT_EDGE_STAMP: edge->ticks += ticks_of(plan, f->size); break;
+    case FAULT_EDGE_LATE: tell_later(f, later); return false;
+    case FAULT_EDGE_DOUBLE:
+        later.edge.ticks += ticks_of(plan, f->size);
         tell_later(f, later);
-        return again;
+        break;
+    default: break;
     }
     return true;
 }
@@ -138,24 +136,27 @@ static void set_value(const fault_plan *plan, wh_sample *s, double value, bool a
 
 static void change_value(const fault_plan *plan, fault_case *f, double time_s, wh_sample *s) {
     const double hum = f->size * number_sine(TURN_RAD * HUM_HZ * time_s);
-    if (f->kind == FAULT_CELL_PICKUP || f->kind == FAULT_CELL_HUM) {
-        set_value(plan, s, hum, f->kind == FAULT_CELL_HUM);
-    } else if (f->kind == FAULT_CELL_NOISE) {
+    switch ((int)f->kind) {
+    case FAULT_CELL_PICKUP: set_value(plan, s, hum, false); break;
+    case FAULT_CELL_HUM: set_value(plan, s, hum, true); break;
+    case FAULT_CELL_NOISE:
         set_value(plan, s, f->size * (double)wh_noise(plan->seed ^ 0x6E6F6973U, f->draws++), true);
-    } else if (f->kind == FAULT_CELL_SPIKES && fault_draw(plan, f) * SPIKES_ONE_IN < 1.0) {
-        set_value(plan, s, fault_draw(plan, f) < 0.5 ? f->size : -f->size, true);
-    } else if (f->kind == FAULT_READS) {
-        set_value(plan, s, f->size, false);
-    } else if (f->kind == FAULT_CELL_SATURATED) {
-        set_value(plan, s, (double)INFINITY, false);
-    } else if (f->kind == FAULT_CELL_OPEN) {
-        s->raw = 0;
-        s->status = WH_SAMPLE_DISCONNECTED;
-    } else if (f->kind == FAULT_CELL_FROZEN) {
-        f->held.raw = f->holds ? f->held.raw : s->raw;
+        break;
+    case FAULT_CELL_SPIKES:
+        if (fault_draw(plan, f) * SPIKES_ONE_IN < 1.0) {
+            set_value(plan, s, fault_draw(plan, f) < 0.5 ? f->size : -f->size, true);
+        }
+        break;
+    case FAULT_READS: set_value(plan, s, f->size, false); break;
+    case FAULT_CELL_SATURATED: set_value(plan, s, (double)INFINITY, false); break;
+    case FAULT_CELL_OPEN: *s = (wh_sample){s->ticks, 0, s->channel, WH_SAMPLE_DISCONNECTED}; break;
+    case FAULT_CELL_FROZEN:
+        f->held = f->holds ? f->held : s->raw;
         f->holds = true;
-        s->raw = f->held.raw;
+        s->raw = f->held;
         s->status = WH_SAMPLE_GOOD;
+        break;
+    default: break;
     }
 }
 
@@ -438,18 +439,19 @@ static uint32_t times(uint32_t count, double size) {
 }
 
 static void take_time(fault_case *f, wh_orders *orders, double *late_s) {
-    if (f->kind == FAULT_SLOW) {
+    switch ((int)f->kind) {
+    case FAULT_SLOW:
         orders->acted_timer = times(orders->acted_timer, f->size);
         orders->busy_timer = times(orders->busy_timer, f->size);
-    } else if (f->kind == FAULT_LATE) {
-        *late_s += f->size;
-    } else if (f->kind == FAULT_HANG && f->left > 0) {
-        *late_s += f->size;
+        break;
+    case FAULT_LATE: *late_s += f->size; break;
+    case FAULT_HANG:
+        *late_s += f->left > 0 ? f->size : 0.0;
         f->left = 0;
-    } else if (f->kind == FAULT_UNKICKED) {
-        orders->flags &= (uint8_t)~WH_ORDER_ALIVE;
-    } else if (f->kind == FAULT_UNWATCHED) {
-        orders->watchdog_ticks = 0;
+        break;
+    case FAULT_UNKICKED: orders->flags &= (uint8_t)~WH_ORDER_ALIVE; break;
+    case FAULT_UNWATCHED: orders->watchdog_ticks = 0; break;
+    default: break;
     }
 }
 
@@ -571,11 +573,10 @@ static bool read_kind(words_of_fault *w, fault_case *f) {
             return true;
         }
     }
-    char *hint = search.best != NULL ? alloc_words("did you mean '%s'?", search.best)
-                                     : alloc_words("whirl pil --faults lists the kinds");
-    wrong(w, "there is no such kind of fault", hint);
-    free(hint);
-    return false;
+    char hint[80];
+    nearest_hint(&search, hint, sizeof hint);
+    return wrong(w, "there is no such kind of fault",
+                 hint[0] != '\0' ? hint : "whirl pil --faults lists the kinds");
 }
 
 static bool read_channel(words_of_fault *w, fault_case *f) {
@@ -607,11 +608,10 @@ static bool read_size(words_of_fault *w, fault_case *f) {
     if (!(strcmp(row->unit, "s") == 0 && *w->at != '-' ? read_time(w, &f->size)
                                                        : read_number(w, &f->size)) ||
         !(f->size >= row->least && f->size <= row->most)) {
-        char *hint = alloc_words("a number from %g to %g%s%s", row->least, row->most,
-                                 row->unit[0] != '\0' ? " " : "", row->unit);
-        wrong(w, "no such size", hint);
-        free(hint);
-        return false;
+        char hint[80];
+        snprintf(hint, sizeof hint, "a number from %g to %g%s%s", row->least, row->most,
+                 row->unit[0] != '\0' ? " " : "", row->unit);
+        return wrong(w, "no such size", hint);
     }
     return true;
 }

@@ -143,8 +143,8 @@ typedef struct fault_case {
     uint64_t draws;
     uint32_t left; /* pulses still to be lost or added */
     double next_s; /* time of the next false pulse */
-    bool holds;    /* has stored the last good sample */
-    wh_sample held;
+    bool holds;    /* `held` is the value of the last good sample */
+    int32_t held;
     unsigned pending_count;
     fault_pending pending[FAULT_PENDING];
 } fault_case;

@@ -6,11 +6,18 @@
 #include <string.h>
 
 #include "core/hash.h"
+#include "host/number/functions.h"
 #include "host/os/system.h"
 
 #define ASK_S 0.25 /* interval between requests for a hello */
 
 /* --- frames ---------------------------------------------------------------------------------------------------*/
+
+/* Ends the run. Returns false. */
+static bool ends(lockstep_report *r, lockstep_end end) {
+    r->end = end;
+    return false;
+}
 
 static void keep_on_tape(talk *t, const uint8_t *bytes, unsigned count) {
     if (t->tape != NULL && fwrite(bytes, 1, count, t->tape) != count) {
@@ -41,20 +48,16 @@ static lockstep_end when_ended(void) { return interrupted ? LOCKSTEP_STOPPED : L
 static bool hear_frame(talk *t, wh_frame *frame) {
     switch (guest_receive(&t->guest, frame)) {
     case GUEST_FRAME: break;
-    case GUEST_ENDED: t->report->end = when_ended(); return false;
-    case GUEST_SILENT:
-        say_silent(t);
-        t->report->end = LOCKSTEP_FAILED;
-        return false;
-    case GUEST_STOPPED: t->report->end = LOCKSTEP_STOPPED; return false;
+    case GUEST_ENDED: return ends(t->report, when_ended());
+    case GUEST_SILENT: say_silent(t); return ends(t->report, LOCKSTEP_FAILED);
+    case GUEST_STOPPED: return ends(t->report, LOCKSTEP_STOPPED);
     }
     if (frame->version != WH_FRAME_VERSION) {
         fprintf(stderr,
                 "whirl pil: error: the firmware speaks version %u of the exchange, this program "
                 "version %u\nhint: build both from one source\n",
                 frame->version, WH_FRAME_VERSION);
-        t->report->end = LOCKSTEP_BAD;
-        return false;
+        return ends(t->report, LOCKSTEP_BAD);
     }
     return true;
 }
@@ -62,8 +65,7 @@ static bool hear_frame(talk *t, wh_frame *frame) {
 static bool fail(talk *t, const char *what) {
     fprintf(stderr, "whirl pil: error: the firmware sent %s in exchange %llu\n", what,
             (unsigned long long)t->report->exchanges);
-    t->report->end = LOCKSTEP_FAILED;
-    return false;
+    return ends(t->report, LOCKSTEP_FAILED);
 }
 
 static bool say(talk *t, const wh_frame *frame) {
@@ -72,7 +74,7 @@ static bool say(talk *t, const wh_frame *frame) {
     keep_on_tape(t, coded, count);
     switch (guest_send(&t->guest, coded, count)) {
     case GUEST_FRAME: return true;
-    case GUEST_STOPPED: t->report->end = LOCKSTEP_STOPPED; return false;
+    case GUEST_STOPPED: return ends(t->report, LOCKSTEP_STOPPED);
     case GUEST_ENDED:
     case GUEST_SILENT: break;
     }
@@ -105,8 +107,7 @@ static bool take_end(talk *t, const wh_frame *frame) {
         return fail(t, "an invalid end");
     }
     (void)ask(t);
-    t->report->end = when_ended();
-    return false;
+    return ends(t->report, when_ended());
 }
 
 /* The next frame other than remembered data. It skips repeated hellos, which a firmware sends before its first
@@ -306,8 +307,7 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
     }
     (void)guest_end(&t->guest);
     if (!guest_start(&t->guest, &t->wish->guest)) {
-        t->report->end = LOCKSTEP_FAILED;
-        return false;
+        return ends(t->report, LOCKSTEP_FAILED);
     }
     t->sequence = 0;
     if (!take_hello(t, &hello, signal, words, sizeof words)) {
@@ -428,36 +428,22 @@ static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     return wanted;
 }
 
-/* Advances the plant, at most to the run's end. It does so in pieces, so that an interrupt is noticed soon. */
+/* Advances the plant, at most to the run's end. It does so in pieces, so that an interrupt is noticed soon. Returns
+ * false, and reports it, if the plant diverged. */
 static bool advance(loop *l, double until_ticks) {
-    const lockstep_wish *wish = l->talk.wish;
-    const double most = wish->until_s * l->ticks_per_s;
-    const double end = until_ticks < most ? until_ticks : most;
-    const double wished = (l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s;
-    const double most_at_once = PIECE_STEPS * l->plant.step_ticks;
-    const double piece = wished < most_at_once ? wished : most_at_once;
+    const double end = number_least(until_ticks, l->talk.wish->until_s * l->ticks_per_s);
+    const double piece = number_least((l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s,
+                                      PIECE_STEPS * l->plant.step_ticks);
     const unsigned resets = l->plant.reset.count;
-    while (!plant_has_reached(&l->plant, end) && l->plant.reset.count == resets) {
-        const double next = plant_now(&l->plant) + piece;
-        if (!plant_advance(&l->plant, next < end ? next : end)) {
-            return false;
+    while (!plant_has_reached(&l->plant, end) && l->plant.reset.count == resets && !interrupted) {
+        if (!plant_advance(&l->plant, number_least(plant_now(&l->plant) + piece, end))) {
+            fprintf(
+                stderr,
+                "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\nhint: use a smaller --step, or check the firmware's outputs\n",
+                plant_s(l), wh_status_text(l->plant.status));
+            return ends(l->report, LOCKSTEP_FAILED);
         }
         let_taps_watch(l);
-        if (interrupted) {
-            break;
-        }
-    }
-    return true;
-}
-
-static bool advance_or_tell(loop *l, double until_ticks) {
-    if (!advance(l, until_ticks)) {
-        fprintf(
-            stderr,
-            "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\nhint: use a smaller --step, or check the firmware's outputs\n",
-            plant_s(l), wh_status_text(l->plant.status));
-        l->report->end = LOCKSTEP_FAILED;
-        return false;
     }
     return true;
 }
@@ -471,7 +457,7 @@ static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     note_most(&r->busy, busy, plant_s(l));
     const double late = late_s * l->ticks_per_s;
     plant_order(&l->plant, orders, acted * ticks + late);
-    if (!advance_or_tell(l, next_ticks(l, orders, busy * ticks + late))) {
+    if (!advance(l, next_ticks(l, orders, busy * ticks + late))) {
         return false;
     }
     if (l->plant.cut && !r->cut) {
@@ -490,8 +476,7 @@ static bool are_numbers(loop *l, const wh_orders *orders) {
                 stderr,
                 "whirl pil: error: the firmware set '%s' to NaN at t = %.9g s\nhint: look for 0/0 or the root of a negative number\n",
                 b->signal.name, plant_s(l));
-            l->report->end = LOCKSTEP_FAILED;
-            return false;
+            return ends(l->report, LOCKSTEP_FAILED);
         }
     }
     return true;
@@ -508,8 +493,7 @@ static bool time_goes_on(loop *l, double before_ticks) {
             "called again at once\nhint: give hal_turns_wait() a later time, in ticks of the "
             "firmware's timer\n",
             plant_s(l), STANDING_MOST);
-    l->report->end = LOCKSTEP_FAILED;
-    return false;
+    return ends(l->report, LOCKSTEP_FAILED);
 }
 
 static bool is_over(loop *l) {
@@ -525,7 +509,7 @@ static bool restart(loop *l) {
     reset.cause = p->reset.starved ? WH_RESET_WATCHDOG : WH_RESET_OTHER;
     l->report->resets = p->reset.count;
     l->report->reset_s = p->reset.last_ticks / l->ticks_per_s;
-    if (!advance_or_tell(l, p->reset.last_ticks + p->reset.takes_ticks) || is_over(l) ||
+    if (!advance(l, p->reset.last_ticks + p->reset.takes_ticks) || is_over(l) ||
         !talk_restart(&l->talk, plant_ticks(p), &reset)) {
         return false;
     }
