@@ -389,7 +389,7 @@ static const char price_head[] =
     "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
     "\n"
     "Tries methods, number types, forms, matrices, tables and many step sizes on a scene\n"
-    "(docs/price.md). Prints the error of each setting, compared with a reference of higher precision,\n"
+    "(docs/price.md). Prints the error of each setting, compared with a reference by shorter steps,\n"
     "and its cost on a board: cycles per simulated second, flash, RAM and stack. If the board has no\n"
     "cycle counts, the cost is in instructions. The table has at most 12 rows of the Pareto front. A\n"
     "letter after each figure shows its source.\n"

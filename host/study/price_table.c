@@ -384,7 +384,7 @@ static void say_missing(FILE *out, const trials *t) {
 void figure_reference(FILE *out, const trials *t) {
     const reference *r = t->reference[t->worst];
     fprintf(out, "  reference   %s\n", r->how);
-    if (r->kind == REFERENCE_NONE) {
+    if (!r->reliable) {
         const char *where = trial_place(t, t->worst);
         fprintf(out, "              no reliable reference%s%s: %s\n",
                 where[0] != '\0' ? ", with" : "", where, r->why);

@@ -234,6 +234,8 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 
 /* Limit on the operations of each of a reference's two computations, for all points together. It takes some seconds. */
 #define REFERENCE_OPERATIONS 6e8
+/* An error below this many times the reference's own is only a bound. */
+#define SURELY 10.0
 /* A run with a larger error, as a part of the largest value, is useless. */
 #define USABLE 1.0
 /* If a scene has no step in fixed point, a tenth of the step is tried, up to this many times. */
@@ -339,7 +341,7 @@ static void cut(trials *t) {
     double least = 0.0;
     for (int p = 0; p < t->points; p++) {
         const reference *r = t->reference[p];
-        t->reliable = t->reliable && r->kind != REFERENCE_NONE;
+        t->reliable = t->reliable && r->reliable;
         const double agreement = reference_agreement(r);
         if (r->records < t->records || (r->records == t->records && agreement > least)) {
             t->records = r->records;
@@ -349,7 +351,7 @@ static void cut(trials *t) {
     }
     for (int p = 0; p < t->points; p++) {
         reference_cut(t->reference[p], t->records);
-        if (t->reference[p]->kind == REFERENCE_NONE) {
+        if (!t->reference[p]->reliable) {
             t->worst = p; /* the point to report */
         }
     }
@@ -499,7 +501,7 @@ void trial_end(trials *t) {
 /* --- trials ----------------------------------------------------------------------------------------*/
 
 static void enter(int point, const deviation *d, trial_result *worst) {
-    const bool bound = d->error < 3.0 * d->known;
+    const bool bound = d->error < SURELY * d->known;
     const double error = bound ? d->error + d->known : d->error;
     const bool first = point == 0;
     worst->evaluations = number_most(worst->evaluations, d->evaluations);
@@ -522,8 +524,8 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
         }
         deviation_of_what what = t->what;
         if (what.column >= 0) { /* errors are in the column's unit */
-            what.give_up = number_most(
-                t->tolerated, USABLE * (double)t->reference[p]->column[what.column].largest);
+            what.give_up =
+                number_most(t->tolerated, USABLE * t->reference[p]->column[what.column].largest);
         }
         const deviation d = deviation_measure(t->reference[p], im, s->number, pace, what);
         drop(im);

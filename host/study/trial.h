@@ -104,7 +104,7 @@ typedef struct trials {
     deviation_of_what what;
     double tolerated;    /* for one column: an error that is usable even if values are smaller */
     double planned_most; /* most operations to find ranges for fixed point; 0: no limit */
-    bool reliable;       /* false: some reference is REFERENCE_NONE */
+    bool reliable;       /* false: some reference is not */
     bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
     double operations; /* evaluated in trials so far */

@@ -2,35 +2,22 @@
 #include "test.h"
 
 #include "host/lang/builtin.h"
-#include "host/study/reference_run.h"
 
 enum { LOOKS = 10000 };
 
 typedef struct reference_of {
-    extrapolation *smooth; /* the reference if there are no contacts; with contacts it is `run` */
     image fine;
     void *run;
-    uint64_t each; /* number of reference steps in one step of the run */
-    long_rows *rows;
+    uint64_t each; /* the reference's steps in one step of the run */
     records *records;
-    long double *row;
     bool failed;
 } reference_of;
 
-static void reference_open(reference_of *r, const image *im, const records *shape, bool finer) {
-    *r = (reference_of){.row = calloc((size_t)shape->columns, sizeof(long double))};
-    TEST_ASSERT_NOT_NULL(r->row);
-    if (im->contacts == 0) {
-        const extrapolation_setting how = {finer ? 6 : 5,
-                                           (finer ? 16.0 : 64.0) * (double)LDBL_EPSILON};
-        r->smooth = extrapolation_new(im, how, 1e13);
-        r->rows = long_rows_new(shape);
-        return;
-    }
-    r->each = finer ? 32 : 16;
-    r->fine = *im;
+static void reference_open(reference_of *r, const image *im, bool finer) {
+    *r = (reference_of){.fine = *im, .each = finer ? 32 : 16};
     r->fine.settings.compensated = true;
-    r->fine.settings.method = WH_RK4;
+    r->fine.list[IMAGE_MATRIX] = NULL; /* a matrix is for one length of step */
+    r->fine.settings.method = im->contacts > 0 ? WH_RK4 : WH_NYSTROEM5;
     r->fine.step.denominator *= r->each;
     r->fine.step_s = ratio_times(1, r->fine.step);
     r->run = engine_double.start(&r->fine);
@@ -38,34 +25,16 @@ static void reference_open(reference_of *r, const image *im, const records *shap
 }
 
 static void reference_close(reference_of *r) {
-    free(r->row);
-    extrapolation_free(r->smooth);
-    if (r->rows != NULL) {
-        long_rows_free(r->rows);
-    }
-    if (r->run != NULL) {
-        engine_double.stop(r->run);
-        records_close(r->records);
-    }
+    engine_double.stop(r->run);
+    records_close(r->records);
 }
 
-/* Advances the reference by `steps` steps of the run, to time_s. */
-static void reference_go(reference_of *r, const image *im, uint64_t steps, double time_s) {
-    if (r->smooth != NULL) {
-        const long double span_s = (long double)steps * (long double)im->step.numerator /
-                                   (long double)im->step.denominator;
-        r->failed =
-            r->failed || (steps > 0 && extrapolation_go(r->smooth, span_s) != EXTRAPOLATION_OK);
-        long_rows_read(r->rows, extrapolation_state(r->smooth), (long double)time_s, r->row);
-        return;
-    }
+/* Advances the reference to time_s, `steps` of the run's steps later. */
+static void reference_go(reference_of *r, uint64_t steps, double time_s) {
     for (uint64_t i = 0; i < steps * r->each && !r->failed; i++) {
         r->failed = engine_double.step(r->run) != WH_OK;
     }
     records_read(r->records, r->run, time_s);
-    for (int k = 0; k < r->records->columns; k++) {
-        r->row[k] = (long double)r->records->row[k];
-    }
 }
 
 typedef struct beside {
@@ -81,7 +50,7 @@ static void enter(beside *b) {
     horizons *h = b->h;
     for (int k = 1; k < h->twins->columns; k++) {
         const double level = h->estimate.tolerance * h->estimate.column[k].range;
-        const double off = (double)fabsl((long double)b->now->row[k] - b->fine.row[k]);
+        const double off = fabs(b->now->row[k] - b->fine.records->row[k]);
         const bool events = h->image->contacts > 0;
         const double now = isfinite(off) && !b->fine.failed ? off : (double)INFINITY;
         const double counts = events ? fmin(now, b->last[k]) : now;
@@ -93,8 +62,8 @@ static void enter(beside *b) {
         }
         h->true_s[k] = events ? b->before_s : b->look_s;
         b->open--;
-        const double differ = (double)fabsl(b->other.row[k] - b->fine.row[k]) / level;
-        if (!events) { /* with events, the two references may differ for one step */
+        const double differ = fabs(b->other.records->row[k] - b->fine.records->row[k]) / level;
+        if (!events) { /* near events the runs may differ for one step */
             h->known = fmax(h->known, isfinite(differ) ? differ : (double)INFINITY);
         }
     }
@@ -108,8 +77,8 @@ static void run_beside(horizons *h, uint64_t stride) {
                 .last = calloc((size_t)h->twins->columns, sizeof(double)),
                 .open = h->twins->columns - 1};
     void *run = kind->start(im);
-    reference_open(&b.fine, h->plain, b.now, true);
-    reference_open(&b.other, h->plain, b.now, false);
+    reference_open(&b.fine, h->plain, true);
+    reference_open(&b.other, h->plain, false);
     uint64_t step = 0;
     while (step < im->steps && b.open > 0) {
         const uint64_t more = step + stride < im->steps ? stride : im->steps - step;
@@ -119,8 +88,8 @@ static void run_beside(horizons *h, uint64_t stride) {
         }
         step += more;
         const double time_s = ratio_times(step, im->step);
-        reference_go(&b.fine, im, more, time_s);
-        reference_go(&b.other, im, more, time_s);
+        reference_go(&b.fine, more, time_s);
+        reference_go(&b.other, more, time_s);
         records_read(b.now, run, time_s);
         enter(&b);
         b.before_s = b.look_s;

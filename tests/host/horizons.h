@@ -1,9 +1,8 @@
 /* horizons.h: the time until which a run is accurate, from a comparison with a reference. Tests compare this true time
  * with the estimate of `whirl trust`.
  *
- * Without contacts, the reference is the extrapolation of order 12 in long double (host/study/reference_run.h); a
- * second one has order 10. With contacts, the reference is RK4 in double with 1/32 of the run's step; a second one
- * has 1/16. The difference of the two references must be far below the tolerance. */
+ * The reference is a run in double with compensated sums and a 32nd of the run's step, checked by one of a 16th. Until
+ * the run fails the tolerance, their difference must be far below it. */
 #ifndef TESTS_HORIZONS_H
 #define TESTS_HORIZONS_H
 

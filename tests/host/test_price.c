@@ -1,12 +1,11 @@
-/* test_price.c: the cost of operation lists for expressions whose least cost is known. Other suites test their
- * values. Also extrapolation, and trials of settings. */
+/* test_price.c: the cost of operation lists, for expressions whose least cost is known. Also trials.
+ * Other suites test the values. */
 #include "test.h"
 
 #include "host/base/alloc.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/study/price_table.h"
-#include "host/study/reference_run.h"
 
 #include "command.h"
 #include "derived.h"
@@ -209,56 +208,6 @@ TEST(price, decimals_cost_nothing) {
     }
     printf("  any parameters: %d to %d operations\n", least, most);
     TEST_ASSERT_EQUAL_INT(least, most);
-}
-
-/* === price control ============================================================================ */
-/* y' = linear y + square y^2, extrapolated over two spans with `columns` columns: the value and the number of steps.
- * A step is between a fifth and three times the one before, and is chosen for 0.9 of the tolerance. The last two
- * steps share the remaining time. At a pole, no step is small enough. */
-TEST(price_control, steps_of_one_equation) {
-    static const struct {
-        double linear, square, start;
-        int columns;
-        double tolerance, span[2];
-        int tries; /* number of steps; 0: ends at the pole */
-    } rows[] = {
-        {-1.0, 0.0, 1.0, 2, 1e-3, {1.0, 1.0}, 8},   {-1.0, 0.0, 1.0, 2, 1e-9, {1.0, 0.3}, 411},
-        {-6.0, 0.0, 0.5, 3, 1e-6, {2.0, 1.5}, 29},  {-6.0, 0.0, 2.0, 6, 1e-10, {0.1, 3.0}, 15},
-        {3.0, 0.0, 0.2, 4, 1e-8, {0.7, 1.9}, 26},   {3.0, 0.0, 0.2, 5, 1e-4, {0.01, 2.0}, 7},
-        {-2.0, 1.5, 1.2, 4, 1e-9, {1.0, 2.0}, 21},  {1.0, 0.5, 0.4, 6, 1e-7, {0.5, 0.9}, 5},
-        {-40.0, 0.0, 1.0, 4, 1e-6, {1.0, 0.5}, 27}, {0.5, 2.0, 1.0, 4, 1e-9, {0.1, 0.6}, 0},
-        {-1.0, 2.0, 1.5, 3, 1e-5, {0.2, 1.0}, 0}};
-    for (size_t n = 0; n < sizeof rows / sizeof rows[0]; n++) {
-        char text[300];
-        const double a = rows[n].linear;
-        const double b = rows[n].square;
-        snprintf(text, sizeof text,
-                 "mechanism m\nstate y\nequation y' = %g [1/s]*y + %g [1/s]*y^2\n"
-                 "scene s { start y = %g; step 1 [ms]; until 1 [s] }\n",
-                 a, b, rows[n].start);
-        derived of = derived_surely(derived_scene(text, "s"), text);
-        extrapolation *e = extrapolation_new(
-            of.image, (extrapolation_setting){rows[n].columns, rows[n].tolerance}, 1e9);
-        const double each =
-            of.image->list[IMAGE_STEP]->count * (1.0 + rows[n].columns * rows[n].columns);
-        const extrapolation_status first = extrapolation_go(e, (long double)rows[n].span[0]);
-        const extrapolation_status last = extrapolation_go(e, (long double)rows[n].span[1]);
-        const double grown = exp(a * (rows[n].span[0] + rows[n].span[1]));
-        const double y = rows[n].start * grown / (1.0 + b / a * rows[n].start * (1.0 - grown));
-        const double tries = extrapolation_operations(e) / each;
-        TEST_ASSERT_EQUAL_INT(EXTRAPOLATION_OK, first);
-        if (rows[n].tries == 0) {
-            TEST_ASSERT_EQUAL_INT_MESSAGE(EXTRAPOLATION_SMALL, last, text);
-        } else {
-            TEST_ASSERT_EQUAL_INT_MESSAGE(EXTRAPOLATION_OK, last, text);
-            TEST_ASSERT_TRUE_MESSAGE(fabs(tries - rows[n].tries) < 1e-6, text);
-            TEST_ASSERT_TRUE_MESSAGE(fabs((double)extrapolation_state(e)[0] - y) <=
-                                         30.0 * rows[n].tolerance * fmax(y, rows[n].start),
-                                     text);
-        }
-        extrapolation_free(e);
-        derived_free(&of);
-    }
 }
 
 /* === price dearest ============================================================================ */

@@ -307,7 +307,7 @@ TEST(price_words, tables_of_nothing_say_why) {
     (void)behind(text, "  horizon     0.2 s of 0.4 s: the reference ends\n");
     free(text);
     p.trial.reliable = false;
-    p.trial.reference[0]->kind = REFERENCE_NONE;
+    p.trial.reference[0]->reliable = false;
     free(p.trial.reference[0]->why);
     p.trial.reference[0]->why = alloc_words("nobody knows");
     text = table_of_nothing(&p.trial, NULL);
