@@ -280,6 +280,20 @@ static void print_head(FILE *out, const horizon *h) {
             finer->step_s);
 }
 
+/* Why it is unknown until when this column is accurate. */
+static void say_untold(FILE *out, const horizon *h, int k) {
+    const horizon_column *c = &h->column[k];
+    if (h->of->unwrapped && c->until_s >= h->of->cut_s) {
+        fprintf(out, "unknown after t = %.6g s: sine is computed only up to %g rad in double",
+                h->of->cut_s, ANGLE_SINE_MOST_RAD);
+    } else if (c->range > 0.0) {
+        fprintf(out, "unknown: even in double, round-off may move it by %.2g of its range",
+                c->rounding / c->range);
+    } else {
+        fputs("unknown: even in double, round-off may be the reason that it does not move", out);
+    }
+}
+
 static void print_column(FILE *out, const horizon *h, int k) {
     const horizon_column *c = &h->column[k];
     const char *shown = h->of->shape->column[k].unit->shown;
@@ -288,35 +302,21 @@ static void print_column(FILE *out, const horizon *h, int k) {
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(h, k, name));
     switch (c->verdict) {
     case HORIZON_TO_THE_END:
-        fprintf(out, "to the end      error %.2e of its range, %.4g %s\n", c->off / c->range,
+        fprintf(out, "to the end      error %.2e of its range, %.4g %s", c->off / c->range,
                 c->range, unit);
         break;
     case HORIZON_UNTIL:
-        fprintf(out, "%-15.9g of its range, %.4g %s, %.2e is %.2g %s\n", c->until_s, c->range, unit,
+        fprintf(out, "%-15.9g of its range, %.4g %s, %.2e is %.2g %s", c->until_s, c->range, unit,
                 h->tolerance, h->tolerance * c->range, unit);
         break;
-    case HORIZON_STILL: fputs("to the end      it does not move\n", out); break;
-    case HORIZON_NOT_TOLD:
-        if (h->of->unwrapped && c->until_s >= h->of->cut_s) {
-            fprintf(out,
-                    "unknown         after %.9g s: the angle is too large for sine in double\n",
-                    c->until_s);
-        } else if (c->range > 0.0) {
-            fprintf(
-                out,
-                "unknown         even in double, round-off may move it by %.2e of its range, %.4g %s\n",
-                c->rounding / c->range, c->range, unit);
-        } else {
-            fprintf(
-                out,
-                "unknown         even in double, round-off may be the reason that it does not move\n");
-        }
-        break;
+    case HORIZON_STILL: fputs("to the end      it does not move", out); break;
+    case HORIZON_NOT_TOLD: say_untold(out, h, k); break;
     case HORIZON_ROUNDING:
-        fprintf(out, "to the end      only round-off moves it, by %.2e %s\n",
-                c->off > c->range ? c->off : c->range, unit);
+        fprintf(out, "to the end      only round-off moves it, by %.2e %s",
+                number_most(c->off, c->range), unit);
         break;
     }
+    fputc('\n', out);
 }
 
 /* --- quantities that stay correct --------------------------------------------------------------------*/
@@ -357,116 +357,83 @@ static void print_invariants(FILE *out, const horizon *h) {
     print_momenta(out, h);
 }
 
-static void print_verdict(FILE *out, const horizon *h) {
+/* The reason why nothing is known after cut_s: that which came first. */
+static const char *cut_by(const step_doubling *t) {
+    if (t->finer_failed_s >= 0.0 && t->finer_failed_s <= t->cut_s) {
+        return "after that the run with half the step diverges";
+    }
+    if (t->jumped_s < 0.0 || (t->overrun_s >= 0.0 && t->overrun_s < t->jumped_s)) {
+        return "after that a step, of this run or of the finer one, had more events than its limit";
+    }
+    return t->missed
+               ? "after that a step, of this run or of the finer one, passed through a contact or over an edge or a force"
+               : "after that a step, of this run or of the finer one, jumped over a pole of an expression";
+}
+
+/* Until when the run is accurate, and why no longer. `end`: the end of the run is printed, too. */
+static void say_until(FILE *out, const horizon *h, bool end) {
     const step_doubling *t = h->of;
     char name[NAME_SIZE];
-    if (h->to_the_end) {
-        fprintf(out,
-                t->status == WH_OK ? "trusted to the end, t = %.9g s\n"
-                                   : "trusted to where the run fails, t = %.9g s\n",
-                t->end_s);
+    (void)name_of(h, h->first, name);
+    if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
+        say_untold(out, h, h->first);
+        fprintf(out, " (%s)", name);
         return;
     }
-    if (t->unwrapped && h->until_s >= t->cut_s) {
-        fprintf(out, "unknown after t = %.9g s: sine is computed only up to %g rad in double\n",
-                t->cut_s, ANGLE_SINE_MOST_RAD);
-    } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
-        fprintf(out, "unknown: double has too few digits for %s at its position\n",
-                name_of(h, h->first, name));
-    } else {
-        fprintf(out, "trusted until t = %.9g s of %.9g s: %s fails first\n", h->until_s, t->end_s,
-                name_of(h, h->first, name));
-    }
-    if (t->finer_failed_s >= 0.0 && !t->unwrapped) {
-        fprintf(out, "with half the step the run diverges after t = %.9g s\n", t->finer_failed_s);
-    }
-    if (t->overrun_s >= 0.0) {
-        fprintf(
-            out,
-            "after t = %.9g s a step had more events than its limit: check with a smaller --step\n",
-            t->overrun_s);
-    }
-    if (t->jumped_s >= 0.0) {
-        fprintf(
-            out,
-            t->missed
-                ? "after t = %.9g s a step passed through a contact or over an edge or a force: `whirl run` names it\n"
-                : "after t = %.9g s a step jumped over a pole of an expression: no motion continues through a pole\n",
-            t->jumped_s);
-    }
-    if (t->unaliased) {
-        fputs("not checked: [aliased], because it takes longer than the two runs\n", out);
+    fprintf(out, "until t = %.*g s", end ? 9 : 6, h->until_s);
+    if (end) {
+        fprintf(out, " of %.9g s", t->end_s);
     }
     if (t->aliased.column > 0) {
-        fprintf(
-            out,
-            "the steps alias a fast force or motion, so the run with half the step has the same error\n");
+        fputs(": the steps alias a fast force or motion", out);
+    } else if (t->cut_s >= 0.0 && h->until_s >= t->cut_s) {
+        fprintf(out, ": %s", cut_by(t));
+    } else {
+        fprintf(out, ": after that the error of %s exceeds %.3g of its range", name, h->tolerance);
     }
-    print_invariants(out, h);
 }
 
 void horizon_print(FILE *out, const horizon *h) {
+    const step_doubling *t = h->of;
     print_head(out, h);
     if (image_of(h)->contacts > 0) {
         fputs("  differences of rates in the steps around an event do not count\n", out);
     }
     fprintf(out, "\naccurate to %.3g of its range until [s]\n", h->tolerance);
-    for (int k = 1; k < h->of->columns; k++) {
+    for (int k = 1; k < t->columns; k++) {
         print_column(out, h, k);
     }
-    print_verdict(out, h);
-}
-
-static void print_reason(FILE *out, const horizon *h) {
-    const step_doubling *t = h->of;
-    const bool cut = t->cut_s >= 0.0 && h->until_s >= t->cut_s;
-    char name[NAME_SIZE];
-    if (cut && t->overrun_s >= 0.0 && !(t->jumped_s >= 0.0 && t->jumped_s < t->overrun_s) &&
-        !(t->finer_failed_s >= 0.0 && t->finer_failed_s < t->overrun_s)) {
-        fputs("after that a step, of this run or of the finer one, had more events than its limit",
-              out);
-    } else if (cut && t->missed && t->jumped_s >= 0.0) {
-        fputs(
-            "after that a step, of this run or of the finer one, passed through a contact or over an edge or a force",
-            out);
-    } else {
-        fprintf(out, "after that the error of %s exceeds %.3g of its range",
-                name_of(h, h->first, name), h->tolerance);
+    fputs("trusted ", out);
+    if (h->to_the_end) {
+        fprintf(out, "to %s, t = %.9g s\n", t->status == WH_OK ? "the end" : "where the run fails",
+                t->end_s);
+        return;
     }
+    say_until(out, h, true);
+    fputc('\n', out);
+    if (t->unaliased) {
+        fputs("not checked: [aliased], because it takes longer than the two runs\n", out);
+    }
+    print_invariants(out, h);
 }
 
 void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
-    char name[NAME_SIZE];
+    fputs("trusted            ", out);
     if (h->to_the_end && doubted) {
-        fputs(
-            "trusted            unknown: the finer run agrees to the end, but may share the error of the warning\n",
-            out);
+        fputs("unknown: the finer run agrees to the end, but may share the error of the warning",
+              out);
     } else if (h->to_the_end) {
-        fprintf(out, "trusted            to the end: every coordinate to %.3g of its range\n",
-                h->tolerance);
-    } else if (h->of->unwrapped && h->until_s >= h->of->cut_s) {
-        fprintf(
-            out,
-            "trusted            unknown after t = %.6g s: sine is computed only up to %g rad in double\n",
-            h->of->cut_s, ANGLE_SINE_MOST_RAD);
-    } else if (h->column[h->first].verdict == HORIZON_NOT_TOLD) {
-        const horizon_column *c = &h->column[h->first];
-        fprintf(out,
-                "trusted            unknown: double has too few digits for %s at its position; ",
-                name_of(h, h->first, name));
-        if (c->range > 0.0) {
-            fprintf(out, "round-off may move it by %.2g of its range\n", c->rounding / c->range);
-        } else {
-            fprintf(out, "round-off may be the reason that it does not move\n");
-        }
+        fprintf(out, "to the end: every coordinate to %.3g of its range", h->tolerance);
     } else if (h->of->aliased.column > 0) {
-        fputs("trusted            unknown: the steps alias a fast force or motion\n", out);
+        fputs("unknown: the steps alias a fast force or motion", out);
     } else {
-        fprintf(out, "trusted            until t = %.6g s: ", h->until_s);
-        print_reason(out, h);
-        fputs(image_of(h)->has_energies ? "; only the balances below are meaningful then\n" : "\n",
+        say_until(out, h, false);
+        const bool told = h->column[h->first].verdict == HORIZON_UNTIL;
+        fputs(told && image_of(h)->has_energies ? "; only the balances below are meaningful then"
+                                                : "",
               out);
     }
+    fputc('\n', out);
 }
 
 const char *const horizon_words[] = {[HORIZON_TO_THE_END] = "end",

@@ -470,7 +470,8 @@ static void expect_words(const horizon *h) {
     char name[20];
     at = said_words(said_number(said_words(at, "trusted until t = "), &number[0]), "s of");
     at = said_words(said_number(at, &number[1]), "s:");
-    said_words(said_word(at, name, sizeof name), "fails first\n");
+    said_words(said_word(said_words(at, "after that the error of"), name, sizeof name),
+               "exceeds 0.01 of its range\n");
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, h->until_s, number[0]);
     TEST_ASSERT_EQUAL_DOUBLE(4.0, number[1]);
     TEST_ASSERT_EQUAL_STRING(h->of->shape->column[h->first].primes == 0 ? "a" : "a'", name);
