@@ -249,20 +249,22 @@ static void say(FILE *out, const char *who, apart *a) {
         const double value = off_zero(a, h);
         const double speed = moving(a, h);
         statement_text(a->im->contact[a->hold[h]].at, statement, sizeof statement);
-        if (value != 0.0) {
-            off = true;
-            fprintf(
-                out,
-                "%s: warning: a hold starts with an error of %.6g (SI), and keeps it: %s [apart]\n",
-                who, value, statement);
+        for (int k = 0; k < 2; k++) {
+            if (k == 0 ? value == 0.0 : speed == 0.0) {
+                continue;
+            }
+            fprintf(out,
+                    k == 0 ? "%s%sa hold starts with an error of %.6g (SI), and keeps it: %s"
+                           : "%s%sa hold starts with a rate of %.6g (SI), which should be zero: %s",
+                    who != NULL ? who : "", who != NULL ? ": warning: " : "",
+                    k == 0 ? value : speed, statement);
+            if (who == NULL) {
+                return;
+            }
+            fputs(" [apart]\n", out);
         }
-        if (speed != 0.0) {
-            moves = true;
-            fprintf(
-                out,
-                "%s: warning: a hold starts with a rate of %.6g (SI), which should be zero: %s [apart]\n",
-                who, speed, statement);
-        }
+        off = off || value != 0.0;
+        moves = moves || speed != 0.0;
     }
     if (moves && isfinite(lost_J(a))) {
         fprintf(out, "%s: warning: an impulse at t = 0 stops it and takes %.6g J\n", who,

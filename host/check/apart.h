@@ -12,7 +12,7 @@
 #define APART_LEAST 1e-6
 
 /* The largest error or rate of a hold, as a part of its terms; 0: the start satisfies all holds. Warns on `out`, if not
- * NULL, as `who`, such as "whirl run". */
+ * NULL, as `who`, such as "whirl run"; if `who` is NULL, prints only the text of the first warning. */
 double apart_say(FILE *out, const char *who, const image *im);
 
 #endif

@@ -40,7 +40,7 @@ static void say(FILE *out, const image *im, const engine_kind *kind, const void 
     const char *space = unit[0] != '\0' ? " " : "";
     double span;
     const double off = kind->component_off(run, i, &span);
-    fprintf(out, "whirl run: note: '%s%.*s' ", u->name, c.primes, "''''''''''");
+    fprintf(out, "'%s%.*s' ", u->name, c.primes, "''''''''''");
     if (kind->unit == NULL) {
         fputs("turns so slowly that rounding its steps to 1.5e-9 rad, as float does,", out);
     } else {
@@ -52,14 +52,23 @@ static void say(FILE *out, const image *im, const engine_kind *kind, const void 
         fprintf(out, ", %.2g %% of the %.2g%s%s that it should cover", 100.0 * off / span, span,
                 space, unit);
     }
-    fputc('\n', out);
+}
+
+void slow_message(FILE *out, const image *im, const engine_kind *kind, const void *run) {
+    int i = 0;
+    while (!slow_component(kind, run, i)) {
+        i++;
+    }
+    say(out, im, kind, run, i);
 }
 
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run) {
     bool some = false;
     for (int i = 0; i < components(kind, im, run); i++) {
         if (slow_component(kind, run, i)) {
+            fputs("whirl run: note: ", out);
             say(out, im, kind, run, i);
+            fputc('\n', out);
             some = true;
         }
     }

@@ -22,7 +22,8 @@ bool slow_component(const engine_kind *kind, const void *run, int i);
 /* The number of slow components. *share: their largest round-off, as a part of its component's span; 0 if there are none. */
 int slow_count(const engine_kind *kind, const image *im, const void *run, double *share);
 
-/* Prints a note for each slow component, and the remedies. */
+/* Prints a note for each slow component, and the remedies; or only the text of the first note. */
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run);
+void slow_message(FILE *out, const image *im, const engine_kind *kind, const void *run);
 
 #endif
