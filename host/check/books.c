@@ -133,11 +133,7 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
         double *at = i < im->angles ? &angle_rad[i] : &real[i - im->angles];
         const double kept = *at;
         const state_rounding rounding = rounding_of_component(im, kind, run, i, kept);
-        const component c = image_component(im, i);
-        /* a rate that never changed, such as a clock's, was never rounded */
-        const spread *rate = &b->rate[c.unknown];
-        const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
-        if (rounding.change != 0.0 && !still) {
+        if (rounding.change != 0.0) {
             *at = kept + rounding.change;
             evaluate_now(b, angle_rad, real, b->time_s);
             sum +=
@@ -442,7 +438,6 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         }
     }
     for (int i = 0; i < im->count; i++) {
-        b->rate[i].pushed = b->rate[i].pushed || b->value[i] != 0.0;
         all += entry[BOOK_MOMENTA + i];
         const double own = entry[BOOK_MOMENTA + i] - b->lean[i];
         spread_enter(&b->push[i], own, b->entries);

@@ -28,7 +28,6 @@ typedef struct spread {
     double first;
     double mean;    /* mean of (value - first) */
     double squares; /* sum of the squared deviations from the mean */
-    bool pushed;    /* for a rate: its acceleration was nonzero at some step */
 } spread;
 
 typedef struct books {
