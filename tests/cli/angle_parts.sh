@@ -15,7 +15,7 @@ for file in "$scratch"/parts_*.whirl; do
     number=$((number + 1))
     "$whirl" derive "$file" --as c >"$scratch/emitted" 2>"$scratch/err" || verdict 1 "derive $file"
     { echo "#define parts_turn scene_$number"; cat "$scratch/emitted"; } >"$scratch/scene_$number.c"
-    for real in float double; do # the outputs, behind the time, five coordinates and their rates
+    for real in float double; do # the outputs follow the time, five coordinates and their rates
         "$whirl" run "$file:parts_turn" --number $real --quiet --csv - 2>"$scratch/err" | tail -n 1 |
             tr -d '\r' | cut -d, -f12- >>"$scratch/recorded_$real"
     done

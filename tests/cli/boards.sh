@@ -6,10 +6,10 @@
 tree=$scratch/tree
 mkdir "$tree"
 cp -r Makefile mk boards "$tree"
-ask() { # what make says without building anything
+ask() { # prints what make would say, and builds nothing
     MAKEFLAGS= make -s -C "$tree" "$@" help >"$scratch/out" 2>"$scratch/err"
 }
-# refused BOARD WORDS WHAT: the message has both
+# refused BOARD WORDS WHAT: the message names the board and has the words
 refused() {
     ask
     [ $? -ne 0 ] && grep -qF "boards/$1/board.mk: $2" "$scratch/err"
@@ -23,7 +23,7 @@ printf 'taken: ; @echo $(BOARDS_ALL) // $(BOARDS) // $(BOARDS_TEST)\n' >>"$tree/
 LC_ALL=C
 export LC_ALL
 boards=$(for makefile in boards/*/board.mk; do basename "$(dirname "$makefile")"; done | sort)
-taken() { # by BOARD_WHEN, and the one that is asked for
+taken() { # boards by BOARD_WHEN, and the one that is named
     { echo rv32imac && grep -l $1 boards/*/board.mk | cut -d / -f 2; } | sort -u | tr '\n' ' '
 }
 MAKEFLAGS= make -s -C "$tree" BOARD=rv32imac taken >"$scratch/out" 2>"$scratch/err"
@@ -35,7 +35,7 @@ for board in $boards; do
     makefile=$tree/boards/$board/board.mk
     for variable in $(sed -n 's/^\(BOARD_[A-Z]*\) *:= *[^ ].*/\1/p' "boards/$board/board.mk"); do
         case $variable in
-        BOARD_MATH | BOARD_TIMING | BOARD_WATCHDOG) continue ;; # may be missing
+        BOARD_MATH | BOARD_TIMING | BOARD_WATCHDOG) continue ;; # these may be missing
         BOARD_SOURCES) continue ;;             # adds to the family's
         esac
         sed -i "/^$variable /d" "$makefile"

@@ -11,7 +11,7 @@ m4=build/mps2-an386/pil_carriage.elf
 drawn=${BENCHES:-3}
 close_to() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { d = a - b; exit !(a != "" && d <= most && d >= -most) }'; }
 
-# --- the plant: the mechanism of core/models, and what its centre of mass asks for ---------------------------------------
+# --- the plant: the mechanism of core/models, and what its centre of mass requires ---------------------------------------
 end_of() { sh tests/limit.sh 60 "$whirl" run "$@" --start "theta'=30" --step 200us --until 3s </dev/null | awk '$1 == "theta" || $1 == "X" { print $1, $2 }'; }
 end_of $plant --set enable=1 --set duty=0.573 --set bearing_friction=0 >"$scratch/plant"
 end_of carriage_free --set duty=0.573 --set J_drive=5e-4 --set ratio=1/3 >"$scratch/model"
@@ -20,7 +20,7 @@ awk 'NR == FNR { value[$1] = $2; next } { n++; d = $2 - value[$1]; if (d > 1e-9 
 verdict $? "$plant moves as carriage_free with the same drive" "$scratch/plant"
 
 # --- measuring -----------------------------------------------------------------------------------------------------------
-# measure OPTION...: "force half displacement quality turns rpm expected%" of the firmware's result
+# measure OPTION...: prints "force half displacement quality turns rpm expected%" of the firmware's result
 measure() {
     sh tests/limit.sh 60 "$whirl" pil $plant --firmware "$build/pil_carriage" "$@" </dev/null >"$scratch/said" 2>"$scratch/err"
     awk '$1 == "speed" && !n++ { speed = $2 }
@@ -28,8 +28,9 @@ measure() {
         END { print told["amplitude"] + 0, told["amplitude_half"] + 0, told["displacement"] + 0, told["quality"] + 0, told["turns"] + 0, speed + 0 }' \
         "$scratch/said"
 }
-# The truth, for awk: the arms' mass, S, and the once-per-turn force at a mean speed. The arms run freely, so their energy
-# is constant: w^2 = C/(1 - k sin^2). C follows from the turn's time, and the force is S <w^2> M/(M + m).
+# The true values, for awk: the arms' mass, S, and the once-per-turn force at a mean speed. The arms turn freely, so
+# their energy is constant: w^2 = C/(1 - k sin^2). C follows from the time of a turn, and the force is S <w^2> M/(M +
+# m).
 truth='
     function moment(inches) { return 2 * 0.45359237 * 0.0254 * (0.152 * 3.625 + 0.15 * inches) }
     function inertia(inches, drive) { return 2 * 0.45359237 * 0.0254 ^ 2 * (0.152 * 7.25 ^ 2 / 3 + 0.15 * inches ^ 2) + drive }
@@ -49,7 +50,7 @@ awk "$truth"'{
         n++; due = force(6.5, $1, 5e-4, $7)
         if ($5 != 0 || $6 != 10 || off($2, due) > ($1 > 0.6 ? 0.0015 : 0.0006) || $2 - due > $3 || due - $2 > $3 || $3 > 0.0064 * $2) { bad++; print "#", $0, due }
         if (n == 1) held = $2
-        # relative to the closed form for constant speed: never below, and above by the ripple
+        # relative to the closed form for constant speed: never below it, and above it by the ripple
         part = $2 / held * (1 + $1)
         if (part < 0.9999 || part > 1.0001 + 0.06 * $1 * $1) { bad++; print "#", $0, part }
         if (n == 5 && ($2 / held < 0.75 || $2 / held > 0.755)) bad++
@@ -78,7 +79,7 @@ awk "$truth"'{ n++; if ($5 != 0 || off($4, displacement($1, 1 / 3)) > 0.001 || (
     END { exit !(n == 5 && !bad) }' "$scratch/radii" >"$scratch/err"
 verdict $? "S18, test 2: with the discs at 2 to 6.5 in it swings by S/(M + m) within 0.1 %"
 
-# The carriage itself, in the plant, and as the report describes it.
+# The carriage itself, in the plant, compared with the report's description.
 measure >"$scratch/plain"
 "$whirl" run $plant --set bearing_friction=0 --start "theta'=34.5" --set enable=1 --set duty=0.577 --step 200us --until 3s --csv "$scratch/x.csv" \
     </dev/null >/dev/null 2>"$scratch/err"
@@ -88,8 +89,8 @@ close_to "$(cat "$scratch/x")" 0.0320864 2e-5 && grep -q '^  carriage, to either
     grep -q '^  by formula, S/(M + m) *32\.086 mm$' "$scratch/said" && grep -q '^  measured / formula *75\.3[34] %$' "$scratch/said"
 verdict $? "the plant's carriage swings by 32.09 mm, and the report says so" "$scratch/said"
 
-# --- what the firmware is told wrongly, and what cannot be ------------------------------------------------------------------
-# told QUALITY OPTION...: the result has this quality: 0 good, 1 doubtful, 2 refused
+# --- wrong settings, and impossible ones ----------------------------------------------------------------------------------
+# told QUALITY OPTION...: the result must have this quality: 0 good, 1 doubtful, 2 refused
 told() {
     wanted=$1
     shift
@@ -110,9 +111,9 @@ for option in 'speed=100 [rpm]' 'speed=400 [rpm]' 'speed=0' 'speed=-330 [rpm]'; 
     verdict $? "a dial at $option is refused" "$scratch/said"
 done
 
-# --- drawn benches: none is called good that is off by more than its interval and 1 % ----------------------------------------
+# --- random benches: no result is called good if its error exceeds its interval and 1 % --------------------------------------
 seed=${WHIRL_SEED:-7}
-draw() { # LOW HIGH: evenly between them
+draw() { # draw LOW HIGH: a number between them, evenly distributed
     seed=$(((seed * 1103515245 + 12345) % 2147483648))
     awk -v u=$seed -v low="$1" -v high="$2" 'BEGIN { printf "%.6g", low + (high - low) * u / 2147483648 }'
 }

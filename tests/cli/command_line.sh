@@ -66,24 +66,24 @@ for command in derive describe accel run; do
     exits 2 "^usage: whirl $command" "$command"
 done
 
-# --- what to work on ----------------------------------------------------------------------------------
+# --- the model to work on -----------------------------------------------------------------------------
 exits 2 "did you mean 'epicyclic'" derive epicylic
 exits 2 '`whirl list` shows' run nosuchthing
 exits 2 'no file and no built-in' run ''
 exits 2 'nofile.whirl: error: cannot be read: No such file' derive nofile.whirl
 exits 2 'error: cannot be read: Is a directory' derive /tmp
-for file in /dev/zero /dev/full; do # without an end, a file is read to its limit
+for file in /dev/zero /dev/full; do # a file without an end is read up to the limit
     for command in run prove derive describe list; do
         [ ! -c $file ] || exits 2 "$file:1:1: error: the text is longer than" $command $file
     done
 done
-if [ -r /proc/self/mem ]; then # a file that breaks off in reading is no shorter model
+if [ -r /proc/self/mem ]; then # a file that breaks off while it is read must not be taken for a shorter model
     exits 2 '/proc/self/mem: error: cannot be read: ' run /proc/self/mem
     exits 2 '/proc/self/mem: error: cannot be read: ' list /proc/self/mem
 fi
 exits 2 'it has more than one scene' run core/models/thomson.whirl
 exits 2 'hint: name one: core/models/thomson.whirl:thomson_a ' run core/models/thomson.whirl:foo
-# for a file with several scenes the message names exactly these; for a mechanism, all its effects
+# if a file has several scenes, the message names exactly these; for a mechanism, all its effects
 for file in core/models/*.whirl; do
     awk -v file="$file" '/^mechanism/ { mechanisms++; name = $2; effects = "" }
         /^effect/ { effects = effects $2 ", " }
@@ -135,7 +135,7 @@ exits 2 'whirl list: error: unknown option' list --all
 exits 2 "there is no form 'fortran'" derive epicyclic --as fortran
 exits 2 'hint: one of text, latex, octave, c' derive epicyclic --as fortran
 exits 2 "there is no method 'rk5'" run thomson_a --method rk5
-methods_of() { # the words of the rows of core/method.h that match
+methods_of() { # prints the words of the matching rows of core/method.h
     sed -n "s/^ *X(WH_[A-Z0-9_]*, \"\([a-z0-9-]*\)\", .*$1.*/\1/p" core/method.h
 }
 methods=$(methods_of WH_ | tr '\n' ',' | sed 's/,$//; s/,/, /g')
@@ -204,7 +204,7 @@ exits 2 'until 1 s is less than one step of 3 s' run thomson_a --until 1s --step
 exits 2 'hint: use a later until or a shorter step' run thomson_a --until 1s --step 3s
 prints ', 0 steps to t = 0 s' run thomson_a --until 0
 prints ', 1 steps to t = 3 s' run ball_elastic --until 3s --step 3s
-# the number of steps is the nearest integer; of two that are equally near, the lower
+# the number of steps is the nearest integer; a tie gives the lower one
 prints ', 1000 steps to t = 1 s' run ball_elastic --until 1.0005s --step 1ms
 prints ', 1001 steps to t = 1.001 s' run ball_elastic --until 1.0007s --step 1ms
 # numbers of steps beyond 32 bits: a year at 1 ms, 50 years at 1 ns
@@ -236,7 +236,7 @@ for command in run describe "derive --as c"; do
     exits 2 "thomson.whirl:22:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle: 'theta1' is one of them" $command thomson_a --tables cubic
 done
 exits 2 'contacts.whirl:24:3: error: --tables: a scene with events cannot use tables' run ball_bounces --tables linear
-prints 'theta' derive epicyclic --as latex --tables cubic # its equations are no others
+prints 'theta' derive epicyclic --as latex --tables cubic # its equations are the same
 prints '"form": "cubic",' describe epicyclic_from_rest --json --tables cubic
 prints '"cells": 256,' describe epicyclic_from_rest --json --tables linear
 prints '^  "tables": null,' describe epicyclic_from_rest --json
@@ -295,7 +295,7 @@ exits 2 'error: --csv and --columns cannot share a file' run "$own" --csv "$scra
 prints '^own_swings$' run "$own" --csv /dev/null
 prints '^  rate +[-0-9.e]+ kg\*m/s\^3$' run "$own"
 
-# --- what has a better way ------------------------------------------------------------------------------------
+# --- statements with a better form ----------------------------------------------------------------------------
 cat >"$scratch/hand.whirl" <<'END'
 mechanism hand "friction by hand"
 coordinate x [m]
@@ -310,7 +310,7 @@ exits 0 'hint: dry friction is: friction x static EXPR kinetic EXPR normal EXPR'
 [ $? -eq 0 ] && [ ! -s "$scratch/err" ]
 verdict $? "--quiet says nothing of it"
 
-# --- starts that cannot be ------------------------------------------------------------------------------
+# --- impossible starts ----------------------------------------------------------------------------------
 cat >"$scratch/starts.whirl" <<'END'
 mechanism starts "distances without a unit, and without end"
 coordinate x [m]
@@ -329,7 +329,7 @@ prints '^ball: ' run "$scratch/bad/contact_input_restitution.whirl" --set e=0.5 
 exits 2 'contacts.whirl:[0-9]+:[0-9]+: error: the run starts beyond this stop, by 0.25 m' run ball_bounces --start z=-0.25
 exits 0 "" run ball_bounces --start z=0 --until 10ms --csv -
 
-# --- where sines come from; a wheel that becomes faster than what is small for a turn goes on ---------------
+# --- sources of sines; a wheel that becomes too fast for turned sines keeps running -------------------------
 cat >"$scratch/wheel.whirl" <<'END'
 mechanism wheel
 coordinate b [rad]
@@ -372,7 +372,7 @@ prints 'double' run "$scratch/rotor.whirl"
 ! "$whirl" run "$scratch/rotor.whirl" --number float 2>&1 | grep -q "note: 'b'"
 verdict $? "nothing is said of an angle that is fast"
 
-# --- energy that is given back --------------------------------------------------------------------------
+# --- energy that --stabilized restores ------------------------------------------------------------------
 prints '^  Runge-Kutta 4 compensated, stabilized, float, step' run docs/hard/long.whirl:gear_turns --number float --compensated --stabilized
 prints '^energy balance' run docs/hard/long.whirl:pendulum_swings --stabilized
 prints '^  "stabilized": true,$' describe docs/hard/long.whirl:gear_turns --json --stabilized
@@ -398,7 +398,7 @@ if command -v gnuplot >/dev/null 2>&1; then
     done
 fi
 
-# --- an option twice: one value would take the place of the other ---------------------------------------------------
+# --- an option given twice: one of the values would be lost ---------------------------------------------------------
 for command in run derive price choose sweep map; do
     "$whirl" $command --help | grep -oE '^ +--[a-z-]+( [^ ]|=)|^ *--.*as for|--[a-z]+' | grep -oE -- '--[a-z]+' | sort -u |
         grep -vxE -- '--(set|start|with|without|over|measure|vary|help|quiet|strict|compensated|stabilized|all|resume|force|dry|steps|ranges)' >"$scratch/options"
@@ -408,7 +408,7 @@ for command in run derive price choose sweep map; do
         status=$?
         if grep -q 'is given twice' "$scratch/err"; then
             [ $status -eq 2 ] && grep -q '^hint: ' "$scratch/err" && twice=$((twice + 1))
-        else # its value was wrong before, or it takes none
+        else # otherwise its value was wrong before, or it takes no value
             [ $status -eq 2 ] || echo "$command $option: $status" >>"$scratch/passed"
         fi
     done <"$scratch/options"

@@ -75,9 +75,9 @@ effect wind "wind" { Q(x) += 0.2 [N] }
 scene plain_swings { with drag; start x = 1 [m], a = 1 [rad]; step 10 [ms]; until 0.1 [s]; range push = -1 .. 1 [N] }
 END
 sed 's/ - 9 \[J\]\*cos(a)/ + 9 [J]*a^2/' "$scratch/plain.whirl" >"$scratch/linear.whirl"
-# a motion that nothing drives or damps
+# a motion without drive and damping
 sed '/^Q(x)/d; s/with drag; //; s/until 0.1/until 20/' "$scratch/plain.whirl" >"$scratch/free.whirl"
-sample() { # a value of that option that is not what the scene has
+sample() { # sample OPTION: a value that differs from the scene's
     case $1 in
     --set) echo k=9 ;;
     --start) echo x=2 ;;
@@ -95,14 +95,14 @@ sample() { # a value of that option that is not what the scene has
     *) echo "no-sample-in-$0" ;;
     esac
 }
-ends() { # COMMAND [OPTION...]: all that it comes to
+ends() { # ends COMMAND [OPTION...]: all results of the command
     command=$1
     shift
     case $command in
     derive) "$whirl" derive "$plain" --as c "$@" ;;
     describe) "$whirl" describe "$plain" --json "$@" ;;
     examine) "$whirl" examine "$plain" "$@" ;;
-    figure) # of the scene, with the state as a curve
+    figure) # a figure of the scene, with the state as a curve
         printf 'title Plain\nrun a %s --every 10ms\npanel X [m]\ncurve a | {time} | {x} | -\n' "$plain" >"$scratch/plain.fig"
         "$whirl" figure "$scratch/plain.fig" --out "$scratch/plain.svg" "$@" && cat "$scratch/plain.svg"
         ;;
@@ -111,7 +111,7 @@ ends() { # COMMAND [OPTION...]: all that it comes to
     map) "$whirl" map "$plain" --over x=1..1.5:2 --over a=1..1.2:2 --csv - --quiet "$@" ;;
     effects) "$whirl" effects "$plain" "$@" ;;
     trust) "$whirl" trust "$plain" --csv - --quiet "$@" ;;
-    pil) # the cart's firmware; the hash of the motion that it meets
+    pil) # runs the cart's firmware, and prints the hash of the motion
         case " $* " in *' --until '*) ;; *) set -- --until 0.1s "$@" ;; esac
         "$whirl" pil "$plain" --firmware "$(dirname "$whirl")/pil_cart" --bind theta=a "$@" | grep -a "^plant's state"
         ;;
@@ -128,10 +128,10 @@ while read -r word value group; do
         "$whirl" "$command" --help | grep -q -- " $word\( \|$\)" || continue
         case $command$word in
         examine--start | examine--until) continue ;; # formulas hold at every state and time
-        examine--set) set -- --set k=0 ;;            # a spring that is none
-        sweep--start | map--start) set -- --start "x'=1" ;; # x is swept
-        effects--without) set -- --without drag --with wind ;; # without any effect there is nothing to answer
-        derive--number) set -- --number fixed ;; # of float and double the code is one
+        examine--set) set -- --set k=0 ;;            # removes the spring
+        sweep--start | map--start) set -- --start "x'=1" ;; # because x is swept
+        effects--without) set -- --without drag --with wind ;; # because without effects there is no result
+        derive--number) set -- --number fixed ;; # because float and double have the same code
         *) set -- "$word" "$(sample "$word")" ;;
         esac
         [ -n "$2" ] || set -- "$word"
@@ -140,7 +140,7 @@ while read -r word value group; do
         [ "$word" != --stabilized ] || plain=$scratch/free.whirl:plain_swings
         [ "$command$word" != derive--number ] || plain=$scratch/linear.whirl:plain_swings
         base=
-        [ "$word" != --cells ] || base="--tables cubic" # which has them
+        [ "$word" != --cells ] || base="--tables cubic" # tables, which have cells
         without=$scratch/without_${command}_$(basename "$plain")${base:+_tables}
         [ -e "$without" ] || ends "$command" $base >"$without" 2>/dev/null
         ends "$command" $base "$@" >"$scratch/with" 2>"$scratch/err"

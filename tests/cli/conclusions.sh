@@ -32,7 +32,7 @@ verdict $? "62 drawn rows get the verdicts they were drawn for" "$scratch/said"
 $table check "$scratch/page" "$scratch/drawn.rows" 2>"$scratch/err"
 verdict $? "a page with this table passes"
 
-# refused WHAT WORDS SED: a page with this change fails, and the message has these words
+# refused WHAT WORDS SED: the page with this change must fail, and the message must have these words
 refused() {
     sed "$3" "$scratch/page" >"$scratch/changed"
     ! $table check "$scratch/changed" "$scratch/drawn.rows" 2>"$scratch/err" && grep -q "$2" "$scratch/err"
@@ -42,7 +42,7 @@ refused "another verdict" 'verdict has changed from "holds" to "does not hold"' 
 refused "another figure of ours" 'another table' '5s/| echo/&/; 5s/ m | \([^|]*\) | \([a-z]\)/1 m | \1 | \2/'
 refused "a row less" 'another table' '7d'
 
-# bad WHAT WORDS ROW: this row is refused with these words
+# bad WHAT WORDS ROW: this row must be refused with these words
 bad() {
     printf '%b\n' "$3" >"$scratch/bad.rows"
     ! $table print "$scratch/bad.rows" >"$scratch/said" 2>"$scratch/err" && grep -q "$2" "$scratch/err"
@@ -55,7 +55,7 @@ bad "a number too many" '2 numbers' "${row}run echo 1\ntake { print 1, 2 }\nwith
 bad "a row without tolerance" 'within what' "${row}run echo 1\ntake { print 1 }"
 bad "a verdict by hand" 'a verdict is computed' "${row}verdict holds"
 bad "an unknown field" 'no such field' "${row}runs echo 1"
-# The teacher's table has the same statements about each section as the list of all claims.
+# The teacher's table must make the same statements about each section as the list of all claims.
 awk -F ' [|] ' 'FNR == NR { if (/^[|]/) said[substr($1, 3), $6] = 1; next }
     /^[|] (I|V)/ { rows++; if (!((substr($1, 3), $3) in said)) print $1 ": " $3 }
     END { if (rows < 8) print rows " rows" }' docs/conclusions.md docs/howto/class.md >"$scratch/said"

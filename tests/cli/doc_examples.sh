@@ -16,12 +16,12 @@ done
 for example in "$scratch"/*.whirl; do
     [ -f "$example" ] || continue
     count=$((count + 1))
-    name=$(basename "$example" .whirl) # document and line
+    name=$(basename "$example" .whirl) # the document and the line
     "$whirl" derive "$example" >/dev/null 2>"$scratch/err"
     verdict $? "$name"
 done
 
-# --- a reader works in one folder: no page's `whirl new` writes a file that README tells the reader to save.
+# --- a reader works in one folder, so no page's `whirl new` may write a file that README tells the reader to save
 for page in docs/*.md docs/howto/*.md; do
     for name in $(sed -n 's/^[$] build\/whirl new //p' "$page"); do
         ! grep -q "^\`\`\`whirl $name[.]whirl$" README.md
@@ -40,7 +40,7 @@ exec $real "\$@" \$SET
 END
 chmod +x "$scratch/bin/cc"
 flushing=$(gcc -print-file-name=crtfastmath.o)
-[ "$flushing" != crtfastmath.o ] || flushing=-O1 # no such file for this processor
+[ "$flushing" != crtfastmath.o ] || flushing=-O1 # this processor has no such file
 echo "$flushing" >"$scratch/sets"
 [ -z "${WHIRL_FULL:-}" ] || printf '%s\n' -O0 -O3 -Os "-std=gnu11 -Og" -DWH_DOUBLE=1 -ffast-math -Ofast -funsafe-math-optimizations \
     -ffinite-math-only -mfpmath=387 -fsingle-precision-constant >>"$scratch/sets"

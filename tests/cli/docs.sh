@@ -52,7 +52,7 @@ for kind in right dropped added digit word; do
     verdict $? "and renewed they are right" "$scratch/said"
 done
 
-# found WHAT TEXT MODE [SETTING]: the page on standard input is refused, with TEXT
+# found WHAT TEXT MODE [SETTING]: the page on standard input must be refused, with TEXT
 found() {
     cat >"$page"
     env "${4:-X=}" sh tests/docs.sh "$3" "$page" >"$scratch/said" 2>&1

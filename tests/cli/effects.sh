@@ -30,14 +30,14 @@ scene bare { start x = 1 [m]; until 1 [s] }
 END_OF_FILE
 cart=$scratch/cart.whirl:swings
 
-# ask WORD...: into $scratch/out, $scratch/err
+# ask WORD...: runs `whirl effects`; output in $scratch/out and $scratch/err
 ask() { "$whirl" effects "$@" >"$scratch/out" 2>"$scratch/err"; }
-# says PATTERN: the answer has such a line
+# says PATTERN: the output has a line with the pattern
 says() {
     grep -qE -- "$1" "$scratch/out"
     verdict $? "the answer has: $1" "$scratch/out"
 }
-# refused PATTERN HINT WORD...: status 2, these words on standard error, nothing on standard output
+# refused PATTERN HINT WORD...: status 2, pattern and hint on standard error, nothing on standard output
 refused() {
     pattern=$1
     hint=$2
@@ -46,9 +46,9 @@ refused() {
     [ $? -eq 2 ] && grep -q -- "error: .*$pattern" "$scratch/err" && grep -q -- "$hint" "$scratch/err" && [ ! -s "$scratch/out" ]
     verdict $? "whirl effects $*: $pattern"
 }
-# row NAME: that row's cells, blanks and verdict as they are
+# row NAME: prints that row's cells, blanks and verdict unchanged
 row() { sed -n "s/^$1  *//p" "$scratch/out"; }
-# cells ROW WANTED: the row reads so; each # stands for a number
+# cells ROW WANTED: the row has this text; each # stands for a number
 cells() {
     [ "$(row "$1" | sed -E 's/-?[0-9][0-9.e+-]*/#/g; s/ +/ /g')" = "$2" ]
     verdict $? "$1: $2" "$scratch/out"

@@ -9,7 +9,7 @@ root=$(pwd)
 mkdir "$scratch/with" "$scratch/without"
 stripped=0
 
-without_comment() { # of generated code: the one it begins with
+without_comment() { # removes the first comment of generated code
     sed '1,/^ \*\//d' "$1"
 }
 
@@ -21,7 +21,7 @@ same() {
         without_comment "$scratch/$side/model.c" >"$scratch/$side/code.c"
     done
     [ -s "$scratch/with/code.c" ] || return 1
-    ! cmp -s "$scratch/with/code.c" "$scratch/without/code.c" || return 0 # then so are the objects
+    ! cmp -s "$scratch/with/code.c" "$scratch/without/code.c" || return 0 # then the objects are equal, too
     for side in with without; do
         (cd "$scratch/$side" && ${CC:-gcc} -std=c11 -O2 -ffp-contract=off -I"$root" -c model.c -o host.o) ||
             return 1
@@ -39,13 +39,13 @@ same() {
     done
 }
 
-# code FILE:NAME OPTION...: the generated code without its comment.
+# code FILE:NAME OPTION...: prints the generated code without its first comment.
 code() {
     "$whirl" derive "$@" --as c >"$scratch/code.c"
     without_comment "$scratch/code.c"
 }
 
-# All that an effect can contain; its own input precedes the mechanism's parameters and input.
+# Everything that an effect can contain; its input comes before the mechanism's parameters and input.
 cat >"$scratch/everything.whirl" <<'END'
 mechanism everything "one of each"
 coordinate X [m]
@@ -58,7 +58,7 @@ effect push {
   Q(X) += force
 }
 effect heavier { parameter m_more = 1 [kg] "a brace } in a text"
-  T += m_more*X'^2/2 } # and one { here
+  T += m_more*X'^2/2 } # and a { in a comment
 effect spring { V += 3 [N/m]*X^2/2; F += 0.1 [N*s/m]*X'^2/2 }
 effect limit { stop X <= 2 [m] restitution 0.5 }
 effect dry { friction X static 0.3 kinetic 0.2 normal 10 [N] }

@@ -46,7 +46,7 @@ for real in 0 1; do
     done
 done
 
-# --- each by itself ---------------------------------------------------------------------------------
+# --- each header by itself --------------------------------------------------------------------------
 alone=0
 : >"$scratch/err"
 some=$(echo "$scenes" | grep -E '^(scenes|thomson_a|ball_bounces|carriage_stop)\.h$') # all are of one kind
@@ -136,7 +136,7 @@ for version in 5 6 7 8 12; do
     verdict $? "gcc $version sees $unrolls pragmas that unroll: they came with gcc 8"
 done
 
-# --- and all C is what it says: the core's own and generated files, strict and GNU ---------------------
+# --- generated and core files compile as every standard of C, strict and GNU ---------------------------
 for standard in c11 gnu11 gnu17; do
     : >"$scratch/err"
     for file in core/*.c core/rig/*.c "$scratch/scene.c" "$gen/thomson_magnet.c" "$gen/carriage_stop.c"; do
@@ -146,8 +146,8 @@ for standard in c11 gnu11 gnu17; do
     verdict $? "the core and generated C, -std=$standard -pedantic"
 done
 
-# --- a header and the .c of another version of the scene do not link, and no byte is spent on it ------------
-# pair FOLDER NAMES K LINE TEXT OPTION...: header and .c of masses on springs, with this line and this text in the file.
+# --- a header and the .c of another version of the scene do not link, and the check costs no byte ---------------------
+# pair FOLDER NAMES K LINE TEXT OPTION...: writes the header and .c of masses on springs; the file has this line and this text.
 pair() {
     folder=$scratch/$1
     mkdir "$folder"
@@ -166,7 +166,7 @@ pair() {
 echo '#include "stroke.h"
 const void *scene(void); const void *scene(void) { return &stroke; }
 unsigned long words(void); unsigned long words(void) { return stroke_MEMORY_WORDS; }' | tee "$scratch/main.c" >"$scratch/main.cpp"
-# The name that the header of FOLDER asks for, and that its .c has: COMPILER FOLDER
+# asked COMPILER FOLDER: the name that the header of FOLDER requires, and that its .c defines
 asked() { $1 $warnings -I. -I"$scratch/$2" -c -o "$scratch/o.o" "$scratch/main.${3:-c}" 2>>"$scratch/said" && nm "$scratch/o.o" | sed -n 's/.* U //p' | grep stroke; }
 given() { $1 $warnings -I. -c -o "$scratch/o.o" "$scratch/$2/stroke.c" 2>>"$scratch/said" && nm "$scratch/o.o" | sed -n 's/.* [RDV] //p' | grep stroke_H; }
 names=$(awk 'BEGIN { srand(5); n = split("a b c d e", w); for (i = n; i > 1; i--) { j = 1 + int(i*rand()); t = w[i]; w[i] = w[j]; w[j] = t }

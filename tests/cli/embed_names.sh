@@ -55,8 +55,8 @@ for word in alignas alignof and and_eq asm bitand bitor catch char16_t char32_t 
 done
 verdict 0 "scenes with names that are words of C++ are refused, where a header is asked for"
 
-# Names that a generated file itself uses are refused, or cause no warning. tests/host/test_c_names.c covers names of
-# compilers and headers.
+# Names that a generated file uses itself are refused, or cause no warning. tests/host/test_c_names.c covers the names
+# of compilers and headers.
 for one in "carriage_stop --with ledger" "ball_between" "thomson_b_conserved --compensated" rig_fixed; do
     "$whirl" derive $one --as c
 done 2>/dev/null | sed 's|/\*.*\*/||; s/^ \*.*//; s/"[^"]*"//g' | grep -oE '\b[A-Za-z_][A-Za-z0-9_]*\b' | sort -u |
@@ -86,7 +86,7 @@ for scene in $scenes; do
     [ ! -e "$gen/$scene.h" ] || in_gen="$in_gen $scene"
 done
 
-# memory SCENE...: a program that starts each scene with the memory that its header states, and with a byte less.
+# memory SCENE...: a program that starts each scene with the memory that its header states, and with one byte less.
 memory() {
     printf '#include "%s.h"\n' "$@"
     cat <<'END'
@@ -137,10 +137,10 @@ for real in float double; do
     done
 done
 
-# --- generated ones --------------------------------------------------------------------------------------------
+# --- generated scenes ------------------------------------------------------------------------------------------
 seed=${WHIRL_SEED:-$(date +%j)}
 cases=${WHIRL_CASES:-${WHIRL_FULL:+12}}
-[ -z "${WHIRL_FEW:-}" ] || cases=${cases:-2} # the sanitizers' gate
+[ -z "${WHIRL_FEW:-}" ] || cases=${cases:-2} # in the sanitizers' gate
 cases=${cases:-4} # one of each set of options
 echo "seed $seed, $cases cases (WHIRL_SEED, WHIRL_CASES)"
 made=""
@@ -150,7 +150,7 @@ while [ $number -lt "$cases" ]; do
     case $((number % 4)) in
     0) options="" ;;
     1) options="--compensated --with ledger" ;;
-    2) options="--compensated" ;; # systems have no energies
+    2) options="--compensated" ;; # because systems have no energies
     3) options="--with ledger" ;;
     esac
     [ $((number % 3)) -ne 2 ] || options=${options%--with ledger}

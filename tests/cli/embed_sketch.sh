@@ -56,7 +56,7 @@ for compiler in "gcc g++ -Os" "clang clang++ -O2"; do
     verdict $? "$2 $3: three runs at once end in the interpreter's bits" "$scratch/said"
     grep -Eq '^x_cm = -?[0-9.]+ m$' "$scratch/said"
     verdict $? "$2 $3: an output by its name and unit"
-    flushing=$(gcc -print-file-name=crtfastmath.o) # as linking with -ffast-math: the start is refused
+    flushing=$(gcc -print-file-name=crtfastmath.o) # linking with -ffast-math has the same effect: the start is refused
     [ "$flushing" != crtfastmath.o ] || continue
     "$2" -std=gnu++11 -Itests/embed -o "$scratch/flushing" tests/embed/arduino_main.cpp "$scratch/sketch.o" "$scratch/scene.o" \
         "$scratch/angle.o" "$scratch/text.o" "$scratch/epicyclic_from_rest.o" "$scratch/thomson_a.o" "$flushing" 2>"$scratch/err" &&

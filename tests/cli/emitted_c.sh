@@ -11,9 +11,9 @@
 compared=0
 warnings="-std=c11 -ffp-contract=off -I. -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror"
 
-# --- what is to be compared: lines "NUMBER WHAT", options in NUMBER.options --------------------------
+# --- the list of comparisons: lines "NUMBER WHAT", with the options in NUMBER.options ----------------
 number=0
-add() { # add TARGET OPTION...: what to derive and run
+add() { # add TARGET OPTION...: adds a target to derive and run
     number=$((number + 1))
     echo "$number $1" >>"$scratch/list"
     printf '%s\n' "$@" >"$scratch/$number.options"
@@ -75,11 +75,11 @@ for method in $("$whirl" derive epicyclic_conserved --as c --method '?' 2>&1 | s
     tabled folded epicyclic_conserved --tables cubic --method "$method"
 done
 tabled whole epicyclic_conserved --tables cubic --with ledger
-# turning fast, and the other way
+# turning fast, and backwards
 tabled folded epicyclic_from_rest --tables cubic --start "theta'=-700"
 tabled whole epicyclic_conserved --tables cubic --cells 256 --start "theta'=-700"
 
-# The state of a mechanism's file: every value and rate has a different number.
+# Prints starts for a mechanism's file: every value and rate has a different number.
 start_of() {
     "$whirl" accel "$1" 2>/dev/null | awk '{
         name = $1; order = gsub("\047", "", name); rate = name
@@ -150,7 +150,7 @@ mechanism bare "one length, nothing acts"
 coordinate x [m]
 T = 3 [kg]*x'^2/2
 END
-# the balance here is not that of T + V, and an input is in the energies
+# the balance is not that of T + V, and an input occurs in the energies
 cat >"$scratch/w/hoop.whirl" <<'END'
 mechanism hoop "a bead on a hoop whose rate is an input"
 coordinate th [rad]
@@ -189,7 +189,7 @@ for method in nystroem3 nystroem4 nystroem5; do
         printf '%s\n' --method "$method" >>"$scratch/$number.options"
     done
 done
-# angles that turn further in a step than is small for a turn (core/step/stage_turn.h), some 100 times as far
+# angles whose change in a step is too large for turned sines (core/step/stage_turn.h), some by a factor of 100
 for more in "" --compensated "--method rk38" "--method nystroem5"; do
     add "$scratch/w/offsets.whirl" --start "a'=900" --start "b'=-700" --until 0.3s $more
 done
@@ -202,7 +202,7 @@ for file in hoop gauge; do
     printf '%s\n' --with ledger >>"$scratch/$number.options"
 done
 
-# inputs with a rate: of stops and holds, in the energies alone, with books and with an acceleration
+# inputs with a rate: in stops and holds, only in the energies, with a ledger, and with an acceleration
 cat >"$scratch/driven.whirl" <<'END'
 mechanism driven "a ball on a rope that is taken in, at a wall that comes"
 coordinate x [m]
@@ -234,7 +234,7 @@ for scene in hung swung; do
     done
 done
 
-# a clock that is conserved, on which a force depends: it is integrated
+# a conserved clock on which a force depends is integrated
 cat >"$scratch/w/clock.whirl" <<'END'
 mechanism clock "a force of time"
 coordinate t [s]
@@ -246,7 +246,8 @@ scene clock_drives { start t' = 1; conserve t }
 END
 add "$scratch/w/clock.whirl:clock_drives" --until 0.3s
 
-# a whole step as one matrix: masses, a rotor whose angle is in no force, an input, gravity, a free mass; first order
+# a whole step as one matrix: masses, a rotor whose angle occurs in no force, an input, gravity, a free mass; first
+# order
 cat >"$scratch/w/rotor.whirl" <<'END'
 mechanism rotor "a rotor with friction, and masses between springs, one of them free"
 coordinate th [rad]
@@ -291,7 +292,7 @@ for matrix in exact rk4; do
     done
 done
 
-# random planar linkages: the interpreter's motions are held to their energies by tests/host/test_arm.c
+# random planar linkages; tests/host/test_arm.c compares the interpreter's motions with their energies
 few=8
 [ -z "${WHIRL_FULL:-}" ] || few=16
 [ "${WHIRL_FULL:-rest}" = rest ] || few=40
@@ -303,15 +304,15 @@ done
 # --- deriving and interpreting ----------------------------------------------------------------------
 : >"$scratch/numbers"
 [ -z "${WHIRL_FEW:-}" ] || sed -i 'n;d' "$scratch/list"
-# part_of NUMBER: the part of the list that it belongs to, 0 to 3, by a sum, which has no rhythm that the list has. Folded tables
-# exist in float alone, which parts 0 and 2 are compiled in.
+# part_of NUMBER: prints the part of the list to which the case belongs, 0 to 3. A checksum decides, because the list
+# has a rhythm. Folded tables exist only in float, in which parts 0 and 2 are compiled.
 part_of() {
-    drawn=$(($(echo "$1" | cksum | cut -d ' ' -f 1) % 8)) # parts 0 and 1 are an eighth each
+    drawn=$(($(echo "$1" | cksum | cut -d ' ' -f 1) % 8)) # parts 0 and 1 have an eighth of the cases each
     [ $drawn -lt 2 ] || drawn=$((2 + drawn % 2))
     [ ! -e "$scratch/$1.folded" ] || drawn=$((drawn / 2 * 2))
     echo $drawn
 }
-# What both parts that gate-long compiles need; all else needs all.
+# wanted NUMBER: is the case in one of the two parts that gate-long compiles? Other runs need all parts.
 wanted() { # NUMBER
     [ -n "${WHIRL_FULL:-}${WHIRL_FEW:-}" ] || [ "$(part_of "$1")" -lt 2 ]
 }
@@ -321,7 +322,7 @@ while read -r number what; do
     while read -r word; do
         set -- "$@" "$word"
     done <"$scratch/$number.options"
-    # a name of its own for each
+    # each scene has a name of its own
     "$whirl" derive "$@" --as c --name "scene_$number" >"$scratch/scene_$number.c" 2>"$scratch/errors"
     derived=$?
     if [ -e "$scratch/$number.folded" ]; then
@@ -333,7 +334,7 @@ while read -r number what; do
     [ -n "${WHIRL_FULL:-}${WHIRL_FEW:-}" ] || [ "$(part_of "$number")" -eq 0 ] || real=double
     "$whirl" run "$@" --number "$real" >"$scratch/$number.$real" 2>"$scratch/$number.run"
     ran=$?
-    # status 1: it diverges, after the same step in both
+    # status 1: the run diverges, after the same step in both
     if [ $derived -ne 0 ] || [ $ran -gt 1 ]; then
         verdict 1 "$what: derive says $derived, run says $ran"
         sed 's/^/    /' "$scratch/errors" "$scratch/$number.run" | head -n 5
@@ -343,12 +344,12 @@ while read -r number what; do
     [ -z "${WHIRL_FULL:-}${WHIRL_FEW:-}" ] || "$whirl" run "$@" --number double >"$scratch/$number.double" 2>&1
     echo "$number" >>"$scratch/numbers"
 done <"$scratch/list"
-if [ -e "$scratch/$links" ]; then # else the sanitizers' gate left it out
+if [ -e "$scratch/$links" ]; then # otherwise the sanitizers' gate has omitted it
     grep -q '^static void accelerations(' "$scratch/$links"
     verdict $? "a large list is called"
 fi
 
-# --- one program of all, or of some -----------------------------------------------------------------
+# --- one program of all cases, or of some -----------------------------------------------------------
 program_of() { # FILE: of the scenes whose numbers it holds
     echo '#include <inttypes.h>'
     echo '#include <stdio.h>'

@@ -58,7 +58,7 @@ done
 [ ! -s "$scratch/err" ]
 verdict $? "the core, for the functions of the language"
 
-build() { # build COMPILER FLAGS...: $scratch/program
+build() { # build COMPILER FLAGS...: makes $scratch/program
     by=$1
     shift
     rm -f "$scratch/program"
@@ -87,7 +87,7 @@ if [ -n "${WHIRL_FULL:-}" ]; then
     holds clang -O2
     if grep -q ' fma ' /proc/cpuinfo 2>/dev/null; then
         holds gcc -O3 -march=haswell -ffp-contract=fast
-        # clang prefers its flag to the core's pragma: whirl would not start
+        # clang prefers its flag to the core's pragma, so whirl would not start
         if command -v clang >/dev/null 2>&1; then
             build clang -O3 -march=haswell -ffp-contract=fast >"$scratch/err" 2>&1
             "$scratch/program" >"$scratch/said" 2>&1
@@ -103,7 +103,7 @@ for by in gcc clang; do
         if [ $? -ne 0 ]; then
             grep -q 'Whirl computes the same bits everywhere' "$scratch/said"
             verdict $? "$by $fast is refused" "$scratch/said"
-        else # no macro tells of it
+        else # no macro shows this flag
             build $by -O2 $fast >"$scratch/err" 2>&1 && "$scratch/program" >"$scratch/said" 2>&1
             grep -q '^other arithmetic$' "$scratch/said"
             verdict $? "$by $fast is refused at the start" "$scratch/said"

@@ -41,7 +41,7 @@ says "what is not affine is not decided" "^not decided: a direction or rotation 
 says "a stop is an outside force" "the stop, line [0-9]* (effect left_stop)" carriage_stop
 says "LaTeX" '^  P_{1} &= 2 \\, m' epicyclic --as latex
 
-# A device whose centre of mass moves has a force somewhere: each is named with its line.
+# If the centre of mass of a device moves, there is an outside force. Each one is named with its line.
 for hidden in 'V += 1e-6 [N/m]*X^2/2' 'F += 1e-6 [N*s/m]*(X'"'"' + 0.01 [m]*theta'"'"')^2/2' 'Q(X) += 1e-6 [N]' 'stop X <= 9 [m] restitution 1' \
     'friction X static 0.2 kinetic 0.1 normal 3 [N]' "when X crosses 8 [m] rising { set X' = -X' }"; do
     where=mechanism

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/../checks.sh"
 
 here=$(pwd)
-# folders_of FAMILY: its folder, and every folder whose makefile includes it directly or indirectly.
+# folders_of FAMILY: prints its folder, and every folder whose makefile includes it directly or indirectly.
 folders_of() {
     found=$1
     while :; do
@@ -16,7 +16,7 @@ folders_of() {
     echo $found
 }
 
-# without FAMILY: makes the copy.
+# without FAMILY: makes a copy of the tree without the family.
 without() {
     tree=$scratch/without_$1
     mkdir "$tree"
@@ -31,7 +31,7 @@ without() {
     done
 }
 
-plan() { # what make would do: no file is written
+plan() { # prints what make would do, and writes no file
     MAKEFLAGS= make -C "$tree" -n "$@" >"$scratch/plan" 2>"$scratch/err"
 }
 

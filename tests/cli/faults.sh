@@ -34,10 +34,10 @@ about=pil
 exits 2 "has no input 'runaway'" docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway
 exits 2 'excludes --fault' --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam
 
-# --- what they do -----------------------------------------------------------------------------------------------------
-# told WORD FILE: the value of the firmware's note of that name
+# --- effects of faults ------------------------------------------------------------------------------------------------------
+# told WORD FILE: prints the value of the firmware's note of that name
 told() { sed -n "s/^it tells .*$1 \([-0-9.e]*\).*/\1/p" "$2"; }
-# run FAULTS: runs the rig with them
+# run FAULTS: runs the rig with these faults
 run() {
     sh tests/limit.sh 60 "$whirl" pil $rig --fault "$1" >"$scratch/run" 2>"$scratch/err"
 }
@@ -69,7 +69,8 @@ verdict $? "a stop line that is broken counts as pressed" "$scratch/run"
 run stop@0.5s+10ms
 grep -aq '^STOPPED: ' "$scratch/run" && ! grep -aq armed "$scratch/run"
 verdict $? "and one that was pressed before it armed is not forgotten" "$scratch/run"
-# The controller is late in each step while the rotor brakes, or its orders are lost: the enable ends off.
+# The controller is late in each step while the rotor brakes, or its orders are lost: at the end the motor is
+# disabled.
 awk -v seed="$(date +%j)" 'BEGIN { srand(seed); for (i = 0; i < 4; i++) { printf "%s=%.5f %.2f\n", i % 2 ? "orders-lost" : "late",
         i % 2 ? 0.3 * rand() : 0.0021 + 0.004 * rand(), 20 + 12 * rand() } }' |
     while read -r fault speed; do
@@ -80,7 +81,7 @@ awk -v seed="$(date +%j)" 'BEGIN { srand(seed); for (i = 0; i < 4; i++) { printf
 [ ! -s "$scratch/bad" ]
 verdict $? "a controller that is late or not heard while it brakes ends with the enable off" "$scratch/bad"
 
-# --- driven though it is off ------------------------------------------------------------------------------------------
+# --- driven although the motor is off ----------------------------------------------------------------------------------------
 # off TRIPS WORD...: at 60 s the motor is off, and the trip is one of TRIPS
 off() {
     trips=$1
@@ -95,13 +96,13 @@ off 12 --set brakes=1 --set speed=250rpm --fault supply=0.5,runaway@state=14
 off '2 10' --fault stop@9s,stuck=0.9@9s
 off '10 12' --set brakes=1 --fault stuck=0.4@state=15
 off '10 12' --fault stop@9s,stuck@9s,edge-dead:1@9s
-# a stage that obeys its enable drives nothing: the motor is off, without a trip
+# a stage that obeys its enable line drives nothing, so the motor is off without a trip
 off 0 --set speed=250rpm --fault supply=0.5,runaway@state=14
 off 0 --fault stop@9s,runaway=0.4@9s
 off 0 --fault stop@2.1s,runaway@2.1s,edge-dead:1
 
-# --- stopped, and reset ---------------------------------------------------------------------------------------------------
-# Some of each class, at random instants: off at once, idle or tripped as before, and nothing starts by itself.
+# --- stopped, and reset -------------------------------------------------------------------------------------------------------
+# Some faults of each class at random instants: the motor is off at once, the state is idle or tripped as before, and nothing starts by itself.
 few=8
 [ -z "${WHIRL_FEW:-}" ] || few=2
 [ -z "${WHIRL_FULL:-}" ] || few=30

@@ -6,7 +6,7 @@
 sh mk/figures/figures.sh "$whirl" "$scratch/one" mk/figures/fig*.fig >"$scratch/log" 2>&1
 verdict $? "all are drawn" "$scratch/log"
 
-# Number, number of curves and laws in all panels, the last panel's x axis, the first's y axis.
+# Number of the figure, number of curves and laws in all panels, x axis of the last panel, y axis of the first.
 while IFS='|' read -r number drawn x y; do
     svg=$scratch/one/fig$number.svg
     png=$scratch/one/fig$number.png
@@ -47,12 +47,13 @@ done <<'END'
 58|2|X [m]|Y [m]
 END
 
-# The numbers behind a figure: Fig. 20 against its closed form, at every point of the sweep.
+# The numbers of Fig. 20 are compared with the closed form, at every point of the sweep.
 awk -F, 'NR > 1 { n++; d = $2 / $3 * (1 + $1) - 1; if (d < 0) d = -d; if (d > 0.001) bad++ }
     END { exit !(n == 21 && bad == 0) }' "$scratch"/one/data/sweep-carriage_ratio*.csv
 verdict $? "20 is 1/(1 + ratio) within 0.1 %, at 21 ratios"
 
-# Fig. 11 against the forced oscillation: peaks are those of samples, 9 degrees apart at the least damped.
+# Fig. 11 is compared with the forced oscillation. Peaks are those of samples, which are 9 degrees apart at the
+# smallest damping.
 awk -F, 'NR > 1 {
         n++; x = $4; due = 1 / sqrt((1 - x * x) ^ 2 + (13 / (0.33 * 188.4956) * x * x) ^ 2)
         d = $2 / $3 / due - 1; if (d < 0) d = -d; if (d > 0.005) bad++; if (x > 1) above++
@@ -71,7 +72,8 @@ awk -F, 'NR > 1 {
     END { exit !(n == 12 && bad == 0) }' "$scratch"/one/data/table-rig.sh_ratios*.csv
 verdict $? "and what the firmware measures, at 12 ratios, within 0.2 % of that and its ripple"
 
-# Fig. 17: 2 s of samples, without a mean, between the peaks; once a turn it is what the firmware's formula has.
+# Fig. 17: 2 s of samples with zero mean, within the limits. Their once-per-turn part is that of the firmware's
+# formula.
 awk -F, 'NR > 1 {
         n++; if (n > 1 && ($1 - t < 0.00199 || $1 - t > 0.00201)) bad++; t = $1
         if (!(low < $2)) low = $2; if (high < $2) high = $2
@@ -89,7 +91,7 @@ awk -F, 'NR > 1 && NF == 3 && $2 != "" { if (one % 3 != 1) { if ($2 < 6.15 || $2
     END { exit !(bad == 0 && one % 3 == 0 && two % 3 == 0 && one >= 30 && two >= 30) }' "$scratch"/one/data/table-rig.sh_spikes*.csv
 verdict $? "24 has sensor 1's spikes on the peak and sensor 2's 1.4 N below zero"
 
-# Fig. 26: the swing that remains at the end is S/(all masses), about a place that the carriage no longer passes.
+# Fig. 26: the remaining swing at the end is S/(all masses), about a place that the carriage no longer leaves.
 awk -F, 'NR > 1 && $1 > 55 { if (!n++ || $3 > high) high = $3; if (n == 1 || $3 < low) low = $3 }
     END { a = (high - low) / 2 * 1000 / 32.0864 - 1; exit !(n > 1000 && a > -0.01 && a < 0.01 && low > 5) }' \
     "$scratch"/one/data/run-carriage_stop*every_4ms*.csv
@@ -119,7 +121,7 @@ verdict $? "drawn twice, the same files"
 sh mk/figures/page.sh mk/figures/fig*.fig | cmp -s - docs/figures.md
 verdict $? "docs/figures.md is what the descriptions say (make figures-docs)"
 
-# refused WHAT LINE...: a description with these lines must not be drawn.
+# refused WHAT LINE...: a description with these lines must be refused.
 refused() {
     what=$1
     shift
@@ -136,7 +138,7 @@ refused "a sweep of which a point fails" "title t" \
     "sweep a epicyclic_from_rest --over m=0..1:2 --measure X --until 10ms" "panel y" \
     "curve a | {m} | {X} | -"
 
-# Of its working files only the numbers stay, after good runs and bad ones.
+# Of the working files only the numbers remain, after good and after bad runs.
 left=$(find "$scratch" -path '*/data/*' ! -name '*.csv')
 [ -z "$left" ] || echo "$left"
 [ -z "$left" ] && [ -d "$scratch/one/data" ] && [ -d "$scratch/bad/data" ]

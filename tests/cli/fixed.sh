@@ -7,7 +7,8 @@
 
 warnings="-std=c11 -I. -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror"
 
-# --- made-up mechanisms: N NUMBERED ones of five kinds ---------------------------------------------------------------
+# --- made-up mechanisms: N of each of five kinds, numbered
+# -----------------------------------------------------------
 mkdir "$scratch/w"
 awk -v folder="$scratch/w" 'function r() { state = (state * 16807) % 2147483647; return 0.5 + 1.5 * state / 2147483647 }
 BEGIN {
@@ -45,13 +46,13 @@ BEGIN {
     }
 }'
 sed -i 's/^V += \(.*\)$/V += \1/' "$scratch"/w/*.whirl
-for file in "$scratch"/w/*.whirl; do # the first of several energies is an equation
+for file in "$scratch"/w/*.whirl; do # the first statement of an energy has =; further ones go into effects
     awk '/^V \+=/ && !v { sub(/\+=/, "="); v = 1 } /^F \+=/ && !f { sub(/\+=/, "="); f = 1 }
         /^[VF] \+=/ { print "effect more_" ++n " { " $0 " }"; next } { print }' "$file" >"$scratch/one"
     mv "$scratch/one" "$file"
 done
 
-# --- derived and interpreted ------------------------------------------------------------------------------------------
+# --- deriving and interpreting ----------------------------------------------------------------------------------------
 number=0
 refused=0
 : >"$scratch/numbers"
@@ -84,7 +85,7 @@ compared=$(wc -l <"$scratch/numbers")
 [ "$compared" -ge 30 ] && [ "$(grep -c made_ "$scratch/numbers")" -ge 16 ]
 verdict $? "$compared scenes have a step in fixed point, $refused are refused with a hint" "$scratch/numbers"
 
-# --- one program of all -----------------------------------------------------------------------------------------------
+# --- one program of all scenes ----------------------------------------------------------------------------------------
 mk/count/index.sh --fixed $(sed 's/ .*//; s/^/scene_/' "$scratch/numbers") >"$scratch/table.c"
 build() { # build COMPILER FLAGS
     $1 $warnings $2 -I"$scratch" -o "$scratch/program" "$scratch"/scene_*.c "$scratch/table.c" boards/programs/fixed_scenes.c \
@@ -101,7 +102,7 @@ build() { # build COMPILER FLAGS
     [ $differ -eq 0 ] && [ "$(wc -l <"$scratch/hashes")" -eq "$compared" ]
     verdict $? "$1 $2: the interpreter's bits in all of them"
 }
-if [ -n "${WHIRL_FEW:-}" ]; then # the program is what is tested (sanitizers), not what it writes
+if [ -n "${WHIRL_FEW:-}" ]; then # the sanitizers test the program, not the code that it writes
     echo "ok - derived and interpreted, not compiled"
 else
     [ "${WHIRL_FULL:-}" = rest ] || build gcc "-O2"
@@ -126,7 +127,7 @@ if [ -z "${WHIRL_FEW:-}" ] && command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     done
 fi
 
-# --- what is said ------------------------------------------------------------------------------------------------------
+# --- messages ----------------------------------------------------------------------------------------------------------
 "$whirl" run two_mass_relative --number fixed --until 0.1s >"$scratch/out" 2>"$scratch/err"
 grep -q "note: range X' = .*not declared, taken from a run in double" "$scratch/err" && grep -q '^0 values saturated' "$scratch/out"
 verdict $? "a range that is not declared is told, and how many values were saturated"

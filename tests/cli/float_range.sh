@@ -1,5 +1,5 @@
 #!/bin/sh
-# float_range.sh: a warning about constants and inputs that float cannot hold, and about no others.
+# float_range.sh: warnings about constants and inputs that float cannot represent, and about no others.
 . "$(dirname "$0")/../checks.sh"
 
 # model EXPONENT WHAT: a spring of 3eEXPONENT N/m on a kilogram, as a parameter or as an input.
@@ -28,7 +28,7 @@ for what in parameter input; do
             [ "$(grep -c 'warning: float cannot represent -*3e' "$scratch/err")" -eq $wanted ] ||
                 wrong="$wrong $what:$exponent:$command"
         done
-        "$whirl" run "$scratch/spring.whirl" --quiet 2>"$scratch/err" # the stiff ones diverge
+        "$whirl" run "$scratch/spring.whirl" --quiet 2>"$scratch/err" # stiff springs diverge
         ! grep -q 'cannot represent' "$scratch/err" || wrong="$wrong $what:$exponent:double"
     done
 done

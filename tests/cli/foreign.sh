@@ -1,6 +1,6 @@
 #!/bin/sh
-# foreign.sh: an embedder's compiler flags and static analysis on core and generated code, in seconds: three sets of the
-# flag matrix, and cppcheck with its defaults, which must see past the guards of core/real.h.
+# foreign.sh: an embedder's compiler flags and static analysis on core and generated code, in seconds: three sets of
+# the flag matrix, and cppcheck with its defaults, which must understand the guards of core/real.h.
 . "$(dirname "$0")/../checks.sh"
 
 sh tests/flags.sh quick >"$scratch/flags" 2>&1

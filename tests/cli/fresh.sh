@@ -4,10 +4,10 @@
 . "$(dirname "$0")/../checks.sh"
 
 cp -R Makefile mk core hal boards host tests "$scratch/" || exit 1
-plan() { # plan WORD...: what make would do
+plan() { # plan WORD...: prints what make would do
     (cd "$scratch" && rm -rf build && env -i PATH="$PATH" HOME="$HOME" make -n V=1 "$@") >"$scratch/plan" 2>"$scratch/err"
 }
-# before FIRST SECOND: in the plan, a line that matches FIRST precedes all that match SECOND
+# before FIRST SECOND: in the plan, a line that matches FIRST must precede all lines that match SECOND
 before() {
     awk -v first="$1" -v second="$2" '$0 ~ first && !at { at = NR } $0 ~ second && !then { then = NR }
         END { exit !(at && then && at < then) }' "$scratch/plan"

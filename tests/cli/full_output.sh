@@ -5,7 +5,7 @@
 printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\nscene s { start x'"'"' = 1 [m/s]; until 20 [ms] }\n' >"$scratch/m.whirl"
 scene=$scratch/m.whirl
 
-# lost WORD...: to a full disk, and to nothing at all
+# lost WORD...: runs the command with a full disk, and with a closed output
 lost() {
     for output in /dev/full closed; do
         if [ $output = closed ]; then
@@ -47,7 +47,7 @@ lost sweep "$scene" --over step=1..2:2 --until 2 --quiet --fresh
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2 --csv - --quiet
 
-# A command without output does not notice. After another error the exit status is that of the error.
+# A command without output does not notice. After another error, the exit status is that error's.
 check "nothing said, nothing lost" sh -c '"$1" run "$2" --quiet >/dev/full' - "$whirl" "$scene"
 check "or to nothing at all" sh -c '"$1" run "$2" --quiet >&-' - "$whirl" "$scene"
 "$whirl" derive "$scene:other" >/dev/full 2>"$scratch/err"

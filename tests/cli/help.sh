@@ -12,7 +12,7 @@ MAKEFLAGS= make >"$scratch/help" 2>"$scratch/err" &&
     [ "$(wc -l <"$scratch/first")" -le 30 ] && [ "$(wc -l <"$scratch/first")" -ge 20 ]
 verdict $? "make alone lists at most 30 of them"
 
-# Targets that other targets call: second halves (-now), and parts.
+# Targets that only other targets call: second halves (-now), and parts.
 parts='FORCE|objects|test-objects|board-objects|asan-run|image-rules|board-images|board-tests|run-suites|test-programs|fuzz-programs'
 parts="$parts|price-measure-board|price-measure-host|price-ready-board|price-ready-host|price-count-run-board|board-own-objects|emulate-command|short-images|print-hashes|print-short-hashes|print-matrix-hashes|print-settings|settings-written|settings-programs|settings-images|hard-images|print-hard-hashes|tidy-board|docs-programs|flashed-rules|flashed-tests|firstlight-record|.*-now|gate-.*|hash-.*|host-.*|suites-.*"
 MAKEFLAGS= make -pnq FORCE 2>/dev/null | sed -n 's/^\.PHONY: *//p' | tr ' ' '\n' | grep . | sort -u >"$scratch/known"

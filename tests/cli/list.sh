@@ -90,7 +90,7 @@ names=$(awk -v seed="$seed" 'BEGIN {
 bad=0
 for name in $names; do
     mkdir -p "$scratch/odd"
-    file=$(printf '%bx' "$scratch/odd/$name.whirl") # a name may end in what $() takes away
+    file=$(printf '%bx' "$scratch/odd/$name.whirl") # a name may end in characters that $() removes
     file=${file%x}
     tab=$(printf '\t')
     printf 'mechanism m "a%sand \\ b"\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2\neffect e "" {\n}\nscene s {\n}\n' "$tab" >"$file" &&
@@ -107,9 +107,9 @@ exits 2 'names a part of a file' list core/models/cuff.whirl:cuff --as table
 exits 2 'unknown option' list --table
 
 # --- all effects, and none ---------------------------------------------------------------------------------
-# code WORD...: the C, without the first line, which names the file
+# code WORD...: prints the C without its first line, which names the file
 code() { "$whirl" derive "$@" --as c; }
-same() { # same WHAT "WORDS" "WORDS"
+same() { # same WHAT "WORDS" "WORDS": both give the same code
     code $2 >"$scratch/one" 2>"$scratch/err" && code $3 >"$scratch/two" 2>>"$scratch/err" &&
         cmp -s "$scratch/one" "$scratch/two"
     verdict $? "$1"
@@ -152,7 +152,7 @@ done
 # --- a name for generated code -----------------------------------------------------------------------------
 code thomson_a --name other --header "$scratch/other.h" >"$scratch/other.c" 2>"$scratch/err"
 code thomson_a >"$scratch/plain.c"
-for code in plain other; do # linked with a header of these names
+for code in plain other; do # linked with a header of this name
     sed 's/\bthomson_a\b/other/g; s/\b[a-z_]*_HEADER_[0-9a-f]\{8\}\b/header/; s/SCENE_thomson_a_/SCENE_other_/' "$scratch/$code.c" >"$scratch/$code.words"
 done
 cmp -s "$scratch/plain.words" "$scratch/other.words" &&

@@ -8,16 +8,16 @@ if ! command -v arm-none-eabi-gcc >/dev/null 2>&1 || ! command -v qemu-system-ar
     exit 0
 fi
 
-choose() { # OPTION...: to $scratch/out
+choose() { # choose OPTION...: writes the answer to $scratch/out
     "$whirl" choose "$@" --effort 4e7 --quiet >"$scratch/out" 2>"$scratch/err"
 }
 
-# figure WORD: the number after it, in the first of the two answers
+# figure WORD: prints the number after the word, in the first of the two answers
 figure() { sed -n "s/^  $1  *\([0-9.e+]*\) .*/\1/p" "$scratch/out" | head -n 1; }
-# The step, and how many are in a period.
+# step: prints the step of the answer
 step() { sed -n 's/^fewest cycles .*--step //p' "$scratch/out"; }
 
-# counted: writes the row that the printed line counts to $scratch/row
+# counted: runs the printed line, and writes the row that it counts to $scratch/row
 counted() { sh -c "$(sed -n 's/^  counted by  //p' "$scratch/out" | head -n 1)" 2>"$scratch/err" | tail -n 1 >"$scratch/row"; }
 
 awk -v n=3 -v seed=23 -f mk/price/scenes.awk </dev/null >"$scratch/drawn.whirl"
@@ -48,17 +48,17 @@ choose "$scratch/drawn.whirl:r23_3" --error 1e-2 --flash "$flash"
 verdict $? "flash that is there is used" "$scratch/out"
 
 # --- contacts: every step of the run is counted ----------------------------------------------------------------------
-# scenes with contacts FILE...: names of those that have some
+# with_contacts FILE...: prints the names of scenes with contacts
 with_contacts() {
     "$whirl" list --as table core/models/*.whirl | awk -F '\t' '
         $8 ~ /contacts/ && $1 != "scene" { has[$3, $2] = 1 }
         $1 == "scene" { n = split($7, on, ","); for (i = 1; i <= n; i++) { if (($3, on[i]) in has) { print $2; next } }
             if (($3, $3) in has || $8 ~ /contacts/) { print $2 } }'
 }
-# row N: a field of the row that the printed line counts
+# field N: prints a field of the row that the printed line counts
 field() { awk -F, -v n="$1" '{ printf "%.9g", $n }' "$scratch/row"; }
 
-# A step after no event is a part of the mean. The mean is at most the longest step, and that at most the declared one.
+# A step without an event enters the mean. The mean is at most the longest step, and that is at most the declared one.
 contacts() { # SCENE HORIZON RATE
     choose "$1" --error 0.1 --horizon "$2" --rate "$3" --clock 1000MHz
     if [ $? -eq 1 ] && grep -qE 'nothing moves|no reliable reference' "$scratch/out" "$scratch/err"; then
@@ -90,7 +90,7 @@ if [ -n "${WHIRL_FULL:-}" ]; then
     with_contacts >"$scratch/names"
     [ "$(wc -l <"$scratch/names")" -ge 20 ]
     verdict $? "there are scenes with contacts" "$scratch/names"
-    # one of seven, or more with MEASURE_EVERY=1: each takes some seconds
+    # one scene in seven, or more with MEASURE_EVERY=1; each takes some seconds
     awk -v every="${MEASURE_EVERY:-7}" 'NR % every == 0' "$scratch/names" >"$scratch/some"
     while read -r scene; do
         case " $few " in *" $scene "*) continue ;; esac
@@ -98,7 +98,7 @@ if [ -n "${WHIRL_FULL:-}" ]; then
     done <"$scratch/some"
 fi
 
-# Limits hold for contacts too: a clock on both sides of the longest step, and flash.
+# Limits are valid for contacts, too: clocks just below and above the longest step, and flash.
 limits() {
     choose ball_bounces --error 0.1 --horizon 2s --rate 200Hz
     cycles=$(figure 'the longest')
@@ -131,7 +131,7 @@ awk -F, -v row="$(head -n 1 "$scratch/last")" '{ off = $(NF - 5) / row - 1; exit
 verdict $? "and its last row in float is what its line counts: $line" "$scratch/row"
 
 # --- what cannot be counted -------------------------------------------------------------------------------------------
-missing() { # EXIT-STATUS SCENE TEXT OPTION...: where the compiler is missing
+missing() { # missing EXIT-STATUS SCENE TEXT OPTION...: runs choose without the compiler
     wanted=$1 scene=$2 text=$3
     shift 3
     MAKEFLAGS="BOARD_CC=no-such-compiler" choose "$scene" --error 1e-2 "$@"

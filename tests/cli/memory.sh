@@ -3,13 +3,13 @@
 # "whirl: out of memory" last and returns 1. It does not crash and leaves no partial result that looks whole.
 . "$(dirname "$0")/../checks.sh"
 
-# A sanitizer's build wants address space that no limit leaves.
+# A sanitizer's build needs more address space than any limit allows.
 if ! (ulimit -v 200000 && "$whirl" --version) >/dev/null 2>&1; then
     echo "ok - this build runs under no limit of memory # SKIP"
     exit 0
 fi
 
-# A text long enough to want many blocks.
+# A text that is long enough to need many blocks.
 {
     echo "mechanism many"
     i=1
@@ -36,9 +36,10 @@ while [ "$limit" -le 200000 ]; do
         break
     fi
     limit=$((limit + 64))
-done 2>/dev/null # what the kernel cannot even load, it ends
+done 2>/dev/null # the kernel ends a program that it cannot load
 
-# short WHAT WORDS...: `whirl WORDS` under limits that rise in quarters of the memory that it needs beyond its start.
+# short WHAT WORDS...: runs `whirl WORDS` with limits that rise in quarters of the memory that it needs after its
+# start.
 short() {
     what=$1
     shift

@@ -27,9 +27,9 @@ record() {
     "$tools/tel_check" "$scratch/raw" >"$scratch/counts"
     verdict $status "$1 baud: Ctrl-C ends it in order" "$scratch/said"
 }
-# of NAME: a count by the tests' decoder
+# of NAME: prints a count of the tests' decoder
 of() { sed -n "s/.*$1 \([0-9]*\).*/\1/p" "$scratch/counts"; }
-# told: the same count in monitor's summary
+# told NAME: prints the same count in monitor's summary
 told() {
     grep -q ": $(of samples) samples, $(of pulses) pulses in $(of frames) frames; lost: $(of missing) frames ($(of dropped) because the rig's buffer was full), $(of gaps) samples; damaged: 0\$" \
         "$scratch/said"
@@ -55,8 +55,8 @@ for baud in $whole; do
     verdict $? "$baud baud: every order's answer has come through" "$scratch/text"
 done
 
-# Pulses have the length that the rig's monostable reports with the first end (150 us); before that they are drawn with 100
-# us.
+# The pulses have the length that the rig's monostable reports with the first end (150 us). Until then they are drawn
+# with 100 us.
 awk '/^\$var wire 1 . slot/ { slot[$4] = 1 }
      /^#/ { now = substr($0, 2) }
      /^[01]./ && (substr($0, 2) in slot) {
@@ -66,7 +66,7 @@ awk '/^\$var wire 1 . slot/ { slot[$4] = 1 }
      END { print n " pulses, " long " of 150 us"; exit !(n > 50 && long >= n - 1) }' "$scratch/vcd" >"$scratch/err"
 verdict $? "a wave's pulses are as long as they were ($(cat "$scratch/err"))" "$scratch/err"
 
-# The record compared with the tests' decoder, and with a second record made from the --raw file.
+# Compares the record with the tests' decoder, and with a second record made from the --raw file.
 "$tools/tel_check" "$scratch/raw" --csv 0.00678744752 2>/dev/null >"$scratch/wanted"
 tr -d '\r' <"$scratch/csv" | sed 1d | awk -F, '{ printf "%s,%.6g\n", $1, $2 }' |
     awk -F, -v wanted="$scratch/wanted" '
@@ -110,7 +110,7 @@ if command -v gnuplot >/dev/null; then
     "$whirl" monitor "$scratch/raw" --plot "$scratch/plot.svg" --quiet >/dev/null 2>"$scratch/err" && grep -q '<svg' "$scratch/plot.svg"
     verdict $? "it is drawn" "$scratch/err"
     (
-        trap '' XFSZ # a file that can take no more, as on a full disk
+        trap '' XFSZ # the file accepts no more bytes, as on a full disk
         ulimit -f 8
         "$whirl" monitor "$scratch/raw" --plot "$scratch/plot.svg" --quiet
     ) >/dev/null 2>"$scratch/err"
@@ -128,13 +128,13 @@ exits 2 'would be written over' "$scratch/raw" --raw "$scratch/raw"
 exits 2 "takes a file's name" "$scratch/raw" --vcd -
 exits 2 '--for takes a number from' "$scratch/raw" --for 0
 exits 2 'one line at a time' "$scratch/raw" "$scratch/csv"
-if [ -r /proc/self/mem ]; then # whose first byte nobody can read
+if [ -r /proc/self/mem ]; then # a file whose first byte cannot be read
     "$whirl" monitor /proc/self/mem --csv "$scratch/x" >/dev/null 2>"$scratch/err" </dev/null
     [ $? -eq 1 ] && grep -q '^/proc/self/mem: error: reading stopped: ' "$scratch/err"
     verdict $? "a file that cannot be read to its end" "$scratch/err"
 fi
 
-# The line goes away, and comes back; then what is typed goes to the rig.
+# The line goes away and comes back. Then typed text goes to the rig.
 RIG_TTY=$scratch/rig.tty RIG_SETTINGS=$scratch/settings
 export RIG_TTY RIG_SETTINGS
 station() {
@@ -142,13 +142,13 @@ station() {
     rig=$!
     await test -e "$RIG_TTY"
 }
-# until TEXT FILE
+# until_said TEXT FILE: waits for the text
 until_said() {
     await grep -qs "$1" "$2"
 }
 rm -f "$scratch/raw" "$scratch/csv"
 station
-# Old data in the line, half a word and telemetry of a killed program, is not taken for the rig's.
+# Old data on the line, half a word and telemetry of a killed program, must not be taken for the rig's.
 "$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" >/dev/null 2>&1 </dev/null &
 running=$!
 until_said '^[0-9]' "$scratch/csv"
@@ -181,7 +181,7 @@ mkfifo "$scratch/keys"
 "$whirl" monitor "$RIG_TTY" --raw "$scratch/raw" --csv "$scratch/csv" >"$scratch/text" 2>"$scratch/said" <"$scratch/keys" &
 running=$!
 exec 4>"$scratch/keys"
-until_said '^[0-9]' "$scratch/csv" # samples
+until_said '^[0-9]' "$scratch/csv" # waits for samples
 kill $rig && wait $rig 2>/dev/null
 until_said 'is gone; waiting' "$scratch/said"
 verdict $? "it is told that the line is gone" "$scratch/said"
@@ -206,13 +206,14 @@ tr -d '\r' <"$scratch/csv" | awk -F, 'NR > 1 { if ($1 <= last && NR > 2) bad = 1
 verdict $? "and time goes on in the records" "$scratch/csv"
 kill $rig && wait $rig 2>/dev/null
 
-# Nobody types for three times the `host` limit: the run goes on while it is recorded, and ends when the recorder hangs.
+# If nobody types for three times the `host` limit, the run continues while it is recorded. It ends when the recorder
+# hangs.
 station
 "$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --quiet >"$scratch/text" 2>"$scratch/said" <"$scratch/keys" &
 running=$!
 exec 4>"$scratch/keys"
 until_said '^[0-9]' "$scratch/csv"
-sleep 1.6 # it rests
+sleep 1.6 # until the rig rests
 printf 'host 1\nconf get host\narm\nstart 330\n' >&4
 sleep 3
 echo status >&4

@@ -17,7 +17,7 @@ scene read_badly { with sensor; start th = 1; until 50 [ms] }
 END
 scene=$scratch/read.whirl:read_badly
 
-# the last record, by name: column NAME in $scratch/NAME
+# stores column NAME of the last record in $scratch/NAME
 for l in 0.4 0.5 0.6 0.7; do
     "$whirl" run "$scene" --set l=$l --csv - --quiet | tr -d '\r' | tail -n 1 | cut -d, -f4-6
 done >"$scratch/run"
@@ -37,7 +37,7 @@ check "the same when gone on with" cmp "$scratch/a.csv" "$scratch/c.csv"
 "$whirl" sweep "$scene" --over l=0.4..0.7:4 --csv - --quiet | tr -d '\r' | tail -n +2 | cut -d, -f4-6 >"$scratch/b"
 check "all outputs: the bits of the runs" cmp "$scratch/run" "$scratch/b"
 
-# the same with one program for all points, and compared with runs without noise
+# the same with one program for all points, compared with runs without noise
 "$whirl" sweep "$scene" --over th=1..1:1 --measure 'max(side)' --measure 'max(2*side)' --measure 'side - l*sin(th)' \
     --csv - --quiet | tr -d '\r' >"$scratch/b"
 check "a swept start: noise, and not that of another output" awk -F, \

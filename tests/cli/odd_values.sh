@@ -6,7 +6,7 @@
 gear=epicyclic_from_rest
 values='1e999 nan = -1e300'
 if [ -n "${WHIRL_FEW:-}" ]; then
-    values=nan # and no limit: the sanitizers speak for all of the address space
+    values=nan # no limit, because the sanitizers reserve all of the address space
 else
     ulimit -v 4000000
 fi
@@ -21,7 +21,7 @@ while read -r command any words; do
         [ -n "$value" ] || continue
         asked=$((asked + 1))
         for value in $values ''; do
-            case $words in # once is enough, but for what may be repeated
+            case $words in # once is enough, except for options that may be repeated
             *"$option "*) [ "$option" = --over ] || continue ;;
             esac
             sh tests/limit.sh 60 "$whirl" "$command" $words "$option" "$value" >"$scratch/out" 2>"$scratch/err" </dev/null
@@ -58,7 +58,7 @@ while read -r command option words; do
     done
     # the disk is full after a random number of blocks: the old file stays, and no partial file appears beside it
     kept=$scratch/kept/a.svg
-    # a price takes long, and its files are written as those of a map
+    # a price takes long, and its files are written in the same way as a map's
     [ "$command" = price ] ||
         "$whirl" "$command" $words --until 50ms "$option" "$kept" >"$scratch/out" 2>"$scratch/err" </dev/null
     blocks=$(($(cat "$kept" 2>"$scratch/err" | wc -c) / 512))
@@ -70,7 +70,7 @@ while read -r command option words; do
     for draw in $draws; do
         most=$(echo "$command $option $draw" | cksum | awk -v blocks=$blocks '{ print $1 % (blocks + 1) }')
         rm -f "$scratch/kept"/*
-        [ "$command" = sweep ] || echo old >"$kept" # of a sweep, the rows so far are kept: it goes on
+        [ "$command" = sweep ] || echo old >"$kept" # a sweep keeps the rows so far, because it continues
         (ulimit -f "$most" && "$whirl" "$command" $words --until 50ms "$option" "$kept" 2>&1 >/dev/null </dev/null
             echo "status $?") | cat >"$scratch/err"
         grep -q '^status 1$' "$scratch/err" && grep -qE "$kept.*: cannot be written: |gnuplot could not draw $kept" "$scratch/err" &&
@@ -84,7 +84,7 @@ while read -r command option words; do
     [ $status -eq 1 ] && grep -q '^/dev/full: error: cannot be written: ' "$scratch/err"
     verdict $? "whirl $command $option /dev/full: status $status"
     [ "$option" = --csv ] || [ "$option" = --columns ] || continue
-    # enough rows that a part is written before the end
+    # enough rows for a part to be written before the end
     sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" - >/dev/full 2>"$scratch/err" </dev/null
     status=$?
     [ $status -eq 1 ] && grep -q '^whirl: error: standard output cannot be written' "$scratch/err" &&
