@@ -163,7 +163,7 @@ typedef struct wh_contact_system {
     uint8_t kinds;        /* WH_KIND_BIT() of each kind with a force */
     uint8_t pinned;       /* number of contacts with a pin */
     uint8_t held;         /* number of holds without a pin */
-    uint16_t evaluations; /* WH_CONTACT_EVALUATIONS; the tests check it */
+    uint16_t evaluations; /* the value of WH_CONTACT_EVALUATIONS */
     wh_method method;
     bool compensated;
     uint8_t angles;

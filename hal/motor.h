@@ -20,7 +20,8 @@ enum {
     /* The hardware has cut the drive or prevented a start, because stop was pressed or the drive stage has a fault. The
      * drive stays off until the next hal_motor_off(). */
     HAL_MOTOR_CUT = 1,
-    HAL_MOTOR_FAULT = 2,    /* stop is pressed, or the drive stage has a fault: it cannot drive */
+    /* stop is pressed, or a fault of the drive stage: the stage cannot drive */
+    HAL_MOTOR_FAULT = 2,
     HAL_MOTOR_NO_SUPPLY = 4 /* no supply voltage is measured: the stage does not drive */
 };
 

@@ -43,7 +43,7 @@ typedef struct wh_contact_work {
     wh_real came[WH_COORDS];       /* rates at the begin of the present moment */
     wh_real held[WH_CONTACTS_MAX]; /* values of the holds, by wh_contact's first_set */
     unsigned moved; /* bits: contacts whose signals a crossing's assignments changed */
-    unsigned mover; /* the crossing that made these assignments */
+    unsigned mover; /* the crossing whose assignments changed w->moved */
     /* bits: crossings of this moment whose values are zero or next to zero */
     unsigned stands;
     /* True if time has passed since an assignment moved a value across zero: a value past zero is then an error of

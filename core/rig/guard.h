@@ -139,11 +139,11 @@ void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
  * safe. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
 
-/* wh_guard_bound_radps() returns the largest mean speed between two pulses, rad/s, of a rotor whose turns the drive
- * keeps at limit_radps or below. The result exceeds limit_radps by the share `over`, and by `falls` times the gain of a
- * fall from the top. */
-#define WH_GUARD_LIGHTER \
-    WH_R(1.5) /* gain of a rotor with half the configured inertia, with a margin */
+/* Gain of speed in a fall from the top, for a rotor with half the configured inertia, with a margin. */
+#define WH_GUARD_LIGHTER WH_R(1.5)
+
+/* Returns the largest mean speed between two pulses, rad/s, of a rotor whose turns the drive keeps at limit_radps or
+ * below. The result exceeds limit_radps by the share `over`, and by `falls` times the gain of a fall from the top. */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
 /* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. If the
@@ -177,7 +177,7 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
         guard->quiet = false;
     } else if ((wh_real)(int32_t)(now_ticks - guard->pulse_ticks) >=
                config->rest_s * (wh_real)WH_RIG_TICKS_PER_S) {
-        guard->quiet = true; /* latched: these times wrap every 71.6 minutes */
+        guard->quiet = true; /* latched, because time stamps wrap after 71.6 minutes */
     }
 }
 

@@ -150,7 +150,7 @@ typedef struct wh_lockin_node {
     wh_lockin_orders waves; /* factor of each coefficient at this node */
 } wh_lockin_node;
 
-/* Small members come first, because a processor's short instructions reach only them. */
+/* Small members come first: some processors have short instructions that reach only the begin of a struct. */
 typedef struct wh_lockin {
     wh_lockin_stage stage;
     uint8_t piece;

@@ -1,4 +1,4 @@
-/* result.c: turns merged to a measurement with its uncertainty. */
+/* result.c: turns merged into a measurement with its uncertainty. */
 #include "result.h"
 
 #include "core/root.h"

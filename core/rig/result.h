@@ -84,7 +84,7 @@ typedef struct wh_merge {
     uint32_t outliers;
     uint32_t second_turns; /* number of turns in the mean at_pulse_N[1] */
     wh_real jitter_s2;     /* sum of squares of the second differences of the pulse times */
-    uint32_t jitters;      /* number of these second differences */
+    uint32_t jitters;      /* number of second differences in jitter_s2 */
     uint32_t first_ticks;  /* times of the first and of the last used turn */
     uint32_t last_ticks;
     uint32_t second_turn_ticks;

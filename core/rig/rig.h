@@ -110,10 +110,10 @@ typedef struct wh_rig_command {
     wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
 } wh_rig_command;
 
-/* Small members come first, because a processor's short instructions reach only them. */
+/* Small members come first: some processors have short instructions that reach only the begin of a struct. */
 typedef struct wh_rig {
     wh_rig_state state;
-    bool brakes; /* the motor brakes while it is off */
+    bool brakes; /* the motor brakes instead of coasting */
     /* In this run the observer follows the rotor, and gravity is compensated as soon as the observer is valid. */
     bool fed;
     /* This step has a pulse to process, which is work enough: other work waits for the next step. */

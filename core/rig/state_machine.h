@@ -59,7 +59,7 @@ extern "C" {
 
 /* The way in which the last run ended: X(name, words). Reset at the next start. */
 #define WH_END_ROWS(X) \
-    X(WH_END_NONE, "none") /* no run since the reset, or it is in progress */ \
+    X(WH_END_NONE, "none") /* no run since the reset, or a run in progress */ \
     X(WH_END_DONE, "done") /* the record is measured */ \
     X(WH_END_STOP_INPUT, "stop input") \
     X(WH_END_DRIVE_FAULT, "drive fault") \

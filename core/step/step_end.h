@@ -248,7 +248,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
     wh_real move[WH_COORDS];   /* mean rate that moves the position in this step */
-    wh_real gain[WH_COORDS];   /* sum of the accelerations, divided by its parts */
+    wh_real gain[WH_COORDS];   /* weighted sum of the accelerations, divided by `parts` */
     wh_real kick[WH_COORDS];   /* change of the rate in this step */
     wh_real pulled[WH_COORDS]; /* weighted sum of the accelerations in the change of the position */
     wh_trial trial;

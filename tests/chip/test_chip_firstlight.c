@@ -93,7 +93,8 @@ TEST(chip_firstlight, drawn_worlds) {
         chip_reset(CHIP_BY_POWER);
         chip_stored = look_at_pins;
         const uint64_t now = chip_now();
-        for (unsigned p = 0; p < 4; p++) { /* pulses of 150 us, in the second half */
+        /* slot pulses of 150 us, in the second half of the run */
+        for (unsigned p = 0; p < 4; p++) {
             for (unsigned s = 0; s < 2; s++) {
                 if (p < pulses[s]) {
                     const uint64_t at =

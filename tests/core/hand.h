@@ -41,7 +41,7 @@ typedef struct hand {
 } hand;
 
 extern hand hand_now;             /* the mechanism of the calls below */
-extern wh_ledger_form hand_books; /* its ledger */
+extern wh_ledger_form hand_books; /* the ledger of hand_now */
 extern wh_state hand_state;
 extern unsigned hand_looks; /* number of evaluations of the signals */
 extern wh_real hand_pushed; /* the scene's input: the condition of a hold is true above zero */

@@ -60,7 +60,7 @@ static void test_phase_moves_to_the_nearest(void) {
     unsigned ties = 0;
     for (unsigned i = 0; i < 20000; i++) {
         const uint32_t digits = (uint32_t)(scattered() & 0xffffffU);
-        const int down = (int)(scattered() % 32U) - 7; /* digits / 2^down */
+        const int down = (int)(scattered() % 32U) - 7; /* the move has digits / 2^down steps */
         float steps = (float)digits;
         for (int k = 0; k < down; k++) {
             steps *= 0.5f;

@@ -76,7 +76,7 @@ TEST(frame, round_trip) {
             TEST_ASSERT_TRUE(line[i] != 0);
         }
         TEST_ASSERT_EQUAL_UINT(0, line[count - 1U]);
-        /* the coded frame without its final zero */
+        /* Room for the coded frame without its final zero. */
         wh_frame_reader_start(&reader, room, WH_FRAME_BYTES(length) - 1U);
         TEST_ASSERT_EQUAL_UINT(1, feed(line, count));
         expect_same(length, (uint16_t)(length * 131U));

@@ -376,7 +376,7 @@ TEST(lockin, the_inertia_is_found_from_the_split) {
     static const wh_real gravities[] = {WH_R(0.0), WH_R(90.0), WH_R(180.0), WH_R(-90.0)};
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(360.0)};
     for (unsigned k = 0; k < 4U * 3U * 2U; k++) {
-        if (k % 12U == 2U) { /* upside down at 170 rpm: two inertias give this ratio */
+        if (k % 12U == 2U) { /* with gravity upwards at 170 rpm, two inertias have the same ratio */
             continue;
         }
         settings();

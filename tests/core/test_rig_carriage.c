@@ -91,8 +91,8 @@ TEST(rig_carriage, angle_on_a_carriage) {
                 const wh_real wave = angle.twice_rad;
                 TEST_ASSERT_TRUE(unshaped.twice_rad == WH_R(0.0));
                 TEST_ASSERT_TRUE(wave > WH_R(0.0) && wave < WH_R(0.06));
-                /* Both angles are equal at the pulse. So the error of an angle of constant speed is the term minus its
-                 * value at the pulse. */
+                /* Both angles are equal at the pulse. So the error of an angle of constant speed is the term of twice
+                 * the angle, minus this term's value at the pulse. */
                 TEST_ASSERT_TRUE(even_off > WH_R(0.9) * wave && even_off < WH_R(2.1) * wave);
                 TEST_ASSERT_TRUE(left < WH_R(2.5) * wave * wave + WH_R(6e-5));
             }

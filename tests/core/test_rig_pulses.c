@@ -234,7 +234,7 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
 static void check_disturbed(wh_rig_phase phase, unsigned sensor, uint32_t ticks) {
     for (unsigned behind = 0; behind < 2; behind++) {
         const outcome out = disturb(phase, sensor, ticks, behind == 1);
-        /* for a pulse that is as early as the window allows */
+        /* Largest error of the speed; outside the record, that of a pulse as early as the window allows. */
         const wh_real most_rpm = phase == WH_PHASE_RECORD ? WH_R(2.0)
                                  : phase == WH_PHASE_SETTLE
                                      ? WH_R(0.035) * mean_radps / RPM

@@ -314,7 +314,7 @@ TEST(rig_run, what_cannot_be_is_not_called_good) {
                                                        : i < 3 ? WH_WHY_PHASE_OFF
                                                                : WH_WHY_PHASE));
     }
-    /* A cell that freezes for 0.1 s, then a cell whose zero drifts. */
+    /* The zero of the cell drifts. */
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .creeps = 500});
     TEST_ASSERT_TRUE(even.rig.result.force.quality != WH_GOOD);
 }

@@ -178,7 +178,8 @@ TEST(telemetry, a_bad_line) {
                 (uint8_t)(fate == 0 ? (uint8_t)bytes[k] ^ 1U << draw_one_of(&bench.seed, 8)
                                     : (uint8_t)bytes[k]);
             if (fate != 1U && wire_take(&bench.heard, byte, &frame)) {
-                tel_hear_frame(&frame); /* the receiver finds its samples */
+                /* the receiver compares the frame's samples with the sent ones */
+                tel_hear_frame(&frame);
             }
             if (fate == 2U && wire_take(&bench.heard, (uint8_t)draw_bits(&bench.seed), &frame)) {
                 tel_hear_frame(&frame);
