@@ -1,12 +1,12 @@
 #!/bin/sh
 # swing.sh: a run that ends in a free swing finds the angle of sensor 1, and the verdict follows. The bench of
 # docs/plants/rig.whirl has a soft coupling and dry friction in bearings and brushes. SWINGS=100: number of random rotors
-# (default 5); FRICTION=0.05: largest value of either friction, N m.
+# (default 5; with WHIRL_FULL 60); FRICTION=0.05: largest value of either friction, N m.
 . "$(dirname "$0")/../checks.sh"
 
 build=$(dirname "$whirl")
 rig="docs/plants/rig.whirl --firmware $build/pil_swing --step 200us --jitter 60us"
-runs=${SWINGS:-5}
+runs=${SWINGS:-$([ -n "${WHIRL_FULL:-}" ] && echo 60 || echo 5)}
 
 [ -x "$build/pil_swing" ]
 verdict $? "build/pil_swing is there (make pil-images)"

@@ -8,7 +8,7 @@
 #define WH_DOUBLE 1
 #include "core/function_double.h"
 
-#include "test.h"
+#include "command.h"
 #include "tests/scattered.h"
 
 #if LDBL_MANT_DIG >= 64
@@ -17,7 +17,7 @@
 
 static unsigned long cases(void) {
     const char *asked = getenv("WHIRL_FUNCTION_CASES");
-    return asked != NULL ? strtoul(asked, NULL, 10) : 100000UL;
+    return asked != NULL ? strtoul(asked, NULL, 10) : usual_or(100000, 30000);
 }
 
 static double unit(void) { return (double)(scattered() >> 11) * 0x1p-53; }

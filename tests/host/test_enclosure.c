@@ -49,7 +49,7 @@ static void expect_narrow(const char *what, enclosure got, double units) {
 
 static void test_four_operations(void) {
 #ifdef QUAD_KNOWN
-    for (unsigned i = 0; i < dice_cases(200000); i++) {
+    for (unsigned i = 0; i < dice_cases(usual_or(200000, 50000)); i++) {
         const enclosure a = drawn_enclosure();
         const enclosure b = drawn_enclosure();
         const double x = between(a);
@@ -164,7 +164,7 @@ static double drawn_beside(double x) {
 
 static void test_whole_range(void) {
 #ifdef QUAD_KNOWN
-    for (unsigned i = 0; i < dice_cases(few_or_all(10000, 2000000)); i++) {
+    for (unsigned i = 0; i < dice_cases(few_or_all(usual_or(10000, 4000), 2000000)); i++) {
         const double x = drawn_bits();
         expect_whole_range(x, drawn_beside(x));
         TEST_ASSERT_TRUE(enclosure_below(x) < x && enclosure_above(x) > x);
@@ -223,7 +223,7 @@ static void test_sines(void) {
 /* For each function of the language, the interval of the result must contain the values at numbers within the
  * argument. A point must give a narrow interval. */
 static void test_functions(void) {
-    for (unsigned i = 0; i < dice_cases(60000); i++) {
+    for (unsigned i = 0; i < dice_cases(usual_or(60000, 15000)); i++) {
         const function_id function = (function_id)(i % (unsigned)FUNCTIONS);
         const double scale = dice_one_of(&die, 2) == 0 ? 1.0 : 0x1p-20; /* else values far from 1 */
         enclosure a = drawn_enclosure();

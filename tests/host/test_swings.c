@@ -263,7 +263,7 @@ static void hold_one(const forced_case *c, const char *number, const char *metho
 
 static void hold(const char *number, const char *method) {
     dice d = dice_of("forced swings", 4441);
-    const unsigned cases = dice_cases(few_or_all(usual_or(100, 20), 600));
+    const unsigned cases = dice_cases(few_or_all(usual_or(100, 10), 600));
     tally t = {0};
     for (unsigned i = 0; i < cases; i++) {
         const forced_case c = draw(&d);
@@ -289,7 +289,7 @@ TEST(forced_swing, nearly_whole_turns) {
     static const int turns[] = {1, 2, 3, 4, 5, 6, 8, 12, 16};
     static const char *const methods[] = {"rk4", "nystroem4", "nystroem5", "rk38", "heun"};
     dice d = dice_of("nearly whole turns", 4457);
-    const unsigned cases = dice_cases(few_or_all(usual_or(60, 20), 400));
+    const unsigned cases = dice_cases(few_or_all(usual_or(60, 10), 400));
     tally t = {0};
     for (unsigned i = 0; i < cases; i++) {
         forced_case c = draw(&d);
