@@ -1,5 +1,5 @@
-/* main.c: runs the suites of a test program, on this machine and on boards. On this machine the arguments are names
- * ("suite_lang lang"), and only those suites run; an unknown name ends the program with status 2. */
+/* main.c: runs the suites of a test program, on this machine and on boards. On this machine, arguments are names of
+ * suites (such as "suite_lang lang"), and only these suites run. An unknown name ends the program with status 2. */
 #include "tests/suites.h"
 
 #if __STDC_HOSTED__
@@ -16,7 +16,7 @@ static unsigned tests_before;
 void setUp(void) {}
 void tearDown(void) {}
 
-/* A suite without any test fails. */
+/* A suite that runs no test must fail. */
 static void test_suite_ran_a_test(void) {
     TEST_ASSERT_TRUE_MESSAGE((unsigned)Unity.NumberOfTests > tests_before + 1U, suite_name);
 }
@@ -25,7 +25,8 @@ static void run_suite(const struct suite *each) {
     suite_name = each->name;
     tests_before = (unsigned)Unity.NumberOfTests;
     UnitySetTestFile(each->file);
-    if (TEST_PROTECT()) { /* an assertion that fails outside a test must end this suite, not jump into the one before */
+    /* an assertion that fails outside a test must end this suite instead of jumping into the suite before */
+    if (TEST_PROTECT()) {
         each->run();
     }
     UnitySetTestFile(__FILE__);
@@ -69,7 +70,7 @@ int main(int argc, char **argv) {
             return 2;
         }
     }
-    (void)setvbuf(stdout, NULL, _IOLBF, 0); /* so that the output before a crash is not lost */
+    (void)setvbuf(stdout, NULL, _IOLBF, 0); /* else a crash could lose the output before it */
     UNITY_BEGIN();
     for (unsigned i = 0; i < suite_count; i++) {
         if (is_wanted(&suites[i], argc - 1, argv + 1)) {

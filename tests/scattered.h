@@ -1,5 +1,6 @@
-/* scattered.h: the tests' scattered 64-bit numbers (xorshift; Marsaglia, Journal of Statistical Software 8 (2003) 14).
- * Each file that includes this has its own sequence, and sets scattered_state, not 0, before it calls scattered(). */
+/* scattered.h: random 64-bit numbers for tests (xorshift; Marsaglia, Journal of Statistical Software 8 (2003) 14).
+ * Each file that includes this header has a sequence of its own. The file must set scattered_state to a number that
+ * is not 0 before it calls scattered(). */
 #ifndef TESTS_SCATTERED_H
 #define TESTS_SCATTERED_H
 

@@ -1,8 +1,8 @@
 /* unity_config.h: how Unity is built, on the PC and on boards (UNITY_INCLUDE_CONFIG_H).
  *
- * Boards compile freestanding: no libm, no double; results go out by hal_console_write(). The jump out of a
- * failed test is the C library's. Unity declares its failure functions as never returning, so without
- * the jump a failed assertion would run into the code that follows it in flash. */
+ * Boards compile without a hosted C library: no libm and no double; results go out by hal_console_write(). Only the
+ * jump out of a failed test is from the C library. Unity declares that its failure functions never return. Without
+ * the jump, a failed assertion would run on into the code that follows in flash. */
 #ifndef WH_UNITY_CONFIG_H
 #define WH_UNITY_CONFIG_H
 

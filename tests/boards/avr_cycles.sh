@@ -1,6 +1,6 @@
 #!/bin/sh
-# avr_cycles.sh AVR_RUN FOLDER: avr_run counts the instructions and cycles that the data sheet gives and passes on the
-# program's exit status. On chips with a program counter of three bytes, a call takes one cycle more.
+# avr_cycles.sh AVR_RUN FOLDER: avr_run must count the instructions and cycles of the data sheet, and exit with the
+# program's status. On chips with a program counter of three bytes, a call takes one cycle more.
 set -u
 run=$1
 folder=$2

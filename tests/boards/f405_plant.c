@@ -1,8 +1,8 @@
-/* f405_plant.c: a plant (hal/virtual) inside the flashed firmware: rotor, slot sensors, load cell, supply and stop. An emulated
- * STM32F405 lacks them. The drivers of clock, console, motor, watchdog and memory are the board's. The linker routes the
- * motor's commands to the plant (--wrap). The rotor keeps turning through a reset.
+/* f405_plant.c: a plant (hal/virtual) inside the flashed firmware: rotor, slot sensors, load cell, supply and stop. An
+ * emulated STM32F405 lacks these. The drivers of clock, console, motor, watchdog and memory are the board's. The linker
+ * routes the motor's commands to the plant (--wrap). The rotor keeps turning through a reset.
  *
- * Symbols to set from outside: */
+ * The test sets these symbols from outside: */
 #include <stdint.h>
 
 #include "board_data.h"
@@ -15,7 +15,7 @@
 
 extern volatile uint32_t bench_stop;   /* not 0: stop is pressed */
 extern volatile uint32_t bench_silent; /* not 0: the load cell gives no samples */
-/* not 0: the rotor is blocked; when it becomes 0, the rotor is released at rest */
+/* not 0: the plant starts again, with the rotor at rest */
 extern volatile uint32_t bench_rest;
 volatile uint32_t bench_stop;
 volatile uint32_t bench_silent;
@@ -56,7 +56,7 @@ void stm32f4_cell_start(void) {
 
 void stm32f4_slots_start(void) {}
 
-static bool started; /* the processor has started, as far as the plant knows */
+static bool started; /* the motor's driver is started, and was not switched off since */
 
 unsigned hear_start(void) {
     const unsigned wrong = tell_start();

@@ -1,5 +1,5 @@
-/* f405_slots.c: prints every slot pulse as "sensor ticks" in a loop of control periods, which a storm of edges must not delay.
- * Answers 'l' with "late ticks overruns periods": the lateness since the last 'l'. */
+/* f405_slots.c: prints every slot pulse as "sensor ticks" in a loop of control periods. A storm of edges must not
+ * delay the loop. Answers 'l' with "late ticks overruns periods", the lateness since the last 'l'. */
 #include "boards/board.h"
 #include "core/text.h"
 #include "hal/clock.h"

@@ -29,7 +29,7 @@ mps2-* | rv32*)
     none="$none, stop, slots, selftest"
     differs=-
     ;;
-*) # with the rig's hardware, of which the emulator has no converter, no crystal and no stop line
+*) # boards of the rig: the emulator has no converter, no crystal and no stop line
     wanted=1
     none="none: chip, ${cycles}clock, period_us, period_cycles, load, supply"
     differs="stop, selftest"
@@ -44,7 +44,7 @@ verdict $? "first light: what the emulator cannot give is named"
 "$whirl" firstlight "build/$board/firstlight.txt" --emulated "build/$board/firstlight.txt" >"$said" 2>&1
 [ $? -eq $wanted ] && grep -q '^stack  *- ' "$said" && grep -q "^compiler  *equal" "$said"
 verdict $? "first light: beside the emulator's record"
-# the same over a line: Enter requests the record
+# on a serial line, Enter requests the record
 if [ "$board" = netduinoplus2 ]; then
     null="-serial null"
     qemu-system-arm -M netduinoplus2 -display none -monitor none $null $null $null $null $null -serial pty \
@@ -57,7 +57,7 @@ if [ "$board" = netduinoplus2 ]; then
     kill $emulator
     rm -f "$said.kept"
 fi
-# the check finds an image that can enable the motor
+# an image that can enable the motor must be found
 elf=build/$board/firmware.elf
 if [ "$board" = mps2-an386 ] && [ -e "$elf" ]; then
     UNDRIVEN=$elf sh boards/check_image.sh "$elf" >"$said" 2>&1

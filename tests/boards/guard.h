@@ -1,4 +1,5 @@
-/* guard.h: shared parts of the programs that touch the strip below a board's stack. They must not return (guard.sh). */
+/* guard.h: common parts of the programs that touch the strip of memory below a board's stack (guard.sh). An access
+ * to the strip must not return. */
 #ifndef TESTS_BOARDS_GUARD_H
 #define TESTS_BOARDS_GUARD_H
 
@@ -15,8 +16,8 @@ static inline void say(const char *words) {
     hal_console_write(line.bytes, line.length);
 }
 
-/* The word above the strip belongs to the stack, so a store there must work. On a board where every store faults, the test
- * fails. */
+/* The word above the strip belongs to the stack, so a store there must work. Else the test would pass on a board on
+ * which every store faults. */
 static inline void store_above_strip(void) {
     board_start();
     volatile uint32_t *const last = board_stack_limit;

@@ -1,6 +1,7 @@
 #!/bin/sh
-# guard.sh BOARD: on BOARD, a store into the strip below the stack faults, at its top and at its bottom. So does a stack
-# that grows into the strip. The fault is named. Images are those of tests/boards/guard_*.c, in build/BOARD.
+# guard.sh BOARD: on BOARD, a store into the strip of memory below the stack must fault, at the strip's top and bottom. So
+# must a stack that grows into the strip. The board must name the fault. The images in build/BOARD are from
+# tests/boards/guard_*.c.
 set -u
 
 board=$1

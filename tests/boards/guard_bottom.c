@@ -1,4 +1,4 @@
-/* guard_bottom.c: a store into the strip's lowest word. */
+/* guard_bottom.c: stores into the lowest word of the strip. */
 #include "tests/boards/guard.h"
 
 int main(void) {

@@ -1,4 +1,4 @@
-/* guard_overflow.c: a frame that ends inside the strip, written from its top downwards as calls do. */
+/* guard_overflow.c: a stack frame that ends inside the strip, written from its top downwards, as calls do. */
 #include "tests/boards/guard.h"
 
 __attribute__((noinline)) static void fill(unsigned bytes) {

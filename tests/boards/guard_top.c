@@ -1,4 +1,4 @@
-/* guard_top.c: a store into the strip's highest word, next to the stack. */
+/* guard_top.c: stores into the highest word of the strip, next to the stack. */
 #include "tests/boards/guard.h"
 
 int main(void) {

@@ -1,5 +1,5 @@
-/* watchdog.c: a board's watchdog does nothing if it is kicked in time. Otherwise it interrupts at its timeout, then
- * resets (watchdog.sh). */
+/* watchdog.c: a board's watchdog must do nothing if it is kicked in time. Otherwise it must interrupt after its
+ * timeout, and then reset the board (watchdog.sh). */
 #include "hal/watchdog.h"
 #include "boards/board.h"
 #include "core/text.h"
@@ -10,14 +10,14 @@
 #define WAITING 0xB17E0001U
 #define INTERRUPTED 0xB17E0002U
 
-/* Memory that survives the reset; arbitrary after power-on. */
+/* Memory that keeps its contents through a reset. After power-on its contents are arbitrary. */
 #define KEPT __attribute__((section(".noinit")))
 KEPT static volatile uint32_t stage;
 KEPT static volatile uint32_t kicked_at;
 KEPT static volatile uint32_t interrupted_at;
 KEPT static volatile uint32_t last_seen;
 
-/* Stands for a fault's handler: the reset follows. */
+/* The watchdog's interrupt. Waits for the reset, as a fault's handler would. */
 void on_nmi(void);
 void on_nmi(void) {
     interrupted_at = board_ticks();
@@ -51,7 +51,7 @@ int main(void) {
     stage = 0;
     const uint32_t began = board_ticks();
     hal_watchdog_start(TIMEOUT_TICKS);
-    for (unsigned i = 0; i < KICKS; i++) { /* a tenth of the time remains at each kick */
+    for (unsigned i = 0; i < KICKS; i++) { /* each kick comes after nine tenths of the timeout */
         board_wait_until(in_us(TIMEOUT_TICKS / 10U * 9U));
         kicked_at = board_ticks();
         hal_watchdog_kick();

@@ -1,7 +1,7 @@
 #!/bin/sh
-# watchdog.sh BOARD: the watchdog of BOARD, if there is one (tests/boards/watchdog.c, in build/BOARD). If it is kicked in
-# time, it is silent. Otherwise it interrupts, not before its time, and resets before three times that, in the board's own
-# time.
+# watchdog.sh BOARD: tests the watchdog of BOARD, if there is one (tests/boards/watchdog.c, in build/BOARD). If it is kicked
+# in time, the watchdog must do nothing. Otherwise it must interrupt, but not before its timeout, and reset within three
+# times the timeout, by the board's own clock.
 set -u
 
 board=$1

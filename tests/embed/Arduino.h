@@ -1,5 +1,5 @@
-/* Arduino.h: enough of the framework to run the documents' sketches on this machine. It also defines Arduino's macros,
- * with which the core's headers must compile. */
+/* Arduino.h: as much of the framework as the sketches of the docs need to run on this machine. It also defines
+ * Arduino's macros, with which the core's headers must compile. */
 #ifndef TESTS_EMBED_ARDUINO_H
 #define TESTS_EMBED_ARDUINO_H
 

@@ -1,4 +1,4 @@
-/* arduino_main.cpp: runs a sketch on this machine: setup() once, loop() so many times. */
+/* arduino_main.cpp: runs a sketch on this machine: setup() once, then loop() a given number of times. */
 #include <cstdio>
 #include <cstdlib>
 

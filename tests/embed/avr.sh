@@ -1,7 +1,7 @@
 #!/bin/sh
-# avr.sh WHIRL FOLDER: the core on an ATmega2560 in simavr, built in FOLDER without warnings in strict and GNU C, and used
-# from strict and GNU C++. The sine's table is always in flash, with or without the newer instruction that reads it. The
-# results have the same bits as on this machine. Prints errors.
+# avr.sh WHIRL FOLDER: tests the core on an ATmega2560 in simavr. The core is built in FOLDER, in strict and GNU C and used
+# from strict and GNU C++, and must give no warning. The sine's table must be in flash, with or without the newer
+# instruction that reads flash. The results must have the same bits as on this machine. Prints errors.
 set -u
 
 whirl=$1
@@ -48,7 +48,7 @@ while read -r scene until options; do
     "$whirl" derive "$scene" --as c --until "$until" $options --name tested --header "$folder/generated.h" \
         >"$folder/generated.c" || exit 1
     run=$("$whirl" run "$scene" --until "$until" $options --number float | sed -n 's/^state hash *0x//p')
-    # scenes do not matter to the other dialects: only the first scene is built in all of them
+    # the other dialects are tested with the first scene only
     others="c11 gnu++11,gnu11 c++11,gnu11 gnu++11,c11 c++11 -U__AVR_HAVE_LPMX__,"
     [ $compared -eq 0 ] || others=
     echo "${others}c11 c++11" | tr ',' '\n' >"$folder/dialects"
@@ -63,7 +63,7 @@ while read -r scene until options; do
         done
         avr-g++ -std="$2" ${3:-} -fno-exceptions -Wconversion $flags -o "$folder/image.elf" tests/embed/avr_main.cpp $objects \
             >"$folder/log" 2>&1 || { wrong "$what: it does not link" "$folder/log"; continue; }
-        # in these files flash has addresses from 0 on, RAM from 0x800000 on
+        # addresses of flash begin at 0, those of RAM at 0x800000
         at=$(avr-nm "$folder/image.elf" | awk '$3 == "wh_sine_table" { print $1 }')
         case $at in
         0000*) ;;

@@ -1,5 +1,5 @@
-/* avr_main.cpp: firmware of an AVR in C++, for tests/embed/avr.sh: a scene to its end, and the core's inline sine at
- * phases all over the turn; a hash of each on the UART. */
+/* avr_main.cpp: firmware of an AVR in C++, for tests/embed/avr.sh. It runs a scene to its end and computes the
+ * core's inline sine at phases all over the turn. It prints a hash of each on the UART. */
 #include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>

@@ -19,7 +19,7 @@ gnu="math complex stdlib string strings"
 printf '#include <%s.h>\n' $iso >"$scratch/iso.h"
 printf '#include <%s.h>\n' $gnu >"$scratch/gnu.h"
 
-# the words that stand alone, between zero bytes or line ends, in a file
+# strings_of FILE: prints the words of a file that stand alone between zero bytes or line ends
 strings_of() { tr '\000' '\n' <"$1" | grep -axE '(__builtin_)?[a-z][a-z0-9_]{1,30}' | sed 's/^__builtin_//'; }
 words() { grep -aohE '\b[A-Za-z][A-Za-z0-9_]*\b'; }
 

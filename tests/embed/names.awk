@@ -26,7 +26,7 @@ function check(line) {
     print "    CHECK(" line ");" >checks
 }
 
-# Component `name` with `primes` starts at `value`, is `unit`: state.real[SCENE_KIND_NAME].
+# Writes a check: component `name` with `primes` primes, in `unit`, starts at `value` in state.real[SCENE_KIND_NAME].
 function check_real(kind, name, primes, value, unit) {
     check("state.real[" scene "_" kind "_" name "] == WH_R(" value ")")
     check("same(of_reals[" scene "_" kind "_" name "], \"" name primes "\")")
@@ -46,7 +46,7 @@ BEGIN {
     file = folder "/" number ".whirl"
     checks = folder "/" number ".checks"
     scene = one_of("a A a_ a_RATE a_OUTPUT INPUT x class_ s") "_" number
-    third = number % 3 == 2 # a system of equations, of third order
+    third = number % 3 == 2 # every third is a system of equations, of third order
 
     print "mechanism m" number " \"" text() "\"" >file
     lengths = third ? 1 : 1 + int(3 * rand())
@@ -80,7 +80,7 @@ BEGIN {
         print "Q(" x[1] ") = " u[1] (given > 1 ? " + " u[2] : "") >file
         if (number % 2 == 1)
             print "stop " x[1] " >= -5 [m] restitution 0.5" >file
-        else if (lengths > 1) # keeps by how much it has slipped
+        else if (lengths > 1) # the state has the value that this hold keeps
             print "hold " x[1] " + " x[2] " while " x[1] " > 5 [m]" >file
     }
     for (i = 1; i <= shown; i++)

@@ -1,8 +1,8 @@
-/* fuzz_console.c: broken bytes at the rig's console do only what a line allows. Answers are whole lines, settings stay in
- * range, telemetry stays in its buffer, and the motor's command stays between zero and the supply.
+/* fuzz_console.c: random bytes at the rig's console must do only what a line allows. Answers must be whole lines,
+ * settings must stay in range, telemetry in its buffer, and the motor's voltage between zero and the supply.
  *
  * The input is a sequence of control steps. The first byte of a step gives the number of bytes that arrive (low five
- * bits), whether a pulse and a sample come, and whether the host reads. The bytes follow. */
+ * bits), whether a pulse and a sample come, and whether the host reads. These bytes follow. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ enum {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static uint8_t kept[WH_STORE_SLOTS][SLOT_BYTES];
-static bool fails; /* the settings' memory fails */
+static bool fails; /* the memory of the settings fails */
 
 static bool erase(unsigned slot) {
     memset(kept[slot], 0xFF, SLOT_BYTES);
@@ -73,7 +73,7 @@ static void look(const bench *b, const wh_rig_command *command) {
     must(b->config.guard.target_max_radps < b->config.guard.limit_radps);
 }
 
-/* Whole lines of printable characters, except for the echo. */
+/* The output must be whole lines of printable characters, except for the echo. */
 static void hear(bench *b) {
     char bytes[WH_STATION_OUT_BYTES];
     const unsigned count = wh_station_peek(&b->station, bytes, sizeof bytes);
@@ -114,7 +114,7 @@ static size_t step(bench *b, const uint8_t *data, size_t size) {
     return 1U + come;
 }
 
-/* Starts the rig and its console, and steps until the rotor counts as at rest: then orders are obeyed. */
+/* Starts the rig and its console, and steps until the rotor counts as at rest: then the rig obeys orders. */
 static void rest(bench *b) {
     b->ticks = 0xFFFF0000U;
     wh_station_start(&b->station, "rig", "here", STEPS_PER_S);
@@ -131,7 +131,7 @@ static void rest(bench *b) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static bench b; /* static: it contains pointers into itself */
+    static bench b; /* static: contains pointers to itself */
     static bench rested;
     static bool any;
     memset(kept, 0xFF, sizeof kept);
@@ -145,7 +145,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (size_t at = 0; at < size;) {
         at += step(&b, data + at, size - at);
     }
-    /* the stored settings load at the next start, or the defaults do */
+    /* at the next start, the stored settings or the defaults must load */
     static wh_conf again;
     static wh_rig_config config;
     wh_conf_start(&again, own, &memory, &config);

@@ -1,6 +1,6 @@
-/* fuzz_derive.c: no mechanism that the language accepts crashes or hangs the deriver, the writers or the interpreter. The
- * input's bytes choose the rules by which a mechanism and a scene are written. With FUZZ_SHOW set in the environment the text
- * goes to standard error. */
+/* fuzz_derive.c: a mechanism that the language accepts must neither crash nor hang the deriver, the writers or the
+ * interpreter. The bytes of the input choose the rules by which a mechanism and a scene are written. If FUZZ_SHOW is
+ * set in the environment, the text goes to standard error. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdbool.h>
@@ -26,7 +26,7 @@ typedef struct writer {
     size_t used;
     int unknowns;
     int lets;
-    bool rates; /* rates may occur in expressions */
+    bool rates; /* expressions may contain rates */
 } writer;
 
 static unsigned choose(writer *w, unsigned count) {
@@ -145,7 +145,7 @@ static void write_condition(writer *w) {
     }
 }
 
-/* One stop, hold, friction or crossing, or noise on the output. */
+/* Writes a stop, hold, friction or crossing, or noise on the output. */
 static void write_contact(writer *w) {
     static const char *const parts[] = {"0", "1", "0.5", "p/2"};
     switch (choose(w, 5)) {
@@ -280,7 +280,7 @@ static void run(const image *p, const engine_kind *kind, bool compensated) {
     }
 }
 
-/* Derives and writes the equations; `conserve` as for image_make(). */
+/* Writes the equations, and makes and runs the image. `conserve` is that of image_make(). */
 static void use(const equations *e, const bool *conserve, diags *all, FILE *nowhere) {
     static const image_settings settings = IMAGE_SETTINGS_DEFAULT;
     image *p = image_make(e, conserve, &settings, IMAGE_TO_RUN, all);

@@ -1,6 +1,6 @@
-/* fuzz_lang.c: broken text neither crashes nor hangs the language.
+/* fuzz_lang.c: random text must neither crash nor hang the language.
  *
- * The first part of the input is a .whirl file. Lines after a line `--` are command-line changes. */
+ * The input is a .whirl file. Lines after a line `--` are changes of the command line. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <stdint.h>
@@ -14,7 +14,7 @@ enum { CHANGES_MAX = 16, CHANGE_LENGTH = 200 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* The lines after the separator, as strings; returns their number. */
+/* Copies the lines after the separator as strings. Returns their number. */
 static int split_changes(const char *text, size_t length, char (*changes)[CHANGE_LENGTH]) {
     int count = 0;
     size_t used = 0;
@@ -60,7 +60,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     for (int i = 0; i < count; i++) {
         texts[i] = changes[i];
     }
-    /* A copy of the exact size, so that a sanitizer sees a read past its end. */
+    /* a copy of the exact size, so that a sanitizer sees a read past its end */
     char *copy = malloc(length == 0 ? 1 : length);
     if (copy == NULL || nowhere == NULL) {
         abort();

@@ -1,7 +1,7 @@
-/* fuzz_wire.c: broken bytes from a rig's line crash no reader: text and frames, telemetry descriptions, records, waves, and the
- * core's frame and byte-stuffing decoders.
+/* fuzz_wire.c: random bytes from a rig's line must crash no reader: text and frames, telemetry descriptions, records,
+ * waves, and the core's decoders of frames and byte stuffing.
  *
- * The input is the line's bytes. If the first byte is odd, a valid channel description precedes them. */
+ * The input is the bytes on the line. If the first byte is odd, a valid channel description comes before them. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -29,7 +29,7 @@ static void must(bool holds) {
     }
 }
 
-/* Frames can be read with any accepted description. */
+/* Aborts if a description was accepted with which frames cannot be read. */
 static void look(const schema *s) {
     for (int i = 0; i < SCHEMA_CHANNELS; i++) {
         const schema_channel *c = &s->channel[i];

@@ -1,5 +1,6 @@
-/* kept.c: replays stored fuzzer inputs without a fuzzer. `NAME FILE...` gives each file to the linked LLVMFuzzerTestOneInput().
- * It prints each file's name first, so after a crash the last name is the failing input. */
+/* kept.c: replays stored inputs of a fuzzer, without the fuzzer. `NAME FILE...` gives each file to the linked
+ * LLVMFuzzerTestOneInput(). Each file's name is printed first, so after a crash the last name is that of the failing
+ * input. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,11 +8,12 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { SIZE_MAX_BYTES = 8192 }; /* limit of tests/fuzz.sh */
+enum { SIZE_MAX_BYTES = 8192 }; /* the limit in tests/fuzz.sh */
 
 static uint8_t data[SIZE_MAX_BYTES];
 
-/* The file's bytes. -1: unreadable, or longer than a fuzzer's inputs. */
+/* Reads the bytes of a file. Returns their number; -1 if the file cannot be read or is longer than a fuzzer's
+ * inputs. */
 static long bytes_of(const char *path) {
     FILE *file = fopen(path, "rb");
     if (file == NULL) {
@@ -36,7 +38,7 @@ int main(int count, char **path) {
                     (int)SIZE_MAX_BYTES);
             return 2;
         }
-        /* exact size, so that a sanitizer sees a read past the end */
+        /* the exact size, so that a sanitizer sees a read past its end */
         uint8_t *given = malloc(size > 0 ? (size_t)size : 1);
         if (given == NULL) {
             return 2;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# kept.sh PROGRAM...: give each FUZZER.kept (kept.c) the inputs of tests/fuzz/kept/FUZZER.tar.gz. Programs that
-# were built with sanitizers also fail at errors of memory or arithmetic. A program that hangs is ended.
+# kept.sh PROGRAM...: gives each program FUZZER.kept (kept.c) the inputs in tests/fuzz/kept/FUZZER.tar.gz. Programs that
+# are built with sanitizers fail at errors of memory or arithmetic, too. A program that hangs is killed.
 set -u
 
 bad=0

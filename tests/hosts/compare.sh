@@ -7,12 +7,12 @@ shift
 first=""
 bad=0
 
-# differing A B: the names of files that only one has or that differ
+# differing A B: prints the names of files that differ or that only one of the two folders has
 differing() {
     diff -rq "$1" "$2" | sed -e 's/^Files .*\/\([^/ ]*\) and .* differ$/\1/' -e 's/^Only in .*: //' | sort -u
 }
 
-# verdict COUNT: for a table
+# verdict COUNT: prints the table entry for this number of differing files
 verdict() {
     [ "$1" -eq 0 ] && echo equal || echo "$1 differ"
 }

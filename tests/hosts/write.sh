@@ -1,7 +1,7 @@
 #!/bin/sh
-# write.sh FOLDER MECHANISMS WHIRL...: what one build of whirl writes, into FOLDER: scenes/ (every built-in scene as C),
-# mechanisms/ (every scene of the file MECHANISMS, in all forms), hashes.txt (of the float states after their runs) and
-# seconds. WHIRL is the command, with an emulator in front where it needs one. What it says stays in log.txt.
+# write.sh FOLDER MECHANISMS WHIRL...: writes the output of one build of whirl to FOLDER: scenes/ (every built-in scene as
+# C), mechanisms/ (every scene of the file MECHANISMS, in all forms), hashes.txt (of the float states after the runs) and
+# seconds. WHIRL is the command, with an emulator before it if it needs one. log.txt gets the messages.
 set -u
 folder=${1:?usage: write.sh FOLDER MECHANISMS WHIRL...}
 mechanisms=${2:?usage: write.sh FOLDER MECHANISMS WHIRL...}

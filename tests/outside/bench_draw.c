@@ -1,4 +1,4 @@
-/* Benches drawn at random. */
+/* Random benches. */
 #include "tests/outside/bench_draw.h"
 #include <math.h>
 #include <string.h>
@@ -7,11 +7,11 @@ const fault_kind kinds[] = {
 #define KIND(name, low, high, sign) {#name, offsetof(bench, name), low, high, sign},
     {"none", 0, 0, 0, false},
     KIND(noise, 0.2, 3, false)          /* N, standard deviation */
-    KIND(hum, 0.05, 3, false)           /* N, amplitude, at 50 or 60 Hz */
-    KIND(pickup, 0.1, 5, false)         /* N, once per turn */
+    KIND(hum, 0.05, 3, false)           /* amplitude in N, at 50 or 60 Hz */
+    KIND(pickup, 0.1, 5, false)         /* N, once in a turn */
     KIND(clip_above, 0.9, 0.995, false) /* share of the record's upper peak */
     KIND(clip_below, 0.9, 0.995, false) /* share of the record's lower peak */
-    KIND(play, 0.5, 2, false)           /* N, the whole backlash */
+    KIND(play, 0.5, 2, false)           /* N, the whole hysteresis */
     KIND(cubic, 0.005, 0.02, true)      /* error at the nominal amplitude */
     KIND(drift, 0.01, 0.5, true)        /* N/s */
     KIND(gain, 0.005, 0.3, true)        /* relative error */
@@ -24,7 +24,7 @@ const fault_kind kinds[] = {
     {"dead_1", offsetof(bench, dead), 1, 1, false},
     {"dead_2", offsetof(bench, dead), 2, 2, false},
     KIND(doubled, 0, 1, false)                            /* share of pulses that come twice */
-    KIND(torque_2, 0.02, 0.12, false)                     /* N*m, twice per turn */
+    KIND(torque_2, 0.02, 0.12, false)                     /* N*m, twice in a turn */
     KIND(inertia, 0.5, 6, false)                          /* times the nominal inertia */
     {"friction", offsetof(bench, dry), 0.02, 0.2, false}, /* N*m */
     KIND(weak, -0.2, 0.5, false) /* share of the motor's torque that is missing */
@@ -57,7 +57,8 @@ double normal(dice *d) {
 
 static bool is(int kind, const char *name) { return strcmp(kinds[kind].name, name) == 0; }
 
-/* The highest set-point that docs/rig.md allows if the supply were 1.5 V lower, for friction: 0.8 + 1.5 = 2.3. */
+/* The highest set-point that docs/rig.md allows, in rpm. The supply counts as 1.5 V lower because of friction: 0.8 +
+ * 1.5 = 2.3. */
 static double most_rpm(double supply) { return fmin(360.0, (supply - 2.3) / 24.0 * 600.0); }
 
 static event drawn_event(dice *d) {
@@ -75,16 +76,16 @@ static void draw_stuck(bench *b, dice *d) {
     b->rpm = uniform(d, 100, most_rpm(b->supply));
     b->stuck = drawn_event(d);
     const double where = uniform(d, 0, 1);
-    if (where < 0.35) { /* stuck after stop, which is held or released */
+    if (where < 0.35) { /* the stage sticks after stop, which stays pressed or is released */
         b->stop = drawn_event(d);
         b->stuck = (event){AFTER_STOP, chance(d, 0.3) ? 0 : uniform(d, 0, 4), NEVER};
         if (chance(d, 0.4)) {
             b->release = (event){AFTER_STOP, uniform(d, 0.01, 5), NEVER};
         }
-    } else if (where < 0.5) { /* stuck after a trip */
+    } else if (where < 0.5) { /* the stage sticks after a trip */
         b->silent = drawn_event(d);
         b->stuck = (event){TRIPPED, uniform(d, 0, 4), NEVER};
-    } else if (where < 0.65) { /* stuck after a run */
+    } else if (where < 0.65) { /* the stage sticks after a run */
         b->stuck = (event){COAST, uniform(d, 0, 4), NEVER};
     }
     if (chance(d, 0.5)) {
@@ -115,7 +116,7 @@ static void draw_fault(bench *b, int kind, dice *d) {
     }
 }
 
-/* A healthy bench: noise and hum up to 0.3 N, jitter up to 100 us, inertia 0.75 to 1.5 times the nominal one. */
+/* Draws a healthy bench: noise and hum up to 0.3 N, jitter up to 100 us, inertia 0.75 to 1.5 times the nominal one. */
 void draw_healthy(bench *b, dice *d) {
     const event never = {NOT_AT_ALL, 0, NEVER};
     *b = (bench){.supply = 24, .drag = 1, .clip_high = NEVER, .clip_low = -NEVER};
@@ -148,13 +149,14 @@ void draw_bench(bench *b, int kind, dice *d) {
     b->double_s = uniform(d, 1e-4, 5e-3);
     b->kind = kind;
     draw_fault(b, kind, d);
-    if (kind != 0 && chance(d, 0.25)) { /* a second fault, of any kind but the last three */
+    if (kind != 0 && chance(d, 0.25)) { /* a second fault of any kind except the last three */
         b->second = 1 + (int)(dice_next(d) % (KINDS - 4));
         draw_fault(b, b->second, d);
     }
 }
 
-/* A healthy rotor that slows down after a run's end or after a stop at any time: braked, coasting or swinging. */
+/* Draws a healthy rotor that slows down, braked, coasting or swinging, after the end of a run or after a stop at any
+ * time. */
 void draw_run_out(bench *b, dice *d) {
     draw_healthy(b, d);
     b->supply = uniform(d, 12, 36);

@@ -1,4 +1,4 @@
-/* Benches drawn at random: the rig, its errors and its faults. */
+/* Random benches: the rig, its errors and its faults. */
 #ifndef TESTS_OUTSIDE_BENCH_DRAW_H
 #define TESTS_OUTSIDE_BENCH_DRAW_H
 #include <stdbool.h>
@@ -12,7 +12,7 @@
 #define NEVER 1e9
 
 /* clang-format off */
-/* Numbers of a bench. Errors and faults are 0 in a healthy one. */
+/* The numbers of a bench. Errors and faults are 0 in a healthy bench. */
 #define NUMBERS(X) \
     X(rpm) \
     X(fed) \
@@ -21,7 +21,7 @@
             X(place_1) X(place_2) X(jitter) X(dead) X(doubled) X(double_s) X(resonance) X(damping) \
                 X(play) X(cubic) X(gain) X(drift) X(pickup) X(pickup_phase) X(noise) X(hum) \
                     X(hum_hz) X(hum_phase) X(clip_above) X(clip_below) X(adc) X(quantized)
-/* Events of a bench. silent: the load cell gives no more samples, so the rig trips. */
+/* The events of a bench. After `silent`, the load cell gives no more samples, so the rig trips. */
 #define EVENTS(X) X(stop) X(release) X(stuck) X(die) X(silent)
 
 enum { BY_TIME = -1, AFTER_STOP = -2, NOT_AT_ALL = -3 };
@@ -41,7 +41,7 @@ enum {
 };
 /* clang-format on */
 
-typedef struct { /* delay: seconds from the first orders in `state`, from the begin, or from stop */
+typedef struct { /* delay: seconds since the first orders in `state`, the start, or stop */
     int state;
     double delay, at;
 } event;
@@ -58,7 +58,8 @@ typedef struct {
     int kind, second;
 } bench;
 
-/* Kinds of faults: the offset of a number of the bench, and its range. signed_: the number may be negative. */
+/* A kind of fault: the offset of a number in the struct bench, and the number's range. If signed_, half of the
+ * numbers are negative. */
 typedef struct {
     const char *name;
     size_t number;
@@ -68,7 +69,7 @@ typedef struct {
 extern const fault_kind kinds[];
 enum { KIND_STUCK = 28, KIND_SWING, KINDS };
 
-typedef uint64_t dice; /* splitmix64 */
+typedef uint64_t dice; /* state of the generator splitmix64 */
 uint64_t dice_next(dice *d);
 bool chance(dice *d, double share);
 double normal(dice *d);

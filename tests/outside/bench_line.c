@@ -1,4 +1,4 @@
-/* Frames: version, kind, sequence, ticks, payload, CRC-32, coded by COBS. */
+/* Frames: version, kind, sequence, ticks, payload and CRC-32, coded by COBS. */
 #include "tests/outside/bench_line.h"
 #include <fcntl.h>
 #include <signal.h>
@@ -84,7 +84,6 @@ static void silent(int signal_number) {
     _exit(write(2, text, sizeof text - 1) > 0 && signal_number == SIGALRM ? 2 : 3);
 }
 
-/* Reads the next frame. Returns false at the end of the stream. */
 bool line_hear(const line *l, message *m) {
     int code = 0;
     m->n = 0;
@@ -147,7 +146,6 @@ void line_start(line *l, const char *firmware) {
     l->from = fdopen(up[0], "rb");
 }
 
-/* Closes the line, which ends the firmware. Returns the firmware's exit status, or -1 after a signal. */
 int line_end(const line *l) {
     int status = 0;
     fclose(l->to);

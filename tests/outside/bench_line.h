@@ -1,4 +1,4 @@
-/* Frames of docs/dev/pil.md ("Bytes on the line") and the firmware as a child process at their end. */
+/* Frames by docs/dev/pil.md ("Bytes on the line"), and the firmware as a child process at the other end of the line. */
 #ifndef TESTS_OUTSIDE_BENCH_LINE_H
 #define TESTS_OUTSIDE_BENCH_LINE_H
 #include <stdbool.h>
@@ -12,7 +12,7 @@ enum { HEADER = 8 }; /* bytes: version, kind, sequence, ticks */
 
 typedef struct {
     uint8_t byte[2048];
-    size_t n, at; /* at: index of the next byte to read */
+    size_t n, at; /* at: index of the next byte to be read */
 } message;
 
 typedef struct {
@@ -29,7 +29,7 @@ const char *get_string(message *m);
 
 void line_start(line *l, const char *firmware);
 void line_say(const line *l, message *m);  /* adds the CRC */
-bool line_hear(const line *l, message *m); /* reads a frame; false: end of file */
-int line_end(const line *l);               /* the firmware's exit status, -1 after a signal */
+bool line_hear(const line *l, message *m); /* reads the next frame; false at the end */
+int line_end(const line *l);               /* ends the firmware; its exit status, or -1 */
 
 #endif

@@ -1,10 +1,10 @@
-/* The rig as a plant. Runge-Kutta 4 in steps of 50 us, pulses on the cubic through a step's ends. */
+/* The rig as a plant: Runge-Kutta 4 in steps of 50 us. Pulses are located on the cubic through both ends of a step. */
 #include "tests/outside/bench_plant.h"
 #include "tests/outside/bench_line.h"
 #include <math.h>
 
-/* The rig of docs/rig.md: two shafts, on each an arm of 0.152 lb, 7.25 in long, and discs of
- * 0.15 lb at 6.5 in. The motor has 1.5 N*m at rest and 600 rpm without load at 24 V. */
+/* The rig of docs/rig.md: two shafts, each with an arm of 0.152 lb, 7.25 in long, and discs of 0.15 lb at 6.5 in. At
+ * 24 V the motor has 1.5 N*m at standstill, and 600 rpm without load. */
 #define GRAVITY 9.80665
 #define POUND 0.45359237
 #define INCH 0.0254
@@ -65,8 +65,9 @@ static void queue_pulse(plant *p, double seconds, uint32_t channel) {
     p->queue[at] = (pulse){seconds, channel};
 }
 
-/* Queues the pulses of the last step, which goes from angle a with speed va to speed vb, on the cubic through both
- * ends. Far from a sensor, its jitter is converted to an angle, which is used while the slot is near the sensor. */
+/* Queues the pulses of the last step, from angle a with speed va to p->y[ANGLE] with speed vb, on the cubic through
+ * both ends. Far from a sensor, the jitter of the sensor's next pulse is converted to an angle, which then stays
+ * constant near the sensor. */
 static void find_pulses(plant *p, double a, double va, double vb, double h) {
     const double b = p->y[ANGLE], way = b > a ? 1 : -1;
     const double place[2] = {p->b->place_1 * DEG, PI / 2 + p->b->place_2 * DEG};
@@ -94,7 +95,8 @@ static void find_pulses(plant *p, double a, double va, double vb, double h) {
     }
 }
 
-/* Adds the Fourier integrals over the angle from a to b, by the trapezoidal rule. */
+/* Adds the integrals of f cos and f sin over the angle from a to b, by the trapezoidal rule. `f` holds at a, `g` at
+ * b. */
 static void add_to_turn(turn *now, double a, double b, const double *f, const double *g) {
     for (int k = 0; k < 2; k++) {
         now->cosine[k] += (b - a) / TURN * (f[k] * cos(a) + g[k] * cos(b));
@@ -159,7 +161,8 @@ void plant_step(plant *p, double h) {
     p->energy_off = fmax(p->energy_off, fabs(energy(p) - p->energy_0 - p->y[WORK]));
 }
 
-/* The load cell's reading, N: backlash, cubic error, gain, drift, hum, noise, pick-up, amplifier, converter. */
+/* The reading of the load cell in N: hysteresis, cubic error, gain, drift, hum, noise, pick-up, amplifier,
+ * converter. */
 static double cell_reads(plant *p, bool recording) {
     const bench *b = p->b;
     const double u = p->play_at / (MOMENT * b->rpm * RPM * b->rpm * RPM);

@@ -7,7 +7,7 @@ enum { ANGLE, SPEED, WORK, BENT, BENDING, STATES };
 enum { KEPT = 128, QUEUE = 64, STEP_US = 50 };
 
 typedef struct
-{ /* first Fourier coefficients: [0] of the force, [1] as the load train passes it on */
+{ /* first Fourier coefficients: [0] of the force, [1] of the force behind the load train */
     double cosine[2], sine[2], seconds;
 } turn;
 
@@ -20,12 +20,12 @@ typedef struct {
     const bench *b;
     dice d;
     double t, y[STATES], inertia, duty, enable, turn_began;
-    /* held: the rotor is at rest by dry friction */
+    /* held: dry friction holds the rotor at rest */
     bool stuck, cut, pressed, stopped, stop_told, held, whole;
     uint32_t watchdog_us;
     uint64_t now_us, kicked_us;
     int queued;
-    double play_at, jitter[2], lead[2]; /* of a sensor's next pulse, in seconds and as an angle */
+    double play_at, jitter[2], lead[2]; /* of a sensor's next pulse: in s, and as an angle */
     double force[2], energy_0, energy_off, peak_high, peak_low;
     long turns;
     turn now, past[KEPT];
@@ -34,6 +34,6 @@ typedef struct {
 
 void plant_start(plant *p, const bench *b);
 void plant_step(plant *p, double h);
-double plant_sample(plant *p, int channel, bool recording); /* channel of the rig's hello */
+double plant_sample(plant *p, int channel, bool recording); /* channel in the rig's hello */
 
 #endif

@@ -1,4 +1,4 @@
-/* A run of the firmware against a plant: hello, exchanges, and the verdict. */
+/* A run of the firmware with a plant: hello, exchanges, and the verdict. */
 #include "tests/outside/bench_run.h"
 #include "tests/outside/bench_line.h"
 #include <math.h>
@@ -8,7 +8,7 @@
 
 enum { MOST_SAMPLES = 24, MOST_EDGES = 16, SAMPLES = 6 };
 
-/* The rig's signals in the order of docs/dev/pil.md, dials last: kind, name, and period in ms. */
+/* The rig's signals in the sequence of docs/dev/pil.md, with the dials last: kind, name, and period in ms. */
 static const struct {
     int kind;
     const char *name;
@@ -79,9 +79,9 @@ static void blame(outcome *o, bool *rule, const char *format, ...) {
     va_end(values);
 }
 
-/* Compare a good result with the force's Fourier coefficient over as many turns, the last ones or up to two earlier. A
- * result also counts as right if its only errors are those that no run can show (docs/rig.md). These are a gain error
- * below 5 %, a sensor 1 less than 5 degrees from its place, a load train, and a pick-up once a turn. */
+/* Compares a good result with the force's Fourier coefficient over as many turns, up to the last turn or up to two
+ * turns earlier. A result also counts as right if its only errors are those that no run can show (docs/rig.md). These are a
+ * gain error below 5 %, sensor 1 less than 5 degrees from its place, a load train, and a pick-up once in a turn. */
 static void judge_result(const plant *p, outcome *o) {
     double least = NEVER;
     for (int known = 0; known < 2; known++) {
@@ -119,9 +119,9 @@ static void judge_result(const plant *p, outcome *o) {
     }
 }
 
-/* After stop, a trip or the run's end no voltage may be asked for. If a stuck stage drives the rotor, the enable must
- * go off within 1 s of the first turn that shows this. In such a turn the rotor does not slow down or, in a run,
- * exceeds 408 rpm. */
+/* After stop, a trip or the end of a run, the firmware must order no voltage. If a stage that
+ * sticks drives the rotor, the enable line must go off within 1 s of the first turn that shows the drive. Such a turn
+ * is not slower than the one before or, in a run, exceeds 408 rpm. */
 typedef struct {
     double off_since, drives_since, shown, angle_0, last_at, last_took;
     long turns;
@@ -207,14 +207,14 @@ static void watch(event *e, double t, int state, bool stopped) {
     }
 }
 
-/* Lets the plant run until its timer shows `until`, and writes its sensors' readings into the message. */
+/* Runs the plant until its timer shows `until`. Writes the readings of its sensors into the message. */
 static void advance(plant *p, const hello *h, uint32_t until, bool recording, message *m) {
     message taken = {.n = 0};
     uint32_t edges = 0, samples = 0;
     const int32_t ahead = (int32_t)(until - (h->start + (uint32_t)p->now_us));
     const uint64_t end = p->now_us + (uint64_t)(ahead > 0 ? ahead : 0);
     while (p->now_us < end) {
-        uint64_t to = (p->now_us / STEP_US + 1) * STEP_US; /* samples lie on this grid, too */
+        uint64_t to = (p->now_us / STEP_US + 1) * STEP_US; /* samples are on this grid, too */
         to = to < end ? to : end;
         plant_step(p, (double)(to - p->now_us) * 1e-6);
         p->now_us = to;

@@ -1,7 +1,7 @@
-/* Bench for the rig's firmware, written from docs/dev/pil.md ("Bytes on the line") and docs/rig.md alone. It links libc
- * and libm and nothing of the project: frames, plant, sensors and judge are its own. It starts the firmware as a child
- * process, exchanges frames with it, plants faults in the plant or its sensors, and judges each run by the plant's
- * state. Exit status: 0 no rule is broken, 1 a rule is broken, 2 the page and the firmware disagree, or bad usage. */
+/* Bench for the rig's firmware, written from docs/dev/pil.md ("Bytes on the line") and docs/rig.md alone. It uses
+ * libc and libm and nothing of the project: frames, plant, sensors and judge are its own. It starts the firmware as
+ * a child process, exchanges frames with it, and adds faults to the plant or the sensors. It judges each run by the
+ * plant's state. Exit status: 0: no rule is broken; 1: a rule is broken; 2: page and firmware differ, or bad usage. */
 #include "tests/outside/bench_run.h"
 #include <math.h>
 #include <stdio.h>
@@ -49,7 +49,7 @@ static void play(const campaign *c, int index, outcome *o) {
     }
     const outcome fresh = {.index = index, .kind = b.kind, .second = b.second, .quality = -1};
     const char *firmware = b.swings != 0 ? c->swing : c->firmware;
-    if (b.clip_above > 0 || b.clip_below > 0) { /* share of the peaks that are not clipped */
+    if (b.clip_above > 0 || b.clip_below > 0) { /* part of the peaks that is not clipped */
         bench whole = b;
         *o = fresh;
         run(firmware, &whole, o, false);
@@ -81,7 +81,8 @@ static void play(const campaign *c, int index, outcome *o) {
 }
 
 typedef struct {
-    int runs, quality[4], tripped, shown, wrong, on, trips[16]; /* quality: no result, good, ... */
+    /* quality: none, good, doubtful, refused */
+    int runs, quality[4], tripped, shown, wrong, on, trips[16];
     double on_s;
 } tally;
 
@@ -124,7 +125,7 @@ static void print_run(const campaign *c, const outcome *o) {
     puts("");
 }
 
-/* At most two workers make the runs. This process counts their results. */
+/* Up to two workers do the runs. This process counts their results. */
 static int play_all(const campaign *c) {
     static tally of[KINDS], all;
     const bool healthy = c->mode == HEALTHY || c->mode == RUNOUTS;

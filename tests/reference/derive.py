@@ -19,7 +19,7 @@ import sympy as sp
 
 sys.dont_write_bytecode = True  # leave no __pycache__ among the sources
 DIGITS = 25
-STATES = 6  # a mechanism
+STATES = 6  # of each mechanism
 HERE = pathlib.Path(__file__).parent
 
 
@@ -50,7 +50,7 @@ class Case:
         }
 
     def equations(self, changed):
-        """Expressions that vanish, linear in the highest derivatives."""
+        """Expressions that must be zero. They are linear in the highest derivatives."""
         x = self.symbols()
         if self.outright:
             return x, self.build(x, **changed)
@@ -72,7 +72,7 @@ class Case:
         return x, equations
 
     def accelerations(self, state, changed):
-        """Highest derivatives at one state: {name: value}. state: {symbol name: Rational}."""
+        """The highest derivatives at a state, as {name: value}. state: {symbol name: Rational}."""
         x, equations = self.equations(changed)
         highest = [s[-1] for s in x.values()]
         known = [k for s in x.values() for k in s[:-1]]
@@ -116,7 +116,7 @@ class Case:
 
 
 def exact(value):
-    """A multiple of 1/64 in full."""
+    """The text of a multiple of 1/64, with all its digits."""
     text = repr(float(value))
     assert sp.Rational(text) == value
     return text

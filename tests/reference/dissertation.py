@@ -18,7 +18,7 @@ def cartesian_particle(x, m=1, g=R("9.81")):
     return {"T": m * (vx**2 + vy**2 + vz**2) / 2, "V": m * g * z}
 
 
-M1, M2 = R("0.72") * LBF / INCH, R("1.36") * LBF / INCH  # lbf s^2/in, as the listings have them
+M1, M2 = R("0.72") * LBF / INCH, R("1.36") * LBF / INCH  # lbf s^2/in, as in the dissertation's listings
 K = 50 * LBF / INCH
 C = LBF / INCH  # 1 lbf s/in
 
@@ -43,7 +43,7 @@ def masses_relative(x, m1=M1, m2=M2, K1=K, K2=K, A=C, B=C):
 
 
 def physical(build):
-    """The same with real pounds of mass."""
+    """The mechanism `build` with masses in pounds instead of lbf s^2/in."""
     return lambda x: build(x, m1=R("0.72") * LB, m2=R("1.36") * LB)
 
 
@@ -93,12 +93,12 @@ def thomson_spin(x, m=2, r=R("0.3"), M=-2):
 
 
 def speed2(position, q, v):
-    """Square of the rate of a place that depends on the coordinates q."""
+    """Squared speed of a point whose position depends on the coordinates q."""
     return sum(sum(diff(c, a) * b for a, b in zip(q, v)) ** 2 for c in position)
 
 
 def thomson_unit(carriage, a, b, r):
-    """Places of the sun gear, disc 26 and disc 33 of one unit."""
+    """Positions of the sun gear, disc 26 and disc 33 of one unit."""
     X, Y = carriage
     disc26 = (X + 2 * r * cos(a), Y + 2 * r * sin(a))
     disc33 = (disc26[0] + r * cos(2 * a) + r * cos(b), disc26[1] + r * sin(2 * a) + r * sin(b))
@@ -179,7 +179,7 @@ def eccentric(x, duty=0, carriage=3 * 2 * (ARM + DISC)):
     th, w, _ = x["theta"]
     vX = x["X"][1] if "X" in x else 0
 
-    def speed2(radius):  # of a point at `radius` on the turning line
+    def speed2(radius):  # squared speed of a point at `radius` on an arm
         return (vX - radius * w * sin(th)) ** 2 + (radius * w * cos(th)) ** 2
 
     spin = 2 * ARM * ARM_LENGTH**2 / 12 + R("0.0005")

@@ -1,23 +1,22 @@
 """events.py: mechanisms with stops, friction, holds and crossings, integrated from event to event.
 
-Independent of Whirl in every part: modes are told apart by conditions of this file's own, a smooth
-stretch is integrated by Gragg's extrapolation (Hairer, Norsett & Wanner, Solving Ordinary Differential
-Equations I, section II.9) of order 16, a fresh one for each place that the location of an event asks
-for, so that nothing is interpolated, and events are bisected to 1e-17 s. Needs nothing but
-Python 3.
+Independent of Whirl. This file has its own conditions for the modes. Between events, motions are
+integrated by Gragg's extrapolation of order 16 (Hairer, Norsett & Wanner, Solving Ordinary Differential
+Equations I, section II.9). Events are bisected to 1e-17 s; each tried time is integrated anew, so that
+nothing is interpolated. Needs only Python 3.
 """
 import itertools
 import math
 
-COLUMNS = 8  # of the extrapolation table: order 16
-REST = 1e-10  # m/s: a bounce that leaves slower than this is none
+COLUMNS = 8  # of the extrapolation table, which gives order 16
+REST = 1e-10  # m/s: a stop that is left at a lower speed does not bounce
 FREE, HELD, STUCK, SLIDES = "free", "held", "stuck", "slides"
-LAST = 1e-17  # s: events are located to this
-TINY = 1e-12  # relative to the diagonal: a row that others hold already
+LAST = 1e-17  # s: accuracy of the times of events
+TINY = 1e-12  # pivot, relative to the diagonal: below, a row depends on earlier rows
 
 
 def solve(rows, right):
-    """Gauss with the pivot on the diagonal; rows that others hold already get zero."""
+    """Elimination with diagonal pivots. Unknowns of rows that depend on earlier rows become zero."""
     n = len(right)
     a = [list(r) + [b] for r, b in zip(rows, right)]
     whole = [abs(a[i][i]) for i in range(n)]
@@ -50,7 +49,7 @@ class Contact:
 
 
 class Stop(Contact):
-    """gap(q) >= 0; row(q) its gradient, bias(q, v) = d(row)/dt v."""
+    """A stop gap(q) >= 0. row(q): gradient of the gap; bias(q, v) = d(row)/dt v."""
 
     def __init__(self, restitution, gap, row, bias=None):
         self.restitution, self.gap = restitution, gap
@@ -78,7 +77,7 @@ class Crossing(Contact):
 
 
 class Run:
-    """accel = M^-1 (force + contacts); mass(q), force(q, v)."""
+    """A motion q'' = M^-1 (force + contacts), with mass(q) and force(q, v)."""
 
     def __init__(self, mass, force, contacts, q, v, span):
         self.mass, self.force, self.contacts = mass, force, contacts
@@ -130,7 +129,7 @@ class Run:
         for k in range(COLUMNS):
             count = 2 * (k + 1)
             h = span / count
-            before, now = [0.0] * len(y), [h * s for s in first]  # since y: less to round
+            before, now = [0.0] * len(y), [h * s for s in first]  # relative to y, for less round-off
             for _ in range(count):
                 slope = self.slope([a + b for a, b in zip(y, now)])
                 last, before, now = before, now, [b + 2 * h * s for b, s in zip(before, slope)]
@@ -144,7 +143,7 @@ class Run:
     # --- events ----------------------------------------------------------------------------------
 
     def due(self, y):
-        """Contacts whose event has happened at y, in the present modes."""
+        """The contacts whose present mode has ended at the state y."""
         q, v = y[:self.n], y[self.n:]
         forces = self.accelerations(q, v)[1]
         found = []
@@ -164,7 +163,7 @@ class Run:
         return found
 
     def impulse(self, c, target):
-        """Leave row v = target, with what is held (not stuck) held on."""
+        """Changes v so that row v = target. Held contacts stay held, sticking frictions need not."""
         q, v = self.y[:self.n], self.y[self.n:]
         members = [c] + [o for o in self.contacts if o is not c and o.mode == HELD]
         rows = [o.row(q) for o in members]
@@ -177,11 +176,11 @@ class Run:
         return v
 
     def settle(self):
-        """Friction at rest sticks or finds its direction; stops that would pull let go. Of all ways in which
-        contacts may hold or give, one that agrees with its own forces and accelerations, with as many held
-        as can be."""
+        """Chooses the modes from now on. Friction at rest sticks or slides, and a stop that would pull opens.
+        Of all combinations that agree with their own forces and accelerations, takes one with the largest
+        number of held contacts."""
         q, v = self.y[:self.n], self.y[self.n:]
-        open_ = []  # those that may hold or give
+        open_ = []  # contacts whose mode is open
         for c in self.contacts:
             if isinstance(c, Friction):
                 speed = dot(c.row(q), v)
@@ -251,7 +250,7 @@ class Run:
         self.settle()
 
     def to(self, until):
-        """Go on to `until`."""
+        """Integrates to the time `until`."""
         while self.t < until:
             span = min(self.span, until - self.t)
             end = self.advance(self.y, span)

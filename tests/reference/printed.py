@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The dissertation's printed equations against Lagrange's equations derived here.
+"""Compares the dissertation's printed equations with Lagrange's equations, which are derived here.
 
 Each printed equation is transcribed as printed (left minus right side) and subtracted from the one
 derived from the same energies; the difference must vanish identically. EQ3 of Thomson's device is

@@ -1,4 +1,4 @@
-"""Systems of tests/mechanisms that are given by equations outright, transcribed by hand."""
+"""The systems of tests/mechanisms that are given by equations, transcribed by hand."""
 from sympy import Rational as R, cos, exp, log, sin
 
 from derive import Case

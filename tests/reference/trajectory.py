@@ -26,7 +26,7 @@ from units import INCH
 HERE = pathlib.Path(__file__).parent
 AGREE = mp.mpf(10) ** -18
 BITS = 140
-COLUMNS = 12  # of the extrapolation table: order 24
+COLUMNS = 12  # of the extrapolation table, which gives order 24
 FAST = {"mpf": gmpy2.mpfr, "sin": gmpy2.sin, "cos": gmpy2.cos}
 
 
@@ -78,7 +78,7 @@ class System:
         return table[-1][-1]
 
     def run(self, y, times, span):
-        """States at `times`; every time is a multiple of `span`."""
+        """The states at `times`, which must be multiples of `span`."""
         states, done = [], 0
         for time in times:
             for _ in range(int(round(time / span)) - done):
@@ -88,7 +88,7 @@ class System:
         return states
 
     def refined(self, y, times, span):
-        """States that halving the step no longer changes, and the last change of each."""
+        """The states after the step was halved until they no longer change, and the last change of each."""
         states = self.run(y, times, span)
         while True:
             span = span / 2
@@ -100,7 +100,7 @@ class System:
 
 
 def runs():
-    """(file:scene, names, energies, start, times, step)"""
+    """The scenes: (file:scene, names, energies, start, times, step)."""
     models = "core/models/"
     masses = models + "two_mass.whirl:two_mass_"
     stretched = [0, INCH / 2, 0, 0]
@@ -145,7 +145,7 @@ def precise(state):
 
 
 def linear_solution(system, start, time):
-    """exp(St) for y' = S y + c, by way of the augmented matrix; S from exact differences."""
+    """The solution of y' = S y + c, from exp of the augmented matrix. S is found by exact differences."""
     size = 2 * system.n
     zero = precise(system.slope([gmpy2.mpfr(0)] * size))
     augmented = mp.zeros(size + 1, size + 1)
@@ -160,7 +160,7 @@ def linear_solution(system, start, time):
 
 
 def parabola(start, time):
-    """The flight in Cartesian coordinates, back in spherical ones (phi within half a turn)."""
+    """The end of a flight, computed in Cartesian coordinates, in spherical ones (phi within half a turn)."""
     r, th, ph, vr, vth, vph = start
     s, c, sp_, cp = mp.sin(th), mp.cos(th), mp.sin(ph), mp.cos(ph)
     t = mp.mpf(time.p) / time.q
