@@ -14,19 +14,19 @@ rounds=1
 [ -x "$build/pil_rig" ] && [ -x "$build/pil_cart" ]
 verdict $? "build/pil_rig and build/pil_cart are there (make pil-images)"
 
-# line NAME FILE: the rest of the report's line of that name; number NAME FILE: its first number
+# line NAME FILE: prints the rest of the report's line of that name; number NAME FILE: prints its first number
 line() { grep -a "^ *$1  *" "$2" | sed "s/^ *$1  *//"; }
 number() { line "$1" "$2" | head -n 1 | sed 's/^[^-0-9]*\([-0-9.]*\).*/\1/'; }
 # close_to VALUE WANTED MOST
 close_to() { awk -v a="$1" -v b="$2" -v most="$3" 'BEGIN { d = a - b; exit !(a != "" && d <= most && d >= -most) }'; }
 
 # --- the rig's plant ---------------------------------------------------------------------------------------------------
-# With the drive on it is the coupled mechanism of core/models, to the rounding of sums in another order.
+# With the drive on, it is the coupled mechanism of core/models, except for the rounding of sums in another order.
 end_of_arms() { sh tests/limit.sh 60 "$whirl" run "$@" --set duty=0.6 --step 200us --until 5s | awk '$1 == "theta" { print $2 }'; }
 coupled=$(end_of_arms rig_coupled --with dry_friction)
 close_to "$(end_of_arms $rig --set enable=1)" "$coupled" 1e-9
 verdict $? "docs/plants/rig.whirl moves as rig_coupled with dry friction ($coupled)"
-# rotor on its way at 330 rpm for 0.2 s: what the drive stage makes of it, as the speed that is left, in rad/s
+# after ...: lets the rotor run at 330 rpm for 0.2 s with this drive stage, and prints the remaining speed, in rad/s
 after() { sh tests/limit.sh 60 "$whirl" run $rig --start "theta'=34.6" --start "motor'=34.6" --step 200us --until 200ms "$@" |
     awk '$1 == "motor\047" { print $2 }'; }
 above() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a != "" && b != "" && a > b + 0.2) }'; }
@@ -44,7 +44,7 @@ verdict $? "one that runs away obeys its enable, unless that is stuck"
 above "$(after --set enable=1 --set duty=0.9)" "$(after --set enable=1 --set duty=0.9 --set 'volts=18 [V]')"
 verdict $? "a lower supply drives less"
 
-# --- the rig, whole ---------------------------------------------------------------------------------------------------
+# --- the whole rig -------------------------------------------------------------------------------------------------------
 # The plant has a coupling and dry friction that the controller does not know. The force is that of the formula.
 sh tests/limit.sh 60 "$whirl" pil $rig --firmware "$build/pil_rig" --tape "$scratch/pc.tape" >"$scratch/pc" 2>"$scratch/err"
 verdict $? "the rig's software on this machine runs to its end"
@@ -94,7 +94,7 @@ if [ -n "$boards" ]; then
     verdict $? "what is slower overruns, with as many instructions" "$scratch/out.1.5"
 fi
 
-# --- a board of one's own -----------------------------------------------------------------------------------------------
+# --- a board of the user's own ------------------------------------------------------------------------------------------
 if [ -n "$boards" ]; then
     mkdir -p "$scratch/boards/bench" && echo 'BOARD_MACHINE  := mps2-an386' >"$scratch/boards/bench/board.mk"
     here=$PWD
@@ -103,8 +103,8 @@ if [ -n "$boards" ]; then
     verdict $? "--board takes a folder of boards/ by its BOARD_MACHINE"
 fi
 
-# --- the page's bytes ---------------------------------------------------------------------------------------------------
-# page_bytes NAME...: those of these frames in docs/dev/pil.md, as octal escapes of printf
+# --- the page's bytes ----------------------------------------------------------------------------------------------------
+# page_bytes NAME...: prints the bytes of these frames in docs/dev/pil.md, as octal escapes of printf
 page_bytes() {
     for frame in "$@"; do
         awk -v name="$frame" '/^```/ { on = $0 == "```bytes"; next }
@@ -126,8 +126,8 @@ awk '/^```/ { on = 0 } on; /^`whirl pil --read` prints of a tape with these/ { g
 tail -n +13 "$scratch/rows" | diff "$scratch/wanted" - >"$scratch/diff"
 verdict $? "and those of the other kinds say what stands there" "$scratch/diff"
 
-# --- a trip, then resets --------------------------------------------------------------------------------------------------
-# Reset twice with a trip latched: another program each time, which knows the trip and nothing else; the same on each processor.
+# --- a trip, then resets -------------------------------------------------------------------------------------------------
+# Two resets with a trip latched. After each, the program is a new one, which knows only the trip; all processors agree.
 fault='cell-open@6s,reset@6.4003,reset=0.05@7.7'
 sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --fault "$fault" --firmware "$build/pil_rig" --tape "$scratch/reset.tape" >"$scratch/reset" 2>"$scratch/err"
 [ $? -eq 1 ] && grep -aq '^TRIPPED: the load cell' "$scratch/reset" && grep -aq '^RESET: nothing moves by itself' "$scratch/reset" &&
@@ -143,8 +143,8 @@ for board in $boards pc; do
     verdict $? "its tape gives the same answers on $board" "$scratch/out"
 done
 
-# --- readings that are late, or silent ------------------------------------------------------------------------------------
-# The readings are late by this much, and the run begins. The phase is off by the delay: 1980 degrees a second at 330 rpm.
+# --- readings that are late, or missing ----------------------------------------------------------------------------------
+# The readings are late by this much, and the run begins. The phase error is the delay times 1980 degrees a second (330 rpm).
 first=$(number 'its phase to the masses' "$scratch/pc")
 for delay in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(5); for (i = 0; i < n; i++) print 0.05 + 9 * rand() }'); do
     sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_rig" --delay "${delay}ms" >"$scratch/late" 2>"$scratch/err"
@@ -190,20 +190,20 @@ for option in '--delay 5ms' '--place 0.02' '--jitter 3ms' '--set l=0.4' '--step 
     verdict $? "and its tape"
 done
 
-# --- tapes that are none --------------------------------------------------------------------------------------------------
+# --- invalid tapes --------------------------------------------------------------------------------------------------------
 head -c 3000 "$scratch/pc.tape" >"$scratch/cut.tape"
 exits 2 'it is broken' --replay "$scratch/cut.tape" --firmware "$build/pil_rig"
 { head -c 3000 "$scratch/pc.tape" && printf X && tail -c +3002 "$scratch/pc.tape"; } >"$scratch/flip.tape"
 exits 2 'no tape' --replay "$build/pil_rig" --firmware "$build/pil_rig"
 exits 2 'cannot be read' --replay "$scratch/none" --firmware "$build/pil_rig"
 exits 2 "of 'rig'" --replay "$scratch/pc.tape" --firmware "$build/pil_cart"
-# the begin of one run and the end of another: frames end in zeros
+# the beginning of one run with the end of another: frames end in zeros
 sh tests/limit.sh 60 "$whirl" pil docs/plants/cart.whirl --until 2s --set l=0.5 --firmware "$build/pil_cart" --tape "$scratch/long.tape" >"$scratch/out" 2>"$scratch/err"
 { tr '\0\n' '\n\0' <"$scratch/cart.tape" | head -n 1001 && tr '\0\n' '\n\0' <"$scratch/long.tape" | tail -n +1002; } | tr '\0\n' '\n\0' >"$scratch/mixed.tape"
 exits 1 'exchange 50[0-9], .*other orders than on the tape' --replay "$scratch/mixed.tape" --firmware "$build/pil_cart"
 
-# --- what a tape has, as rows -------------------------------------------------------------------------------------------
-# rows KIND FILE: number of rows of that kind
+# --- a tape as rows --------------------------------------------------------------------------------------------------------
+# rows KIND FILE: prints the number of rows of that kind
 rows() { awk -F, -v kind="$1" '$3 == kind { n++ } END { print n + 0 }' "$2"; }
 "$whirl" pil --read "$scratch/pc.tape" >"$scratch/rows" 2>"$scratch/err" &&
     [ "$(head -n 1 "$scratch/rows")" = time,heard,kind,channel,signal,value,unit,status ] &&
@@ -211,9 +211,9 @@ rows() { awk -F, -v kind="$1" '$3 == kind { n++ } END { print n + 0 }' "$2"; }
 verdict $? "--read has each edge and sample of the report" "$scratch/pc"
 awk -F, 'NF != 8 || $1 > $2 || ($3 == "sample") != ($8 == "good") || ($3 == "edge") != ($6 == "") ||
     ($3 == "sample" && $5 == "cell_force" && ($1 != $2 || ++n * 0.002 - $1 > 1e-9 || $1 - n * 0.002 > 1e-9)) { bad++ }
-    END { exit !(NR > 15000 && bad == 1) }' "$scratch/rows" # the header
+    END { exit !(NR > 15000 && bad == 1) }' "$scratch/rows" # the only other line is the header
 verdict $? "its rows have eight columns, and a sample every 2 ms"
-# a supply of 24 V, the tare at rest, pulses in turns, and the firmware's last notes
+# a supply of 24 V, the tare at rest, pulses in whole turns, and the firmware's last notes
 awk -F, -v told="$(sed -n 's/^it tells .* amplitude \([0-9.]*\) N.*/\1/p' "$scratch/pc")" '
     BEGIN { before = -1 }
     $5 == "supply" && ($6 < 23.98 || $6 > 24.02) { bad++ }
@@ -252,7 +252,7 @@ exits 2 '--read excludes scene' --read "$scratch/pc.tape" $rig
 exits 2 '--read excludes --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
 exits 2 '--replay excludes --csv' --replay "$scratch/pc.tape" --csv - --firmware "$build/pil_rig"
 
-# --- what is refused --------------------------------------------------------------------------------------------------------
+# --- refused input ----------------------------------------------------------------------------------------------------------
 exits 2 'no --firmware' rig_coupled
 exits 2 'no scene' --firmware "$build/pil_rig"
 exits 2 'excludes scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
@@ -275,7 +275,7 @@ exits 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/pi
 exits 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
 exits 2 'takes a number' rig_coupled --cycles -1 --firmware "$build/pil_rig"
 exits 2 'cannot be written' docs/plants/cart.whirl --tape "$scratch/no/tape" --firmware "$build/pil_cart"
-# values that are none, in each option
+# invalid values, in each option
 cart="docs/plants/cart.whirl --until 0.02s --firmware $build/pil_cart"
 while read -r option pattern values; do
     for value in $values; do
@@ -312,13 +312,13 @@ verdict $? "and the scene is still there"
 for after in 0.02 0.05 0.1 0.2; do
     timeout --foreground --signal=INT $after "$whirl" pil --replay "$scratch/pc.tape" --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err"
     case $(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/out") in
-    "$(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/pc")") said=tape ;; # it was quicker
+    "$(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/pc")") said=tape ;; # the replay ended before the signal
     *) said="tape so far; the rest was not replayed" ;;
     esac
     [ ! -s "$scratch/out" ] || grep -aq "^command stream .*, as on the $said$" "$scratch/out"
     verdict $? "a replay interrupted after $after s: as on the $said"
 done
-for step in 1e-12s 1e-9s 10us; do # however long it is to the next exchange
+for step in 1e-12s 1e-9s 10us; do # whatever the time to the next exchange
     timeout --foreground --kill-after=2 --signal=INT 0.15 "$whirl" pil docs/plants/rig.whirl --step $step --until 1000s \
         --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err"
     got=$? # 137 is the second signal's, 124 the time's
@@ -332,7 +332,7 @@ exits 2 '--baud needs --port' docs/plants/rig.whirl --firmware "$build/pil_rig" 
 # child PID: its first child; state PID: R, S, T, Z or nothing, as Linux has them
 child() { sed -n "s/^\([0-9]*\) (.*) [A-Za-z] $1 .*/\1/p" /proc/[0-9]*/stat 2>/dev/null | head -n 1; }
 state() { sed 's/.*) \([A-Za-z]\) .*/\1/' "/proc/$1/stat" 2>/dev/null; }
-# begin IMAGE: $host and $guest, with the line between them at work; a busy machine may take half a minute to get there
+# begin IMAGE: starts $host and $guest, and waits until their line is busy; a slow machine may take half a minute
 begin() {
     sh tests/limit.sh 60 "$whirl" pil $rig --step 2us --patience 1 --firmware "$1" >"$scratch/out" 2>"$scratch/err" &
     wrapper=$!
@@ -345,13 +345,13 @@ begin() {
     done
     return 1
 }
-# pause: up to 0.3 s, another each time
+# pause: waits up to 0.3 s, a random time
 seed=$$
 pause() {
     seed=$(((seed * 1103515245 + 12345) % 2147483648))
     sleep "0.$(((seed / 65536) % 3))$(((seed / 512) % 10))"
 }
-# is_gone PID: it ends within a minute (also true for a dead process that was not waited for)
+# is_gone PID: true if the process ends within a minute; a dead process that was not waited for counts, too
 is_gone() {
     for _ in $(seq 3000); do
         case $(state "$1") in '' | Z) return 0 ;; esac
@@ -359,7 +359,7 @@ is_gone() {
     done
     return 1
 }
-end_of() { # STATUS WHAT: how the host ended, and that both are gone
+end_of() { # end_of STATUS WHAT: checks how the host ended, and that both processes are gone
     wait "$wrapper" 2>/dev/null
     got=$?
     [ "$got" -eq "$1" ] && is_gone "$host" && is_gone "$guest" && [ -z "$(find "$scratch" -type p)" ]
@@ -388,7 +388,7 @@ for image in $([ -r /proc/self/stat ] && echo "$build/pil_rig" ${boards:+"$m4"})
     grep -q 'has said nothing for 1 s' "$scratch/err"
     verdict $? "and that is said"
 done
-# a firmware that reads nothing and ignores the end of the line
+# a firmware that reads nothing, and ignores the end of the line
 many=$(command -v yes)
 sh tests/limit.sh 60 "$whirl" pil rig_coupled --firmware "$many" --patience 0.2 >/dev/null 2>"$scratch/err"
 [ $? -eq 1 ] && grep -q 'has said nothing for 0.2 s' "$scratch/err"

@@ -11,7 +11,7 @@ board=
 trap 'kill -9 $board 2>/dev/null; rm -rf "$scratch"' EXIT
 
 wait_for_tty() { await test -e "$scratch/tty"; }
-# plug: a board waits at $scratch/tty
+# plug: starts a board at $scratch/tty
 plug() {
     rm -f "$scratch/tty"
     RIG_TTY=$scratch/tty "$build/pil_line" >"$scratch/said" 2>&1 &
@@ -23,7 +23,7 @@ unplug() {
     wait $board 2>/dev/null
     board=
 }
-# run WORD...: over the line
+# run WORD...: runs the plant over the line
 run() {
     sh tests/limit.sh 120 "$whirl" pil "$plant" --port "$scratch/tty" --step 200us "$@" >"$scratch/out" 2>"$scratch/err"
 }
@@ -52,7 +52,7 @@ sh tests/limit.sh 120 "$whirl" pil --replay "$scratch/tape" --port "$scratch/tty
 verdict $? "a tape is replayed over the line" "$scratch/err"
 unplug
 
-# --- what is wrong with a line -------------------------------------------------------------------------------------------
+# --- errors on the line --------------------------------------------------------------------------------------------------
 exits 2 'excludes --firmware' "$plant" --port "$scratch/tty" --firmware "$build/pil_rig"
 exits 2 'excludes --board' "$plant" --port "$scratch/tty" --board mps2-an386
 exits 2 'has the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
@@ -62,14 +62,14 @@ exits 2 'Is a directory' "$plant" --port "$scratch"
 exits 2 'no serial line' "$plant" --port /dev/null
 plug
 kill -STOP $board
-exits 1 'has said nothing for 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6 # but its hello
+exits 1 'has said nothing for 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6 # except for its hello
 kill -CONT $board
 run --until 1s --set speed=330rpm
 [ $? -eq 0 ]
 verdict $? "who was asked before there was an answer is not confused by it" "$scratch/err"
 exits 2 'no hello has come over the line in 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6
 unplug
-rm -f "$scratch/tty" # a rig that answers all the time, and never says a hello
+rm -f "$scratch/tty" # a rig that answers all the time, but never sends its hello
 RIG_TTY=$scratch/tty "$build/station" >"$scratch/said" 2>&1 &
 board=$!
 wait_for_tty
@@ -81,7 +81,7 @@ verdict $? "who babbles is as good as silent" "$scratch/err"
 kill -9 $asks 2>/dev/null
 wait $asks 2>/dev/null
 unplug
-for seed in 1 2 3; do # gone, at some instant: when so much is on the tape
+for seed in 1 2 3; do # the line is lost at some instant: when the tape has so many bytes
     plug
     : >"$scratch/tape"
     (

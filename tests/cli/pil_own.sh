@@ -4,7 +4,7 @@
 # run must report. WHIRL_FULL: more tables.
 . "$(dirname "$0")/../checks.sh"
 
-# block WORD: the blocks of that kind in the page's section
+# block WORD: prints the blocks of that kind in the page's section
 block() {
     awk -v fence="\`\`\`$1" '/^## / { section = /Your own firmware/ } $0 == fence { into = section; next } /^```/ { into = 0 } into' docs/pil.md
 }
@@ -14,7 +14,7 @@ block sh >"$scratch/commands"
 [ "$(wc -l <"$scratch/table.whirl")" -gt 10 ] && [ "$(wc -l <"$scratch/pil_table.c")" -gt 30 ]
 verdict $? "docs/pil.md has a plant and a firmware"
 
-# build COMPILER SOURCE PROGRAM: with the page's command, except for compiler, paths and warnings
+# build COMPILER SOURCE PROGRAM: runs the page's command, except for compiler, paths and warnings
 build() {
     words=$(tr -d '\\' <"$scratch/commands" | awk '/^cc / { on = 1 } /^build/ { on = 0 } on' | tr '\n' ' ' |
         sed "s,^cc,$1 -Wall -Wextra -Wconversion -Wshadow -Werror,; s, pil_table.c, $2,; s,-o build/pil_table,-o $3,")
@@ -30,7 +30,7 @@ done
 [ -n "$built" ]
 verdict $? "there is a compiler"
 
-# the board's, by make, from a folder that is not the tree's
+# builds the board's image by make, from a folder outside the tree
 grep '^make' "$scratch/commands" >"$scratch/makes"
 [ "$(wc -l <"$scratch/makes")" -eq 1 ]
 verdict $? "the page builds it for a board"
@@ -43,13 +43,13 @@ if command -v qemu-system-arm >/dev/null 2>&1 && command -v arm-none-eabi-gcc >/
     verdict $? "make pil-image builds a controller from outside the tree, for $board and this machine"
 fi
 
-# run PROGRAM WORD...: against the page's plant
+# run PROGRAM WORD...: runs the program with the page's plant
 run() {
     program=$1
     shift
     sh tests/limit.sh 60 "$whirl" pil "$scratch/table.whirl" --firmware "$program" "$@" >"$scratch/out" 2>"$scratch/err"
 }
-# the page's own runs, in its order
+# the page's own runs, in the order of the page
 grep '^build/whirl pil' "$scratch/commands" | sed -n 's/^build.whirl pil table.whirl --firmware build.pil_table//p' >"$scratch/runs"
 [ "$(wc -l <"$scratch/runs")" -eq 2 ]
 verdict $? "the page runs it twice"
@@ -69,14 +69,14 @@ awk -v seed="${WHIRL_SEED:-1}" -v n=$tables 'BEGIN { srand(seed); for (i = 0; i 
 while read -r x m rub; do
     run "$built" --set "x_start=${x}mm" --set "m=$m" --set "rub=$rub" --tape "$scratch/tape"
     verdict $? "a table at $x mm, of $m kg, with $rub N*m, is where it should be"
-    # the encoder has 1.25 um a count; a screw of 5 mm
+    # the encoder has 1.25 um per count; the screw has a pitch of 5 mm
     "$whirl" pil --read "$scratch/tape" | awk -F, -v x="$x" '$5 == "theta" && $3 == "sample" { a = $6 }
         END { d = x + 5 * a / 6.28318530718 - 20; exit !(a != "" && d < 0.02 && d > -0.02) }'
     verdict $? "the plant says so, too"
 done <"$scratch/drawn"
 
-# The plant's record: against the samples that the firmware heard, by the encoder and by the scene's own statement of x; rows
-# are as `whirl run` has them.
+# Compares the plant's record with the samples that the firmware received, by the encoder and by the scene's own
+# statement of x. The rows have the form of `whirl run`.
 header='time,theta,der(theta),x'
 for program in "$built" $elf; do
     every=$(awk -v seed="${WHIRL_SEED:-1}" 'BEGIN { srand(seed + 1); print 1 + int(9 * rand()) }')
@@ -110,7 +110,7 @@ verdict $? "the scene is not written over" "$scratch/err"
 [ ! -c /dev/full ] || { ! run "$built" --csv /dev/full && grep -q 'cannot be written' "$scratch/err"; }
 verdict $? "a full disk is told" "$scratch/err"
 
-# bug NAME STATUS PATTERN SED: with that change the firmware ends so, and the run reports why
+# bug NAME STATUS PATTERN SED: with that change, the firmware ends with this status, and the run reports the reason
 bug() {
     sed "$4" "$scratch/pil_table.c" >"$scratch/$1.c"
     ! cmp -s "$scratch/pil_table.c" "$scratch/$1.c" && build "${built##*/}" "$scratch/$1.c" "$scratch/$1"

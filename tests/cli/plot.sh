@@ -11,7 +11,7 @@ fi
 seed=${PLOT_SEED:-11}
 echo "# seed $seed"
 
-# A mechanism with coordinates in drawn units, an output, and a stop in every second one.
+# Writes a mechanism with coordinates in random units, an output, and a stop in every second one.
 generate() { # generate NUMBER
     awk -v seed="$seed$1" -v number="$1" 'BEGIN {
         srand(seed)
@@ -24,7 +24,7 @@ generate() { # generate NUMBER
     }' >"$scratch/m$1.whirl"
 }
 
-# well_formed FILE: XML whose first title is TITLE and whose description is not gnuplot's.
+# well_formed FILE: the file must be XML, its first title TITLE, and its description not gnuplot's.
 well_formed() {
     if command -v xmllint >/dev/null 2>&1; then
         xmllint --noout "$1" || return 1
@@ -54,7 +54,7 @@ for number in 1 2; do
             [ "$(sed -n "s/.* d='M[0-9.]*,[0-9.]* L[0-9.]*,[0-9.]* L[0-9.]*,.* Z  '.*/x/p" "$scratch/run.svg" | wc -l)" -eq $((2 * wanted)) ]
         verdict $? "and has $wanted panels"
     done
-    # the points, against the CSV's own numbers: the extremes that the alternative text tells
+    # compares the points with the CSV's numbers: the extremes in the alternative text
     tr -d '\r' <"$scratch/run.csv" | awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "pull") c = i; next }
         { v = $c + 0; if (NR == 2 || v < low) low = v; if (NR == 2 || v > high) high = v }
         END { printf "pull lies between %.4g and %.4g N.", low, high }' >"$scratch/told"
@@ -81,7 +81,7 @@ verdict $? "a legend and a title of one's own"
     grep -q '>after release<' "$scratch/two.svg" && grep -q '>place<' "$scratch/two.svg" && grep -qF '>speed [m/s]<' "$scratch/two.svg" &&
     ! grep -qF 'time [s]' "$scratch/two.svg"
 verdict $? "axis titles of one's own"
-# without colours: up to five curves of a panel have dashes that differ, whatever runs and quantities they are of
+# readable without colours: up to five curves of a panel have different dashes, whatever runs and quantities they show
 for drawn in "1 2" "1 3" "1 4" "1 5" "2 2"; do
     set -- $drawn
     quantities=$(echo x,x0 | cut -d, -f1-"$1")
@@ -94,7 +94,7 @@ for drawn in "1 2" "1 3" "1 4" "1 5" "2 2"; do
         [ "$(sed -n "s/.*dasharray='\([^']*\)'.*M.* L.*/\1/p" "$scratch/dashes.svg" | sort -u | wc -l)" -eq $(($1 * $2 - 1)) ]
     verdict $? "$2 runs of $1 quantities in a panel: their curves differ without colours"
 done
-# lowest FILE: the height of its lowest frame, in tenths of a pixel
+# lowest FILE: prints the height of the lowest frame, in tenths of a pixel
 lowest() {
     sed -n "s/.* d='M[0-9.]*,\([0-9.]*\) L[0-9.]*,\([0-9.]*\) L[0-9.]*,.* Z  '.*/\1 \2/p" "$1" |
         awk '{ h = $1 - $2; h = h < 0 ? -h : h; if (NR == 1 || h < least) { least = h } } END { printf "%d", 10 * least }'
@@ -111,7 +111,7 @@ for runs in 2 20; do
         verdict $? "$runs runs, $choice: panels $(lowest "$scratch/many.svg") high, of one run $one"
     done
 done
-# a file of another program's, with a comment and quotes, and without a file about it
+# a file of another program, with a comment and quotes, and without a file that describes it
 printf '# made by hand\n"time","x [mm]",other\n0,1,2\n1,2.5,\n2,3,4\n' >"$scratch/hand.csv"
 "$whirl" plot "$scratch/hand.csv" --out "$scratch/hand.svg" 2>"$scratch/err" && grep -q 'x lies between 1 and 3 mm\.' "$scratch/hand.svg" &&
     grep -q 'other lies between 2 and 4\.' "$scratch/hand.svg" && well_formed "$scratch/hand.svg" hand
@@ -124,8 +124,8 @@ for kind in png pdf; do
     verdict $? "a $kind"
 done
 
-# --- what cannot be drawn -------------------------------------------------------------------------------------------
-refused() { # refused ERROR HINT WORD...: exit status 2, both said, nothing drawn
+# --- what cannot be plotted -----------------------------------------------------------------------------------------
+refused() { # refused ERROR HINT WORD...: exit status 2, with error and hint, and nothing is drawn
     error=$1 hint=$2
     shift 2
     rm -f "$scratch/no.svg"
@@ -182,7 +182,7 @@ verdict $? "docs/plot.md names them: $named"
     grep -qF "<title>$(sed -n 's/^33  *//p' "$scratch/figures"), varied: --until 1s</title>" "$scratch/f.svg" &&
     grep -q '<desc>Varied by --until 1s --set m1=9 \[kg\]</desc>' "$scratch/g.svg" && ! cmp -s "$scratch/f.svg" "$scratch/g.svg"
 verdict $? "a figure, and the same varied"
-# marks of the motion as it is: not on one that is varied
+# marks of the motion without changes: not on a curve with a changed parameter
 printf '%s\n' 'title Marked' 'caption Marked.' 'run a thomson_a --until 1s' "panel X' [m/s]" \
     "set arrow from 0.4, graph 0 to 0.4, graph 1 nohead lc rgb '#123456'" "set label 'read here' at 0.5, graph 0.5" \
     'curve a | {time} | {der(X)} | -' >"$scratch/marked.fig"

@@ -10,7 +10,8 @@ fi
 seed=${PLOT_SEED:-7}
 echo "# seed $seed"
 
-# Outputs of many sizes, flat ones, some without a value, with short and long names; each of a unit of its own.
+# Writes outputs of many sizes, constant ones, some without a value, with short and long names, each with a unit of
+# its own.
 generate() { # generate NUMBER
     awk -v seed="$seed$1" 'BEGIN {
         srand(seed)
@@ -30,7 +31,8 @@ generate() { # generate NUMBER
     }' >"$scratch/drawn.whirl"
 }
 
-# aligned FILE: all frames begin and end at the same places, and there are as many as units: x and the six outputs.
+# aligned FILE: all frames must begin and end at the same places, and there is one for each unit: x and the six
+# outputs.
 aligned() {
     sed -n "s/.* d='M\([0-9.]*\),[0-9.]* L[0-9.]*,[0-9.]* L\([0-9.]*\),.* Z  '.*/\1 \2/p" "$1" >"$scratch/frames"
     [ "$(sort -u "$scratch/frames" | wc -l)" -eq 1 ] && [ "$(wc -l <"$scratch/frames")" -eq 14 ]
@@ -43,7 +45,7 @@ for number in 1 2 3 4 5 6; do
             "$whirl" run "$scratch/drawn.whirl" --until $until $quiet --plot "$scratch/drawn.svg" \
                 >"$scratch/out" 2>"$scratch/err"
             code=$?
-            # an output without a value is told by the run, which then has failed; gnuplot has nothing to add
+            # the run reports an output without a value, and fails; gnuplot prints nothing
             sed '/: error: at t = .* is not a finite number: output /,/^hint: give it a value/d' "$scratch/err" >"$scratch/more"
             [ $code -eq "$(grep -c ': error: ' "$scratch/err")" ] && [ ! -s "$scratch/more" ]
             verdict $? "mechanism $number until $until $quiet: drawn without a word of gnuplot's"
@@ -52,13 +54,13 @@ for number in 1 2 3 4 5 6; do
     done
 done
 
-# --- what a model says is no command, and stands as it is written -------------------------------------
-# Generated titles and file names with characters special to gnuplot, a shell or XML. Each would create a file if it were
-# executed. In titles, control characters are blanks in the picture.
+# --- a model's texts are never commands, and are shown unchanged -------------------------------------
+# Generated titles and file names have characters that are special to gnuplot, a shell or XML. Each would create a file if
+# it were executed. Control characters in titles become blanks in the picture.
 case $whirl in /*) ;; *) whirl=$PWD/$whirl ;; esac
 pieces='` $( ) ${ \ \\ \n \" _ ^ { } @ & &amp; &#65; < > ]]> ~ % %d # ; | ! ~a{.8b} a^2 a_{i} {/=30 @x ä µ → ° 𝄞 word'
 mkdir "$scratch/in"
-nasty() { # nasty NUMBER: a title
+nasty() { # nasty NUMBER: prints a title
     printf '%s\n' "$pieces" | awk -v seed="$seed" -v number="$1" '{
         srand(seed * 1000 + number)
         made = ""
@@ -91,9 +93,9 @@ while [ $number -lt "${PLOT_CASES:-5}" ]; do
     mkdir "$scratch/in"
 done
 
-# --- all of a run is in its picture -------------------------------------------------------------------
-# If swings are too many to be seen singly, the curve reaches the top and the bottom of the frame in each part. The curve is
-# the longest path of the picture, after its sample in the legend.
+# --- the picture shows the whole run -------------------------------------------------------------------
+# If there are too many swings to be seen singly, the curve reaches the top and the bottom of the frame in each part. The
+# curve is the longest path of the picture, after its sample in the legend.
 printf 'mechanism swings\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\nV = 39.4784176 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep 10 [ms]\nuntil 4000 [s] }\n' >"$scratch/swings.whirl"
 "$whirl" run "$scratch/swings.whirl" --quiet --plot "$scratch/swings.svg"
 tr "\n'" ' \n' <"$scratch/swings.svg" | awk 'length > longest { longest = length; path = $0 } END { sub(/.*M/, "L", path); print path }' |
@@ -107,11 +109,11 @@ verdict $? "4000 swings in 400000 steps: drawn as the band that they fill ($(cat
 "$whirl" run "$scratch/swings.whirl" --quiet --until 0 --plot "$scratch/point.svg"
 check "a single point is drawn" grep -q "<use xlink:href='#gpPt6'.*/>" "$scratch/point.svg"
 
-# --- the pictures of the pages: the palette's colours alone, a title and a text in words ----------------------------------
+# --- the pictures of the pages: only colours of the palette, a title and an alternative text ------------------------------
 allowed=$(grep -o '"#[0-9a-f]\{6\}"' host/io/gnuplot.h | tr -d '"#')
 [ "$(echo "$allowed" | wc -l)" -ge 15 ]
 verdict $? "the palette is read" /dev/null
-# of one picture: each colour that no palette has, and what is missing
+# foreign: prints each colour of a picture that is in no palette, and what is missing
 foreign() {
     grep -o "rgb([ 0-9,]*)" "$1" | sort -u | tr -d 'rgb() ' | awk -F, '{ printf "%02x%02x%02x\n", $1, $2, $3 }' | grep -vxF "$allowed
 000000"
@@ -128,7 +130,7 @@ foreign docs/figures/price.csv >"$scratch/said"
 [ "$(wc -l <"$scratch/said")" -eq 2 ]
 verdict $? "and a picture without them is seen" "$scratch/said"
 
-# --- gnuplot's own words: a stand-in that warns, and one that fails -----------------------------------
+# --- gnuplot's own messages: a stand-in that warns, and one that fails --------------------------------
 mkdir "$scratch/bin"
 for code in 0 1; do
     printf '#!/bin/sh\ncat >/dev/null\necho "<svg>a picture</svg>"\necho "a word of gnuplot" >&2\nexit %s\n' $code >"$scratch/bin/gnuplot"
@@ -144,12 +146,12 @@ for code in 0 1; do
     fi
 done
 
-# --- a file that takes no more, as on a full disk: gnuplot says that all is well -----------------------
+# --- a file that accepts no more bytes, as on a full disk, although gnuplot reports success ------------
 for kind in svg png; do
     "$whirl" run epicyclic_from_rest --until 1s --quiet --plot "$scratch/whole.$kind" 2>"$scratch/err"
     check "a whole picture is one: $kind" [ $? -eq 0 ]
     blocks=$((($(wc -c <"$scratch/whole.$kind") - 1) / 512))
-    for most in 1 $((blocks / 2)) $blocks; do # the last one lacks less than 512 bytes
+    for most in 1 $((blocks / 2)) $blocks; do # in the last case, less than 512 bytes are missing
         (
             ulimit -f "$most"
             "$whirl" run epicyclic_from_rest --until 1s --quiet --plot "$scratch/half.$kind"

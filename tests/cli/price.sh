@@ -4,7 +4,7 @@
 # WHIRL_FEW=1: fewer rows of fewer scenes.
 . "$(dirname "$0")/../checks.sh"
 
-usual() { # usual COMMAND...: not where few cases are asked
+usual() { # usual COMMAND...: runs it, except if few cases are wanted
     [ -n "${WHIRL_FEW:-}" ] || "$@"
 }
 
@@ -41,7 +41,7 @@ END
 only=whirl
 every=${WHIRL_FEW:+30}
 every=${every:-9}
-least=${WHIRL_FEW:+2} # so many rows at least
+least=${WHIRL_FEW:+2} # smallest number of rows
 least=${least:-5}
 again() {
     target=$1
@@ -85,7 +85,7 @@ usual again spherical_flight z '5 * cos(1.25) + (8 * cos(1.25) + 0.75 * 5 * sin(
 scale=10
 again "$scratch/pendulum.whirl" energy '2 - 8 * cos(1)' --of energy
 
-# The front: along it prices rise and errors fall, and no row beside it is as cheap with less error.
+# Along the front, prices rise and errors fall. A row beside the front that is as cheap must have a larger error.
 awk_front='NR > 1 { e[NR] = $2; p[NR] = $7; f[NR] = $1 }
     END { for (i = 2; i <= NR; i++) { beaten = 0; matched = 0
               for (k = 2; k <= NR; k++) { beaten += p[k] <= p[i] && e[k] < e[i]
@@ -94,7 +94,7 @@ awk_front='NR > 1 { e[NR] = $2; p[NR] = $7; f[NR] = $1 }
           exit bad || on < 3 }'
 check "the front is what nothing beats" awk -F, "$awk_front" "$scratch/rows.csv"
 
-# --- a step as one matrix, and tables: each row measured again, and only where a scene takes them ---------------------
+# --- a step as one matrix, and tables: each row is measured again, and such rows exist only for suitable scenes -------
 every=${WHIRL_FEW:+80}
 every=${every:-29}
 only='--tables linear'
@@ -113,7 +113,8 @@ verdict $? "without an FPU, fixed point is on the front" "$scratch/rows.csv"
 scale=1
 only='--matrix exact'
 again "$scratch/spring.whirl" x 'cos(8 * t)' --of x
-# The exact matrix errs by rounding alone, by any step: nothing that errs by less than 1e-6 is as cheap. (Rows stand by price.)
+# The exact matrix has only round-off errors, with any step. So no row with an error below 1e-6 is cheaper. (Rows are
+# sorted by price.)
 awk -F, 'NR > 1 && $2 < 1e-6 && !seen++ { exit !($1 == 1 && /--matrix exact/) } END { if (!seen) { exit 1 } }' "$scratch/rows.csv"
 verdict $? "the cheapest that is near a linear scene is the exact matrix" "$scratch/rows.csv"
 only='--matrix rk4'
@@ -158,19 +159,19 @@ verdict $? "--error x=0.1mm is --of x --error 0.1mm" "$scratch/ways"
 [ $? -eq 1 ] && grep -q 'no setting that was tried has an error below' "$scratch/err"
 verdict $? "none within 1e-30: exit status 1"
 
-# --- what varies: the worst place, which is at an end, and the line that does it again ------------------------------
+# --- --vary: the worst place is at an end, and the printed line repeats it ------------------------------------------
 "$whirl" price "$scratch/spring.whirl" --of x --effort 1e8 --vary push=0..64 --csv "$scratch/v.csv" >"$scratch/out" 2>"$scratch/err"
 verdict $? "price --vary"
 grep -q 'worst of 3 sampled places' "$scratch/out" && grep -q -- '--set push=0' "$scratch/v.csv"
 verdict $? "three places, and the worst is named" "$scratch/out"
-# the spring is pushed with the force that holds it, so it stays and has no error: the other end is the worst
+# the spring is pushed with the force that holds it, so it does not move and has no error: the other end is the worst
 awk -F, 'NR > 1 { n++; if ($0 ~ /push=0 /) { zero++ } } END { exit !(n > 10 && zero > 0.9 * n) }' "$scratch/v.csv"
 verdict $? "the worst place is where it moves most" "$scratch/v.csv"
-# The code of a product has the scene's own values, whatever place is the worst.
+# The code of a product has the scene's own values, whichever place is the worst.
 awk -F, 'NR > 1 && $NF ~ /--(set|start)/ { bad = 1 } END { exit bad }' "$scratch/v.csv"
 verdict $? "the line that writes C changes no value" "$scratch/v.csv"
-# The scene's own start is always sampled: the error of a linear spring is the larger, the farther it starts. Drawn ranges
-# with its start of 1 m outside, between two places, and at a place.
+# The scene's own start is always sampled: the error of a linear spring rises with the distance of its start. Random
+# ranges, with the scene's start of 1 m outside, between two places, and at a place.
 awk 'BEGIN { srand(71); for (i = 0; i < 6; i++) {
     to = i % 3 == 0 ? 0.2 + 0.7 * rand() : i % 3 == 1 ? 1.2 + rand() : 1
     n = 2 + int(3 * rand()); from = 0.01 + 0.1 * rand()
@@ -183,9 +184,9 @@ while read -r from to count places far; do
     verdict $? "--vary x=$from..$to:$count samples the scene's own start as well" "$scratch/out"
 done <"$scratch/ranges"
 
-first() { sed -n "s/^$1//p" "$scratch/out" | head -n 1; } # HEAD: what stands behind it in the first of the two answers
+first() { sed -n "s/^$1//p" "$scratch/out" | head -n 1; } # first HEAD: prints the text after it in the first of the two answers
 
-# --- choose: what is chosen is run ----------------------------------------------------------------------------------
+# --- choose: the chosen setting is run ------------------------------------------------------------------------------
 for request in '1e-3 200Hz' '1e-2 100Hz' '1e-4 500Hz' '1e-5 1kHz'; do
     [ -z "${WHIRL_FEW:-}" ] || [ "$request" = '1e-3 200Hz' ] || continue
     set -- $request
@@ -218,7 +219,7 @@ for effort in 4e5 8e5; do
         grep -q '; for [1-9][0-9]* settings, finer steps exceed their share of --effort' "$scratch/out"
     verdict $? "settings that take more than --effort $effort are counted" "$scratch/out"
 done
-# Named methods take the place of the default ones, and the same effort gives the same table again.
+# Named methods replace the default ones, and the same effort gives the same table again.
 "$whirl" price "$scratch/pendulum.whirl" --effort 2e7 --method rk38,heun --csv "$scratch/m.csv" >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && awk -F, 'NR > 1 { n[$13]++ } END { exit !(length(n) == 2 && n["heun"] > 5 && n["rk38"] > 5) }' "$scratch/m.csv"
 verdict $? "--method rk38,heun: these two" "$scratch/m.csv"
@@ -243,7 +244,7 @@ chaos() {
 }
 usual chaos
 
-# --- what is odd, but no mistake -----------------------------------------------------------------------------------------
+# --- odd input without a mistake -----------------------------------------------------------------------------------------
 cat >"$scratch/odd file.whirl" <<'END'
 mechanism odd "stays at zero in parts, by rounding alone, and is stiff"
 coordinate x [m]
@@ -258,7 +259,7 @@ scene odd_rests { start x = 0 [m]; step 1 [ms]; until 2 [s] }
 scene odd_tiny { start x = 1e-12 [m]; step 1 [ms]; until 2 [s] }
 END
 odd="$scratch/odd file.whirl"
-asked() { # EXIT-STATUS TEXT WORD...: choose ends so, in time, says TEXT, and nothing that is no number
+asked() { # asked EXIT-STATUS TEXT WORD...: choose ends in time, prints TEXT, and prints no invalid number
     wanted=$1
     text=$2
     shift 2
@@ -267,12 +268,12 @@ asked() { # EXIT-STATUS TEXT WORD...: choose ends so, in time, says TEXT, and no
         ! grep -qiE '[^a-z](nan|inf)[^a-z]' "$scratch/out"
     verdict $? "choose $*: exit status $wanted, $text" "$scratch/out"
 }
-# an output that stays zero, or is only round-off, fits any setting: its error is relative to the requested one
+# an output that stays zero, or is only round-off, suits any setting: its error is relative to the requested one
 for output in zero sum y; do
     asked 0 '^fewest cycles' "$odd:odd_rings" --of $output --error 1um
 done
 asked 0 '^fewest cycles' "$odd:odd_tiny" --error 1e-3
-# a motion that every setting has exactly: a bound, and still a component that is the worst
+# a motion that every setting computes exactly: its error is a bound, and a worst component is still named
 cat >"$scratch/glide.whirl" <<'END'
 mechanism glide "straight on, in whole numbers"
 coordinate x [m]
@@ -286,10 +287,10 @@ verdict $? "price of a motion without errors names a component" "$scratch/g.csv"
 asked 0 '^fewest cycles' "$odd:odd_tiny" --of x --error 1mm
 asked 1 'nothing moves' "$odd:odd_rests" --error 1e-3
 usual asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 0.2s
-# places of a range where nothing moves are left out, and named
+# places of a range at which nothing moves are omitted, and named
 asked 0 'left out *nothing moves with --start x=0$' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
 asked 1 'with --start x=0: nothing moves' "$odd:odd_rings" --error 1e-2 --start "x=0 [m]" --vary "x=0..0 [m]:1"
-# what rests at one place of a range alone is not left out
+# a component that rests at a single place of a range is kept
 cat >"$scratch/two.whirl" <<'END'
 mechanism two "one of them may rest"
 coordinate x [m]
@@ -301,7 +302,7 @@ END
 asked 0 '^fewest cycles' "$scratch/two.whirl" --error 0.1 --vary "x=0..1 [m]"
 ! grep -q 'left out' "$scratch/out"
 verdict $? "what moves at any place counts" "$scratch/out"
-# rates that do not divide, that are slower than the motion, or that nothing follows; clocks that are none
+# rates that do not divide, that are slower than the motion, or that nothing follows; invalid clocks
 for rate in 7Hz 333.333Hz 0.6Hz 123.456789123456Hz; do
     asked 0 '^fewest cycles' "$odd:odd_rings" --error 1e-2 --rate $rate
     step=$(first 'fewest cycles .*--step ')
@@ -319,21 +320,22 @@ asked 0 '^fewest cycles' "$odd:odd_rings" --error 1e300
 for horizon in 1ms 1ns; do
     asked 0 '^fewest cycles' "$odd:odd_rings" --error 1e-2 --horizon $horizon
 done
-# the lines do it again though file and value have blanks
+# the printed lines work although file and value contain blanks
 asked 0 '^fewest cycles' "$odd:odd_rings" --error 1e-3 --rate 100Hz --set 'k=20 [N/m]' --start "x'=3 [m/s]"
 again=$(first '  again *whirl ')
 eval "\"$whirl\" $again --quiet --csv $scratch/again.csv" && [ "$(wc -l <"$scratch/again.csv")" -gt 100 ]
 verdict $? "a line with blanks runs" "$scratch/out"
-# where no one limit would do, all of them are told
+# if no single limit can be met, all are named
 asked 1 'a clock of' "$odd:odd_rings" --error 1e-3 --rate 100Hz --clock 1kHz --flash 1KB --ram 20B
 grep -q 'bytes of flash and .* of RAM with the stack' "$scratch/out" && ! grep -q 'no tried setting' "$scratch/out"
 verdict $? "and what all of them would have to be" "$scratch/out"
-# contacts: no price, and it says why, and what can be had instead
+# with contacts there is no price; the message gives the reason and the alternative
 for board in mps2-an386 atmega328p host; do
     asked 1 'the cost of contacts must be counted: leave out --predict' ball_bounces --error 1e-3 --board $board
 done
 
-# --- the command that a run names works: of each mechanism without a scene, of which some do not move, and of two scenes
+# --- the command that a run prints works: for each mechanism without a scene, some of which do not move, and for two
+# scenes
 named=0
 still=0
 for target in $("$whirl" list | awk '$1 == "mechanism" { print $2 }') "thomson_a --step 0.1s" ball_bounces; do

@@ -1,6 +1,6 @@
 #!/bin/sh
-# price_pages.sh: the blocks, charts and rows that `make price` writes: blocks are what the generator makes of the committed
-# rows, rows agree with themselves, some of them are run and counted again, and what is wrong is seen.
+# price_pages.sh: the blocks, charts and rows that `make price` writes. Blocks must follow from the committed rows,
+# rows must be consistent, some rows are run and counted again, and planted errors must be found.
 . "$(dirname "$0")/../checks.sh"
 pages="docs/price.md docs/dev/fronts.md"
 mkdir -p "$scratch/docs/dev"
@@ -15,7 +15,7 @@ for page in $pages; do
 done
 [ "$blocks" -ge 15 ]
 verdict $? "$blocks blocks" /dev/null
-# every digit that stands in a block is put back
+# changes digits in the blocks; the generator must restore every digit
 sed '/price-table.*begin/,/price-table.*end/s/[0-9]k/9k/' docs/price.md >"$scratch/docs/price.md"
 ! cmp -s docs/price.md "$scratch/docs/price.md" && sh mk/curves/pages.sh docs/figures "$scratch/docs/price.md" &&
     cmp docs/price.md "$scratch/docs/price.md" >"$scratch/err"
@@ -29,8 +29,8 @@ done
 verdict $? "refused: a scene that is not there"
 
 # --- rows ------------------------------------------------------------------------------------------------------------
-# Prices are a step's figure over the step; what was counted says instructions, and cycles where it says cycles; along a
-# counted front prices rise and errors fall.
+# A price is a step's figure divided by the step. A counted row has instructions, and cycles if its price is in cycles.
+# Along a counted front, prices rise and errors fall.
 cat >"$scratch/rows.awk" <<'AWK'
 FNR == 1 { header(); next }
 {
@@ -41,7 +41,7 @@ FNR == 1 { header(); next }
     if (off > 1e-5 || off < -1e-5) { print FNR ": the price is not that of a step over the step"; bad = 1 }
     if (field("basis") !~ /^(counted|predicted)$/) { print FNR ": basis"; bad = 1 }
     name = field("scene")
-    sub(/[+].*/, "", name) # a part of its motion
+    sub(/[+].*/, "", name) # removes the part that limits the motion
     if (field("run") !~ ("^whirl run " name " .*--step " field("step_s") " --until " field("until_s") "$")) {
         print FNR ": another line"; bad = 1
     }
@@ -60,11 +60,11 @@ AWK
 awk -F, -f mk/curves/words.awk -f "$scratch/rows.awk" docs/figures/price.csv >"$scratch/said" 2>&1
 verdict $? "rows, counted ones, scenes on boards: $(tail -n 1 "$scratch/said")" "$scratch/said"
 
-# --- what makes them: fronts of drawn rows against trying each row with each; numbers in three digits ----------------------
+# --- the generator: fronts of random rows, compared with a comparison of all pairs; numbers in three digits ----------------
 awk 'BEGIN {
     srand(20)
     for (scene = 1; scene <= 4; scene++) { for (board = 1; board <= 2; board++) { for (i = 0; i < 60; i++) {
-        # steps of a tenth, so that some are equal
+        # values in steps of a tenth, so that some are equal
         printf "s%d,b%d,%.9g,x,1,1,1,cycles,%.6g,,1,%s,1,1,1,rk4,float,run\n", scene, board, 10 ^ (-int(rand() * 40) / 10), \
             10 ^ (int(rand() * 40) / 10), rand() < 0.5 ? "counted" : "predicted"
     } } }
@@ -76,7 +76,7 @@ awk -F, -v OFS=, -v counted=b2 -f mk/curves/front.awk "$scratch/drawn" | awk -F,
             beaten = !may[i]
             for (k = 1; k <= NR; k++) {
                 if (k != i && may[k] && group[k] == group[i] && p[k] <= p[i] && e[k] <= e[i]) {
-                    beaten = beaten || p[k] < p[i] || e[k] < e[i] || k < i # of equal ones the first is marked
+                    beaten = beaten || p[k] < p[i] || e[k] < e[i] || k < i # of equal rows, the first is marked
                 }
             }
             if (beaten == on[i]) { print i, e[i], p[i], on[i]; bad = 1 }
@@ -116,7 +116,7 @@ END { print n }
 AWK
     )
     rings=$(grep -o "<use xlink:href='#gpPt5' [^>]*color='rgb(  0,   0,   0)'" "$svg" | wc -l)
-    cat $pages | grep -q "${svg#docs/}" && [ "$rings" -eq $((rows + 2)) ] # and one in each panel's key
+    cat $pages | grep -q "${svg#docs/}" && [ "$rings" -eq $((rows + 2)) ] # one more in each of the two legends
     verdict $? "$svg: $rings rings, $rows counted rows and two in the keys" "$svg"
 done
 if command -v gnuplot >/dev/null; then
@@ -125,14 +125,14 @@ if command -v gnuplot >/dev/null; then
     verdict $? "the chart of fronts is drawn, three boards"
 fi
 
-# --- again, from the command lines: errors against another reference -----------------------------------------------------
+# --- rows run again from their command lines: errors compared with another reference -------------------------------------
 COUNT=0 SOME=7 sh mk/curves/again.sh docs/figures/price.csv "$scratch/again" two_mass_relative rig_fixed spherical_flight >"$scratch/said" 2>&1
 verdict $? "$(tail -n 1 "$scratch/said")" "$scratch/said"
 awk -F, -v OFS=, 'NR > 1 { $4 *= 1.03 } { print }' docs/figures/price.csv >"$scratch/off.csv"
 ! COUNT=0 SOME=7 sh mk/curves/again.sh "$scratch/off.csv" "$scratch/again" rig_fixed >"$scratch/said" 2>&1 && grep -q differs "$scratch/said"
 verdict $? "errors that are off by three hundredths are seen" "$scratch/said"
 
-# --- again: a few steps, counted ---------------------------------------------------------------------------------------
+# --- some steps counted again ------------------------------------------------------------------------------------------
 BOARDS=mps2-an386 SOME=5 sh mk/curves/again.sh docs/figures/price.csv "$scratch/again" rig_fixed >"$scratch/said" 2>&1
 verdict $? "$(tail -n 1 "$scratch/said")" "$scratch/said"
 awk -F, -v OFS=, 'NR > 1 { $11 *= 1.01 } { print }' docs/figures/price.csv >"$scratch/off.csv"

@@ -1,9 +1,9 @@
 #!/bin/sh
-# printed_zeros.sh: nothing that is printed says "-0" or "-nan": summaries, books, records, rows of sweeps, accelerations, derived
-# text, for every built-in scene, from zeros with a sign too. The state keeps its own sign.
+# printed_zeros.sh: no output contains "-0" or "-nan": summaries, the balance, records, rows of sweeps, accelerations,
+# derived text, for every built-in scene, also from starts that are zeros with a sign. The state keeps its own sign.
 . "$(dirname "$0")/../checks.sh"
 
-# signed FILE...: lines with a zero that has a sign. "-0.5" and "1e-05" have none.
+# signed FILE...: prints lines with a zero that has a sign; "-0.5" and "1e-05" do not count.
 signed() {
     grep -nE -e '-nan|(^|[^0-9A-Za-z_.)-])-0(\.0*)?(e[-+]?[0-9]+)?($|[^0-9.e])' "$@"
 }
@@ -18,7 +18,7 @@ verdict $? "and leaves the others"
 scenes=$("$whirl" list | awk '$1 == "scene" { print $2 }')
 count=0
 for scene in $scenes; do
-    # in double with the books inside the run, in float with those beside it
+    # in double with the ledger inside the run, in float with the balance beside it
     for more in 'double --with ledger' 'float --without ledger'; do
         number=${more%% *}
         "$whirl" run "$scene" --until 5ms --number $more --csv "$scratch/$scene.$number.csv" \
@@ -67,7 +67,7 @@ signed "$scratch/still.out" >"$scratch/found"
 [ ! -s "$scratch/found" ] && [ "$(wc -l <"$scratch/still.out")" -gt 100 ]
 verdict $? "a mechanism of zeros with a sign" "$scratch/found"
 
-# what is printed alike is not made alike: the start's sign is in the state
+# two starts that are printed alike may differ: the start's sign is in the state
 "$whirl" run "$still" --until 0 >"$scratch/minus"
 "$whirl" run "$still" --until 0 --start x=0 >"$scratch/plus"
 [ "$(sed -n 's/^state hash//p' "$scratch/minus")" != "$(sed -n 's/^state hash//p' "$scratch/plus")" ]

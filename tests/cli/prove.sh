@@ -4,7 +4,7 @@
 . "$(dirname "$0")/../checks.sh"
 about=prove
 
-# proved PATTERN WORD...: status 0, and these words on standard output
+# proved PATTERN WORD...: status 0, and the pattern on standard output
 proved() {
     pattern=$1
     shift
@@ -34,13 +34,13 @@ proved '^proved to the end, t = 0 s$' epicyclic_from_rest --until 0
 "$whirl" prove epicyclic_from_rest --until 0.1s --csv - >"$scratch/rows" 2>"$scratch/err"
 "$whirl" trust epicyclic_from_rest --until 0.1s --proved --csv - 2>&1 >"$scratch/out" | cmp - "$scratch/err" && cmp "$scratch/rows" "$scratch/out" && [ -s "$scratch/rows" ]
 verdict $? "whirl trust --proved says the same"
-# a step that is too coarse is off, and that is proved, too
+# with a step that is too coarse, the error is larger, and that is proved, too
 proved 'after that the error is larger: proved$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
-# a start that float cannot have is off from the beginning
+# a start that float cannot represent has an error from the beginning
 proved '^  theta  *never  *within 1.00e-12 rad: its error is larger at the start: proved$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
 grep -q '^nothing is proved: theta is not within its tolerance at the start$' "$scratch/out"
 verdict $? "a start that is off: nothing is proved" "$scratch/out"
-# noise is of what is recorded: the motion is the same
+# noise is added to records only: the motion is the same
 cat >"$scratch/noisy.whirl" <<'END'
 mechanism noisy "a swing whose angle is read with noise"
 coordinate a [rad]
@@ -75,7 +75,7 @@ verdict $? "the run's column is what whirl run says" "$scratch/last"
 [ $? -eq 0 ] && cmp "$scratch/out" "$scratch/rows" >"$scratch/diff" && grep -q '^proved to the end' "$scratch/err"
 verdict $? "--csv -: the rows, and the words on standard error" "$scratch/diff"
 
-# --- the C that boards run: its floats are those that were held, and lie within a millimetre of all that the motion may be ----
+# --- the C that boards run: its floats are the compared ones, and lie within a millimetre of all possible motions -------------
 cat >"$scratch/main.c" <<'END'
 #include <stdio.h>
 
@@ -110,7 +110,7 @@ if [ -z "${WHIRL_FEW:-}" ]; then
     verdict $? "its records are those that were held" "$scratch/board"
 fi
 
-# --- what ends it ------------------------------------------------------------------------------------------------------------
+# --- what ends a proof -------------------------------------------------------------------------------------------------------
 ended 0 '^whirl prove: the effort is used up at t = [0-9.]* s of 10 s$' 'there the effort is used up$' thomson_a --step 1ms --effort 7.5e7
 ended 0 '^hint: use a larger --effort' '^proved until t = [0-9.]* s of 10 s$' thomson_a --step 1ms --effort 7.5e7
 cat >"$scratch/pole.whirl" <<'END'
@@ -122,7 +122,7 @@ scene blows { start x = 1 [m], x' = 1 [m/s]; step 1 [ms]; until 2 [s] }
 END
 ended 1 'error: the run diverged in the step after t = 1 s' '^proved until t = 0.99' "$scratch/pole.whirl"
 ended 1 'the tube ends at t = 0.99.* s: after that the exact motion is not enclosed' 'there the tube ends$' "$scratch/pole.whirl" --within x=1e9m --within "x'=1e9m/s"
-# where the first step already leads nowhere
+# the first step is already impossible
 cat >"$scratch/root.whirl" <<'END'
 mechanism root "a force that has no slope at the start"
 coordinate x [m]
@@ -131,9 +131,9 @@ Q(x) = 1 [N]*sqrt(x/1 [m])
 scene begins { start x = 0 [m]; step 1 [ms]; until 1 [s] }
 END
 ended 0 'the tube ends at t = 0 s' 'there the tube ends$' "$scratch/root.whirl"
-# where the run does
+# the run fails first
 ended 1 'error: the run diverged in the step after t = 0 s' '^proved until t = 0 s of' tests/mechanisms/kepler.whirl
-proved '^proved to the end, t = 10 s$' tests/mechanisms/double_pendulum.whirl # it hangs still
+proved '^proved to the end, t = 10 s$' tests/mechanisms/double_pendulum.whirl # it hangs at rest
 for signal in INT TERM; do
     stop $signal "has_bytes 200000 $scratch/i.csv.part" prove thomson_a --csv "$scratch/i.csv"
     [ "$code" -eq 130 ] && grep -q '^whirl prove: interrupted at t = [0-9.]* s of 10 s$' "$scratch/err" &&

@@ -1,18 +1,19 @@
 #!/bin/sh
-# recorded_lists.sh: operation lists of every scene, with and without compensated sums, and of generated mechanisms are
-# those on record in tests/reference/lists.txt: the number of operations (the price) and a sum over the text (the bits). So
-# are the models' hashes. To change them, run `WHIRL=build/whirl sh tests/cli/recorded_lists.sh --write` and say in
-# CHANGELOG.md what moved and why. Other tests check that they are right.
+# recorded_lists.sh: the operation lists of every scene, with and without compensated sums, and of generated
+# mechanisms are those on record in tests/reference/lists.txt: the number of operations (the price) and a checksum of
+# the text (the bits). The same is true of the models' hashes. To change them, run `WHIRL=build/whirl sh
+# tests/cli/recorded_lists.sh --write`, and say in CHANGELOG.md what changed and why. Other tests check that they are
+# right.
 . "$(dirname "$0")/../checks.sh"
 
 here=$(dirname "$0")
 record=$here/../reference/lists.txt
 count=48
 
-# Operations of a generated file, one a line, wherever they stand.
+# lists FILE: prints the operations of a generated file, one a line.
 lists() { grep -hE '^ +(const wh_real [a-z][0-9]+ =|[a-z_]+\[[0-9]+\] = |wh_sincos(_parts)?\()' "$1"; }
 
-# line NAME FILE: the name, how many operations, and the sum of their text
+# line NAME FILE: prints the name, the number of operations, and the checksum of their text
 line() {
     lists "$2" >"$scratch/lists" || true
     echo "$1 $(wc -l <"$scratch/lists") $(cksum <"$scratch/lists" | cut -d ' ' -f 1)"
@@ -26,7 +27,7 @@ for file in "$scratch"/scenes/*.c; do
     [ "$name" = scenes ] || line "$name" "$file"
 done >"$scratch/now"
 
-# With compensated sums factors are multiplied in, and looked for (host/image/op_list_scaling.h).
+# With compensated sums, factors are searched for and multiplied in (host/image/op_list_scaling.h).
 good=0
 for name in $("$whirl" list | tr -d '\r' | awk '$1 == "scene" { print $2 }'); do
     "$whirl" derive "$name" --as c --compensated >"$scratch/made.c" 2>>"$scratch/out" || good=1

@@ -11,7 +11,7 @@ well_formed() {
         END { exit bad || NR < 2 }' "$1" && [ "$(tail -c 2 "$1" | od -An -tx1 | tr -d ' ')" = 0d0a ]
 }
 
-header_is() { # header_is FILE TEXT
+header_is() { # header_is FILE TEXT: compares the header
     [ "$(head -n 1 "$1")" = "$(printf '%s\r' "$2")" ]
 }
 
@@ -47,8 +47,8 @@ run "$scratch/mixed.whirl" --until 10ms --quiet --csv "$scratch/m.csv" &&
     header_is "$scratch/m.csv" 'time,a,b,c,der(a),der(b),der(der(a)),twice'
 verdict $? "derivatives of higher order are der(der(a))"
 
-# --- digits: what is read back is what was written -------------------------------------------------------
-# The state at 0.25 s given back as a start must lead to the same end as the run that went through it.
+# --- digits: the value that is read is the value that was written ------------------------------------------------
+# If the state at 0.25 s is given as a start, the run must end as the run that went through it.
 run thomson_plane_b --until 0.25s --quiet --csv "$scratch/h.csv"
 set -- $(awk -F, 'NR == 1 { n = (NF - 1) / 2; for (i = 2; i <= NF; i++) name[i] = $i; next } { last = $0 }
     END { split(last, v, ",")

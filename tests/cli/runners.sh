@@ -3,7 +3,7 @@
 # whatever their programs do.
 . "$(dirname "$0")/../checks.sh"
 
-# expect WHAT STATUS LINE COMMAND...: the exit status, and the last line that is printed
+# expect WHAT STATUS LINE COMMAND...: checks the exit status and the last printed line
 expect() {
     what=$1
     status=$2

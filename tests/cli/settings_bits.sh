@@ -15,7 +15,7 @@ for option in method angles matrix tables; do
     words=$("$whirl" run two_mass_relative --$option '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p')
     [ -n "$words" ] || verdict 1 "--$option has words"
     for word in $words; do
-        case $word in turned | none) continue ;; esac # what stands without the option
+        case $word in turned | none) continue ;; esac # used if the option is omitted
         grep -q -e "--$option $word " "$here/settings.txt" || verdict 1 "--$option $word is among the settings" "$here/settings.txt"
     done
 done

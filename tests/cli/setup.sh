@@ -5,9 +5,10 @@
 
 bin=$scratch/bin
 said=$scratch/said
-log=$scratch/log # what apt-get was asked for
+log=$scratch/log # the packages that apt-get was asked for
 
-# machine ROOT LISTS NETWORK: fresh, with what every Debian has; ROOT yes or no; LISTS: are there package lists?
+# machine ROOT LISTS NETWORK: makes a fresh machine with the commands of every Debian. ROOT is yes or no; LISTS: are
+# there package lists?
 machine() {
     rm -rf "$bin" "$log" "$scratch/lists"
     mkdir "$bin"
@@ -32,7 +33,7 @@ case " \$* " in
     cp "$said" "$scratch/before"
     [ $3 = yes ] || { echo "E: Failed to fetch" >&2; exit 100; }
     for tool in gcc ar gnuplot arm-none-eabi-gcc qemu-system-arm; do
-        # the compiler is asked where its library is
+        # this compiler finds no library
         printf '#!/bin/sh\necho /dev/null\n' >"$bin/\$tool"
         chmod +x "$bin/\$tool"
     done ;;
@@ -41,7 +42,7 @@ END
     chmod +x "$bin/id" "$bin/apt-get"
 }
 
-# deps GROUP...: its exit status; all that it says is in $said
+# deps GROUP...: returns its exit status; its output is in $said
 deps() {
     PATH=$bin /bin/sh mk/setup/deps.sh "$@" >"$said" 2>&1 </dev/null
 }
@@ -90,12 +91,12 @@ machine yes yes yes
 ! DEPS_DRY_RUN=1 deps host plot && grep -q 'gnuplot-nox' "$said" && [ ! -s "$log" ]
 verdict $? "a dry run says it and does nothing" "$said"
 
-# every target of the Makefile that needs something names it first
+# every target of the Makefile that needs a package asks for it first
 for target in run test check bench size figures emulate hashes; do
     env -u MAKELEVEL -u MFLAGS MAKEFLAGS= make -n "$target" 2>/dev/null | head -n 1 | grep -q 'mk/setup/deps.sh'
     verdict $? "make $target looks first at what is there" /dev/null
 done
-# --- long targets tell their stages --------------------------------------------------------------------------------------
+# --- long targets print their stages -------------------------------------------------------------------------------------
 for goal in rig-now run-now; do
     env -u MAKEFLAGS -u MAKELEVEL make -n $goal 2>&1 | grep -o 'echo "[0-9] of [0-9]: .*' >"$said"
     [ "$(cut -c7 "$said" | tr -d '\n')" = 12 ] && ! grep -v ' of 2: ' "$said"

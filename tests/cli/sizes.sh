@@ -11,7 +11,7 @@ cat "${0%/*}/symbols"' >"$scratch/nm"
 chmod +x "$scratch/size" "$scratch/nm"
 echo "LOAD $scratch/objects/main.o" >"$scratch/station.map"
 
-# image FLASH VARIABLES FRAME: an image of so many bytes, main() with such a frame.
+# image FLASH VARIABLES FRAME: makes an image of this size, whose main() has this frame.
 image() {
     printf '.vectors 100 0\n.text %d 0\n.bss %d 0\n.noinit 30 0\n.stack 5000 0\n' $(($1 - 100)) $(($2 - 30)) >"$scratch/sections"
     printf '00001000 A board_stack_limit\n00005096 A board_stack_top\n100 T board_reset\n200 T main\n300 t same.0\n300 t same.1\n' >"$scratch/symbols"
@@ -20,7 +20,7 @@ node: { title: "main" label: "main\\na.c:2\\n%d bytes (static)" }
 edge: { sourcename: "board_reset" targetname: "main" label: "a.c:3" }\n' "$3" >"$scratch/objects/main.ci"
 }
 
-# sizes FLASH_MOST RAM_MOST: what size.sh says.
+# sizes FLASH_MOST RAM_MOST: runs size.sh.
 sizes() {
     BOARD=played CC="${CC:-cc}" FLAGS=- SIZE=$scratch/size NM=$scratch/nm OBJECTS=$scratch/objects FLASH_MOST=$1 RAM_MOST=$2 \
         MOST_OF="$scratch/station.elf" mk/size/size.sh "$scratch/sizes.csv" "$scratch/station.elf" >"$scratch/out" 2>"$scratch/err"
@@ -43,8 +43,8 @@ while read -r flash variables frame over; do
     verdict $? "$over bytes of memory too many are told"
 done <"$scratch/drawn"
 
-# Of an image that is optimised as a whole the graph lies beside it, whatever else has a name like its members'; of functions that
-# are alike one has the figure.
+# If an image is optimised as a whole, its call graph is in its folder, among files with names like its members'. If
+# functions are alike, only one has the figure.
 image 9999 999 64
 printf 'node: { title: "a.o:same.0" label: "same.0\\na.c:4\\n%d bytes (static)" }
 edge: { sourcename: "main" targetname: "a.o:same.1" label: "a.c:5" }\n' 24 >>"$scratch/objects/main.ci"
@@ -58,8 +58,8 @@ verdict $? "an image that is optimised as a whole has its call graph beside it"
 mv "$scratch/station.elf.ltrans0.ltrans.ci" "$scratch/objects/main.ci"
 echo "LOAD $scratch/objects/main.o" >"$scratch/station.map"
 
-# An interrupt's handler, which nobody calls, counts beside main(), with what the processor stacks for it and for a fault: a name of
-# the whole image, or, where that is optimised as a whole, of one file.
+# The handler of an interrupt, which no function calls, is added to main(), with what the processor stacks for it and
+# for a fault. Its name belongs to the whole image, or to one file if the image is optimised as a whole.
 for kind in T t; do
     image 9999 999 64
     echo "400 $kind on_tick" >>"$scratch/symbols"

@@ -16,7 +16,7 @@ begin() {
     await test -e "$RIG_TTY"
     exec 3<>"$RIG_TTY"
 }
-# ask LINE: its answer goes to $answer
+# ask LINE: sends the line; the answer is in $answer
 ask() {
     printf '%s\r' "$1" >&3
     answer=
@@ -26,7 +26,7 @@ hear() {
     IFS= read -r answer <&3
     answer=${answer%"$(printf '\r')"}
 }
-# says LINE BEGIN WHAT
+# says LINE BEGIN WHAT: the answer to the line must begin in this way
 says() {
     ask "$1"
     case $answer in
@@ -36,7 +36,7 @@ says() {
     echo "$1: $answer" >"$scratch/heard"
     verdict $status "$3" "$scratch/heard"
 }
-# soon BEGIN: status says it, within ten minutes
+# soon BEGIN: waits up to ten minutes until status begins in this way
 soon() {
     for _ in $(seq 1200); do
         ask status
@@ -46,7 +46,7 @@ soon() {
     echo "status: $answer" >"$scratch/heard"
     return 1
 }
-# converse BOARD: from reset to a stop
+# converse BOARD: a conversation from reset to a stop
 converse() {
     says id "OK program=rig board=$1 dialogue=1" "$1: it says what it is"
     says 'start 330' 'ERR 1 ' "$1: nothing starts that is not armed"
@@ -76,7 +76,7 @@ verdict $? "the terminal's name is said"
 converse host
 exec 3>&-
 exec 3<>"$RIG_TTY"
-ask 'talk off' # the echo, then the answer
+ask 'talk off' # first the echo, then the answer
 hear
 says fault 'OK trip=0' "somebody else is at the terminal, and is answered"
 exec 3>&-
@@ -100,7 +100,7 @@ begin
 says id 'OK ' "a dead link is replaced"
 exec 3>&-
 first=$running
-: >"$scratch/said" # the first one's words, before they are awaited
+: >"$scratch/said" # removes the first program's output before new output is awaited
 RIG_SETTINGS=$scratch/others "$station" >"$scratch/said" 2>"$scratch/err" </dev/null &
 running=$!
 await grep -q 'console is' "$scratch/said"
@@ -118,7 +118,7 @@ RIG_TTY=$scratch/none/rig.tty "$station" >"$scratch/said" 2>"$scratch/err" </dev
 [ $? -eq 2 ] && grep -q 'none/rig.tty: error: ' "$scratch/err"
 verdict $? "a folder that is not there is named"
 
-# The same image as on a board, its UART a pseudo-terminal of the emulator's.
+# The same image as on a board. Its UART is a pseudo-terminal of the emulator.
 image=build/mps2-an386/station.elf
 if [ -f $image ] && command -v qemu-system-arm >/dev/null; then
     qemu-system-arm -M mps2-an386 -display none -monitor none -serial pty -kernel $image \

@@ -3,7 +3,7 @@
 # headers, and between files (a header with the .c of its name).
 . "$(dirname "$0")/../checks.sh"
 
-# circles.awk: of the arrows on standard input, "FROM TO" a line, those that lie on a circle, as "A B C: ..." lines.
+# circles.awk: reads arrows, "FROM TO" a line, and prints those that lie on a circle, as "A B C: ..." lines.
 cat >"$scratch/circles.awk" <<'END'
 { if (!(($1, $2) in arrow)) { arrow[$1, $2] = 1; to[$1] = to[$1] " " $2; node[$1] = node[$2] = 1 } }
 function walk(from, at,   i, n, next_one) {
@@ -54,14 +54,14 @@ arrows_of() {
 arrows_of core hal host >"$scratch/includes"
 files=$(wc -l <"$scratch/files")
 
-# no_circle WHAT: the arrows in $scratch/arrows have no circle
+# no_circle WHAT: the arrows in $scratch/arrows must have no circle
 no_circle() {
     awk -f "$scratch/circles.awk" "$scratch/arrows" | sort -u >"$scratch/found"
     diff /dev/null "$scratch/found" >"$scratch/err" 2>&1
     verdict $? "$1"
 }
 
-# the test's own eye: one arrow back makes a circle
+# the check itself must notice an arrow back, which makes a circle
 { cat "$scratch/includes" && echo core/real.h core/step.h; } | awk -f "$scratch/circles.awk" | grep -q 'core/real.h' &&
     [ "$(wc -l <"$scratch/includes")" -gt 500 ]
 verdict $? "$files files of core, hal and host, $(wc -l <"$scratch/includes") includes; one more would be seen"

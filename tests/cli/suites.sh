@@ -27,7 +27,7 @@ for name in host chip_netduinoplus2 core_double core_float; do
     verdict $? "$name refuses it beside one that is there, before running any"
 done
 
-# A line begins with the file of its suite, whichever ran before.
+# A line begins with the file of its suite, whichever suite ran before.
 "$folder/core_double" sine root text >"$scratch/out" 2>"$scratch/err" &&
     sed -n 's/^\([^:]*\):[0-9]*:.*:PASS$/\1/p' "$scratch/out" | grep -v '^tests/main.c$' | uniq >"$scratch/files" &&
     printf 'tests/core/test_%s.c\n' root sine text | diff - "$scratch/files" >"$scratch/err"

@@ -10,7 +10,7 @@ awk -v seed="$seed" 'BEGIN { srand(seed) } { print rand(), $0 }' "$scratch/scene
 echo epicyclic_from_rest >>"$scratch/drawn"
 stays=0
 
-# its_way FILE: the sentence against the first and the last row of the records, and their extremes
+# its_way FILE: compares the sentence with the first and last row of the records, and their extremes
 its_way() {
     awk -F, -v sentence="$(head -n 1 "$scratch/out")" '
         { sub(/\r$/, "") }
@@ -53,7 +53,7 @@ while read -r scene; do
     verdict $? "$scene: $(head -n 1 "$scratch/out")" "$scratch/out"
     awk '/^trusted/ { trusted = NR } /^final state/ { state = NR } END { exit !(state > 2 && trusted < state) }' "$scratch/out"
     verdict $? "$scene: what is to be said stands above the numbers"
-    # a name is no evidence: an output that is called another one is reported in the same words
+    # a name proves nothing: an output with another name is reported in the same words
     sed 's/_cm\>/_qq/g' "$(grep -l "^scene $scene\>" core/models/*.whirl)" >"$scratch/renamed.whirl"
     "$whirl" run "$scratch/renamed.whirl:$scene" 2>/dev/null | head -n 1 >"$scratch/again"
     head -n 1 "$scratch/out" | sed 's/_cm /_qq /g' | cmp -s - "$scratch/again"
@@ -63,8 +63,8 @@ done <"$scratch/drawn"
 [ "$stays" -gt 0 ]
 verdict $? "$stays scenes with something that stays"
 
-# A drawn cart with a bob, of drawn steps: its momentum "stays" only within a part of the sum of its terms, which the
-# records tell: at most 0.002 of it, and surely below 0.0005.
+# A random cart with a bob, with random steps. Its momentum "stays" only within a part of the sum of its terms, which
+# the records show: always if it is below 0.0005 of the sum, never above 0.002.
 words=
 for case in $(seq 1 16); do
     awk -v seed="$seed$case" 'BEGIN { srand(seed); M = exp(9 * rand() - 2); m = exp(2 * rand() - 1); l = 0.2 + rand()
@@ -88,7 +88,8 @@ done
 case $words in *stays*drifts* | *drifts*stays*) true ;; *) false ;; esac
 verdict $? "both words were drawn" "$scratch/out"
 
-# an error that no step keeps is refused before its runs begin: within seconds of processor, and ten times that if instrumented
+# an error that no step reaches is refused before its runs begin: within seconds of processor time, or ten times that
+# if instrumented
 seconds=5
 [ -z "${WHIRL_FEW:-}" ] || seconds=50
 for digits in 20 90 300; do

@@ -3,7 +3,7 @@
 # files of other sweeps left alone; points that fail; and closed forms of the eccentric-mass rig.
 . "$(dirname "$0")/../checks.sh"
 
-# status WANTED COMMAND...: the exit status; what it said is in $scratch/said.
+# status WANTED COMMAND...: checks the exit status; the output is in $scratch/said.
 status() {
     wanted=$1
     shift
@@ -46,7 +46,7 @@ done
 cat "$scratch"/shard[123].csv >"$scratch/shards.csv"
 check "shards in order are the whole file" cmp "$scratch/many1.csv" "$scratch/shards.csv"
 
-# A point is the run that `whirl run` makes of it.
+# A point gives the same result as `whirl run` with its values.
 "$whirl" run carriage_free --until 0.5s --set ratio=0.25 --csv - --quiet | tail -n 1 |
     cut -d, -f2-5 >"$scratch/run"
 "$whirl" sweep carriage_free --until 0.5s --over ratio=0.25..0.5:2 --csv - --quiet | sed -n 2p |
@@ -59,7 +59,7 @@ long() {
     exec "$whirl" sweep carriage_free --until "${span:-0.5s}" --over ratio=0.01..1:10 --over duty=0..1:20 \
         --measure 'max(pin_force)' --measure X --quiet "$@"
 }
-# background ROWS SIGNAL FILE: start it, wait for so many rows, send the signal; its status in $code.
+# background ROWS SIGNAL FILE: starts a sweep, waits for so many rows, and sends the signal; the status is in $code.
 background() {
     long --jobs 2 --csv "$3" >/dev/null 2>"$scratch/said" &
     process=$!
@@ -104,8 +104,8 @@ for other in '--measure theta' '--measure X --step 0.5ms' '--measure X --set dut
     check "refused with a way out: $other" grep -q -e '--fresh' "$scratch/said"
 done
 check "refused: nothing was changed" cmp "$scratch/small.csv" "$scratch/kept.csv"
-# Columns stand in the units that the file declares, as those of `whirl run`; expressions in SI. A file of an older version,
-# which had SI throughout, is refused, and the difference is shown.
+# Columns have the units that the file declares, as in `whirl run`; expressions are in SI. A file of an older version,
+# which had only SI, is refused, and the difference is shown.
 cat >"$scratch/shown.whirl" <<'END'
 mechanism shown "a pendulum in degrees"
 coordinate th [deg]
@@ -169,7 +169,7 @@ check "no period: nan, and no failure" status 0 \
     "$whirl" sweep carriage_free --until 10ms --over ratio=0.1..0.2:2 --measure 'period(X)'
 check "no period: nan" test "$(grep -c ',nan' "$scratch/rows")" -eq 2
 
-# --- starts that cannot be --------------------------------------------------------------------------
+# --- impossible starts ------------------------------------------------------------------------------
 sed 's/parameter e = 0.5 .*/input e = 0.5/' core/models/contacts.whirl >"$scratch/inputs.whirl"
 check "an input out of range fails, though points share a program" status 1 \
     "$whirl" sweep "$scratch/inputs.whirl:ball_bounces" --until 0.1s --over 'e=0..2:3' --measure z

@@ -11,13 +11,13 @@ runs=${SWINGS:-$([ -n "${WHIRL_FULL:-}" ] && echo 60 || echo 5)}
 [ -x "$build/pil_swing" ]
 verdict $? "build/pil_swing is there (make pil-images)"
 
-# swing WORD...: a run to its end; its words for what became of the swing in $why
+# swing WORD...: runs the rig to the end; the report's words on the swing are in $why
 swing() {
     sh tests/limit.sh 120 "$whirl" pil $rig "$@" </dev/null >"$scratch/run" 2>"$scratch/err" || [ $? -eq 1 ]
     ended=$?
     why=$(sed -n 's/^The swing in which it came to rest: //p' "$scratch/run")
 }
-# value NAME: of the report's line "sensor 1 stands" or of the line behind it
+# place: prints the number of the report's line "sensor 1 stands"; the next function reads the line after it
 place() { sed -n 's/^  sensor 1 stands  *\([-0-9.]*\) deg.*/\1/p' "$scratch/run"; }
 half() { sed -n '/^  sensor 1 stands/{n;s/^ *known to within  *\([0-9.]*\) deg.*/\1/p;}' "$scratch/run"; }
 
@@ -29,7 +29,7 @@ for stands in 0 2.5; do
 done
 grep -aq 'verdict  *doubtful' "$scratch/run"
 verdict $? "and what it measures is doubtful" "$scratch/run"
-# both turned: the second sensor's marks fit the rotor, and nothing but the swing tells
+# both sensors are turned: the second sensor's marks fit the rotor, and only the swing shows the error
 swing --place 1.5,1.5
 grep -aq 'verdict  *doubtful: sensor 1 is not where the arms hang' "$scratch/run"
 verdict $? "with both sensors turned nothing else tells, and the verdict says so" "$scratch/run"
@@ -37,8 +37,8 @@ swing --place 2,0 --set bearing_friction=0.1
 [ "$why" = 'too few swings: friction stops the rotor' ]
 verdict $? "with too much friction it is refused by name" "$scratch/run"
 
-# Drawn rotors: inertia of half to twice, friction from a tenth of the most on, a coupling of a quarter to twice the
-# stiffness, sensor 1 off by -3 to 3 degrees.
+# Random rotors: half to twice the inertia, friction from a tenth of the largest value on, a coupling of a quarter to
+# twice the stiffness, and sensor 1 turned by -3 to 3 degrees.
 awk -v runs="$runs" -v most="${FRICTION:-0.025}" '
 function drawn() { x = (x * 16807) % 2147483647; return x / 2147483647 }
 function between(a, b) { return a * exp(drawn() * log(b / a)) }

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/../checks.sh"
 about=trust
 
-# end_of FILE: the least end of the rows that --csv wrote, or "end"
+# end_of FILE: prints the earliest end in the rows of --csv, or "end"
 end_of() { awk -F, '$3 == "until" && (least == "" || $4 + 0 < least + 0) { least = $4 } END { print least == "" ? "end" : least }' "$1"; }
 
 # --- one answer, three places ------------------------------------------------------------------------------------------
@@ -47,8 +47,8 @@ tests/mechanisms/lorenz.whirl --start x=1 --step 2ms --until 30s
 tests/mechanisms/van_der_pol.whirl --step 10ms --until 20s
 END
 
-# --- what both runs jump over: that they agree is no reason to trust them ----------------------------------------------
-# A wall 10 um thick, and steps of both that meet it at its middle only, where nothing pushes.
+# --- what both runs jump over: their agreement is no reason to trust them -------------------------------------------------
+# The wall is 10 um thick. The steps of both runs meet it only at its middle, where nothing pushes.
 for speed in 1 2 5; do
     cat >"$scratch/wall.whirl" <<END
 mechanism wall "A ball whose steps jump through a wall"
@@ -68,7 +68,7 @@ END
     verdict $? "a wall that $speed m/s pass unseen: not believed, and not trusted behind it" "$scratch/summary"
 done
 
-# --- a step that is the motion itself: right to the end, with sums of either kind ------------------------------------------
+# --- a step that is the exact motion: trusted to the end, with sums of either kind -----------------------------------------
 for number in double float; do
     for sums in '' --compensated; do
         "$whirl" trust mk/stability/spring.whirl --matrix exact --step 100ms --until 10s --number $number $sums --csv "$scratch/rows" >"$scratch/words" 2>"$scratch/err" &&
@@ -77,7 +77,7 @@ for number in double float; do
     done
 done
 
-# --- nothing else is moved ---------------------------------------------------------------------------------------------
+# --- the command changes nothing else ----------------------------------------------------------------------------------
 "$whirl" run thomson_a --step 1ms --csv - --every 50ms >"$scratch/loud" 2>"$scratch/said"
 "$whirl" run thomson_a --step 1ms --csv - --every 50ms --quiet >"$scratch/still" 2>"$scratch/err"
 cmp "$scratch/loud" "$scratch/still" >"$scratch/diff" 2>&1 && grep -q '^trusted ' "$scratch/said" && [ ! -s "$scratch/err" ]
@@ -91,7 +91,7 @@ verdict $? "one line; none where nothing runs" /dev/null
 "$whirl" run thomson_a --step 0.001ms --until 1s | grep -q '^trusted  *not computed: it takes more than a second'
 verdict $? "a hint where it would take seconds" /dev/null
 
-# --- tolerances: a larger one ends no earlier ----------------------------------------------------------------------------
+# --- tolerances: a larger one never gives an earlier end -----------------------------------------------------------------
 last=0
 for tolerance in 1e-9 1e-7 1e-5 1e-4 1e-3 1e-2 0.1; do
     "$whirl" trust thomson_a --number float --step 1ms --tolerance $tolerance --csv "$scratch/rows" --quiet 2>"$scratch/err"
@@ -103,7 +103,7 @@ done
 awk -v x="$last" 'BEGIN { exit !(x > 8 && x < 10) }'
 verdict $? "to a tenth until $last s"
 
-# --- runs that are none ----------------------------------------------------------------------------------------------------
+# --- runs that cannot be made ----------------------------------------------------------------------------------------------
 cat >"$scratch/pole.whirl" <<'END'
 mechanism pole "x'' = 2 x^3 is infinite at 1 s"
 coordinate x [m]

@@ -11,16 +11,16 @@ echo "seed $seed"
 "$whirl" list --units 2>"$scratch/err" | sed 1d >"$scratch/names"
 [ "$(wc -l <"$scratch/names")" -ge 60 ] && ! grep -qv "^[A-Za-z]*	[A-Za-z1/]*	[0-9.e+-]*$" "$scratch/names"
 verdict $? "the program lists its units" "$scratch/names"
-# the same as the documents list them, and in the same order
+# the documents must list the same units in the same order
 sed -n 's/^| \(length\|mass\|time\|angle\|frequency.*\|force\|energy.*\|power\|pressure\|current.*\|voltage.*\|capacitance.*\|magnetic.*\|temperature\) | \(.*\) |$/\2/p' \
     docs/language.md | grep -o '`[A-Za-z]*`' | tr -d '`' >"$scratch/documented"
 cut -f 1 "$scratch/names" | diff "$scratch/documented" - >"$scratch/err"
 verdict $? "docs/language.md lists the same"
-# Writes CASES pairs of files, N.declared.whirl and N.si.whirl, that are the same but for declarations.
+# Writes CASES pairs of files, N.declared.whirl and N.si.whirl, that differ only in their declarations.
 awk -v seed="$seed" -v cases="$cases" -v folder="$scratch" '
 function pick(n) { return int(rand() * n) }
-function one(bound,    k, e) { # one factor more of as_is and as_si; each name has its turn
-    do { # coordinates beyond 1e15 are refused
+function one(bound,    k, e) { # one more factor of as_is and as_si; each name has its turn
+    do { # because coordinates beyond 1e15 are refused
         k = !bound && used < names ? used++ : pick(names)
     } while (bound && name[k] ~ /^[GMnpu]./)
     e = pick(6)
@@ -28,7 +28,7 @@ function one(bound,    k, e) { # one factor more of as_is and as_si; each name h
     as_is = as_is name[k] e
     as_si = as_si (si[k] ~ "/" ? "(" si[k] ")" : si[k]) e
 }
-function some(most,    parts, i, sign) { # a unit of up to so many factors
+function some(most,    parts, i, sign) { # some(most): a unit of up to `most` factors
     as_is = as_si = ""
     parts = 1 + pick(most)
     for (i = 0; i < parts; i++) {
@@ -98,7 +98,7 @@ END {
         if (has_unit != (abs(f - 1) > 1e-12)) { wrong(head[1, i] ", where one is " f) }
         if (rate && has_unit && head[1, i] !~ /\/s\]$/) { wrong(head[1, i] " is no rate") }
         shown += has_unit
-        if (epsilon > 1e-10 && abs(last[2, i]) < 1e-36) { continue } # too small for a float
+        if (epsilon > 1e-10 && abs(last[2, i]) < 1e-36) { continue } # too small for float
         if (abs(last[1, i]*f - last[2, i]) > epsilon*abs(last[2, i])) {
             wrong(head[1, i] " = " last[1, i] " of " f ", but in SI " last[2, i])
         }
@@ -110,7 +110,7 @@ to_tabs() { tr -d '\r' <"$1" | tr ',' '\t'; }
 n=0
 while [ $n -lt "$cases" ]; do
     number=double epsilon=1e-14
-    [ $((n % 2)) -eq 0 ] || number=float epsilon=2e-7 # f_NAME is a float
+    [ $((n % 2)) -eq 0 ] || number=float epsilon=2e-7 # f_NAME is then a float
     for kind in declared si; do
         "$whirl" run "$scratch/$n.$kind.whirl" --number $number --csv "$scratch/$kind.csv" \
             --columns "$scratch/$kind.txt" >"$scratch/$kind.out" 2>"$scratch/err" || verdict 1 "case $n runs"
@@ -119,9 +119,9 @@ while [ $n -lt "$cases" ]; do
     done
     bad=0
     awk -F '\t' -v epsilon=$epsilon -f "$scratch/agree.awk" "$scratch/declared.tab" "$scratch/si.tab" >"$scratch/why" || bad=1
-    # plain columns: the same without the blank before a unit
+    # plain columns must be equal, except for the blank before a unit
     sed '1s/ \[/[/g' "$scratch/declared.tab" | cmp -s - "$scratch/declared.columns" || { echo columns >>"$scratch/why"; bad=1; }
-    # the summary: the last row, with each unit; and the same motion, to the bit
+    # the summary: compares the last row, with each unit; the motion must be the same to the bit
     awk -F '\t' 'FNR == NR { for (i = 1; i <= NF; i++) { if (FNR == 1) head[i] = $i; else last[i] = $i }; n = NF; next }
         /^  [a-z]/ && seen < n - 1 && state {
             split($0, part, " ")

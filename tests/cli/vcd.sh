@@ -3,9 +3,10 @@
 # reads dumps of drawn bodies: their grammar, names, units of time, values beside the CSV's, and the contacts' wires and events.
 . "$(dirname "$0")/../checks.sh"
 
-ulimit -f 200000 # a writer that does not end is ended
+ulimit -f 200000 # ends a writer that does not end
 run() { "$whirl" run "$@" >"$scratch/out" 2>"$scratch/err" </dev/null; }
-# ends_alike TICKS: the dump's last time, with so many ticks in a second, is that of the CSV's last record, or within the next
+# ends_alike TICKS: the last time of the dump, with TICKS ticks per second, must be that of the CSV's last record, or
+# up to one tick later
 ends_alike() {
     tail -n 1 "$scratch/v.csv" | tr -d '\r' | awk -F, -v per_s="$1" -v last="$(grep '^#' "$scratch/v.vcd" | tail -n 1)" \
         '{ off = substr(last, 2) / per_s - $1; exit !(last != "" && off > -1e-9 && off < 0.1 + 1e-9) }'
@@ -30,13 +31,13 @@ stop INT begun run thomson_b --until 1e6s --csv "$scratch/v.csv" --vcd "$scratch
 [ "$code" -eq 130 ] && grep -q 'the records so far are kept$' "$scratch/err" && grep -q '^.timescale 10ns .end$' "$scratch/v.vcd" && ends_alike 1e8
 verdict $? "an interrupt leaves them, too"
 
-# Words of the model's end no comment.
+# Words of the model must not end a comment.
 sed 's/^mechanism epicyclic "/&ends at no $end /; s/^scene epicyclic_from_rest "/&no $end $end /' "$scratch/model.whirl" >"$scratch/words.whirl"
 run "$scratch/words.whirl:epicyclic_from_rest" --until 10ms --quiet --vcd "$scratch/v.vcd" &&
     awk '/^[$]comment/ { n++; for (i = 2; i < NF; i++) { bad += $i == "$end" } words += /[$] end / } END { exit bad || n < 5 || !words }' "$scratch/v.vcd"
 verdict $? "a comment ends at its own end" "$scratch/v.vcd"
 
-# What does not move is written once: a block that sticks for ten minutes.
+# A value that does not change is written once: a block that sticks for ten minutes.
 run incline_sticks --quiet --csv "$scratch/v.csv" --vcd "$scratch/v.vcd" && [ "$(wc -c <"$scratch/v.csv")" -gt 500000 ] && [ "$(wc -c <"$scratch/v.vcd")" -lt 2000 ] &&
     [ "$(tail -n 1 "$scratch/v.vcd")" = "#60000000" ]
 verdict $? "ten minutes without moving: $(wc -c <"$scratch/v.vcd") bytes, and their end"

@@ -9,7 +9,7 @@ verdict $? "every scene with contacts, all effects on"
 (cd "$scratch/all" && "${CC:-gcc}" -std=c11 -I"$OLDPWD" -c scenes.c -o scenes.o) 2>"$scratch/err"
 verdict $? "a table of them, with what a step of each may evaluate"
 
-# An AVR or Arm assembler takes the marks; the Arm one is what the counter runs.
+# An AVR or Arm assembler accepts the marks; the counter uses the Arm one.
 if command -v arm-none-eabi-gcc >/dev/null 2>&1; then
     for scene in carriage_stop ${WHIRL_FULL:+ball_bounces}; do
         arm-none-eabi-gcc -mcpu=cortex-m4 -mthumb -std=c11 -I. -include boards/programs/mark.h -c "$scratch/all/$scene.c" \
