@@ -72,9 +72,9 @@ void board_fault_words(wh_text *text, const board_fault_facts *facts);
 /* Ends a program after a fault: demo.c prints and ends the emulator, flashed.c stores a record and resets. */
 _Noreturn void board_fault_ends(const board_fault_facts *facts);
 
-/* Sets up the chip's clocks. It runs before the variables are initialized, so it uses no variables, and every wait is
- * bounded. On chips with clocks to set up, the result is in board_clock_is, in memory that the start-up code does not
- * clear. */
+/* The clock that board_clock_start() has set up. That function runs before the variables are initialized, so it uses no
+ * variables, and every wait is bounded. On chips with clocks to set up, the result is in board_clock_is, in memory
+ * that the start-up code does not clear. */
 typedef enum board_clock {
     BOARD_CLOCK_CRYSTAL,  /* the crystal of the board */
     BOARD_CLOCK_FALLBACK, /* the chip's own oscillator, because the crystal does not oscillate */

@@ -73,7 +73,7 @@ typedef struct wh_rig_result {
     wh_measured force;    /* the load's once-per-turn component: see result.h */
     wh_real tare_N;       /* the cell's reading at rest */
     wh_real tare_error_N; /* standard error of tare_N */
-    wh_real low_N;        /* peaks of the whole record, without tare */
+    wh_real low_N;        /* lowest and highest load of the record, minus the tare */
     wh_real high_N;
     wh_real volts; /* the motor's voltage at the record's end */
     uint32_t lost; /* number of lost pulses */
