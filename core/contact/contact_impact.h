@@ -18,8 +18,6 @@ typedef struct wh_contact_moment {
     bool last;       /* the last moment of the step: a stop that is hit must rest */
 } wh_contact_moment;
 
-/* --- modes --------------------------------------------------------------------------------------- */
-
 WH_INLINE void wh_contact_set_modes(const wh_contact_system *of, wh_contact_work *w, unsigned bits,
                                     int8_t mode) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -49,8 +47,6 @@ WH_INLINE unsigned wh_contact_which(const wh_contact_system *of, const wh_contac
     }
     return bits;
 }
-
-/* --- velocities ---------------------------------------------------------------------------------- */
 
 /* Returns the sum of the magnitudes of the terms of J_k x, the scale of its round-off. */
 static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_contact_work *w,

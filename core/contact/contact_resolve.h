@@ -77,8 +77,6 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
 }
 
-/* --- accelerations ------------------------------------------------------------------------------- */
-
 /* Returns, as bits, the contacts of `giving` (bits) that give way first: all stops, if there are any. Otherwise it is
  * the friction whose load exceeds its limit by the largest factor: it would be the first to reach its limit if the load
  * grew from zero. Sliding friction takes less than sticking friction, so it may relieve the others. Frictions with
@@ -218,8 +216,6 @@ WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w,
         wh_contact_project_rates(of, w, 0, true, rate);
     }
 }
-
-/* --- all that happens at one moment -------------------------------------------------------------- */
 
 /* Resolves one moment. Returns the contacts with an event, as bits, and the impulse of each in impulse[contacts]. */
 WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_work *w,

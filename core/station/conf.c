@@ -77,8 +77,6 @@ static const char *choices(wh_conf_id id) {
 
 const char *wh_conf_kind_text(wh_conf_id id) { return choices(id) + 1; }
 
-/* --- a configuration's settings ---------------------------------------------------------------------- */
-
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
 /* Returns the number of the setting's units in one unit of the configuration. */
@@ -134,8 +132,6 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
     }
     return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
 }
-
-/* --- into the rig's configuration --------------------------------------------------------------------- */
 
 /* Scales the settings that depend on gravity and on the masses' force (docs/dev/rig.md). */
 static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
@@ -272,8 +268,6 @@ static bool renew(wh_conf *conf) {
     c->settings = hash(conf);
     return true;
 }
-
-/* --- changing one setting --------------------------------------------------------------------------------------- */
 
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
     const wh_real before = conf->value[id];

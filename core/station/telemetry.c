@@ -373,8 +373,6 @@ static void ring_told(const wh_tel *tel, wh_text *answer) {
     wh_answer(answer, " trigger=@w ring=@w steps=@c frames=@c", value);
 }
 
-/* --- contents of a frame --------------------------------------------------------------------------------- */
-
 /* Adds the load's part of the schema, "load[N]:i2:scale:offset". */
 static void add_load(const wh_cell_config *cell, wh_text *answer) {
     const wh_value offset[] = {{.number = -cell->offset_N}};
@@ -428,8 +426,6 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
     }
     return WH_STATION_FINE;
 }
-
-/* --- settings ---------------------------------------------------------------------------------------------- */
 
 /* True if the text format has no room for this many samples per second. */
 static bool is_too_fast(wh_tel_format format, uint32_t per_s) {

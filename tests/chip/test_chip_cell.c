@@ -184,7 +184,7 @@ TEST(chip_cell, ends) {
             TEST_ASSERT_EQUAL(rows[row].status, got[at].status);
             if (level_V > 3.3) {
                 TEST_ASSERT_INT_WITHIN(16, HAL_LOADCELL_RAW_MAX,
-                                       got[at].raw); /* the last count of 12 bits */
+                                       got[at].raw); /* within the last count of 12 bits */
             } else {
                 TEST_ASSERT_DOUBLE_WITHIN(17.0, (level_V - MIDDLE_V) * RAW_OF_V, got[at].raw);
             }

@@ -137,7 +137,8 @@ TEST(frame, truncations) {
         frames += feed(line + from + gone, count - from - gone);
         TEST_ASSERT_EQUAL_UINT(0, frames);
         const unsigned next =
-            feed(line, count); /* whole if the zero before it came, or all was gone */
+            /* the frame is whole if the zero before it came, or if nothing came */
+            feed(line, count);
         const bool stuck = from > 0 && from + gone == count;
         TEST_ASSERT_EQUAL_UINT(stuck ? 0 : 1, next);
         TEST_ASSERT_EQUAL_UINT(1, feed(line, count));

@@ -5,8 +5,6 @@
 #include "even_rig.h"
 #include "tests/suites.h"
 
-/* === rig states ============================================================================== */
-
 /* Numbers that are neither a voltage nor a speed. */
 #define STRANGE \
     WH_R(1e30), (wh_real)__builtin_inff(), (wh_real)-__builtin_inff(), (wh_real)__builtin_nanf("")

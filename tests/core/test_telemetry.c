@@ -7,8 +7,6 @@
 #include "tel_bench.h"
 #include "tests/suites.h"
 
-/* === telemetry =============================================================================== */
-
 static even_rig twin;
 
 TEST(telemetry, sum) {

@@ -5,8 +5,6 @@
 #include "on_plant.h"
 #include "tests/suites.h"
 
-/* === virtual rig faults ====================================================================== */
-
 #define RUNAWAY_RPM 470.0f /* highest speed in a runaway, whether settled or in the record */
 
 #if !WH_DOUBLE
