@@ -355,21 +355,26 @@ typedef struct meter {
     double *output;
     bool series;            /* a measure takes a sample each step */
     bool series_of_outputs; /* a measure takes a sample of an output each step */
+    bool periods;           /* a measure keeps all samples */
+    uint64_t from;          /* the step from which series count */
+    diags *errors;
+    FILE *reason;
+    bool good;
 } meter;
 
-static meter meter_open(const measuring *w, const image *im, void *run) {
-    const int count = w->count;
-    meter m = {.wanted = w, .image = im, .run = run};
+static meter meter_open(const measuring *w, const image *im, void *run, diags *errors,
+                        FILE *reason) {
+    meter m = {
+        .wanted = w, .image = im, .run = run, .errors = errors, .reason = reason, .good = true};
     m.verdict = run_checks_open(im, NULL, w->kind, run, NULL);
-    m.gauges = alloc(count, sizeof *m.gauges);
+    m.gauges = alloc(w->count, sizeof *m.gauges);
     m.output = alloc(im->outputs, sizeof *m.output);
-    for (int i = 0; i < count; i++) {
-        const gauged *each = &w->list[i];
-        m.gauges[i] = gauge_start(each->kind);
-        if (each->kind != MEASURE_FINAL) {
-            m.series = true;
-            m.series_of_outputs = m.series_of_outputs || each->from.where == FROM_OUTPUT;
-        }
+    for (int i = 0; i < w->count; i++) {
+        const bool series = w->list[i].kind != MEASURE_FINAL;
+        m.gauges[i] = gauge_start(w->list[i].kind);
+        m.series = m.series || series;
+        m.series_of_outputs = m.series_of_outputs || (series && w->list[i].component < 0);
+        m.periods = m.periods || w->list[i].kind == MEASURE_PERIOD;
     }
     return m;
 }
@@ -383,91 +388,66 @@ static void meter_close(meter *m) {
     free(m->output);
 }
 
-/* Take a sample of the present state for the series, or for the final values. */
+/* Takes a sample of the present state for the series, or for the final values. */
 static void meter_enter(meter *m, bool final) {
-    double angle_rad[IMAGE_COMPONENTS_MAX];
-    double real[2 * IMAGE_COMPONENTS_MAX];
+    double state[3 * IMAGE_COMPONENTS_MAX];
     const engine_kind *kind = m->wanted->kind;
-    kind->state(m->run, angle_rad, real);
+    kind->state(m->run, state, state + m->image->angles);
     if (final || m->series_of_outputs) {
         kind->outputs(m->run, m->output);
     }
     for (int i = 0; i < m->wanted->count; i++) {
-        if ((m->gauges[i].kind == MEASURE_FINAL) != final) {
-            continue;
+        const int c = m->wanted->list[i].component;
+        if ((m->gauges[i].kind == MEASURE_FINAL) == final) {
+            gauge_enter(&m->gauges[i], c >= 0 ? state[c] : m->output[i]);
         }
-        const channel c = m->wanted->list[i].from;
-        gauge_enter(&m->gauges[i], c.where == FROM_ANGLE  ? angle_rad[c.index]
-                                   : c.where == FROM_REAL ? real[c.index]
-                                                          : m->output[c.index]);
     }
 }
 
-static bool keeps_samples(const measuring *w) {
-    for (int i = 0; i < w->count; i++) {
-        if (w->list[i].kind == MEASURE_PERIOD) {
-            return true;
-        }
-    }
-    return false;
-}
-
-/* Enters the energy balance of the run. False, with a message, if an energy is not a finite number. */
-static bool balance(meter *m, diags *errors, FILE *reason) {
+/* Enters the energy balance of a step, and the samples. False, with a message, if an energy is not a finite number. */
+static bool see(void *of, uint64_t step) {
+    meter *m = of;
     const books *b = m->verdict->books;
     run_checks_enter(m->verdict);
-    if (b == NULL || !b->undefined) {
-        return true;
+    m->good = b == NULL || !b->undefined;
+    if (!m->good && !nonfinite_energies(m->image, m->wanted->kind, b->angle_rad, b->real,
+                                        b->undefined_s, m->errors)) {
+        fprintf(m->reason, "the energies are not finite numbers at t = %.9g s", b->undefined_s);
     }
-    if (!nonfinite_energies(m->image, m->wanted->kind, b->angle_rad, b->real, b->undefined_s,
-                            errors)) {
-        fprintf(reason, "the energies are not finite numbers at t = %.9g s", b->undefined_s);
+    if (m->good && m->series && step >= m->from) {
+        meter_enter(m, false);
     }
-    return false;
+    return m->good;
 }
 
-typedef struct walk {
-    meter *meter;
-    uint64_t from; /* the step from which series count */
-    diags *errors;
-    FILE *reason;
-    bool good;
-} walk;
-
-static bool see(void *of, uint64_t step) {
-    walk *w = of;
-    w->good = balance(w->meter, w->errors, w->reason);
-    if (w->good && w->meter->series && step >= w->from) {
-        meter_enter(w->meter, false);
-    }
-    return w->good;
-}
-
-/* Steps to the end. Returns false if the run failed, with a message on `reason` or reported. */
-static bool run_through(meter *m, diags *errors, FILE *reason) {
+/* Steps to the end. Returns false if the run failed, with a message on m->reason or reported. */
+static bool run_through(meter *m) {
     const engine_kind *kind = m->wanted->kind;
     const image *im = m->image;
-    const uint64_t steps = im->steps;
-    uint64_t from = 0;
-    const bool counted = ratio_count_from(m->wanted->from_s, im->step, &from);
-    if (m->series && (!counted || from > steps)) {
-        fprintf(reason, "--from %.9g s is after the last step", m->wanted->from_s);
+    const bool counted = ratio_count_from(m->wanted->from_s, im->step, &m->from);
+    if (m->series && (!counted || m->from > im->steps)) {
+        fprintf(m->reason, "--from %.9g s is after the last step", m->wanted->from_s);
         return false;
     }
-    if (keeps_samples(m->wanted) && steps >= from && steps - from >= PERIOD_SAMPLES_MAX) {
-        fprintf(reason, "period() takes at most %.0e samples: use a later --from or a larger step",
+    if (m->periods && im->steps >= m->from && im->steps - m->from >= PERIOD_SAMPLES_MAX) {
+        fprintf(m->reason,
+                "period() takes at most %.0e samples: use a later --from or a larger step",
                 (double)PERIOD_SAMPLES_MAX);
         return false;
     }
-    walk w = {m, from, errors, reason, true};
-    const loop l = {
-        .kind = kind, .run = m->run, .steps = steps, .own = &m->verdict->own, .see = see, .of = &w};
+    const loop l = {.kind = kind,
+                    .run = m->run,
+                    .steps = im->steps,
+                    .own = &m->verdict->own,
+                    .see = see,
+                    .of = m};
     wh_status status;
-    if (loop_run(&l, &status) == LOOP_FAILED && !nonfinite_step(im, kind, m->run, status, errors)) {
-        fprintf(reason, "diverged in the step after t = %.9g s",
+    if (loop_run(&l, &status) == LOOP_FAILED &&
+        !nonfinite_step(im, kind, m->run, status, m->errors)) {
+        fprintf(m->reason, "diverged in the step after t = %.9g s",
                 ratio_times(kind->steps(m->run), im->step));
     }
-    if (status != WH_OK || !w.good) {
+    if (status != WH_OK || !m->good) {
         return false;
     }
     meter_enter(m, true);
@@ -475,12 +455,12 @@ static bool run_through(meter *m, diags *errors, FILE *reason) {
 }
 
 /* The measures, followed by the balance; NAN if that is unknown. */
-static bool read_measures(const meter *m, double *value, FILE *reason, point_notes *notes) {
+static bool read_measures(const meter *m, double *value, point_notes *notes) {
     const measuring *w = m->wanted;
     const double epsilon = w->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
     for (int i = 0; i < w->count; i++) {
         if (m->gauges[i].undefined) {
-            fprintf(reason,
+            fprintf(m->reason,
                     "the expression of the measure '%s' is not a finite number at every step",
                     w->list[i].name);
             return false;
@@ -488,7 +468,8 @@ static bool read_measures(const meter *m, double *value, FILE *reason, point_not
         value[i] = gauge_result(&m->gauges[i], m->image->step_s, epsilon);
         const bool no_period = isnan(value[i]) && m->gauges[i].kind == MEASURE_PERIOD;
         if (!isfinite(value[i]) && !no_period) {
-            fprintf(reason, "the measure '%s' is not a finite number: its expression is too large",
+            fprintf(m->reason,
+                    "the measure '%s' is not a finite number: its expression is too large",
                     w->list[i].name);
             return false;
         }
@@ -508,8 +489,8 @@ bool stepping_measure(const measuring *w, const image *im, double *value, diags 
                       FILE *reason, point_notes *notes) {
     void *run = w->kind->start(im);
     notes->end_s = ratio_times(im->steps, im->step);
-    meter m = meter_open(w, im, run);
-    const bool good = run_through(&m, errors, reason) && read_measures(&m, value, reason, notes);
+    meter m = meter_open(w, im, run, errors, reason);
+    const bool good = run_through(&m) && read_measures(&m, value, notes);
     meter_close(&m);
     w->kind->stop(run);
     return good;
@@ -583,14 +564,6 @@ static void tell_first(diags *errors, FILE *reason) {
     free(text);
 }
 
-static channel channel_of(const image *im, const expr *e, int output) {
-    const bool moves = e->op == EXPR_SYMBOL && e->symbol->order > 0;
-    const int i = moves ? image_find_component(im, e->symbol->index, e->primes) : -1;
-    return i < 0            ? (channel){FROM_OUTPUT, output}
-           : i < im->angles ? (channel){FROM_ANGLE, i}
-                            : (channel){FROM_REAL, i - im->angles};
-}
-
 static image *image_at(const sweep *s, const instance *inst, image **plain, diags *errors) {
     image_settings other;
     if (s->shared != NULL) {
@@ -625,7 +598,10 @@ static bool measure_image(const sweep *s, const image *im, double *value, diags 
     gauged *list = alloc(count, sizeof *list);
     for (int i = 0; i < count; i++) {
         const measure *each = &s->measures->list[i];
-        list[i] = (gauged){each->kind, each->name, channel_of(im, each->of, i)};
+        const symbol *of = each->of->op == EXPR_SYMBOL ? each->of->symbol : NULL;
+        const bool moves = of != NULL && of->order > 0;
+        list[i] = (gauged){each->kind, each->name,
+                           moves ? image_find_component(im, of->index, each->of->primes) : -1};
     }
     const measuring wanted = {s->kind, s->from_s, list, count, s->strict};
     const bool good = stepping_measure(&wanted, im, value, errors, reason, notes);

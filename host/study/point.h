@@ -85,16 +85,10 @@ void measures_free(measures *m);
 /* === a run of a sweep ========================================================================= */
 /* One run of a sweep: an image, stepped to its end and measured. */
 
-/* The source of a measured expression: the state itself, or an output. */
-typedef struct channel {
-    enum { FROM_ANGLE, FROM_REAL, FROM_OUTPUT } where;
-    int index;
-} channel;
-
 typedef struct gauged {
     measure_kind kind;
     const char *name;
-    channel from;
+    int component; /* of the image; -1: the output with this measure's number */
 } gauged;
 
 typedef struct measuring {

@@ -72,9 +72,8 @@ TEST(stepping, period) {
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
         double omega_radps;
         derived s = drawn_swing(&omega_radps);
-        const gauged list[] = {{MEASURE_FINAL, "f", {FROM_OUTPUT, 0}},
-                               {MEASURE_PERIOD, "p", {FROM_OUTPUT, 1}},
-                               {MEASURE_PERIOD, "q", {FROM_REAL, 0}}};
+        const gauged list[] = {
+            {MEASURE_FINAL, "f", -1}, {MEASURE_PERIOD, "p", -1}, {MEASURE_PERIOD, "q", 1}};
         const measuring w = {.kind = drawn_kind(), .from_s = 0.1, .list = list, .count = 3};
         measured_point p = measure_stepping(&w, s.image);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
@@ -87,13 +86,14 @@ TEST(stepping, period) {
     /* a small swing must have a period if its number type resolves it */
     double omega_radps;
     derived little = drawn_swing(&omega_radps);
-    const gauged period = {MEASURE_PERIOD, "l", {FROM_OUTPUT, 2}};
+    const gauged list[] = {
+        {MEASURE_FINAL, "f", -1}, {MEASURE_FINAL, "g", -1}, {MEASURE_PERIOD, "l", -1}};
     const engine_kind *const kinds[] = {&engine_float, &engine_double};
     for (int i = 0; i < 2; i++) {
-        const measuring w = {.kind = kinds[i], .list = &period, .count = 1};
+        const measuring w = {.kind = kinds[i], .list = list, .count = 3};
         measured_point p = measure_stepping(&w, little.image);
-        TEST_ASSERT_TRUE(i == 0 ? isnan(p.value[0])
-                                : fabs(p.value[0] * omega_radps / (2.0 * PI) - 1.0) < 1e-3);
+        TEST_ASSERT_TRUE(i == 0 ? isnan(p.value[2])
+                                : fabs(p.value[2] * omega_radps / (2.0 * PI) - 1.0) < 1e-3);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
         drop(&p);
     }
@@ -106,7 +106,7 @@ TEST(stepping, period) {
 TEST(stepping, given_up) {
     derived longest =
         scene_of(CLOCK "scene s { start x = 3 [s]; step 1 [ms]; until 200000 [s] }\n");
-    const gauged most = {MEASURE_MAX, "x", {FROM_REAL, 0}};
+    const gauged most = {MEASURE_MAX, "x", 0};
     const measuring w = {.kind = &engine_double, .list = &most, .count = 1};
     interrupted = 1;
     measured_point p = measure_stepping(&w, longest.image);
@@ -131,7 +131,7 @@ static void expect_failed(const char *text, const measuring *w, const char *reas
 }
 
 TEST(stepping, failed) {
-    gauged list = {MEASURE_MEAN, "mean(x)", {FROM_REAL, 0}};
+    gauged list = {MEASURE_MEAN, "mean(x)", 0};
     measuring w = {.kind = &engine_double, .list = &list, .count = 1};
     w.from_s = 1.5;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
@@ -152,13 +152,13 @@ TEST(stepping, failed) {
     expect_failed(CLOCK "scene s { step 1 [ms]; until 100000 [s] }\n", &w,
                   "period() takes at most 1e+08 samples: use a later --from or a larger step", "");
     /* x = 1 - t: the step to 0 is the last good one, and 1/x is undefined there */
-    list = (gauged){MEASURE_FINAL, "1/x", {FROM_OUTPUT, 0}};
+    list = (gauged){MEASURE_FINAL, "1/x", -1};
     expect_failed("mechanism m\nstate x\nequation x' = -1 [1/s]\noutput y = log(x)\n"
                   "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
                   &w, "the expression of the measure '1/x' is not a finite number at every step",
                   "");
     /* each value is finite, but not their sum */
-    list = (gauged){MEASURE_MEAN, "large", {FROM_OUTPUT, 0}};
+    list = (gauged){MEASURE_MEAN, "large", -1};
     expect_failed("mechanism m\nstate x\nequation x' = 0*x/(1 [s])\noutput y = 1e308*(1 + x)\n"
                   "scene s { step 1 [ms]; until 0.1 [s] }\n",
                   &w, "the measure 'large' is not a finite number: its expression is too large",
