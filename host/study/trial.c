@@ -41,20 +41,6 @@ int setting_number(const setting *s) {
     return i;
 }
 
-static const char *method_word(int i) { return wh_methods[i].word; }
-static int method_of(const setting *s) { return (int)s->image.method; }
-static void method_put(setting *s, int i) { s->image.method = (wh_method)i; }
-
-static const char *number_word(int i) { return numbers[i].word; }
-static void number_put(setting *s, int i) {
-    s->number = numbers[i].kind;
-    s->image.compensated = numbers[i].compensated;
-}
-
-static const char *matrix_word(int i) { return image_matrix_words[i]; }
-static int matrix_of(const setting *s) { return (int)s->image.matrix; }
-static void matrix_put(setting *s, int i) { s->image.matrix = (image_matrix_of)i; }
-
 /* Tables of each form with the default number of cells, with a quarter or half of it, and with four times as many. */
 static const struct {
     const char *word;
@@ -70,7 +56,6 @@ static const struct {
               {"cubic 256", " --tables cubic --cells 256", TABLES_CUBIC, 256}};
 enum { TABLES = sizeof tables / sizeof tables[0] };
 
-static const char *tables_word(int i) { return tables[i].word; }
 static int tables_of(const setting *s) {
     int i = 0;
     while (i < TABLES - 1 &&
@@ -79,32 +64,28 @@ static int tables_of(const setting *s) {
     }
     return i;
 }
-static void tables_put(setting *s, int i) {
-    s->image.tables = tables[i].form;
-    s->image.cells = tables[i].cells;
-}
-
-static const char *angles_word(int i) { return image_angles_words[i]; }
-static int angles_of(const setting *s) { return (int)s->image.angles; }
-static void angles_put(setting *s, int i) { s->image.angles = (image_angles)i; }
-
-typedef struct axis_row {
-    int count;
-    const char *(*word)(int i);
-    int (*of)(const setting *s);
-    void (*put)(setting *s, int i);
-    const char *option;  /* NULL: setting_options() writes this axis specially */
-    bool always_written; /* the option is written even for the default word */
-} axis_row;
 
 static bool has_matrix(const setting *s) { return s->image.matrix != MATRIX_NONE; }
 
-static const axis_row rows[AXES] = {
-    [AXIS_METHOD] = {WH_METHODS, method_word, method_of, method_put, "--method", true},
-    [AXIS_NUMBER] = {SETTING_NUMBERS, number_word, setting_number, number_put, NULL, true},
-    [AXIS_ANGLES] = {IMAGE_ANGLES, angles_word, angles_of, angles_put, "--angles", false},
-    [AXIS_MATRIX] = {IMAGE_MATRICES, matrix_word, matrix_of, matrix_put, "--matrix", false},
-    [AXIS_TABLES] = {TABLES, tables_word, tables_of, tables_put, NULL, false}};
+/* How many words an axis has. */
+static const int words[AXES] = {[AXIS_METHOD] = WH_METHODS,
+                                [AXIS_NUMBER] = SETTING_NUMBERS,
+                                [AXIS_ANGLES] = IMAGE_ANGLES,
+                                [AXIS_MATRIX] = IMAGE_MATRICES,
+                                [AXIS_TABLES] = TABLES};
+
+/* The number of a setting's word. */
+static int word_of(const setting *s, setting_axis axis) {
+    switch (axis) {
+    case AXIS_METHOD: return (int)s->image.method;
+    case AXIS_NUMBER: return setting_number(s);
+    case AXIS_ANGLES: return (int)s->image.angles;
+    case AXIS_MATRIX: return (int)s->image.matrix;
+    case AXIS_TABLES: return tables_of(s);
+    case AXES: break;
+    }
+    return 0;
+}
 
 const char *setting_heading(setting_axis axis) {
 #define SETTING_HEADING(id, heading) heading,
@@ -114,24 +95,40 @@ const char *setting_heading(setting_axis axis) {
 }
 
 const char *setting_word(const setting *s, setting_axis axis) {
-    return rows[axis].word(rows[axis].of(s));
+    const int i = word_of(s, axis);
+    switch (axis) {
+    case AXIS_METHOD: return wh_methods[i].word;
+    case AXIS_NUMBER: return numbers[i].word;
+    case AXIS_ANGLES: return image_angles_words[i];
+    case AXIS_MATRIX: return image_matrix_words[i];
+    case AXIS_TABLES: return tables[i].word;
+    case AXES: break;
+    }
+    return "";
 }
 
 static int combinations(void) {
     int count = 1;
     for (int i = 0; i < AXES; i++) {
-        count *= rows[i].count;
+        count *= words[i];
     }
     return count;
 }
 
 /* The last axis runs fastest. */
 static setting combination(int i) {
-    setting s = {IMAGE_SETTINGS_DEFAULT, &engine_double};
+    int word[AXES];
     for (int axis = AXES - 1; axis >= 0; axis--) {
-        rows[axis].put(&s, i % rows[axis].count);
-        i /= rows[axis].count;
+        word[axis] = i % words[axis];
+        i /= words[axis];
     }
+    setting s = {IMAGE_SETTINGS_DEFAULT, numbers[word[AXIS_NUMBER]].kind};
+    s.image.method = (wh_method)word[AXIS_METHOD];
+    s.image.compensated = numbers[word[AXIS_NUMBER]].compensated;
+    s.image.angles = (image_angles)word[AXIS_ANGLES];
+    s.image.matrix = (image_matrix_of)word[AXIS_MATRIX];
+    s.image.tables = tables[word[AXIS_TABLES]].form;
+    s.image.cells = tables[word[AXIS_TABLES]].cells;
     return s;
 }
 
@@ -184,7 +181,7 @@ bool setting_is_asked(const setting *s, const bool method[WH_METHODS]) {
 int setting_order(const setting *s) {
     int order = 0;
     for (int axis = 0; axis < AXES; axis++) {
-        order = order * rows[axis].count + rows[axis].of(s);
+        order = order * words[axis] + word_of(s, (setting_axis)axis);
     }
     return order;
 }
@@ -211,22 +208,14 @@ bool setting_is_own(const setting *s, const image *im) {
 }
 
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]) {
-    text[0] = '\0';
-    for (int axis = 0; axis < AXES; axis++) {
-        const axis_row *row = &rows[axis];
-        const int i = row->of(s);
-        size_t used = strlen(text);
-        if (axis == AXIS_NUMBER) {
-            snprintf(text + used, SETTING_TEXT - used, "%s%s", with_number ? numbers[i].run : "",
-                     numbers[i].derive);
-        } else if (axis == AXIS_TABLES) {
-            snprintf(text + used, SETTING_TEXT - used, "%s", tables[i].options);
-        } else if (axis == AXIS_METHOD && has_matrix(s)) {
-            continue; /* the matrix replaces the method */
-        } else if (row->always_written || i > 0) {
-            snprintf(text + used, SETTING_TEXT - used, " %s %s", row->option, row->word(i));
-        }
-    }
+    const bool looked_up = s->image.angles != ANGLES_TURNED;
+    const int number = setting_number(s);
+    snprintf(text, SETTING_TEXT, "%s%s%s%s%s%s%s%s%s", has_matrix(s) ? "" : " --method ",
+             has_matrix(s) ? "" : setting_word(s, AXIS_METHOD),
+             with_number ? numbers[number].run : "", numbers[number].derive,
+             looked_up ? " --angles " : "", looked_up ? setting_word(s, AXIS_ANGLES) : "",
+             has_matrix(s) ? " --matrix " : "", has_matrix(s) ? setting_word(s, AXIS_MATRIX) : "",
+             tables[tables_of(s)].options);
     return text;
 }
 
