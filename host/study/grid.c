@@ -23,10 +23,6 @@ overrides changes_at(const grid *g, const overrides *base, uint64_t point) {
         char number[NUMBER_SIZE];
         snprintf(number, sizeof number, "%.17g", value[i]);
         if (a->symbol == NULL) {
-            if (changes.step != base->step) {
-                /* if a step is swept twice, the last one counts */
-                free((void *)(uintptr_t)changes.step);
-            }
             changes.step = alloc_words("%s", number);
         } else {
             texts[changes.value_count++] = shown_assignment(a->symbol, a->primes, number);
