@@ -5,7 +5,7 @@
 # Together they have: a matrix, tables, turned and looked-up angles, every method, first order, stops, fixed point.
 SETTINGS_WHOLE := two_mass_relative epicyclic_conserved mk/price/separable.whirl \
     tests/boards/settings.whirl:mixed_turns tests/boards/settings.whirl:clapper_claps
-# One setting in four: they are the same as the gear's, but the scene has an input and gravity.
+# One setting in four of a scene that has the gear's settings, but also an input and gravity.
 SETTINGS_PARTS := rig_fixed
 SETTINGS_STEPS := 500
 # `all` settings, or `some`: one in so many, and each that has a new word, as in the gate hashes.

@@ -353,7 +353,7 @@ enum { HALVINGS_MOST = 50 };
 /* Number of terms of the series. For a matrix of norm 1/2 or less, the remainder is then 2^-110 of the matrix. */
 enum { POWERS = 26 };
 
-/* Computes to = a b with the first `states` columns of a; b has as many columns as `to`. */
+/* Computes the product to = a * b, with the first `states` columns of `a`; `b` has as many columns as `to`. */
 static void product(const twofold *a, const twofold *b, int states, int columns, twofold *to) {
     for (int i = 0; i < states; i++) {
         for (int k = 0; k < columns; k++) {

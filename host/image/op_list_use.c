@@ -376,7 +376,7 @@ typedef struct placing {
     int count;
 } placing;
 
-/* Puts operation i next in the sequence, after those of its dependencies that are not in it yet. */
+/* Appends operation i to the sequence; operations on which it depends are appended before it, if missing. */
 static void put_next(placing *p, int i) {
     int found[NEEDED_MOST];
     const int count = p->number[i] >= 0  ? 0

@@ -63,7 +63,7 @@ static FILE *open_as(const char *name, const char *in_place) {
 
 FILE *atomic_file_open(const char *name) { return open_as(name, "wb"); }
 
-/* Does `name` name the open file? */
+/* Is the open file the one at the path `name`? */
 static bool is_at(FILE *file, const char *name) {
     struct stat one;
     struct stat other;

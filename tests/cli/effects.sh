@@ -87,7 +87,7 @@ ask "$cart" --error x=5mm --set c=20
 says '^  whirl run .*cart.whirl:swings --set c=20$'
 ask "$scratch/cart.whirl:bare" --with drag,pull --error x=1mm
 says '^  whirl run .*cart.whirl:bare --with pull$'
-# the line has the effects of the smallest set, each once, for random effects of both scenes
+# the printed line names each effect of the smallest set once, for random effects of both scenes
 awk -v seed="${WHIRL_SEED:-47}" 'BEGIN { srand(seed); n = split("drag pull buffer far_spring weight lift", name, " ")
     for (i = 0; i < 6; i++) { with = "all"; for (k = 1; k <= n; k++) if (rand() < 0.5) with = with "," name[k]
         if (i % 3) sub(/^all,?/, "", with); print (i % 2 ? "swings" : "bare"), with } }' >"$scratch/drawn"

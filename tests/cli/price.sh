@@ -334,8 +334,7 @@ for board in mps2-an386 atmega328p host; do
     asked 1 'the cost of contacts must be counted: leave out --predict' ball_bounces --error 1e-3 --board $board
 done
 
-# --- the command that a run prints works: for each mechanism without a scene, some of which do not move, and for two
-# scenes
+# --- the command that a run prints works, also for a mechanism that does not move, and for two scenes -------------------
 named=0
 still=0
 for target in $("$whirl" list | awk '$1 == "mechanism" { print $2 }') "thomson_a --step 0.1s" ball_bounces; do
