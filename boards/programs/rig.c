@@ -35,7 +35,6 @@ static wh_carriage carriage;
 static float displacement_m; /* measured amplitude of the carriage */
 #endif
 
-/* The set-point of the run. */
 #ifndef RIG_TARGET_RPM
 #define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
 #endif
@@ -242,7 +241,6 @@ static operator_step run(const wh_rig_config *config) {
     return operator_at;
 }
 
-/* Reports why the program did not start. */
 static void refuse(const char *why) {
     put("NOT STARTED: ");
     put(why);

@@ -20,7 +20,6 @@ static const uint8_t inputs[2] = {BOARD_SLOT_CHANNELS};
 #define IN_OTHER_PAIRS(...) OTHER_PAIRS(__VA_ARGS__)
 _Static_assert(IN_OTHER_PAIRS(BOARD_SLOT_CHANNELS), "each sensor takes a pair of channels");
 
-/* Returns the channel that captures this end of a sensor's pulses. */
 static unsigned channel_of(unsigned sensor, hal_slot_end end) {
     return ((inputs[sensor] - 1U) ^ (unsigned)end) + 1U;
 }

@@ -31,7 +31,6 @@ static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* Enters one stage of a trial step. */
 static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_work *w,
                                   const wh_phase *phase, const wh_real *linear, const wh_real *rate,
                                   const wh_real *input) {

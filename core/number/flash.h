@@ -48,7 +48,6 @@ WH_INLINE wh_real wh_flash_real(const wh_real *from) {
 
 #endif
 
-/* Copies `count` bytes of a WH_FLASH constant. */
 WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #if defined(__AVR_HAVE_LPMX__) && !WH_DOUBLE
     uint8_t *bytes = (uint8_t *)to;

@@ -107,7 +107,6 @@ static uint32_t address_of(const elf_firmware_t *firmware, const char *name) {
     return 0;
 }
 
-/* Returns the processor with the program in its flash. */
 static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     memset(firmware, 0, sizeof *firmware);
     if (elf_read_firmware(all->program, firmware) != 0) {
