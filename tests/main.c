@@ -70,7 +70,7 @@ int main(int argc, char **argv) {
             return 2;
         }
     }
-    (void)setvbuf(stdout, NULL, _IOLBF, 0); /* else a crash could lose the output before it */
+    (void)setvbuf(stdout, NULL, _IOLBF, 0); /* a crash must not lose output */
     UNITY_BEGIN();
     for (unsigned i = 0; i < suite_count; i++) {
         if (is_wanted(&suites[i], argc - 1, argv + 1)) {

@@ -24,7 +24,7 @@ volatile uint32_t bench_rest;
 #define KNOWN 0x91A9C3D5U
 __attribute__((section(".noinit"))) static uint32_t known;
 __attribute__((section(".noinit"))) static hal_virtual_rig plant;
-static uint32_t ahead_ticks; /* the plant's time minus the board's */
+static uint32_t ahead_ticks; /* the plant's time minus the board's time */
 
 void stm32f4_cell_start(void);
 void stm32f4_slots_start(void);

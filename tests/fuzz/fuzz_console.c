@@ -22,7 +22,7 @@ enum {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static uint8_t kept[WH_STORE_SLOTS][SLOT_BYTES];
-static bool fails; /* the memory of the settings fails */
+static bool fails; /* if true, writing the settings fails */
 
 static bool erase(unsigned slot) {
     memset(kept[slot], 0xFF, SLOT_BYTES);
@@ -131,7 +131,7 @@ static void rest(bench *b) {
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static bench b; /* static: contains pointers to itself */
+    static bench b; /* static, because it contains pointers to itself */
     static bench rested;
     static bool any;
     memset(kept, 0xFF, sizeof kept);

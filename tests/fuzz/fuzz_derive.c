@@ -285,7 +285,7 @@ static void use(const equations *e, const bool *conserve, diags *all, FILE *nowh
     static const image_settings settings = IMAGE_SETTINGS_DEFAULT;
     image *p = image_make(e, conserve, &settings, IMAGE_TO_RUN, all);
     if ((p == NULL) != (diags_count(all) > 0)) {
-        abort(); /* refused without a message, or accepted with one */
+        abort(); /* the image was refused without a message, or made with one */
     }
     if (p == NULL) {
         return;

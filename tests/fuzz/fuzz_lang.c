@@ -71,7 +71,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     diags *all = diags_new();
     whirl_model *parsed = model_parse("fuzz.whirl", copy, length, all);
     if ((parsed == NULL) != (diags_count(all) > 0)) {
-        abort(); /* refused without a message, or accepted with one */
+        abort(); /* the text was refused without a message, or accepted with one */
     }
     if (parsed != NULL) {
         const overrides wanted = {.values = texts,

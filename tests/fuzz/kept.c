@@ -8,7 +8,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { SIZE_MAX_BYTES = 8192 }; /* the limit in tests/fuzz.sh */
+enum { SIZE_MAX_BYTES = 8192 }; /* largest input in tests/fuzz.sh */
 
 static uint8_t data[SIZE_MAX_BYTES];
 

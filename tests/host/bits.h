@@ -1,4 +1,4 @@
-/* bits.h: a double and its bits. */
+/* bits.h: converts between a double and its bits. */
 #ifndef TESTS_HOST_BITS_H
 #define TESTS_HOST_BITS_H
 

@@ -28,7 +28,7 @@ double said_named_step_s(const char *text);
  * text. said_words() expects the given words, said_number() a number. said_word() copies the text up to the next
  * blank to word[size]. */
 const char *said_words(const char *text, const char *words);
-const char *said_exactly(const char *text, const char *words); /* without skipping blanks */
+const char *said_exactly(const char *text, const char *words); /* like said_words(), keeps blanks */
 const char *said_number(const char *text, double *number);
 const char *said_word(const char *text, char *word, size_t size);
 

@@ -206,7 +206,7 @@ void derived_octave(FILE *out, const derived *d, const char *file, bool folded) 
     free(text);
 }
 
-uint64_t random_bits(uint64_t *seed) { /* the generator splitmix64 */
+uint64_t random_bits(uint64_t *seed) { /* the random generator splitmix64 */
     uint64_t x = *seed += UINT64_C(0x9e3779b97f4a7c15);
     x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);

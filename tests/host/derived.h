@@ -11,9 +11,9 @@
 typedef struct derived {
     whirl_model *model;
     instance *instance;
-    equations *equations; /* NULL after a refusal */
-    image *image;         /* NULL after a refusal */
-    char *errors;         /* empty if there are no errors */
+    equations *equations; /* NULL if the derivation was refused */
+    image *image;         /* NULL if the derivation was refused */
+    char *errors;         /* errors as text, "" if there are none */
     char *text;           /* the text of derived_file(), to which source places point; else NULL */
 } derived;
 

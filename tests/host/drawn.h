@@ -16,7 +16,7 @@ typedef struct drawn_contact {
     char kind; /* 's' for a stop, 'h' for a hold, 'f' for a friction */
     double row[DRAWN_MOST];
     double offset;      /* the gap in metres is row . x - offset */
-    double restitution; /* of a stop */
+    double restitution; /* of a stop, from 0 to 1 */
     double limit;       /* friction limit, N; static and kinetic friction are equal */
     double target;      /* value of J v+ (impact) or J a (force) while the contact acts */
     /* only for a hold: the hold acts while since . x > since_m, or always if `since` and since_m are zero */

@@ -59,12 +59,12 @@ typedef struct drawn_scene {
 
 /* Bits that allow kinds of operations in a list. */
 enum {
-    TAKES_RATES = 1,   /* set for every list of second order */
-    TAKES_RECORDS = 2, /* angles together with their turns */
-    TAKES_STATE = 4,   /* time and noise */
+    TAKES_RATES = 1,   /* allows rates; set for every list of second order */
+    TAKES_RECORDS = 2, /* allows angles together with their turns */
+    TAKES_STATE = 4,   /* allows time and noise */
     TAKES_ACCEL = 8,
     TAKES_TABLES = 16,
-    TAKES_SUMS = 32 /* only sums of states and inputs */
+    TAKES_SUMS = 32 /* allows only sums of states and inputs */
 };
 
 /* Draws the operation list of `role`, with `results` results and the operations that `takes` allows. In one case of

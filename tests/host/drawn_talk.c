@@ -112,7 +112,7 @@ void talk_put_end(stream *s, int status, unsigned length) {
 static void begin_line(void) {
     talk_line.length = 0;
     talk_put_hello(&talk_line, &talk_drawn.hello);
-    if (dice_one_of(&die, 2) == 0) { /* like a firmware that was asked twice */
+    if (dice_one_of(&die, 2) == 0) { /* a firmware that was asked twice says hello twice */
         talk_put_hello(&talk_line, &talk_drawn.hello);
     }
 }

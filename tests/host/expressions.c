@@ -170,7 +170,7 @@ static void filled(writer *w, const expression_names *names, const char *text, i
 void expression_mechanism(int depth, uint64_t *seed, char *text, size_t size) {
     static const char *const own[] = {"theta1", "x"};
     static const char *const all[] = {"a1", "n_1", "mass_of_it", "Omega_", "x__2", "y1"};
-    /* inputs would make the inertia change with time */
+    /* without inputs, which would make the inertia change with time */
     const expression_names constant = {own, 2, 0, all, 3};
     const expression_names still = {own, 2, 0, all, 6};
     const expression_names force = {own, 2, 1, all, 6};

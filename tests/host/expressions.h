@@ -9,7 +9,7 @@ typedef struct expression_names {
     const char *const *coordinates;
     int coordinate_count;
     int rates;                    /* if true, rates times 1 [s] occur, too */
-    const char *const *constants; /* parameters and inputs */
+    const char *const *constants; /* names of parameters and inputs */
     int constant_count;
 } expression_names;
 

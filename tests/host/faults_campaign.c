@@ -845,7 +845,7 @@ void judge_end(judge *j, const lockstep_report *report) {
 #define OVERSPEED_SHARE 0.02 /* allowed share of runs with over-speed */
 /* if the drive ignores the voltage, the enable must be off within this time */
 #define CAUGHT_S 0.25
-#define CAUGHT_REST_S 0.35 /* the same deadline if the fault begins below TURNING_RPM */
+#define CAUGHT_REST_S 0.35 /* deadline if the fault begins below TURNING_RPM */
 #define TURNING_RPM 250.0
 enum { WORST = 10, LONGEST = 20, TRIPS = 32 };
 

@@ -8,7 +8,7 @@ enum { LOOKS = 10000 };
 typedef struct reference_of {
     image fine;
     void *run;
-    uint64_t each; /* the reference's steps in one step of the run */
+    uint64_t each; /* number of the reference's steps in one step of the run */
     records *records;
     bool failed;
 } reference_of;
@@ -63,7 +63,7 @@ static void enter(beside *b) {
         h->true_s[k] = events ? b->before_s : b->look_s;
         b->open--;
         const double differ = fabs(b->other.records->row[k] - b->fine.records->row[k]) / level;
-        if (!events) { /* near events the runs may differ for one step */
+        if (!events) { /* near events the two references may differ for one step */
             h->known = fmax(h->known, isfinite(differ) ? differ : (double)INFINITY);
         }
     }

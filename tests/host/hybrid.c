@@ -16,7 +16,7 @@ typedef enum mode { OPEN, CLOSED, STUCK, UP, DOWN } mode;
 typedef struct runner {
     const hybrid *h;
     mode mode[HYBRID_CONTACTS];
-    bool pressed[HYBRID_CONTACTS]; /* the limit of this friction is above zero */
+    bool pressed[HYBRID_CONTACTS]; /* is the limit of this friction above zero? */
     long double state[STATE];
     hybrid_motion *motion;
 } runner;
@@ -231,7 +231,7 @@ static bool impact(runner *r, const linkage_numbers *at, gauge *g, long double l
     for (int k = 0; k < h->contacts; k++) {
         g[k] = gauge_of(h, k, at, r->state);
     }
-    for (int c = 0; c < count; c++) { /* would this stop soon be hit again? */
+    for (int c = 0; c < count; c++) { /* would this stop be hit again soon? */
         const int k = member[c];
         long double accel[LINKAGE_BODIES];
         long double towards = -g[k].bend;

@@ -222,7 +222,7 @@ char *latex_joined(const char *text) {
         const char *mark;
         const char *joined;
         int deeper;
-        bool inside; /* within an `aligned` environment */
+        bool inside; /* true within an `aligned` environment */
     } marks[] = {{" \\\\\n    &\\quad \\times", " \\,", 0, true},
                  {" \\\\\n    &\\quad", "", 0, true},
                  {" \\\\\n    &= ", " &= ", 0, true},

@@ -14,7 +14,8 @@ typedef struct drawing {
     FILE *out;
     linear *made;
     quad mass[LINEAR_STATES][LINEAR_STATES];
-    quad force[LINEAR_STATES][LINEAR_COLUMNS]; /* force on each coordinate */
+    /* force on each coordinate, per column of `linear` */
+    quad force[LINEAR_STATES][LINEAR_COLUMNS];
     /* the part of gravity, per mass, that acts on each coordinate */
     double weight[LINEAR_STATES];
 } drawing;

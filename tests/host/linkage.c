@@ -1,7 +1,7 @@
 #include "linkage.h"
 #include "test.h"
 
-static uint64_t next(uint64_t *seed) { /* the generator splitmix64 */
+static uint64_t next(uint64_t *seed) { /* the random generator splitmix64 */
     uint64_t z = *seed += 0x9e3779b97f4a7c15U;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
@@ -266,7 +266,7 @@ void linkage_write(const linkage *of, const char *name, linkage_writing how,
         has[part] = flush(&w, "+=");
         if (has[part]) {
             say(&w, "}\n");
-        } else { /* an effect without statements is not written */
+        } else { /* an effect without statements is removed */
             w.used = before;
             text[before] = '\0';
         }

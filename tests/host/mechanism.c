@@ -11,10 +11,10 @@ typedef struct writer {
     bool is_angle[COORDINATES_MAX];
     bool functions; /* use all fourteen functions, not only those of the smallest board */
     int shapes;     /* number of shapes w0, w1, ...: dimensionless functions of coordinates */
-    bool shaped;    /* expressions may use the shapes now */
+    bool shaped;    /* may expressions use the shapes now? */
 } writer;
 
-static unsigned draw(writer *w, unsigned bound) { /* the generator splitmix64 */
+static unsigned draw(writer *w, unsigned bound) { /* the random generator splitmix64 */
     uint64_t x = w->seed += UINT64_C(0x9e3779b97f4a7c15);
     x = (x ^ (x >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     x = (x ^ (x >> 27)) * UINT64_C(0x94d049bb133111eb);
@@ -233,7 +233,7 @@ static void carry(writer *w, int i, place *p) {
         if (draw(w, 2) == 0) {
             join(p->x, " + q%d", i);
             join(p->x_rate, " + q%d'", i);
-        } else { /* a body on an incline */
+        } else { /* the body moves on an incline */
             const unsigned deg = 5 + 5 * draw(w, 14);
             join(p->x, " + q%d*cos(%u [deg])", i, deg);
             join(p->y, " + q%d*sin(%u [deg])", i, deg);

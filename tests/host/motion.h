@@ -28,8 +28,8 @@ typedef struct stepping {
     double step_s;
     const char *set;   /* a parameter or an input, such as "M=1.5", or NULL */
     const char *start; /* a coordinate or a rate, such as "theta'=3", or NULL */
-    bool ledger;       /* with the energy balance */
-    bool stabilized;   /* with correction of the energy drift */
+    bool ledger;       /* runs with the energy balance */
+    bool stabilized;   /* runs with --stabilized */
     image_angles angles;
     image_matrix_of matrix;
 } stepping;

@@ -33,13 +33,13 @@ typedef struct quad_body {
 } quad_body;
 
 typedef struct quad_arms {
-    int coordinates; /* angles come before the carriage */
+    int coordinates; /* number of coordinates; the carriage is the last one */
     int carriage;    /* number of the coordinate that moves all bodies along x; -1: no carriage */
     int bodies;
     quad_body body[QUAD_BODIES];
     quad spin_kgm2[QUAD_COORDINATES]; /* the kinetic energy has the terms spin/2 q'^2 */
     quad load[QUAD_COORDINATES];
-    quad gravity_mps2; /* in the direction of x */
+    quad gravity_mps2; /* gravity acts along x */
 } quad_arms;
 
 quad quad_sine(quad rad);

@@ -22,7 +22,7 @@ typedef struct rated {
     double start[RATED_STATES];
     double number_of[RATED_NUMBERS]; /* parameters of `slope` */
     void (*slope)(const double *parameter, const long double *x, long double *slope);
-    linear linear; /* used if `slope` is NULL */
+    linear linear; /* the mechanism if `slope` is NULL */
 } rated;
 
 void rated_draw(dice *d, rated *r);

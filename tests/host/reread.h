@@ -13,7 +13,7 @@ extern const char *const reread_coordinates[REREAD_COORDINATES];
 extern const char *const reread_constants[REREAD_CONSTANTS];
 
 typedef struct state {
-    double q[REREAD_COORDINATES][3]; /* value, rate, acceleration */
+    double q[REREAD_COORDINATES][3]; /* [coordinate]: value, rate, acceleration */
     double constant[REREAD_CONSTANTS];
 } state;
 

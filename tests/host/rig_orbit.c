@@ -38,7 +38,7 @@ static double bend(const rig_plant *p, double drive_Nm, double theta, double w) 
 }
 
 #define STEPS 1024U
-static double speed_at[2U * STEPS + 1U]; /* at each half step of the angle */
+static double speed_at[2U * STEPS + 1U]; /* the speed at each half step of the angle */
 static double time_at[STEPS + 1U];
 
 /* Integrates a turn that begins at angle `from` with the speed w. Returns the speed at its end. Fills time_at and
@@ -227,7 +227,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     wh_lockin_compensate(&lockin, orbit->fed, WH_R(0.0625));
     lockin.angle.drive_V = (wh_real)(orbit->drive_Nm / 0.0625);
     wh_merge merge = {0};
-    const uint32_t begin = UINT32_MAX - 1500000U; /* makes the timer wrap during the measurement */
+    const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps during the measurement */
     const double first_mark_s = uniform() * period_s + 0.001;
     unsigned marks = 0;
     double due_s = first_mark_s + noise->jitter_s * normal();

@@ -10,7 +10,7 @@
 typedef struct rig_plant {
     double unbalance_kgm;
     double inertia_kgm2;
-    double drag_Nms; /* of the bearings */
+    double drag_Nms; /* damping of the bearings */
     double line_Nms; /* motor torque lost per rad/s of speed */
     double gravity_mps2;
     double tare_N;
@@ -68,7 +68,7 @@ typedef struct rig_noise {
     double frozen_s;  /* duration of a frozen reading in the middle of the recorded turns */
     double spikes;    /* share of samples with a spike */
     double spike_N;   /* size of a spike */
-    bool mute;        /* the cell shows only noise and faults, no force */
+    bool mute;        /* the cell shows only noise and faults */
     double turned_by; /* angular error of both sensors, in turns */
 } rig_noise;
 

@@ -65,7 +65,7 @@ static const poly *form_random(algebra *a, uint64_t *seed, int depth) {
     return is_tame(p) ? p : random_leaf(a, seed);
 }
 
-/* === algebra ================================================================================== */
+/* === suite algebra ============================================================================ */
 
 /* --- identities of expressions that are given as text --- */
 
@@ -426,7 +426,7 @@ TEST(algebra, random_expressions_their_derivatives_and_substitutions) {
     }
 }
 
-/* === algebra limits =========================================================================== */
+/* === suite algebra_limits ===================================================================== */
 /* The limits of host/algebra: the sizes up to which powers and products are expanded, cancellation, values that are
  * not numbers, magnitudes, powers of expressions, and determinants. */
 
@@ -613,7 +613,7 @@ TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
     TEST_ASSERT_TRUE(poly_pow(a, sum_of_places, 3.0)->keeps_powers);
     TEST_ASSERT_EQUAL_INT(4, poly_expanded(a, poly_pow(a, sum_of_places, 3.0))->count);
     TEST_ASSERT_TRUE(poly_is_place(sum_of_places));
-    /* a single symbol is not a sum */
+    /* a single symbol does not count as a sum */
     TEST_ASSERT_FALSE(poly_is_place(poly_symbol(a, &form_symbols[0], 0)));
     TEST_ASSERT_FALSE(
         poly_is_place(poly_add(a, sum_of_places, poly_symbol(a, &form_symbols[0], 1))));
@@ -666,7 +666,7 @@ TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     TEST_ASSERT_EQUAL_UINT64(ATOM + MONO + PART + POLY + PART, a->work - before);
     const poly *r = poly_symbol(a, &form_symbols[1], 0);
     before = a->work;
-    poly_symbol(a, &form_symbols[1], 0); /* this symbol exists already: no work */
+    poly_symbol(a, &form_symbols[1], 0); /* the symbol exists already: no work */
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
     const poly *sum = poly_add(a, q, r); /* two terms, and a new sum of two terms */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM + POLY + 2 * PART, a->work - before);
@@ -731,7 +731,7 @@ TEST(algebra_limits, determinants_of_products) {
         const int n = 1 + round % 5;
         const unsigned all = (1U << n) - 1;
         algebra *a = algebra_new();
-        double part[25]; /* both triangular matrices in one array */
+        double part[25]; /* both triangular matrices, in one array */
         const poly *m[25];
         double wanted = 1.0;
         double value = 1e300;
@@ -752,7 +752,7 @@ TEST(algebra_limits, determinants_of_products) {
     }
 }
 
-/* === normal form ============================================================================== */
+/* === suite normal_form ======================================================================== */
 /* The promises of poly.h, checked independently on random expressions: the sequence of terms and factors, the sizes,
  * one object for equal expressions, and a form that does not depend on earlier computations. WH_FORMS=N sets the
  * number of expressions. */

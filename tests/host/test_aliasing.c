@@ -8,7 +8,7 @@
 #include "command.h"
 #include "named_cures.h"
 
-/* === aliasing ================================================================================= */
+/* === suite aliasing =========================================================================== */
 
 #define TURN 6.283185307179586
 /* A run is wrong if its error is larger than this part of the true or the computed motion. */
@@ -254,7 +254,7 @@ TEST(aliasing, rippling_normals) {
     }
 }
 
-/* === pulse trains ============================================================================= */
+/* === suite pulse_trains ======================================================================= */
 /* Forces that act for a small part of their period. The period is in a simple ratio to the step, so the force is
  * zero at every stage and nothing moves. The references are closed forms. A wrong run must have a warning or not be
  * trusted. Pulses that the steps resolve must cause no warning. */

@@ -248,7 +248,7 @@ TEST(angle_places, ledger_takes_a_part) {
     }
 }
 
-/* === angle parts =============================================================================== */
+/* === suite angle_parts ========================================================================= */
 /* Outputs with fractions and multiples of turn angles, such as cos(th/2), sin(1.5*th) or tan(th/3 - 0.37*ph), thousands
  * of turns from zero, compared with libm.
  *

@@ -34,7 +34,7 @@ static bars bars_draw(dice *d, bool off) {
             b.at_m[k] += (i < 2 ? 1.0 : -1.0) * b.length_m[i] * part;
         }
     }
-    b.turned_rad = off ? 0.005 * exp(dice_between(d, 0.0, 4.4)) : 0.0; /* from 0.005 to 0.4 rad */
+    b.turned_rad = off ? 0.005 * exp(dice_between(d, 0.0, 4.4)) : 0.0; /* 0.005 to 0.4 rad */
     return b;
 }
 

@@ -10,7 +10,7 @@
 #include "linkage.h"
 #include "motion.h"
 
-/* === arm ====================================================================================== */
+/* === suite arm ================================================================================ */
 
 enum { JOINTS = 6 };
 #define G 9.81
@@ -129,7 +129,7 @@ static void torques(const arm_arm *a, const state_values *s, double *torque, dou
     vector at[JOINTS]; /* position of the centre of mass */
     vector axes[3] = {{{1, 0, 0}}, {{0, 1, 0}}, {{0, 0, 1}}};
     vector w = {{0}};
-    vector turn = {{0}}; /* angular acceleration */
+    vector turn = {{0}}; /* angular acceleration of the link */
     vector p = {{0}};
     vector lift = {{0, 0, G}}; /* acceleration of the joint, plus that of gravity */
     for (int i = 0; i < JOINTS; i++) {
@@ -210,7 +210,7 @@ TEST(arm, arms_of_six_joints_move_as_newton_and_euler_say) {
     TEST_ASSERT_TRUE(worst < 1e-13);
 }
 
-/* === leans ==================================================================================== */
+/* === suite leans ============================================================================== */
 /* The energy residual (host/check/energy_residual.h) must not depend on choices that have no effect on the motion:
  * the origin, and the vector potential of a magnetic field, which adds terms linear in the rates to T. */
 
@@ -280,7 +280,7 @@ TEST(leans, origins_and_potentials) {
     TEST_ASSERT_TRUE(told > 0 && told < runs);
 }
 
-/* === linkages ================================================================================= */
+/* === suite linkages =========================================================================== */
 /* Random planar linkages. Accelerations and motions derived from their text are compared with numeric derivatives of
  * the same energies (linkage.h). Forces written in effects must give the same motion as forces in the mechanism. The
  * residual of the energy balance must be small. WHIRL_CASES=N and WHIRL_SEED=N choose other cases. */

@@ -6,7 +6,7 @@
 #include "derived.h"
 #include "motion.h"
 
-/* === account ================================================================================== */
+/* === suite account ============================================================================ */
 
 /* The number that follows `words` in the summary. */
 static double told(const char *summary, const char *words) {
@@ -47,7 +47,7 @@ TEST(account, entries_across_impacts_are_closed_forms) {
     model_drop();
 }
 
-/* === ledger turns ============================================================================= */
+/* === suite ledger_turns ======================================================================= */
 /* Adding the total derivative dG/dt of a function of the coordinates to L does not change the motion, but it changes
  * the momenta by dG/dq, and each dL/dq. Then the energy balance needs the angles themselves, while the equations
  * need only their sines. Checked by closed forms and by random mechanisms. */

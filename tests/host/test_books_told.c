@@ -13,7 +13,7 @@
 #include "derived.h"
 #include "motion.h"
 
-/* === books told =============================================================================== */
+/* === suite books_told ========================================================================= */
 
 enum { COORDINATES_MOST = 4 };
 
@@ -253,7 +253,7 @@ TEST(books_told, contacts_that_gave_nothing) {
     }
 }
 
-/* === energy integral ========================================================================== */
+/* === suite energy_integral ==================================================================== */
 /* The energy balance of motions in which T + V is not conserved, because T is not quadratic in the rates, V contains
  * rates, or an energy contains a changing input. Each energy integral is derived by hand (Goldstein, Classical
  * Mechanics, section 2.7). */

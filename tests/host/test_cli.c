@@ -9,13 +9,14 @@
 #include "command.h"
 #include "derived.h"
 
-/* === counts =================================================================================== */
+/* === suite counts ============================================================================= */
 
 __extension__ typedef unsigned __int128 wide;
 
 static uint64_t seed_now;
 
-static uint64_t random_below(uint64_t most) { /* the generator xorshift64 (Marsaglia, 2003) */
+/* the random generator xorshift64 (Marsaglia, 2003) */
+static uint64_t random_below(uint64_t most) {
     seed_now ^= seed_now << 13;
     seed_now ^= seed_now >> 7;
     seed_now ^= seed_now << 17;
@@ -61,7 +62,7 @@ static void expect_count(const duration *step, const duration *until) {
     const wide under = (wide)step->digits * until->in;
     const wide wanted = (2 * over + under - 1) / (2 * under);
     if (wanted == 0 || wanted >> 63 != 0) {
-        return; /* a refused pair is not tested here */
+        return; /* refused pairs are not tested here */
     }
     derived d = derived_scene(text, "s");
     derived_expect(&d, message);
@@ -117,7 +118,7 @@ TEST(counts, counts_are_exact) {
         }
         const duration until = duration_of((uint64_t)digits, places, "s", 1);
         expect_count(&step, &until);
-        if (step.digits < 1000 && count < 1e9) { /* a span of exactly this number of steps */
+        if (step.digits < 1000 && count < 1e9) { /* also a span of exactly this many steps */
             const duration whole =
                 duration_of((uint64_t)floor(count + 1.0) * step.digits, 0, "s", step.in);
             int behind = 0;
@@ -182,7 +183,7 @@ TEST(counts, spacings_and_begins_are_counted_in_steps) {
     TEST_ASSERT_TRUE(!ratio_count_from(1e18, ratio_of(1e-18), &count));
 }
 
-/* === firstlight =============================================================================== */
+/* === suite firstlight ========================================================================= */
 /* Random records of a board's first light (host/monitor/light.h). A record must be read as it was sent, even after
  * noise and with a terminal's carriage returns. A record that is cut short or has a changed byte must be refused.
  * `whirl firstlight` must name the field in which a record differs, and append a row to its page. */
@@ -418,7 +419,7 @@ TEST(firstlight, command) {
              strstr(record, "end ") + 4);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(got(files[1]), line), got(files[1]));
     TEST_ASSERT_NULL(strstr(got(files[1]), "no row yet"));
-    ask(&what); /* runs the command again */
+    ask(&what); /* runs the command again with this record */
     TEST_ASSERT_EQUAL(0, what.status);
     TEST_ASSERT_NOT_NULL(strstr(what.out, "has this record already"));
 

@@ -51,7 +51,7 @@ TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
             const char *changes[NAMES + 1];
             char wanted[80];
             said what;
-            for (int k = 0; k < NAMES; k++) { /* all names once: accepted */
+            for (int k = 0; k < NAMES; k++) { /* all names once, which must be accepted */
                 snprintf(text[k], sizeof text[k], "%s=%.3f %s", names[k],
                          dice_between(&d, 0.1, 1.0), units[k]);
                 changes[k] = text[k];

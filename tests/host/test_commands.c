@@ -142,7 +142,7 @@ TEST(commands, built_in_names) {
                {"lever:rest", "two.whirl", "rest"},
                {"lever", "two.whirl", "lever"},
                {"lever:lever", "two.whirl", "lever"},
-               {"rod", "one.whirl", "rod"}, /* the scene, as in a file */
+               {"rod", "one.whirl", "rod"}, /* the scene, as in a file of models */
                {"rod:falls", "one.whirl", "falls"},
                {"rest", NULL, "hint: one of: gear:rest (one.whirl) lever:rest (two.whirl)"},
                {"gear", NULL, "hint: one of: gear:gear (one.whirl) gear:gear (three.whirl)"},
@@ -199,7 +199,7 @@ TEST(commands, one_file_or_two) {
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     enum { NAMES = 6 };
     static const char *const names[NAMES] = {"a", "./a", "soft", "hard", "twin", "b"};
-    static const int file[NAMES] = {0, 0, 0, 0, 1, 2}; /* the number of the file behind each name */
+    static const int file[NAMES] = {0, 0, 0, 0, 1, 2}; /* the file to which each name leads */
     char path[NAMES][100];
     for (int i = 0; i < NAMES; i++) {
         snprintf(path[i], sizeof path[i], "%s/%s", folder, names[i]);

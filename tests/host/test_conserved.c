@@ -92,7 +92,7 @@ static void check_law(const conservation *c, const wave_term *terms, const momen
                       double mass, uint64_t *seed) {
     const double h = 1e-6;
     double momentum = mass * start->q[0][1];
-    for (int side = 0; side < 2; side++) { /* dG/dt at the start */
+    for (int side = 0; side < 2; side++) { /* the value of dG/dt at the start */
         const double by = side == 0 ? -h : h;
         const double g = g_value(terms, start->q[1][0] + by * start->q[1][1],
                                  start->q[2][0] + by * start->q[2][1]);

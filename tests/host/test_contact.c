@@ -140,7 +140,7 @@ static double curved_text(uint64_t of, double step_s, double until_s, char *text
     return energy;
 }
 
-/* === busy beside ============================================================================== */
+/* === suite busy_beside ======================================================================== */
 
 static void say(const char *text, const char *step, said *what) {
     const char *words[] = {model_keep(text),
@@ -255,7 +255,7 @@ TEST(busy_beside, light_clocks) {
     TEST_ASSERT_TRUE(failed * 2 > cases);
 }
 
-/* === contact curved =========================================================================== */
+/* === suite contact_curved ===================================================================== */
 
 typedef struct outcome {
     double share; /* residual of the energy balance, divided by the energy at the start */
@@ -324,7 +324,7 @@ static void check_energy(const engine_kind *kind, double most, double coarse_sha
 TEST(contact_curved, energy_is_accounted_for) { check_energy(&engine_double, 1e-4, 0.01); }
 TEST(contact_curved, energy_is_accounted_for_in_float) { check_energy(&engine_float, 1e-3, 1.0); }
 
-/* === contact law ============================================================================== */
+/* === suite contact_law ======================================================================== */
 /* Random mechanisms with a constant mass matrix, whose contacts all act at the same moment. The laws of
  * core/contact/contact_lcp.h and core/contact/contact_resolve.h are solved independently by trying every combination
  * of active contacts and contacts at a limit. Compared are rates, positions, and each contact's part of the energy
@@ -338,7 +338,7 @@ static bool draw_impact(uint64_t *seed, double impact_s, drawn *b) {
     for (int i = 0; i < b->n; i++) {
         b->rate[i] = drawn_whole(seed, -3, 3);
     }
-    /* zero, so that friction may stick */
+    /* zero in half of the cases, so that friction may stick */
     b->rate[0] = random_bits(seed) % 2U != 0 ? 0.0 : b->rate[0];
     const int hits = 1 + (int)(random_bits(seed) % 3U);
     for (int k = 0; k < hits; k++) {
@@ -551,7 +551,7 @@ static void check_forces(const engine_kind *kind, double bound) {
 TEST(contact_law, forces_share_a_load_by_their_law) { check_forces(&engine_double, 1e-11); }
 TEST(contact_law, forces_share_a_load_by_their_law_in_float) { check_forces(&engine_float, 1e-4); }
 
-/* === contact friction ========================================================================= */
+/* === suite contact_friction =================================================================== */
 /* Blocks that stick and slip (core/models/contacts.whirl). */
 
 #define G 9.81
@@ -619,7 +619,7 @@ TEST(contact_friction, block_slips_from_the_closed_forms_amplitude_on) {
     }
 }
 
-/* === contact stops ============================================================================ */
+/* === suite contact_stops ====================================================================== */
 /* Balls on stops (core/models/contacts.whirl), compared with closed forms. */
 
 /* Finds the moment at which the ball comes to rest, and checks that it stays at rest until the end, for a minute. */
@@ -661,7 +661,7 @@ static void check_rest(stepping how, double height_most) {
 }
 
 TEST(contact_stops, ball_comes_to_rest_and_stays_for_a_minute) {
-    check_rest(IN_DOUBLE, 1e-6); /* the project's bound */
+    check_rest(IN_DOUBLE, 1e-6); /* 1e-6 m: the project's bound */
     /* 450 sums in the first fall, each rounded by 2^-24 of 4.4 m/s, give 1.2e-4 m/s in v, and v/g times as much in
      * height */
     check_rest(IN_FLOAT, 5.3e-5);
@@ -727,7 +727,7 @@ TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
     TEST_ASSERT_TRUE(4 * told >= cases || cases < 24);
 }
 
-/* === contact redundant ======================================================================== */
+/* === suite contact_redundant ================================================================== */
 /* A plate on two to five supports in a line. The support forces are not unique, but the motion is. The plate rests,
  * or leaves all supports when they accelerate downwards faster than gravity, or a torque tips it over the outermost
  * support. Compared with closed forms. */

@@ -17,7 +17,7 @@ typedef struct machine {
     machine_kind kind;
     double J, m, e, k, friction_N, torque_Nm;
     double J_rod;   /* inertia of the slider-crank's rod; else 0 */
-    double a, rate; /* at the start */
+    double a, rate; /* angle and its rate at the start */
 } machine;
 
 #define G 9.81L

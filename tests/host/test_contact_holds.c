@@ -4,7 +4,7 @@
 #include "contacts.h"
 #include "derived.h"
 
-/* === contact holds ============================================================================ */
+/* === suite contact_holds ====================================================================== */
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
@@ -60,7 +60,7 @@ TEST(contact_holds, rods_keep_their_length) {
 
 typedef struct linkage {
     double side[4];  /* lengths of crank, coupler, rocker and ground */
-    double angle[3]; /* of crank, coupler and rocker */
+    double angle[3]; /* angles of crank, coupler and rocker */
     double rate[3];
 } linkage;
 
@@ -146,7 +146,7 @@ TEST(contact_holds, a_flat_linkage_is_refused) {
         linkage l = {.side = {crank, coupler, crank, coupler},
                      .angle = {random_between(&seed, 0.4, 2.7)},
                      .rate = {random_between(&seed, 1.0, 10.0)}};
-        if (i % 3 == 0) { /* flat, but not a parallelogram */
+        if (i % 3 == 0) { /* a flat linkage that is no parallelogram */
             const double more = random_between(&seed, 0.01, 0.04);
             l.side[1] += more;
             l.side[2] += 0.05;
@@ -269,7 +269,7 @@ TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 5));
         const double kept[2] = {motion_value(&m, "off_y"), motion_value(&m, "off_z")};
         for (int step = 0; step < 20; step++) {
-            const double u = 0.01 * (step % 7); /* raises in steps, then lowers again */
+            const double u = 0.01 * (step % 7); /* raises the stop in steps, then lowers it */
             m.kind->set_input(m.run, 0, u);
             TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
             worst[number] = fmax(worst[number], fabs(motion_value(&m, "off_y") - kept[0]));
@@ -408,7 +408,7 @@ TEST(contact_holds, a_hold_stays_at_its_own_limit) {
     TEST_ASSERT_EQUAL_INT(0, failures);
 }
 
-/* === contact load ============================================================================= */
+/* === suite contact_load ======================================================================= */
 /* Contacts that share one load (core/models/contacts_together.whirl), and resting contacts that a `set` or an input
  * disturbs. */
 
@@ -560,7 +560,7 @@ TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     motion_close(&m);
 }
 
-/* === contact rest ============================================================================= */
+/* === suite contact_rest ======================================================================= */
 /* Bodies that come to rest together, pressed together only by their braking. Static friction must keep them at rest
  * in spite of round-off in forces and rates. */
 

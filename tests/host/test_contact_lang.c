@@ -52,7 +52,7 @@ static void place_at(double x, double y, double phi, double vx, double vy, doubl
 
 static void expect(double wanted, const expr *e) {
     TEST_ASSERT_NOT_NULL(e);
-    if (!(fabs(value(e) - wanted) <= 1e-15)) { /* a few round-offs of numbers near 1 */
+    if (!(fabs(value(e) - wanted) <= 1e-15)) { /* allows a few round-offs of numbers near 1 */
         printf("wanted %.17g, got %.17g\n", wanted, value(e));
     }
     TEST_ASSERT_TRUE(fabs(value(e) - wanted) <= 1e-15);
@@ -183,7 +183,7 @@ SUITE(contact_lang) {
     drop();
 }
 
-/* === contact run ============================================================================== */
+/* === suite contact_run ======================================================================== */
 /* Which stops, frictions, holds, whens and noises take part in a run, the allowed ranges of their numbers, and the
  * ledger. */
 
@@ -275,7 +275,7 @@ static void test_inputs_must_be_in_range_at_the_start(void) {
     refuse(3, &(overrides){.sets = infinite, .set_count = 1},
            "error: the restitution is not a finite number (infinity)");
     TEST_ASSERT_NOT_NULL(instance_of(2, &(overrides){.sets = bouncy, .set_count = 1}));
-    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* known only at the impact, so accepted */
+    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* accepted: known only at the impact */
 }
 
 static void test_how_many_values_one_run_sets(void) {

@@ -5,7 +5,7 @@
 #include "derived.h"
 #include "motion.h"
 
-/* === contact moments ========================================================================== */
+/* === suite contact_moments ==================================================================== */
 
 static const engine_kind *const KINDS[] = {&engine_double, &engine_float};
 
@@ -156,7 +156,7 @@ TEST(contact_moments, an_impact_that_is_over_within_the_step) {
     }
 }
 
-/* === contact scenes =========================================================================== */
+/* === suite contact_scenes ===================================================================== */
 /* Every scene with contacts, some with several on one mechanism. References come from another program, which locates
  * event by event (tests/reference/contacts.txt).
  *
@@ -217,14 +217,14 @@ TEST(contact_scenes, every_scene_meets_its_reference) {
         printf("  %-22s error %.2e at %g ms, %.2e at %g ms: order %.2f\n", c->name, coarse,
                1e3 * c->step_s, fine, 250.0 * c->step_s, order);
         TEST_ASSERT_TRUE_MESSAGE(fine <= c->error_most, c->name);
-        TEST_ASSERT_TRUE_MESSAGE(coarse > 1e-14, c->name); /* else the order cannot be seen */
+        TEST_ASSERT_TRUE_MESSAGE(coarse > 1e-14, c->name); /* else no order can be seen */
         TEST_ASSERT_TRUE_MESSAGE(order >= 3.0 || fine <= REFERENCE_ERROR, c->name);
         const double in_float = error_of(c, IN_FLOAT);
         TEST_ASSERT_TRUE_MESSAGE(in_float <= c->error_float && in_float > 1e-9, c->name);
     }
 }
 
-/* === contact squeezed ========================================================================= */
+/* === suite contact_squeezed =================================================================== */
 /* More impacts than a step allows: a light body is hit ever faster between heavier bodies and walls, or between
  * slanting walls. Bodies must pass through nothing and gain no energy. With friction, all moving bodies must lose
  * energy. */
@@ -459,7 +459,7 @@ static uint64_t run_cage(uint64_t seed, double *deepest_m) {
 
 TEST(contact_squeezed, nothing_leaves_a_cage) { watch_many(run_cage); }
 
-/* === crossings ================================================================================ */
+/* === suite crossings ========================================================================== */
 /* Several crossings with a `set`. Each must do its own `set`, at its own time. */
 
 /* x moves at 1 m/s and crosses a level every second, within a step or exactly at its end (steps of 32/64 s). Each
@@ -696,7 +696,7 @@ TEST(crossings, what_is_set_onto_another) {
         const double onto = level + (dice_one_of(&d, 2) == 0 ? far : -far);
         const double speed = side * dice_between(&d, 1.0, 3.0);
         const double then = dice_one_of(&d, 2) == 0 ? speed : -0.7 * speed;
-        const unsigned way = (unsigned)dice_one_of(&d, 3); /* 0 both, 1 rising, 2 falling */
+        const unsigned way = (unsigned)dice_one_of(&d, 3); /* direction: 0 both, 1 up, 2 down */
         const int steps = 10 + (int)dice_one_of(&d, 200);
         const double end_s = 0.3 / fabs(speed) + 0.5 * far / fabs(then);
         const double step_s = end_s / steps;

@@ -8,7 +8,7 @@
 #include "scattered.h"
 #include "tangled.h"
 
-/* === contact start ============================================================================ */
+/* === suite contact_start ====================================================================== */
 
 /* Body x hits body y, which is pressed onto a floor. y must not move, even if its position has round-off. */
 #define ROW "stop y >= 0.3 [m] restitution 0.5\nstop x - y >= 0 [m] restitution 0.5"
@@ -54,7 +54,7 @@ TEST(contact_start, what_happens_at_the_start_is_counted) {
     }
 }
 
-/* === contact together ========================================================================= */
+/* === suite contact_together =================================================================== */
 /* Several contacts at one moment. The result must not depend on the sequence in the file, an impact must not add
  * energy, and symmetric cases must stay symmetric. */
 
@@ -174,7 +174,7 @@ TEST(contact_together, newtons_cradle) {
     }
 }
 
-/* === hybrids ================================================================================== */
+/* === suite hybrids ============================================================================ */
 /* Random planar linkages with up to three stops and dry frictions, compared with an independent program (hybrid.h).
  * WHIRL_CASES=N and WHIRL_SEED=N choose other cases. */
 
@@ -260,7 +260,7 @@ TEST(hybrids, random_hybrids) {
         "%.0e; %u too fast for the step, or with an impact at the end, and right in an eighth of it; %u aside\n",
         cases, eventful, impacts, rests, worst, beyond, OFF_MOST, fast - beyond, aside);
     TEST_ASSERT_EQUAL_UINT(0, beyond);
-    TEST_ASSERT_TRUE(fast * 300 <= cases); /* fewer than 1 case in 300 */
+    TEST_ASSERT_TRUE(fast * 300 <= cases); /* fewer than 1 case in 300 is too fast */
     TEST_ASSERT_TRUE(cases < 8 || (eventful * 3 >= cases && aside <= cases));
 }
 

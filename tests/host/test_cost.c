@@ -95,7 +95,7 @@ static int check_prices(const scene *s) {
 }
 
 TEST(cost, prices_are_whole_and_grow_with_the_work) {
-    /* at least one figure for each board, in float */
+    /* at least one price for each board, in float */
     TEST_ASSERT_GREATER_THAN_INT(30 * cost_board_count, each_builtin_scene(check_prices));
 }
 
@@ -162,7 +162,7 @@ TEST(cost, every_board_has_a_row) {
         count++;
     }
     pclose(boards);
-    TEST_ASSERT_EQUAL_INT(cost_board_count, count + 1); /* the host has a row, too */
+    TEST_ASSERT_EQUAL_INT(cost_board_count, count + 1); /* the host has a row without a board */
     TEST_ASSERT_NOT_NULL(cost_board_named("host"));
     TEST_ASSERT_NULL(cost_board_named("mps2"));
 }

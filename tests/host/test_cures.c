@@ -17,7 +17,7 @@ typedef enum ruined_kind { ORBIT, BOND, HARDENING, DOUBLE_PENDULUM, CLOCKED, KIN
 
 typedef struct ruined {
     ruined_kind kind;
-    double a, b; /* parameters of the motion */
+    double a, b; /* the parameters a and b of the motion */
     double step_s;
     unsigned steps;
     wh_method method;
@@ -181,7 +181,7 @@ TEST(cures, cures_in_float_are_right_to_the_end) {
         char text[TEXT];
         said what;
         named_cure cure;
-        const double rate = pow(10.0, dice_between(&d, -0.5, 0.5)); /* 1/s */
+        const double rate = pow(10.0, dice_between(&d, -0.5, 0.5)); /* angular rate, 1/s */
         const double step_s = dice_between(&d, 0.5, 1.0) / (rate * dice_between(&d, 10.0, 30.0));
         const double steps = floor(dice_between(&d, 4.0, 18.0) / rate / step_s);
         const double spring = 0.75 / step_s;

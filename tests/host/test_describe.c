@@ -8,7 +8,7 @@
 #include "derived.h"
 #include "json_check.h"
 
-/* === describe ================================================================================= */
+/* === suite describe =========================================================================== */
 
 static char *described(const image *im) { return derived_written(describe_json, im); }
 
@@ -66,7 +66,7 @@ TEST(describe, every_field_is_documented) {
     free(page);
 }
 
-/* === image rows =============================================================================== */
+/* === suite image_rows ========================================================================= */
 /* The tables of an image, row by row. Each component, account and input must have exactly one row, in the core's
  * sequence (core/scene.h, core/ledger.h), with the meaning that the file gives. A scene that does not use a wrong
  * row would move correctly. */
@@ -78,7 +78,7 @@ static dimension dimension_of(const char *unit) {
     if (strcmp(unit, "1") != 0) {
         TEST_ASSERT_TRUE_MESSAGE(unit_parse(unit, strlen(unit), &read, &error), unit);
     }
-    TEST_ASSERT_TRUE_MESSAGE(read.scale == read.divisor, unit); /* an SI unit */
+    TEST_ASSERT_TRUE_MESSAGE(read.scale == read.divisor, unit); /* the unit is an SI unit */
     return read.dim;
 }
 
@@ -176,7 +176,7 @@ static void check_ledger(const image *im, const char *name) {
     }
     TEST_ASSERT_EQUAL_INT_MESSAGE(1 + im->coordinates, l->accounts, name);
     TEST_ASSERT_EQUAL_INT_MESSAGE(-1, l->unknown[0], name);
-    for (int i = 1; i < l->accounts; i++) { /* the coordinates, in the scene's sequence */
+    for (int i = 1; i < l->accounts; i++) { /* in the sequence of the coordinates */
         TEST_ASSERT_TRUE_MESSAGE(l->unknown[i] >= 0 && l->unknown[i] < im->count, name);
         TEST_ASSERT_EQUAL_INT_MESSAGE(i - 1, im->place[l->unknown[i]], name);
         accounts++;
@@ -286,7 +286,7 @@ TEST(image_rows, rows_of_every_kind) {
     check_starts(&d, "s");
     check_ledger(d.image, "s");
     TEST_ASSERT_TRUE(d.image->ledger.kept);
-    TEST_ASSERT_EQUAL_INT(2, d.image->ledger.inputs); /* B and D, which are in the energies */
+    TEST_ASSERT_EQUAL_INT(2, d.image->ledger.inputs); /* inputs B and D are in the energies */
     TEST_ASSERT_EQUAL_STRING("B", d.image->input[d.image->ledger.input[0]].name);
     TEST_ASSERT_EQUAL_STRING("D", d.image->input[d.image->ledger.input[1]].name);
     TEST_ASSERT_EQUAL_INT(5, check_targets(&d, "s"));

@@ -14,7 +14,7 @@
 #include "linear.h"
 #include "motion.h"
 
-/* === divergence =============================================================================== */
+/* === suite divergence ========================================================================= */
 
 /* x'' = 2 x^3/m^2 from x = 1 m at 1 m/s has the solution x = 1/(1 - t), infinite at 1 s. */
 static const char blow_up[] = "mechanism blow_up\n"
@@ -123,7 +123,7 @@ TEST(divergence, starts_beyond_all_bounds) {
     model_drop();
 }
 
-/* === horizon ================================================================================== */
+/* === suite horizon ============================================================================ */
 /* The time until which each column of a run is accurate. Passages of a level are compared with all entered
  * differences; verdicts on random columns with their definition; step doubling of growth and decay with powers of
  * the known factor of a step. Words and rows of the report are read back. */
@@ -197,7 +197,7 @@ static drawn_column draw_column(dice *d) {
     const bool moves = dice_one_of(d, 3) > 0;
     c.high = c.low + (moves ? pow(10.0, dice_between(d, -7.0, 2.0)) : 0.0);
     c.rounding = dice_one_of(d, 2) == 0 ? 0.0 : pow(10.0, dice_between(d, -9.0, -2.0));
-    if (dice_one_of(d, 4) == 0) { /* around zero */
+    if (dice_one_of(d, 4) == 0) { /* a column around zero */
         c.high = -c.low;
     }
     c.low = fmin(c.low, c.high);
@@ -311,7 +311,7 @@ TEST(horizon, verdicts_on_drawn_columns) {
         TEST_ASSERT_EQUAL_DOUBLE(until_s, h.until_s);
         TEST_ASSERT_EQUAL_INT(to_the_end, h.to_the_end);
         TEST_ASSERT_TRUE(to_the_end ? h.first == -1 : h.column[h.first].until_s == until_s);
-        /* h.first is the first of several columns */
+        /* h.first is the first of the columns that fail */
         for (int k = 1; !to_the_end && k < h.first; k++) {
             TEST_ASSERT_TRUE(!ends_it(&h.column[k]) || h.column[k].until_s > until_s);
         }
@@ -500,7 +500,7 @@ TEST(horizon, words_and_rows) {
     derived_free(&made);
 }
 
-/* === trust kinks ============================================================================== */
+/* === suite trust_kinks ======================================================================== */
 /* The time until which a run with a kinked force is accurate. A body is on a spring, and a second spring acts beyond
  * a gap. The motions between the kinks are sines, so the reference is a closed form. A kink destroys the order of
  * the method, and two runs may have the same error. */
@@ -508,8 +508,8 @@ TEST(horizon, words_and_rows) {
 #define TURN 6.28318530717958648
 
 typedef struct two_springs {
-    double soft; /* N/m */
-    double hard; /* further N/m beyond the gap */
+    double soft; /* stiffness of the spring, N/m */
+    double hard; /* further stiffness beyond the gap, N/m */
     double gap_m;
     double x_m;
     double v_mps;
@@ -706,7 +706,7 @@ TEST(trust_kinks, coarse_steps_until_the_reference_says_so) {
     TEST_ASSERT_TRUE(ended > 0 && ended < (int)cases);
 }
 
-/* === twins ==================================================================================== */
+/* === suite twins ============================================================================== */
 /* Step doubling (host/check/step_doubling.h): the settings of the finer run, the ends of both runs, and the report,
  * for oscillators with a known motion. */
 

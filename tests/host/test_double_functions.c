@@ -145,7 +145,7 @@ TEST(double_functions, atan2) {
             if (kind == 1) {
                 y = within(-1.0, 1.0);
                 x = within(-1.0, 1.0);
-            } else if (kind == 2) { /* two numbers of similar size */
+            } else if (kind == 2) { /* x and y are of similar size */
                 x = isfinite(y) ? y * either(within(0.01, 1.0)) : x;
             } else if (kind == 3) {
                 x = isfinite(y) ? y * scaled_between(-70, 70) : x;
@@ -163,18 +163,18 @@ TEST(double_functions, pow) {
         for (unsigned long i = cases(); i > 0; i--) {
             double x = any();
             double y = any();
-            if (kind == 1) { /* a result of any size */
+            if (kind == 1) { /* powers of any size */
                 x = fabs(x);
                 y = isfinite(x) && x > 0.0 ? within(-745.0, 710.0) / log(x) : y;
             } else if (kind == 2) {
                 x = within(0.0, 10.0);
                 y = within(-10.0, 10.0);
-            } else if (kind == 3) { /* all digits of the logarithm matter */
+            } else if (kind == 3) { /* powers for which all digits of log(x) matter */
                 x = near_widely(1.0);
                 y = within(-745.0, 710.0) / log(x);
             } else if (kind == 4) {
                 y = either((double)(scattered() % 40U));
-            } else if (kind == 5) { /* results too small for 53 bits */
+            } else if (kind == 5) { /* powers too small for 53 bits */
                 x = within(0.0, 1.0);
                 y = x > 0.0 ? within(-745.2, -708.0) / log(x) : y;
             }

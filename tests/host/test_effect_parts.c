@@ -111,7 +111,7 @@ TEST(effect_parts, changes_of_what_takes_no_part_are_refused) {
 TEST(effect_parts, a_scene_sets_what_it_names) {
     static const struct {
         const char *scene;
-        const char *said; /* NULL: accepted */
+        const char *said; /* the error; NULL if accepted */
     } all[] = {{"scene s { set b = 3 }",
                 "t.whirl:5:15: error: 'b' belongs to the effect 'drag', which this "
                 "scene does not select"},
@@ -178,7 +178,7 @@ static derived derive_with(const int *giver, unsigned with) {
                          : none ? "T ="
                                 : "  +",
                          i + 2, i);
-                if (of == 0 && !none) { /* one statement has the sum of all terms */
+                if (of == 0 && !none) { /* this statement has the sum of all terms */
                     text[strlen(text) - 1] = '\0';
                 }
                 none = of == 0 ? false : none;
@@ -199,12 +199,12 @@ static derived derive_with(const int *giver, unsigned with) {
 }
 
 TEST(effect_parts, inertia_of_effects) {
-    for (int way = 0; way < 64; way++) { /* every giver for every coordinate */
+    for (int way = 0; way < 64; way++) { /* tries every giver for every coordinate */
         int giver[COORDINATES];
         for (int i = 0; i < COORDINATES; i++) {
             giver[i] = way >> (2 * i) & 3;
         }
-        for (unsigned with = 0; with < 16; with += 2) { /* every set of active effects */
+        for (unsigned with = 0; with < 16; with += 2) { /* tries every set of active effects */
             derived d = derive_with(giver, with);
             int missing = -1;
             for (int i = COORDINATES - 1; i >= 0; i--) {

@@ -31,11 +31,11 @@ enum { MOST = 8, X = 0, VX = 1, Y = 2, VY = 3, N = 4, STEPS = 2000, CASES = 50, 
 #define STEP_S 1e-3
 
 typedef struct carts {
-    int kind[MOST]; /* a permutation of the kinds */
+    int kind[MOST]; /* the kinds in random sequence */
     int effects;
     double p[KINDS];
     double m[2]; /* masses, kg */
-    double k[2]; /* springs to the ground, N/m */
+    double k[2]; /* stiffness of springs to the ground, N/m */
     double start[N];
 } carts;
 

@@ -135,7 +135,7 @@ TEST(effects, motor_line_ends_at_the_no_load_speed) {
 /* A tenth of the stall torque must hold the arms at the angle where the torque of gravity is equal. */
 TEST(effects, motor_holds_the_arms_against_gravity) {
     const double S_kgm =
-        /* 0.035163 in the model's header */
+        /* this product is 0.035163 in the model's header */
         2.0 * 0.45359237 * 0.0254 * (0.152 * 7.25 / 2.0 + 0.15 * 6.5);
     const double rise = asin(0.1 * 1.5 / (S_kgm * 9.80665));
     static const char *const mechanisms[] = {"eccentric_fixed", "eccentric", "eccentric_coupled"};
@@ -147,7 +147,7 @@ TEST(effects, motor_holds_the_arms_against_gravity) {
         int length = snprintf(text, sizeof text,
                               "scene t { use %s; with gravity; set duty = 0.1; start theta = %.17g",
                               mechanisms[i], at);
-        if (i == 2) { /* twist of the coupling: torque over stiffness */
+        if (i == 2) { /* the coupling is twisted by torque over stiffness */
             length += snprintf(text + length, sizeof text - (size_t)length, ", motor = %.17g",
                                at + 0.1 * 1.5 / 20.0);
         }
@@ -199,7 +199,7 @@ TEST(effects, coupled_motor_ends_at_its_load_speed) {
     motion_close(&m);
 }
 
-/* === effect work =============================================================================== */
+/* === suite effect_work ========================================================================= */
 /* The work of the additive effects in the built-in models. The energies of the bodies, which are written in complex
  * numbers here, must change by the integral of the effect's power. */
 

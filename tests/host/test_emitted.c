@@ -78,7 +78,7 @@ static bool turns_writing(const char *text) {
 TEST(emitted, comments_stay_comments) {
     for (unsigned c = 0; c < dice_cases(400); c++) {
         char text[200] = "";
-        char bare[200] = ""; /* without blanks and pieces that become blanks */
+        char bare[200] = ""; /* what must remain, without blanks */
         for (unsigned n = dice_one_of(&die, 12); n > 0; n--) {
             const bool is_plain = dice_one_of(&die, 2) == 0;
             const unsigned which = dice_one_of(&die, is_plain ? PLAIN : ODD);
@@ -107,12 +107,12 @@ TEST(emitted, comments_stay_comments) {
         TEST_ASSERT_EQUAL_STRING("", want + strspn(want, " "));
         free(got);
     }
-    for (int i = 0; i < PLAIN; i++) { /* alone, a character of any width stays unchanged */
+    for (int i = 0; i < PLAIN; i++) { /* alone, no character may change */
         char *got = commented(plain[i]);
         TEST_ASSERT_EQUAL_STRING(plain[i], got);
         free(got);
     }
-    for (int i = 5; i < ODD; i++) { /* each forbidden piece becomes one blank */
+    for (int i = 5; i < ODD; i++) { /* each forbidden piece must become a blank */
         char *got = commented(odd[i]);
         TEST_ASSERT_EQUAL_STRING(" ", got);
         free(got);

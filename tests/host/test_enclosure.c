@@ -61,7 +61,7 @@ static void test_four_operations(void) {
         const enclosure ratio = enclosure_div(a, b);
         if (b.low <= 0.0 && b.high >= 0.0) {
             TEST_ASSERT_FALSE(enclosure_is_finite(ratio));
-        } else { /* x = r y, in exact products */
+        } else { /* exact products of x and of r y must agree */
             const quad low = (quad)ratio.low * (quad)y;
             const quad high = (quad)ratio.high * (quad)y;
             expect_holds("a ratio", ratio, (quad)x / (quad)y);
@@ -225,7 +225,7 @@ static void test_sines(void) {
 static void test_functions(void) {
     for (unsigned i = 0; i < dice_cases(usual_or(60000, 15000)); i++) {
         const function_id function = (function_id)(i % (unsigned)FUNCTIONS);
-        const double scale = dice_one_of(&die, 2) == 0 ? 1.0 : 0x1p-20; /* else values far from 1 */
+        const double scale = dice_one_of(&die, 2) == 0 ? 1.0 : 0x1p-20; /* near 1, or far from 1 */
         enclosure a = drawn_enclosure();
         enclosure b = drawn_enclosure();
         a = (enclosure){scale * a.low, scale * a.high};

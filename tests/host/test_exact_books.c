@@ -9,7 +9,7 @@
 #include "derived.h"
 #include "motion.h"
 
-/* === exact books ============================================================================== */
+/* === suite exact_books ======================================================================== */
 
 static char *made_up(uint64_t *seed) {
     double r[8];
@@ -78,7 +78,7 @@ TEST(exact_books, long_exact_steps_are_believed) {
     TEST_ASSERT_GREATER_THAN_INT((int)usual_or(8, 4), coarse);
 }
 
-/* === force free =============================================================================== */
+/* === suite force_free ========================================================================= */
 /* Scenes without external forces: momentum and centre of mass must stay constant with each scene's own step, apart from
  * the method's error.
  *
@@ -299,7 +299,7 @@ TEST(force_free, momentum_and_centre_of_mass_stay_at_each_scenes_own_step) {
     }
 }
 
-/* === ledger scenes ============================================================================ */
+/* === suite ledger_scenes ====================================================================== */
 /* The energy balance must not change the run of a built-in scene. test_contact.c tests the entries. */
 
 static int check_bits_with_books(const scene *s) {

@@ -183,8 +183,8 @@ TEST(far_origin, fine_steps_are_silent) {
     unsigned told = 0;
     const unsigned rounds = dice_cases(usual_or(2, 1));
     for (unsigned i = 0; i < rounds * 9 * FAR; i++) {
-        const double tens = i / FAR % 9;                /* 1 to 1e8 amplitudes */
-        for (unsigned n = 0; n < usual_or(2, 1); n++) { /* in both numbers, or in one of them */
+        const double tens = i / FAR % 9;                /* far_m is 1 to 1e8 amplitudes */
+        for (unsigned n = 0; n < usual_or(2, 1); n++) { /* in float and double, or in one of them */
             const int k = (int)((i / FAR + i + n) % 2U);
             const double most = far_most((far_kind)(i % FAR), k == 1);
             far_case c = case_of(&d, pow(10.0, fmin(tens, most)) * dice_between(&d, 0.5, 1.5));
@@ -270,7 +270,7 @@ TEST(far_origin, carts_that_stand) {
         const double places = pow(10.0, dice_between(&d, -4.0, 1.0));
         const double far_m =
             floor(speed_mps * step_s * places * (is_float ? 0x1p24 : 0x1p53) / 16.0) * 16.0;
-        if (far_m > 9e14) { /* beyond 1e15 a run ends */
+        if (far_m > 9e14) { /* a run ends beyond 1e15 m */
             continue;
         }
         char text[400];
@@ -345,7 +345,7 @@ TEST(far_origin, cures_are_silent) {
             said then;
             const int end = named_words(&list[c], method, "float", words, 2);
             if (i % 3U == 0 && !list[c].compensated) {
-                words[end] = "--compensated"; /* the options of the first run */
+                words[end] = "--compensated"; /* appended to the options of the first run */
                 words[end + 1] = NULL;
             }
             command_say(command_run, words, &then);
@@ -359,7 +359,7 @@ TEST(far_origin, cures_are_silent) {
     TEST_ASSERT_TRUE(told > cases / 10 && cures > 0);
 }
 
-/* === far slopes ================================================================================ */
+/* === suite far_slopes ========================================================================== */
 /* Runs far from the origin whose slopes have too few digits: roots, quotients and exponentials of differences. The
  * reference is the same mechanism at the origin, in double. Errors must be reported, the named remedy must remove
  * them, and only accurate runs may be trusted to the end. */
@@ -426,7 +426,7 @@ static void slope_mechanism(const slope_case *c, double far_m, char *text, size_
 static void run_slope(const slope_case *c, const char *text, const char *number, const char *more,
                       said *what) {
     char every[40];
-    const int stride = c->steps / RECORDS; /* exact: steps is a multiple of RECORDS */
+    const int stride = c->steps / RECORDS; /* exact, because steps is a multiple of RECORDS */
     snprintf(every, sizeof every, "%.17gs", stride * c->step_s);
     const char *words[] = {model_keep(text), "--number", number, "--csv", "-",
                            "--every",        every,      more,   NULL};
@@ -554,7 +554,7 @@ static void hold(bool is_float) {
                                      what.err);
         }
         TEST_ASSERT_FALSE_MESSAGE(to_the_end && off > 5e-3 && c.far < TOLD_MOST, text);
-        if (off < (is_float ? 3e-3 : 5e-4)) { /* with as many digits as the reference */
+        if (off < (is_float ? 3e-3 : 5e-4)) { /* as accurate as the reference */
             fine++;
             lucky += is_luck(&c, is_float, what.err) ? 1U : 0U;
             TEST_ASSERT_TRUE_MESSAGE(!warns || is_luck(&c, is_float, what.err), what.err);

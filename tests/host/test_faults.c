@@ -13,7 +13,7 @@
 #include "faults.h"
 #include "motion.h"
 
-/* === faults =================================================================================== */
+/* === suite faults ============================================================================= */
 
 #define AMPLITUDE_N 42.0
 #define PHASE_RAD 0.3
@@ -194,7 +194,7 @@ TEST(faults, no_lies) {
     m = wrong;
     m.half_N = 25.0;
     TEST_ASSERT_TRUE(judged(&m).lie == 0.0);
-    m = honest; /* the result has more turns than were recorded */
+    m = honest; /* a result with more turns than were recorded */
     m.turns = 40;
     TEST_ASSERT_TRUE(judged(&m).lie > 0.5);
     m = honest;
@@ -213,7 +213,7 @@ TEST(faults, off_is_off) {
         m = honest;
         m.state = states[i];
         m.swing_J = 0.0;
-        m.fault = "stuck@0.5"; /* from here on each turn is faster */
+        m.fault = "stuck@0.5"; /* from here on, each turn is faster */
         m.off_s = 99.0;
         verdict v = judged(&m);
         TEST_ASSERT_TRUE(v.stays_on && v.runs_on && v.untold == (states[i] != 4));
@@ -232,12 +232,12 @@ TEST(faults, stops) {
     m.off_s = 1.001;
     verdict v = judged(&m);
     TEST_ASSERT_TRUE(v.halted && fabs(v.halted_s - 2e-3) < 3e-4);
-    m.off_s = 0.5; /* the enable was off already */
+    m.off_s = 0.5; /* the drive was off already */
     v = judged(&m);
     TEST_ASSERT_TRUE(v.halted && v.halted_s == 0.0);
-    m.off_s = 1.003; /* the order comes too late */
+    m.off_s = 1.003; /* the drive ends too late */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
-    m.off_s = 99.0; /* the order never comes */
+    m.off_s = 99.0; /* the drive never ends */
     TEST_ASSERT_TRUE(judged(&m).halted_s < 0.0);
     for (int when = 0; when < 12; when++) { /* drives again while stop is pressed, or later */
         m.on_s = 1.02 + when * 0.13;
@@ -261,7 +261,7 @@ TEST(faults, resets) {
         verdict v = judged(&m);
         TEST_ASSERT_TRUE(v.halted && v.happened && v.halted_s < 1e-9 && v.halted_s >= 0.0);
         TEST_ASSERT_FALSE(v.forgets || v.latched);
-        m.off_s = 99.0; /* the controller continues in its state */
+        m.off_s = 99.0; /* the controller goes on in its state */
         v = judged(&m);
         TEST_ASSERT_TRUE(v.halted_s < 0.0);
         m.on_s = 2.0;
@@ -273,7 +273,7 @@ TEST(faults, resets) {
     m.cause = 0;
     TEST_ASSERT_TRUE(judged(&m).forgets);
     m.cause = 1;
-    m.state_after = 1; /* armed */
+    m.state_after = 1; /* the state `armed` */
     TEST_ASSERT_TRUE(judged(&m).forgets);
     for (int trip = 2; trip < 12; trip++) {
         m.state = 4;
@@ -291,7 +291,7 @@ TEST(faults, resets) {
     }
 }
 
-/* === lockstep ================================================================================= */
+/* === suite lockstep =========================================================================== */
 /* A firmware and a plant exchange messages by turns. Taps listen or change the messages, and a tape records them.
  * The firmware is build/pil_cart, in its own process. */
 
@@ -403,7 +403,7 @@ static void test_listening(void) {
     TEST_ASSERT_EQUAL_UINT64(1500, report.exchanges);
     TEST_ASSERT_EQUAL_UINT64(1500, heard.orders);
     TEST_ASSERT_EQUAL_UINT64(1500, heard.readings);
-    TEST_ASSERT_EQUAL_UINT64(2 * 1499, heard.samples); /* the first reading is the start */
+    TEST_ASSERT_EQUAL_UINT64(2 * 1499, heard.samples); /* the first reading has no sample */
     TEST_ASSERT_TRUE(heard.most_N > 1.0F && heard.most_N <= 20.0F);
 }
 
@@ -497,11 +497,11 @@ static void test_tapes_of_resets(void) {
         unsigned resets;
         uint64_t exchanges;
     } rows[] = {
-        {"reset=0@0.1005", 1, 301}, /* at 0.1005 s, then each millisecond */
+        {"reset=0@0.1005", 1, 301}, /* at 0.1005 s, then in each millisecond */
         {"reset=5ms@0.1005", 1, 296},
         {"reset=5ms@0.1005,reset=20ms@0.2001", 2, 276},
         {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* one reset within another */
-        {"reset=0@0", 1, 301},                                        /* before the first orders */
+        {"reset=0@0", 1, 301},                                        /* before any orders */
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         fault_plan plan = {.seed = 1};
@@ -537,7 +537,7 @@ SUITE(lockstep) {
     motion_close(&cart);
 }
 
-/* === replay =================================================================================== */
+/* === suite replay ============================================================================= */
 /* A random tape replaces the plant (host/pil/taped.c). A replay ends with the tape or with the firmware. It ends
  * with a message at the first answer that differs. The tape of another firmware or an invalid tape is refused. */
 
@@ -637,7 +637,7 @@ TEST(replay, not_replayed) {
         talk_tape_all(talk_drawn.turns);
         const unsigned turns = talk_one_of(talk_drawn.turns);
         talk_say_all(turns);
-        if (c % 4 == 0) { /* the firmware ends before the tape */
+        if (c % 4 == 0) { /* the firmware ends before the tape does */
             talk_put_end(&talk_line, 0, 4);
             const char *told = replay(LOCKSTEP_DIFFERENT, turns, true);
             snprintf(words, sizeof words,

@@ -13,7 +13,7 @@
 
 static dice die;
 
-/* === short runs =============================================================================== */
+/* === suite short_runs ========================================================================= */
 /* Runs of one to nine steps, compared with closed forms: a force or a spring pulls a body back, with or without a
  * stop that is not reached. An odd number of steps leaves the balance's last step without a pair; a single step
  * beside a contact has no successor. Accurate runs must cause no warning, and wrong runs must not be trusted. */
@@ -107,7 +107,7 @@ static void hold(const char *number) {
 TEST(short_runs, in_float) { hold("float"); }
 TEST(short_runs, in_double) { hold("double"); }
 
-/* === small told =============================================================================== */
+/* === suite small_told ========================================================================= */
 /* The figures in reports on small numbers: an angle that moves by a few of its units in a step (host/check/slow.h),
  * and a motion of a few of float's smallest numbers. */
 
@@ -222,7 +222,7 @@ TEST(small_told, lost_powers) {
 
 SUITE(small_told) { die = dice_of("small told", 90); }
 
-/* === sweeps told ============================================================================== */
+/* === suite sweeps_told ======================================================================== */
 
 static unsigned times_in(const char *text, const char *words) {
     unsigned times = 0;
@@ -259,7 +259,7 @@ TEST(sweeps_told, failures) {
     model_drop();
 }
 
-/* === thresholds =============================================================================== */
+/* === suite thresholds ========================================================================= */
 /* Each finding on both sides of its limit (host/check/finding.h). A scene has one parameter, and is silent at one
  * end of a range and reported at the other. Bisection finds the parameter at the limit. On one side of it the
  * finding must be reported, with a value just beyond the limit; on the other side nothing. The parameter at the
@@ -278,11 +278,10 @@ static const struct {
     double limit;
     const char *text;
 } rows[] = {
-    {FINDING_ENERGY, "double", 0.1, 10.0, 0.4335,
-     1e-3, /* N (h w)^6/72 of the energy; largest entry: sqrt(2) */
+    {FINDING_ENERGY, "double", 0.1, 10.0, 0.4335, 1e-3, /* energy error N (h w)^6/72 */
      "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %1$.17g [N/m]*x^2/2\n"
      "scene s { start x = 1 [m]\nstep 0.5 [s]\nuntil 40 [s] }\n"},
-    {FINDING_ACCURACY, "double", 0.1, 4.0, 2.728, 0.5, /* w t (h w)^4/120: 1 % of the range */
+    {FINDING_ACCURACY, "double", 0.1, 4.0, 2.728, 0.5, /* phase error w t (h w)^4/120: 1 % */
      "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %1$.17g [N/m]*x^2/2\n"
      "scene s { start x = 1 [m]\nstep 0.25 [s]\nuntil 100 [s] }\n"},
     {FINDING_MASS, "double", 1e-10, 1e-13, 4e-12, 1e-4,
@@ -294,7 +293,7 @@ static const struct {
      "mechanism m\ncoordinate x [m]\ncoordinate t [s]\nT = 1 [kg]*x'^2/2 + 1e-9 [J]*t'^2/2\n"
      "Q(x) = 1 [N] + %1$.17g [N]*cos(2*pi*400 [Hz]*t)\n"
      "scene s { start x' = 1 [m/s], t' = 1\nstep 10 [ms]\nuntil 2 [s] }\n"},
-    {FINDING_APART, "double", 1e-8, 1e-4, 1.25e-6, 1e-6, /* 0.8 of it is along the rod */
+    {FINDING_APART, "double", 1e-8, 1e-4, 1.25e-6, 1e-6, /* 0.8 of the gap is along the rod */
      "mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x'^2 + y'^2)/2\n"
      "V = 9.81 [N]*y\nhold sqrt(x^2 + y^2) - 1 [m] while 1 > 0\n"
      "scene s { start x = 0.6 [m], y = 0.8 [m] + %1$.17g [m]\nstep 1 [ms]\nuntil 20 [ms] }\n"},

@@ -11,7 +11,7 @@
 #include "command.h"
 #include "derived.h"
 
-/* === fixed loss =============================================================================== */
+/* === suite fixed_loss ========================================================================= */
 
 typedef struct outcome {
     double angle[4];
@@ -93,7 +93,7 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
     const outcome end = run_of(&d);
     const double span = 2.0 * value;
     const double where = kind == 1 ? end.angle[0] : end.real[0];
-    /* start and input are each rounded once more */
+    /* rounding the start and the input adds an error to that of the steps */
     double worst = fabs(where - span) / span;
     worst = kind == 0 ? fmax(worst, fabs(end.real[1] - span) / span) : worst;
     TEST_ASSERT_FALSE_MESSAGE(end.held, text);
@@ -133,7 +133,7 @@ TEST(fixed_loss, books_believe_what_is_right) {
     for (int mass = -6; mass <= 6; mass += 2) {
         for (int spring = -6; spring <= 6; spring += 2) {
             const double w = pow(10.0, 0.5 * (spring - mass));
-            if (w > 100.0) { /* the step is too coarse */
+            if (w > 100.0) { /* the step is too coarse for this spring */
                 continue;
             }
             char *text = alloc_words(
@@ -154,7 +154,7 @@ TEST(fixed_loss, books_believe_what_is_right) {
     TEST_ASSERT_GREATER_THAN_INT(30, right);
 }
 
-/* === fixed runs =============================================================================== */
+/* === suite fixed_runs ========================================================================= */
 /* Fixed-point runs of random smooth mechanisms, compared with the run in double: the difference must be below the
  * round-off of the number formats. Also ranges that are too small, and refusals. */
 
@@ -265,7 +265,7 @@ static double bound_of(const fixed_plan *p, int i) {
         const fixed_op *result = &p->list->op[p->list->result[k]];
         const int at = p->second ? linears + k : k - im->angles;
         const double unit = at >= 0 ? ldexp(1.0, -p->format[at].bits) : 0.0;
-        const double of_one = at >= 0 ? 1.0 : 6.283185307179586 / 4294967296.0; /* phases */
+        const double of_one = at >= 0 ? 1.0 : 6.283185307179586 / 4294967296.0; /* as a phase */
         const double most = of_one * fmax(fabs(result->range.low), fabs(result->range.high));
         rate = fmax(rate, some * unit + steps * 2.0 * ldexp(most, -FIXED_RESULT_DIGITS));
     }
@@ -284,7 +284,7 @@ static void check_beside_double(const derived *d, bool declared, const char *tex
     for (int i = 0; i < d->image->reals; i++) {
         const double bound = bound_of(p, i);
         const double size = fmax(fabs(p->range[i].low), fabs(p->range[i].high));
-        TEST_ASSERT_TRUE_MESSAGE(bound < 3e-3 * size, text); /* else the comparison says nothing */
+        TEST_ASSERT_TRUE_MESSAGE(bound < 3e-3 * size, text); /* a wide bound would show nothing */
         TEST_ASSERT_TRUE_MESSAGE(fabs(fixed[i] - exact[i]) <= bound, text);
     }
     d->image->fixed = NULL;
@@ -413,7 +413,7 @@ TEST(fixed_runs, ranges_in_the_language) {
     derived_free(&d);
 }
 
-/* === fixed ranges ============================================================================ */
+/* === suite fixed_ranges ====================================================================== */
 /* Fixed point with ranges and steps of all sizes. Planning must end with a plan, or with a refusal whose hint helps.
  * Coordinates without acceleration must still move. */
 
@@ -632,7 +632,7 @@ TEST(fixed_ranges, inputs_must_declare_ranges) {
     }
 }
 
-/* === engine fixed ============================================================================ */
+/* === suite engine_fixed ====================================================================== */
 /* Steps in fixed point (host/fixed/engine_fixed.h), compared with the same steps in double, for random mechanisms.
  * The steps are so long and so few that a wrong Runge-Kutta stage would exceed the round-off. Also other queries of
  * a run. The suites above test whole runs. */
@@ -750,7 +750,7 @@ TEST(engine_fixed, steps) {
                 worst[which] = fmax(worst[which], units_off(im, fixed, exact));
                 TEST_ASSERT_EQUAL_INT(WH_OK, engine_fixed.step(fixed));
                 TEST_ASSERT_EQUAL_INT(WH_OK, engine_double.step(exact));
-                if (k == im->steps / 2) { /* from here on with another input */
+                if (k == im->steps / 2) { /* from here on, another input acts */
                     const double input = im->input[0].value * some(0.2, 0.9);
                     engine_fixed.set_input(fixed, 0, input);
                     engine_double.set_input(exact, 0, input);
@@ -787,7 +787,7 @@ TEST(engine_fixed, outputs_and_inputs) {
         const double wanted[ENGINE_KINDS] = {is[0] - 2.0 * is[1], is[1] * sin(is[0]), is[0] - is[1],
                                              is[1] * is[2], is[0] + is[1]};
         TEST_ASSERT_TRUE_MESSAGE(fabs(output[0] - wanted[which]) < 1e-13, text);
-        TEST_ASSERT_TRUE(which != 1 || output[2] == is[3]); /* a, x, a', x' */
+        TEST_ASSERT_TRUE(which != 1 || output[2] == is[3]); /* components a, x, a', x' */
         const enclosure range = p->range[im->reals];
         const double unit = ldexp(1.0, -p->format[im->reals].bits);
         for (int k = 0; k < 20; k++) {

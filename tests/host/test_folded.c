@@ -12,13 +12,13 @@
 #include "command.h"
 #include "motion.h"
 
-/* === folded =================================================================================== */
+/* === suite folded ============================================================================= */
 
 enum { MOST = 3, LINKS = 4, GROUND = -1 };
 
 typedef struct link {
     int of;
-    int to; /* a body or GROUND */
+    int to; /* number of a body, or GROUND */
     double spring_Npm;
     double damper_Nspm;
 } link;
@@ -213,7 +213,7 @@ static void run_by_bodies(const held *h, long double *end, double *range) {
 typedef struct seen {
     bool refused;
     bool told;    /* a loss by constant folding was reported */
-    bool warned;  /* any warning */
+    bool warned;  /* any warning was printed */
     bool trusted; /* the run is trusted to its end */
     /* `whirl trust` answered "unknown", because the bound on round-off is too large */
     bool untold;
@@ -294,7 +294,7 @@ static held draw(dice *d, double ratio) {
         (link){0, dice_one_of(d, 3) == 0 ? GROUND : heavy, h.mass_kg[0] * slow_radps * slow_radps,
                dice_one_of(d, 2) * 0.02 * h.mass_kg[0] * slow_radps};
     h.start[0] = 0.1;
-    h.start[heavy] = -0.1; /* at position 0 */
+    h.start[heavy] = -0.1; /* relative to the light body */
     if (heavy == 2) {
         h.mass_kg[1] = h.mass_kg[0] * power_of_ten(d, 0.0, 4.0);
         h.link[h.links++] = (link){1, 2, h.mass_kg[1] * slow_radps * slow_radps, 0.0};
@@ -393,7 +393,7 @@ TEST(folded, rounding_alone_is_nothing_lost) {
         TEST_ASSERT_TRUE_MESSAGE(ways_of(text) > 0, text);
     }
     printf("  %u arms with last digits alone: %u derived in other ways\n", cases, asked);
-    TEST_ASSERT_TRUE(20 * asked <= cases); /* only the few whose round-off adds up */
+    TEST_ASSERT_TRUE(20 * asked <= cases); /* few cases: their round-off adds up */
 }
 
 /* Numbers smaller than such round-off are lost, which must be reported. Round-off that is smaller than the numbers
@@ -424,7 +424,7 @@ TEST(folded, what_is_nearly_the_same) {
         said what;
         const double stiff = power_of_ten(&d, 10.0, 14.0);
         const double other = stiff * (1.0 + dice_between(&d, 2.5e-15, 9e-15));
-        const double soft = other - stiff; /* exact */
+        const double soft = other - stiff; /* the exact difference */
         snprintf(text, sizeof text,
                  "mechanism pair\ncoordinate x [m]\nparameter K = %.17g [N/m]\n"
                  "parameter L = %.17g [N/m]\nT = %.17g [kg]*x'^2/2\nV = L*x^2/2 - K*x^2/2\n"
@@ -441,7 +441,7 @@ TEST(folded, what_is_nearly_the_same) {
     }
 }
 
-/* === blurred ================================================================================== */
+/* === suite blurred ============================================================================ */
 /* Bodies on a line with relative coordinates and masses that differ by up to 1e13. Round-off leaves few digits of
  * their mass matrix, in double too, so two runs can agree on a wrong result. A wrong run must have a warning.
  * Coordinates relative to the heavier body are accurate and must cause no warning. */
@@ -490,7 +490,7 @@ static line draw_line(dice *d, double decades) {
     for (int b = 0; b < l.bodies; b++) {
         l.spring_Npm[b] = least * dice_between(d, 25.0, 200.0);
     }
-    for (int i = l.bodies - 1; i > 0; i--) { /* random order */
+    for (int i = l.bodies - 1; i > 0; i--) { /* shuffles the bodies */
         const int with = (int)dice_one_of(d, (unsigned)i + 1U);
         const int swap = l.order[i];
         l.order[i] = l.order[with];
@@ -627,7 +627,7 @@ TEST(blurred, equations_that_say_nearly_the_same) {
     }
 }
 
-/* === folded numbers =========================================================================== */
+/* === suite folded_numbers ===================================================================== */
 /* A soft spring whose stiffness is computed from much larger numbers, by parameters or in the formula: differences,
  * quotients, roots and functions. The spring acts on a mass, or its stiffness determines the start, a push, a
  * friction or the `set` of an event. The reference is the closed form with the intended stiffness. Wrong runs must
@@ -663,7 +663,7 @@ typedef enum use { HOLDS, STARTS, PUSHES, RUBS, SETS, USES } use;
 typedef struct drawn {
     unsigned maker;
     use use;
-    bool inside; /* the formula has them inside, without parameters */
+    bool inside; /* the formula contains its numbers, and there are no parameters for them */
     double soft_Npm;
     double hard_Npm;
     double rate_radps;
@@ -814,7 +814,7 @@ TEST(folded_numbers, what_numbers_lose_is_told) {
         said what;
         draw_folded_numbers(&d, &w);
         command_say_model(command_run, w.text, &what);
-        if (what.status == 2) { /* x has no spring, or a division by zero */
+        if (what.status == 2) { /* no spring for x, or a division by zero */
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "error: "), what.err);
             continue;
         }

@@ -72,7 +72,7 @@ static int doubles_from(double from, double to) {
 
 TEST(folding_ways, what_is_not_exact_is_moved) {
     dice d = dice_of("folding ways", 1);
-    unsigned times[KINDS][FOLDING_WAYS][5] = {{{0}}}; /* [moved by -2 to 2] */
+    unsigned times[KINDS][FOLDING_WAYS][5] = {{{0}}}; /* number of moves by -2 to 2 doubles */
     for (unsigned i = 0; i < DRAWN; i++) {
         const double x = drawn(&d);
         const double y = drawn(&d);

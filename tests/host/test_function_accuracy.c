@@ -39,7 +39,7 @@ static float quarter_turn(void) {
 }
 
 static double error_of(float got, long double wanted) {
-    /* from 2^128 on, a float is infinite */
+    /* from 2^128 on, the nearest float is infinite */
     const long double truth = fminl(fabsl(wanted), 0x1p128L);
     const long double reached = isinf(got) ? 0x1p128L : fabsl((long double)got);
     int exponent = -125;

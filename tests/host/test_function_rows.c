@@ -40,7 +40,7 @@ static bool difference(int f, int which, double x, double y, double *slope) {
     const double narrow = (value[3] - value[1]) / (2.0 * WIDTH);
     const double wide = (value[4] - value[0]) / (4.0 * WIDTH);
     *slope = narrow + (narrow - wide) / 3.0;
-    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* false for NaN, too */
+    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* false if NaN, too */
 }
 
 static const symbol variables[2] = {
@@ -70,7 +70,7 @@ TEST(function_rows, slopes) {
                 const double allowed = 1e-6 * (1.0 + fabs(wanted));
                 expect_near(f, wanted, number_slope(at(f), which, point[0], point[1]), allowed,
                             point[0], point[1]);
-                /* by the rule for this function, and by poly_derivative() */
+                /* the slope by the function's own rule, and by poly_derivative() */
                 const poly *rule = function_slope(a, at(f), which, x, y);
                 const poly *of_whole = poly_derivative(a, whole, &variables[which], 0);
                 expect_near(f, wanted, poly_evaluate(rule, variable_value, point), allowed,
@@ -261,7 +261,7 @@ static void expect_in(const char *text, const char *before, int f, const char *a
 TEST(function_rows, words_of_the_docs) {
     char *docs = read_whole("docs/language.md");
     char *words = read_whole("tests/fuzz/fuzz_lang.dict");
-    for (char *c = docs; *c != '\0'; c++) { /* joins the lines of the page */
+    for (char *c = docs; *c != '\0'; c++) { /* removes the page's line breaks */
         *c = *c == '\n' ? ' ' : *c;
     }
     char *list = strstr(docs, "`+ - * / ^`, parentheses, `");

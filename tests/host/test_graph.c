@@ -96,7 +96,7 @@ static void derivatives(drawn_kind kind, complex_number a, long double exponent,
             power = n > 0 ? power / a : power;
             outer[n] = n == 0 ? logarithm(a) : (n % 2 == 0 ? -1.0L : 1.0L) * power / (long double)n;
             break;
-        case DRAWN_RATIO: /* 1/a */
+        case DRAWN_RATIO: /* the function 1/a */
             power = power / a;
             outer[n] = (n % 2 == 0 ? 1.0L : -1.0L) * power;
             break;
@@ -139,7 +139,7 @@ static series composed(drawn_kind kind, series u, long double exponent, int orde
     derivatives(kind, u.at[0], exponent, order, outer);
     series of = constant(0.0L);
     u.at[0] = 0.0L;
-    for (int n = order; n >= 0; n--) { /* Horner's scheme */
+    for (int n = order; n >= 0; n--) { /* by Horner's scheme */
         of = product(&of, &u, order);
         of.at[0] += outer[n];
     }
@@ -283,7 +283,7 @@ static void drawn_graph_values(const graph *g, const long double *x, long double
     }
 }
 
-/* === graph ==================================================================================== */
+/* === suite graph ============================================================================== */
 
 enum { NODES_MOST = 4000 };
 
@@ -490,7 +490,7 @@ TEST(graph, simple) {
                 expect_simple(steps[i], steps[(i + 1) % 4]);
             }
         }
-        for (int i = 0; i < g_graph->count; i++) { /* products must have one constant, in front */
+        for (int i = 0; i < g_graph->count; i++) { /* a product has one constant, in front */
             const node *n = &g_graph->node[i];
             const node_kind left = n->kind == NODE_NUMBER || n->kind == NODE_VARIABLE
                                        ? NODE_VARIABLE
@@ -644,7 +644,7 @@ TEST(graph, whole_numbers_stay_whole) {
 
 SUITE(graph) { die = dice_of("graph", 41); }
 
-/* === reader =================================================================================== */
+/* === suite reader ============================================================================= */
 /* A model's expressions as nodes of a graph (host/prove/graph.h). Random formulas must have their long double
  * values, numbers must be enclosures, and derivatives must be the right variables. A function that is not supported
  * must be reported once, at its place. */
@@ -859,7 +859,7 @@ static enclosure number_of(const char *formula) {
 
 static void expect_ends(const char *formula, double low, double high) {
     const enclosure e = number_of(formula);
-    const double slack = strstr(formula, "-w") != NULL ? 4e-17 : 0.0; /* -1 times w is rounded */
+    const double slack = strstr(formula, "-w") != NULL ? 4e-17 : 0.0; /* w times -1 is rounded */
     TEST_ASSERT_TRUE_MESSAGE(e.low <= low && low - e.low <= slack, formula);
     TEST_ASSERT_TRUE_MESSAGE(e.high >= high && e.high - high <= slack, formula);
 }
@@ -949,7 +949,7 @@ TEST(reader, outputs) {
 
 SUITE(reader) { die = dice_of("reader", 53); }
 
-/* === taylor =================================================================================== */
+/* === suite taylor ============================================================================= */
 /* Taylor coefficients of random motions in enclosures (host/prove/taylor.h), and their slopes by the state, compared
  * with long double series by another method (drawn_graph_series). At a point the enclosures must be narrow; in a box
  * they must hold for every start. */
@@ -1120,7 +1120,7 @@ TEST(taylor, no_number) {
     taylor_free(t);
     taylor_free(NULL);
     graph_free(c.graph);
-    c.graph = graph_new(); /* a pole in the box */
+    c.graph = graph_new(); /* the box contains a pole */
     close_with(&c, graph_power(c.graph, graph_variable(c.graph, 0), enclosure_of(-1.0)));
     t = taylor_new(&c.of, 2, -1);
     const enclosure across = {-1.0, 1.0};
@@ -1136,7 +1136,7 @@ TEST(taylor, products) {
     const int a = graph_variable(c.graph, 0);
     const int both = graph_add(c.graph, graph_sine(c.graph, a), graph_whole(c.graph, 3));
     close_with(&c, graph_mul(c.graph, both, graph_exp(c.graph, a)));
-    /* a sine, its cosine, an exponential and a product */
+    /* the expression has a sine with its cosine, an exponential and a product */
     for (int order = 1; order < 10; order++) {
         for (int slopes_to = -1; slopes_to <= order; slopes_to++) {
             double wanted = 0.0;

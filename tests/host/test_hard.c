@@ -9,7 +9,7 @@
 #include "linkage.h"
 #include "motion.h"
 
-/* === hard contacts ============================================================================ */
+/* === suite hard_contacts ====================================================================== */
 
 #define HARD "docs/hard/"
 
@@ -79,7 +79,7 @@ static void check_breaking(const char *name, const char *second, double factor, 
         }
         printf("  %s, %s: at rest to %.1e m; off by %.1e m at 1 ms, %.1e m at 0.25 ms\n", name,
                kind->name, most[0].at_rest_m, most[0].off_m, most[1].off_m);
-        /* the bodies must not creep */
+        /* the bodies must not creep before they break away */
         TEST_ASSERT_TRUE(most[0].at_rest_m <= (real == 0 ? 1e-12 : 1e-9));
         TEST_ASSERT_TRUE(most[0].off_m < (real == 0 ? 1e-8 : 1e-4));
         TEST_ASSERT_TRUE(most[1].off_m <= most[0].off_m + (real == 0 ? 1e-12 : 1e-5));
@@ -141,13 +141,13 @@ static double pulled_m(double t, double *speed) {
     const double quarter = acos(-1.0) / 2.0;
     /* the phase at which the mass breaks loose */
     const double loose = acos(PULL_N / (STATIC * LOAD_N));
-    double now = 0.0; /* phase */
+    double now = 0.0; /* phase up to here */
     double v = 0.0;
     double x = 0.0;
     const double end = w * t;
     for (int turn = 0; now < end; turn++) {
         const double base = 4.0 * quarter * turn;
-        double next = fmin(end, base + loose); /* a mass at rest sticks until then */
+        double next = fmin(end, base + loose); /* sticks until then */
         if (v <= 0.0) {
             now = fmax(now, next);
         }
@@ -173,7 +173,7 @@ static double pulled_off_m(double step_s, const engine_kind *kind, uint64_t *eve
     double off = 0.0;
     motion m;
     open_hard(&m, HARD "pulsating_load.whirl", "load_pulsates", kind, step_s);
-    for (int i = 1; i <= 30; i++) { /* compares at the same moments for every step */
+    for (int i = 1; i <= 30; i++) { /* compares the same moments for each step */
         double v;
         motion_to(&m, 0.1 * i);
         const double x = pulled_m(0.1 * i, &v);
@@ -261,7 +261,7 @@ TEST(hard_contacts, a_resonance_that_nothing_damps) {
     TEST_ASSERT_TRUE(in_float < 1e-4);
 }
 
-/* === hard origin ============================================================================== */
+/* === suite hard_origin ======================================================================== */
 /* Straight flights past the origin of polar and spherical coordinates (docs/hard/polar.whirl, docs/hard_cases.md).
  * `whirl run` must warn if a flight ends far from its line, and be silent if the flight is accurate. The proposed
  * remedy must work. */
@@ -325,7 +325,7 @@ TEST(hard_origin, past_the_origin_of_polar_coordinates) {
             off_course++;
             TEST_ASSERT_TRUE_MESSAGE(tells(&what), about);
             const double step_s = said_named_step_s(what.err);
-            if (step_s > 0.0 && step_s < 1e-3) { /* applies the proposed remedy */
+            if (step_s > 0.0 && step_s < 1e-3) { /* tries the proposed remedy */
                 const bool compensated = strstr(what.err, "--compensated") != NULL;
                 const double now_m = passage_off_m(d_m, step_s, kind, compensated);
                 TEST_ASSERT_TRUE_MESSAGE(now_m < 2e-3, about);
@@ -364,7 +364,7 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
     double cured_m = 0.0;
     for (unsigned i = 0; i < cases; i++) {
         const wh_method own = crude[i % 4];
-        /* up to the limit for nystroem3 */
+        /* distances up to the limit for nystroem3 */
         const double d_m = pow(10.0, dice_between(&d, -4.0, -2.6));
         char set[40];
         char about[SAID_SIZE + 100];
@@ -519,7 +519,7 @@ TEST(hard_origin, past_the_origin_of_spherical_coordinates) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-/* === hard cases =============================================================================== */
+/* === suite hard_cases ========================================================================= */
 /* A motor that is too weak to pass a resonance (Sommerfeld), a very small inertia, decaying hops on a moving floor,
  * a table that falls away, fast rotation. Compared with closed forms, or with the same energies in numbers
  * (linkage.h). */
@@ -577,7 +577,7 @@ TEST(hard_cases, a_motor_at_a_resonance) {
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, weak_reference, weak);
     TEST_ASSERT_DOUBLE_WITHIN(1e-8, strong_reference, strong);
     TEST_ASSERT_DOUBLE_WITHIN(1e-2, weak_reference, in_float);
-    TEST_ASSERT_TRUE(weak > 17.0 && weak < 21.0); /* does not pass the resonance at 20 rad/s */
+    TEST_ASSERT_TRUE(weak > 17.0 && weak < 21.0); /* stays below the resonance at 20 rad/s */
     TEST_ASSERT_TRUE(strong > 40.0);
 }
 
@@ -632,7 +632,7 @@ static void open_table(motion *m, double A_m, double w_radps, double height_m, d
 
 TEST(hard_cases, hops_on_a_moving_floor_end) {
     motion m;
-    open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* 5 m/s^2, so a body on the table stays */
+    open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* 5 m/s^2: a body on the table stays */
     motion_to(&m, 2.0);
     for (int k = 0; k < 3000; k++) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
@@ -679,7 +679,7 @@ TEST(hard_cases, fast_rotation) {
     }
 }
 
-/* === hard edges =============================================================================== */
+/* === suite hard_edges ========================================================================= */
 /* Borderline cases (docs/hard, docs/hard_cases.md), compared with closed forms on both sides: `whirl run` must warn
  * of wrong runs and not of accurate ones. A floor too stiff for the step, inputs that jump, amplitudes from
  * subnormal numbers to the end of the range, unequal masses. */
@@ -966,7 +966,7 @@ TEST(hard_edges, starts_that_are_too_large) {
 static double unequal_off_m(double mass, const engine_kind *kind) {
     char more[200];
     motion m;
-    /* 10 rad/s for any masses */
+    /* for any masses, this stiffness gives 10 rad/s */
     snprintf(more, sizeof more,
              "scene drawn {\nset m = %.17g [kg], k = %.17g [N/m]\nstart s = 0.1 [m]\n}\n", mass,
              100.0 * mass / (1.0 + mass));

@@ -53,13 +53,13 @@ static void test_losses_with_a_kink_are_told(void) {
 }
 
 static void test_what_only_looks_like_it_is_not(void) {
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*sign(x')*x'^2\n")); /* drag */
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*x'*abs(x')\n"));    /* drag */
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = mu*N*way\n"));         /* drives the body */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*sign(x')*x'^2\n")); /* a drag law */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -c*x'*abs(x')\n"));    /* a drag law */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = mu*N*way\n"));         /* pushes in x direction */
     /* rate of x */
     TEST_ASSERT_EQUAL_INT(0, told("Q(y) = -mu*N*way\n"));
     TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x' - y')\n")); /* between two bodies */
-    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x/1 [m])\n")); /* sign of a position */
+    TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -mu*N*sign(x/1 [m])\n")); /* a position's sign */
     TEST_ASSERT_EQUAL_INT(0, told("effect rub { Q(x) += -mu*N*way }\nscene s { until 1 [s] }\n"));
     TEST_ASSERT_EQUAL_INT(0, told("Q(x) = -way*N*y/1 [m]/y*0\n")); /* not a number */
     TEST_ASSERT_EQUAL_INT(0, told("friction x static mu kinetic mu normal N\n"));

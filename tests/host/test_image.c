@@ -21,7 +21,7 @@
 #include "json_check.h"
 #include "mechanism.h"
 
-/* === image ==================================================================================== */
+/* === suite image ============================================================================== */
 
 enum { STEPS = 20 };
 
@@ -202,7 +202,7 @@ TEST(image, other_starts_need_no_derivation) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_again) > (int)usual_or(50, 25));
 }
 
-/* === described drawn ========================================================================== */
+/* === suite described_drawn ==================================================================== */
 /* `whirl describe --json` of random scenes must have every field of the image, with correct layout. */
 
 static dice die;
@@ -213,7 +213,7 @@ static void expect_text(const char *path, const char *wanted) {
     char value[200];
     char escaped[200];
     size_t used = 0;
-    for (const char *at = wanted; *at != '\0'; at++) { /* as written between its quotes */
+    for (const char *at = wanted; *at != '\0'; at++) { /* the text as JSON writes it */
         if (*at == '"' || *at == '\\') {
             escaped[used++] = '\\';
         }
@@ -561,7 +561,7 @@ TEST(described_drawn, what_is_no_number_is_null) {
 
 SUITE(described_drawn) { die = dice_of("described_drawn", 4140); }
 
-/* === generated texts ========================================================================== */
+/* === suite generated_texts ==================================================================== */
 /* The writers of random expressions and mechanisms must use every function of host/number/functions.h, so that tests
  * over random mechanisms cover them all. */
 

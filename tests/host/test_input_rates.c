@@ -287,7 +287,7 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
  * refusal. */
 TEST(input_rates, a_refused_step_leaves_no_trace) {
     static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
-                                 1e30}; /* finite: holds may withstand it */
+                                 1e30}; /* finite: holds may bear it as force */
     dice d = dice_of("input_rates", 4603);
     for (unsigned i = 0; i < dice_cases(56); i++) {
         char text[900];

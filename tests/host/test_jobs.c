@@ -184,7 +184,7 @@ TEST(jobs, interrupts_are_the_parent_s) {
 
 static bool endless_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const struct timespec nap = {0, 20000000L};
-    for (int i = 0; i < 250 && point != FIRST; i++) { /* at least 5 s */
+    for (int i = 0; i < 250 && point != FIRST; i++) { /* at least 5 s, unless stopped */
         nanosleep(&nap, NULL);
     }
     return quick_work(context, point, row, reason);
@@ -256,7 +256,7 @@ TEST(jobs, when_it_is_shown) {
     TEST_ASSERT_FALSE(p.drawn);
     TEST_ASSERT_TRUE(length > once && shown[length - 1] == '\r');
     TEST_ASSERT_EQUAL_CHAR('\r', shown[once]);
-    TEST_ASSERT_TRUE(strspn(shown + once + 1, " ") >= once - 1); /* the line must be blank again */
+    TEST_ASSERT_TRUE(strspn(shown + once + 1, " ") >= once - 1); /* blank again */
     const size_t cleared = length;
     progress_clear(&p);
     fflush(p.out);

@@ -69,7 +69,7 @@ static const struct {
              {WH_NYSTROEM5, 2.3905, 3.3865, 0.8523}};
 
 static void hold(const char *text, wh_method method, double limit, const char *what) {
-    if (limit == 0.0) { /* a quarter of the step is unstable, too */
+    if (limit == 0.0) { /* even a quarter of the step must be unstable */
         TEST_ASSERT_FALSE_MESSAGE(stays(text, method, 0.5), wh_methods[method].word);
         printf("  %-20s %s: none\n", wh_methods[method].word, what);
     } else if (limit > 0.0) {

@@ -7,9 +7,9 @@ enum { LINKS_MOST = 12, STATES = 40 };
 
 typedef struct links {
     int n;
-    double mass[LINKS_MOST];   /* at the end of each rod, kg */
+    double mass[LINKS_MOST];   /* mass at the end of each rod, kg */
     double length[LINKS_MOST]; /* length of each rod, m */
-    double torque[LINKS_MOST]; /* on each link, N m */
+    double torque[LINKS_MOST]; /* torque on each link, N m */
 } links;
 
 /* Writes a chain of links. Angles are zero when a link hangs down. Each link adds its own speed and height to those

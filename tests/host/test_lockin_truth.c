@@ -36,7 +36,7 @@ typedef struct tally {
     unsigned covered[2]; /* number of intervals that contain the truth: amplitude, phase */
     double sum[2];       /* sums of errors: relative amplitude, phase in rad */
     double square[2];
-    double half[2][1000]; /* half-widths in the same units */
+    double half[2][1000]; /* half-widths of the intervals */
 } tally;
 
 static tally found;

@@ -30,7 +30,7 @@ typedef struct bodies {
     int n;                /* number of coordinates */
     int count;            /* number of bodies */
     int part[ROOM];       /* [count][n] factors of the rates */
-    double mass_kg[MOST]; /* [count] */
+    double mass_kg[MOST]; /* [count] masses of the bodies */
     double unit[MOST];    /* [n] metres per unit of a coordinate, a power of ten */
 } bodies;
 

@@ -14,7 +14,7 @@
 #include "linear.h"
 #include "motion.h"
 
-/* === matrix =================================================================================== */
+/* === suite matrix ============================================================================= */
 
 enum { TEXT_SIZE = 4096 };
 
@@ -254,7 +254,7 @@ TEST(matrix, motions_are_those_of_the_exponential) {
             linear_draw(&seed, 1 + (int)(n % 4), (linear_kind){n % 3 == 0 ? 6 : 0, n % 2 != 0},
                         text, sizeof text, &of);
             const bool coupled = n % 2 != 0;
-            const bool exact = n % 5 < 3 || n % 3 == 0 || coupled; /* RK4 is not always stable */
+            const bool exact = n % 5 < 3 || n % 3 == 0 || coupled; /* RK4 may be unstable */
             set_matrix(&m, text, ways[w].kind, exact ? MATRIX_EXACT : MATRIX_RK4,
                        ways[w].compensated);
             const double off = run_error(&of, text, &m, exact ? 0 : 4, 1000, &seed) / ways[w].unit;
@@ -267,7 +267,7 @@ TEST(matrix, motions_are_those_of_the_exponential) {
     }
 }
 
-/* === matrix printed =========================================================================== */
+/* === suite matrix_printed ===================================================================== */
 /* Reads the matrix of a step from tables, LaTeX and Octave (host/emit/matrix.c). Each entry must be right to its
  * printed digits and have the names of its row and column. */
 
@@ -487,7 +487,7 @@ TEST(matrix_printed, octave) {
 
 SUITE(matrix_printed) { die = dice_of("matrix_printed", 44); }
 
-/* === matrix runs ============================================================================= */
+/* === suite matrix_runs ======================================================================= */
 /* Uses of matrix steps: built-in linear scenes, a million steps, turn angles, systems of first order, sweeps over
  * the step, divergence, and refusals. */
 
@@ -575,7 +575,7 @@ static void expect_rotors(const engine_kind *kind, bool compensated, image_matri
     motion m;
     double angle[2];
     double real[4];
-    /* th, x, th', x' */
+    /* the states are th, x, th', x' */
     linear of = {.coordinates = 2, .states = 4, .inputs = 1, .columns = 6};
     const quad damper = (quad)0.25;
     of.rate[0][2] = 1;

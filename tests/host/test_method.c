@@ -10,7 +10,7 @@
 #include "derived.h"
 #include "motion.h"
 
-/* === first order ============================================================================== */
+/* === suite first_order ======================================================================== */
 
 enum { COORDINATES_MOST = 5, NAME = 24, COMPONENTS = 2 * COORDINATES_MOST };
 
@@ -82,7 +82,7 @@ static void check_form(FILE *out, int count) {
     }
     TEST_ASSERT_EQUAL_INT(2 * count, all);
     TEST_ASSERT_EQUAL_INT(all, slopes);
-    for (int i = 0; i < count; i++) { /* no name is the letter and a number */
+    for (int i = 0; i < count; i++) { /* no name is this letter and a number */
         TEST_ASSERT_EQUAL_INT(0, number_behind(letter, part[i]));
     }
 }
@@ -132,16 +132,16 @@ TEST(first_order, effects_are_told) {
     model_drop();
 }
 
-/* === method rows ============================================================================== */
+/* === suite method_rows ======================================================================== */
 /* The rows of core/method.h must be explicit and have different words. test_method_order.c tests their orders,
  * test_limits.c their stability. */
 
-#define ROUNDING 1e-6 /* of sums of a few shares, in float */
+#define ROUNDING 1e-6 /* round-off of sums of a few shares, in float */
 
 typedef struct butcher {
     int stages;
     double a[WH_STAGES_MAX][WH_STAGES_MAX];
-    double b[WH_STAGES_MAX];        /* weights of the rates */
+    double b[WH_STAGES_MAX];        /* b: weights of the rates */
     double position[WH_STAGES_MAX]; /* weights of the positions */
     double c[WH_STAGES_MAX];
 } butcher;
@@ -262,7 +262,7 @@ TEST(method_rows, sentences_have_each_method_once) {
     }
 }
 
-/* === rk4 ====================================================================================== */
+/* === suite rk4 ================================================================================ */
 /* `rk4` compared with core/rk4.h: one step of each built-in scene without contacts, from random states, with rotated
  * sines, with sines from a table, and with the energy balance. */
 

@@ -5,7 +5,7 @@
 #include "core/step/ledger_step.h"
 #include "test.h"
 
-#define ROUNDING 4e-15L /* of sums of a few shares, in double */
+#define ROUNDING 4e-15L /* round-off of sums of a few shares, in double */
 enum { ORDER_MAX = 6, TREES = 320, STAGES = WH_STAGES_MAX };
 
 /* A row in long double. Stage i has the weights a[i] for its rates, and node[i] and reach[i] for its position. */
@@ -22,8 +22,8 @@ typedef struct weights {
  * contributes. */
 typedef struct tree {
     int order;
-    bool by_rates;     /* has a branch by rates */
-    bool by_positions; /* has a branch by positions */
+    bool by_rates;     /* has the tree a branch by rates? */
+    bool by_positions; /* has the tree a branch by positions? */
     long double density;
     long double at[STAGES]; /* the tree's value at each stage */
 } tree;

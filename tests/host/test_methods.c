@@ -8,7 +8,7 @@
 #include "command.h"
 #include "motion.h"
 
-/* === methods ================================================================================== */
+/* === suite methods ============================================================================ */
 
 /* A form and a mechanism of this form, whose scene ends at 1 s or 0.25 s. Steps are 2^-k s, so that a whole number
  * of them fits. */
@@ -133,7 +133,7 @@ TEST(methods, orders_are_those_of_the_names) {
             /* fewer halvings for a method of fifth order, whose error depends on the place in a step where the stop
              * is hit */
             const bool hits = strstr(f->name, "is hit") != NULL;
-            const int halvings = wanted < 5 ? 12 - 2 * wanted : hits ? 2 : 3; /* log2 of 1 s/step */
+            const int halvings = wanted < 5 ? 12 - 2 * wanted : hits ? 2 : 3; /* log2(1 s/step) */
             const int more = wanted < 5 ? 1 : 7 - halvings;
             const double order =
                 log2(distance(f, how, halvings) / distance(f, how, halvings + more)) / more;
@@ -177,7 +177,7 @@ TEST(methods, books_have_the_order_of_the_name) {
             snprintf(what, sizeof what, "%s, %s: %.3g J, %.3g J with half the step", forms[i].name,
                      wh_methods[m].word, left_J[0], left_J[1]);
             TEST_ASSERT_TRUE_MESSAGE(log2(left_J[0] / left_J[1]) > wanted - 0.2, what);
-            TEST_ASSERT_TRUE_MESSAGE(left_J[1] > 1e-14, what); /* a smaller residual is round-off */
+            TEST_ASSERT_TRUE_MESSAGE(left_J[1] > 1e-14, what); /* smaller would be round-off */
             measured++;
         }
     }
@@ -247,7 +247,7 @@ TEST(methods, methods_are_refused_where_their_rows_say) {
     TEST_ASSERT_EQUAL_INT(asked, refused);
 }
 
-/* === reference ================================================================================ */
+/* === suite reference ========================================================================== */
 /* The output of `whirl accel`, compared with accelerations that SymPy and mpmath derived (tests/reference/accel.txt,
  * made by derive.py).
  *
@@ -312,7 +312,7 @@ static int check_line(char *line, double *worst) {
         const double off = fabs(got - value[i]) / size;
         snprintf(about, sizeof about, "%s: %s is %.17g, not %.17g", words[0], wanted[i], got,
                  value[i]);
-        TEST_ASSERT_TRUE_MESSAGE(off <= TOLERANCE, about); /* false for NaN, too */
+        TEST_ASSERT_TRUE_MESSAGE(off <= TOLERANCE, about); /* false if NaN, too */
         *worst = fmax(*worst, off);
     }
     return count;

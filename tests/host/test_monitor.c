@@ -6,7 +6,7 @@
 
 #include "command.h"
 
-/* === recording ================================================================================ */
+/* === suite recording ========================================================================== */
 
 enum { PAYLOAD_MOST = 400, PULSES_MOST = 200 };
 
@@ -30,7 +30,7 @@ typedef struct told {
     uint32_t ticks_of_0; /* the rig's clock at time 0 */
     bool begun;          /* a frame has come since the start */
     bool run_came;
-    bool headed; /* the records have their header */
+    bool headed; /* the header of the records is written */
     bool ring_headed;
     uint16_t next[SCHEMA_CHANNELS];
     uint16_t dropped[SCHEMA_CHANNELS];
@@ -38,7 +38,7 @@ typedef struct told {
     int pulses;
     int64_t pulse_us[PULSES_MOST];
     unsigned pulse_of[PULSES_MOST];
-    int pulse_long[PULSES_MOST]; /* in us; 0: unknown */
+    int pulse_long[PULSES_MOST]; /* length of each pulse, us; 0: unknown */
     bool tells_ends;             /* the rig reports the ends of pulses */
     bool has_ended;
     int64_t free_from_us[2]; /* end of the last pulse of each sensor */
@@ -182,7 +182,7 @@ static void send_run(void) {
     double once[SCHEMA_FIELDS] = {0.0};
     unsigned at = 0;
     lose(RECORDING_RUN);
-    if (t.run_came && dice_one_of(&die, 3) == 0) { /* samples are missing */
+    if (t.run_came && dice_one_of(&die, 3) == 0) { /* some samples are missing */
         const uint32_t lost = dice_one_of(&die, 8) == 0 ? 40000 : 1 + dice_one_of(&die, 5);
         t.time_us += (int64_t)lost * c->period_ticks;
         t.counts.lost_samples += lost;
@@ -282,7 +282,7 @@ static void send_event(void) {
     }
     lose(RECORDING_EVENT);
     send(RECORDING_EVENT, time_us, payload, 2);
-    if (high_us > 0 && t.has_ended && dice_one_of(&die, 8) == 0) { /* the end is lost */
+    if (high_us > 0 && t.has_ended && dice_one_of(&die, 8) == 0) { /* loses the pulse's end */
         t.pulse_long[t.pulses - 1] = 0;
     } else if (high_us > 0) {
         payload[0] = 3;
@@ -456,7 +456,7 @@ TEST(recording, streams) {
 
 SUITE(recording) { die = dice_of("recording", 48); }
 
-/* === schema =================================================================================== */
+/* === suite schema ============================================================================= */
 /* Schema lines of a rig (host/monitor/recording.h). Random channels, states and rates must be read as written. A
  * line with a missing or wrong part must be refused and change nothing. */
 

@@ -5,7 +5,7 @@
 #include "command.h"
 #include "motion.h"
 
-/* === near zero ================================================================================ */
+/* === suite near_zero ========================================================================== */
 
 /* Number of roundings in an evaluation, of half a unit each: of constants, the distance, powers and the sum of the
  * factors. */
@@ -48,7 +48,7 @@ TEST(near_zero, stiffening_springs_near_their_rest) {
         const double half = number == 0 ? (double)FLT_EPSILON / 2.0 : DBL_EPSILON / 2.0;
         for (size_t i = 0; i < sizeof distances / sizeof distances[0]; i++) {
             const double s = (double)(float)(distances[i] - 1.0);
-            const double stretch = s + 1.0; /* exact */
+            const double stretch = s + 1.0; /* an exact sum */
             char start[64];
             motion m;
             stepping how = number == 0 ? IN_FLOAT : IN_DOUBLE;
@@ -61,7 +61,7 @@ TEST(near_zero, stiffening_springs_near_their_rest) {
             TEST_ASSERT_TRUE(error_of(&m, "push", wall) <= ROUNDINGS * half);
             TEST_ASSERT_TRUE(error_of(&m, "left", -wall - between) <= ROUNDINGS * half);
             motion_close(&m);
-            /* now s - r - b is near 0 */
+            /* starts so that s - r - b is near 0 */
             snprintf(start, sizeof start, "s = %.17g", (double)(float)(1.0 + distances[i]));
             motion_open_text(&m, springs, how);
             const double near = (double)(float)(1.0 + distances[i]) - 1.0; /* exact */
@@ -119,7 +119,7 @@ TEST(near_zero, powers_of_sines_near_their_poles) {
     show_worst("poles");
 }
 
-/* === tiny sizes =============================================================================== */
+/* === suite tiny_sizes ========================================================================= */
 /* Motions of nanometres or less, with a force that is a difference near 1: sqrt(1 + 2*y/L) - 1. Double has no digits
  * of y below 1e-16 L. Then a run and its run with half the step have the same wrong slopes and may agree. The force
  * is nearly linear, so the reference is a closed form. A trusted run must be right, and a run with enough digits
@@ -147,7 +147,7 @@ typedef struct tiny_case {
 
 static tiny_case draw(dice *d, unsigned i) {
     tiny_case c = {.law = laws[i % LAWS]};
-    /* start divided by length */
+    /* the start, divided by length_m */
     const double part = pow(10.0, dice_between(d, -17.5, -7.0));
     c.start_m = pow(10.0, dice_between(d, -15.5, -7.5)) * (dice_one_of(d, 2) == 0 ? 1.0 : -1.0);
     c.length_m = fabs(c.start_m) / part;
@@ -175,7 +175,7 @@ static double closed_form(const tiny_case *c, double time_s) {
 
 static double off_by(const tiny_case *c, const char *csv) {
     double most = 0.0;
-    double value[2]; /* time and y */
+    double value[2]; /* time and y in a row */
     for (const char *row = csv; (row = said_row(row, 2, value)) != NULL;) {
         most = fmax(most, fabs(value[1] - closed_form(c, value[0])) / fabs(c->start_m));
     }

@@ -56,7 +56,7 @@ static double *record(const mechanism *of, const scene *in, const engine_kind *k
     diags *errors = diags_new();
     instance *inst = instance_make(of, in, NULL, errors);
     TEST_ASSERT_NOT_NULL(inst);
-    if (inst == NULL) { /* for the linter */
+    if (inst == NULL) { /* the linter wants this check */
         TEST_FAIL();
         return NULL;
     }
@@ -85,7 +85,7 @@ typedef struct wanted {
     char text[60];
     double factor;
     int a;
-    int b; /* -1: no second output */
+    int b; /* output b; -1: only output a */
 } wanted;
 
 static wanted random_measure(uint64_t *seed) {

@@ -15,7 +15,7 @@ static double any(void) {
     switch (scattered() % 4U) {
     case 0: return half;
     case 1: return nextafter(half, (scattered() & 1U) != 0 ? (double)INFINITY : -(double)INFINITY);
-    case 2: return of_bits(scattered() & ~(UINT64_C(0x7ff) << 52)); /* subnormal or zero */
+    case 2: return of_bits(scattered() & ~(UINT64_C(0x7ff) << 52)); /* subnormal or 0 */
     default: return of_bits(scattered());
     }
 }
@@ -81,7 +81,7 @@ static void test_remainders(void) {
         const double y = any();
         expect_remainders(x, y);
     }
-    for (int i = 0; i < MANY; i++) { /* multiples of 1/2 */
+    for (int i = 0; i < MANY; i++) { /* tests multiples of 1/2 */
         const double y = (double)(1 + scattered() % 1000U);
         const double x = 0.5 * y * (double)((int64_t)(scattered() % 2000U) - 1000);
         expect_remainders(x, y);
@@ -119,7 +119,7 @@ static void test_language(void) {
     TEST_ASSERT_TRUE(number_call(FN_SIGN, -3.0, 0.0) == -1.0);
     TEST_ASSERT_TRUE(number_call(FN_SIGN, 0.0, 0.0) == 0.0);
     TEST_ASSERT_TRUE(number_call(FN_ABS, -3.0, 0.0) == 3.0);
-    TEST_ASSERT_TRUE(number_call(FN_ATAN2, 1.0, 0.0) == 0x1.921fb54442d18p0); /* y comes first */
+    TEST_ASSERT_TRUE(number_call(FN_ATAN2, 1.0, 0.0) == 0x1.921fb54442d18p0); /* y first */
     TEST_ASSERT_TRUE(number_call(FN_ATAN2, 0.0, -1.0) == 0x1.921fb54442d18p1);
     TEST_ASSERT_TRUE(number_call(FN_EXP, 0.0, 0.0) == 1.0);
     TEST_ASSERT_TRUE(number_call(FN_LOG, 1.0, 0.0) == 0.0);
@@ -171,7 +171,7 @@ static void test_the_compilers_own(void) {
 /* Times as fractions (host/number/ratio.h): the fraction of a decimal number, and how often one time fits into
  * another. The reference counts in integers, including halves. */
 static bool same_ratio(whole_ratio r, uint64_t of, uint64_t in) {
-    return r.numerator * in == of * r.denominator; /* both below 2^64 */
+    return r.numerator * in == of * r.denominator; /* the products are below 2^64 */
 }
 
 static void test_decimals_and_fractions_are_themselves(void) {

@@ -123,7 +123,7 @@ static void around_middle(uint64_t lower_bits) {
 TEST(number_text, halfway) {
     for (int i = 0; i < count_of((int)few_or_all(800, 4000)); i++) {
         around_middle(random_bits(&seed) % (UINT64_C(0x7ff) << 52));
-        around_middle(random_bits(&seed) >> (12 + draw(52))); /* subnormal */
+        around_middle(random_bits(&seed) >> (12 + draw(52))); /* for subnormal numbers */
         around_middle((UINT64_C(1) << 52) - 3 + (uint64_t)draw(6));
         around_middle((UINT64_C(0x7ff) << 52) - 1 -
                       (uint64_t)draw(3)); /* near DBL_MAX, and above */
@@ -146,7 +146,7 @@ TEST(number_text, places_and_ends) {
     }
     agrees("");
     char text[TEXT];
-    snprintf(text, TEXT, "0.%0*d", 400, 1); /* leading zeros */
+    snprintf(text, TEXT, "0.%0*d", 400, 1); /* 400 leading zeros */
     agrees(text);
     snprintf(text, TEXT, "1%0*de-1400", 1400, 0);
     agrees(text);

@@ -59,7 +59,7 @@ static latex_number fail(reader *r, const char *problem) {
 }
 
 static latex_number fail_named(reader *r, const char *problem, const char *name) {
-    static char about[160]; /* valid until the next problem */
+    static char about[160]; /* text of the last problem */
     if (r->problem == NULL) {
         snprintf(about, sizeof about, "%s: '%s'", problem, name);
     }
@@ -449,7 +449,7 @@ static latex_number latex_value(const char *text, const char **end, const char *
     return value;
 }
 
-/* === octave =================================================================================== */
+/* === suite octave ============================================================================= */
 
 enum { STATES = 10, RESULTS_MAX = 128 };
 
@@ -676,7 +676,7 @@ static bool compare_form(const char *name, derived *d, language form) {
             largest = fmax(largest, isfinite(result[i]) ? fabs(result[i]) : (double)INFINITY);
         }
         if (!(largest < 1e12)) {
-            continue; /* singular there */
+            continue; /* singular at this state */
         }
         for (int level = 0; level < 8; level++) {
             for (int i = 0; i < e->count; i++) {
@@ -743,7 +743,7 @@ TEST(octave, both_forms_compute_the_same) {
     TEST_ASSERT_TRUE(10 * compared > 7 * MECHANISMS);
 }
 
-/* === latex runs =============================================================================== */
+/* === suite latex_runs ========================================================================= */
 /* The printed LaTeX must be the model that runs. At random states, the printed equations (latex_value()) are solved
  * for the highest derivatives. These, and the printed closed forms, are compared with the operation list in double.
  * The tolerance follows from the printed digits and from round-off, carried through the formulas and the inverse
@@ -765,9 +765,9 @@ typedef struct comparison {
     state_values s;
     double runs[UNKNOWNS]; /* highest derivatives by the operation list */
     double off[UNKNOWNS];  /* error bounds of the values */
-    int asked;             /* highest derivatives, in all states */
-    int compared;          /* values with a small enough tolerance */
-    int closed;            /* compared values from printed closed forms */
+    int asked;             /* number of highest derivatives, in all states */
+    int compared;          /* number of values with a small tolerance */
+    int closed;            /* of these, values from closed forms */
     double nearest;        /* largest error, divided by its bound */
 } comparison;
 
@@ -882,7 +882,7 @@ static const char *check_equations(comparison *c, const char *line) {
             off[i] += (left.off[1 + j] + right.off[1 + j]) * fabs(c->runs[j]);
         }
     }
-    for (int k = 0; k < n; k++) { /* column k */
+    for (int k = 0; k < n; k++) { /* column k of the inverse */
         long double m[UNKNOWNS][UNKNOWNS + 1];
         long double column[UNKNOWNS];
         for (int i = 0; i < n; i++) {

@@ -10,7 +10,7 @@
 #include "command.h"
 #include "derived.h"
 
-/* === order ==================================================================================== */
+/* === suite order ============================================================================== */
 
 enum { ANGLES = 5, LEAVES = 12, STATES = 3, SIZE_MOST = 900, RESULTS_MOST = 12 };
 
@@ -76,7 +76,7 @@ static op_list *some_list(dice d) {
         t->result[i] = some_value(&d, value, values);
     }
     free(value);
-    if (dice_one_of(&d, 4) > 0) { /* else some operations are unused */
+    if (dice_one_of(&d, 4) > 0) { /* leaves some operations unused in other lists */
         op_list_prune(t);
     }
     return t;
@@ -195,7 +195,7 @@ TEST(order, squares_are_summed_as_they_come) {
     }
 }
 
-/* === pieces =================================================================================== */
+/* === suite pieces ============================================================================= */
 /* A sum is split into pieces before its operations are made. Half angles are restored if this saves a term. The
  * value must not change. */
 
@@ -281,7 +281,7 @@ TEST(pieces, other_rows_stay_as_they_are) {
     const poly *half =
         poly_add(a, poly_sub(a, poly_scale(a, one, 3.0), poly_scale(a, poly_cos(a, u), 4.0)), two);
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, half, pieces));
-    /* nothing cancels at 0 or pi/2 */
+    /* in this sum, nothing cancels at 0 or pi/2 */
     const poly *flat =
         poly_add(a, poly_add(a, one, poly_scale(a, two, 2.0)), poly_scale(a, four, 0.5));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, flat, pieces));
@@ -340,7 +340,7 @@ TEST(pieces, pieces_have_the_sums_value) {
 
 /* A fourth power and a square of one wave, each times another factor. */
 TEST(pieces, each_of_several_comes_back) {
-    for (unsigned which = 0; which < 64; which++) { /* absent, a square or a fourth power */
+    for (unsigned which = 0; which < 64; which++) { /* each factor: absent, squared, to the 4th */
         algebra *a = algebra_new();
         const poly *u = poly_symbol(a, &variables[0], 0);
         const poly *v = poly_symbol(a, &variables[1], 0);

@@ -114,7 +114,7 @@ static void test_until_holds_a_step(void) {
     expect_exactly(0.0, made->until_s);
     instantiate(&(overrides){.until = "3", .step = "3s"});
     expect_exactly(3.0, made->until_s);
-    instantiate(&(overrides){.until = "0.1*3", .step = "0.3"}); /* 0.30000000000000004 */
+    instantiate(&(overrides){.until = "0.1*3", .step = "0.3"}); /* in double 0.30000000000000004 */
     instantiate(&(overrides){.until = "0.3", .step = "0.1*3"});
     expect_exactly(0.3, made->until_s);
 }

@@ -6,7 +6,7 @@
 #include "derived.h"
 #include "motion.h"
 
-/* === dialogue ================================================================================= */
+/* === suite dialogue =========================================================================== */
 /* Questions to a rig before a recording. The line may have answers for another program, half a line, half a frame,
  * an echo, or late and repeated answers. The test's rig answers each complete line in sequence. */
 
@@ -18,7 +18,7 @@ typedef struct rig {
     int end;
     bool echoes;
     bool refuses_rate;
-    int heard;     /* questions received */
+    int heard;     /* number of questions received */
     char half[16]; /* a line typed in part */
     char junk[16]; /* the end of a frame before the rig's first answer */
 } rig;
@@ -127,7 +127,7 @@ static void one_case(dice *d) {
     TEST_ASSERT_EQUAL_STRING(r.refuses_rate ? "tel rate 125: ERR 116 not so many" : "",
                              link.refused);
     TEST_ASSERT_EQUAL(10, link.asked);
-    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* an answer for another program */
+    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* is for another program */
 }
 
 TEST(dialogue, it_comes_to_its_end_whatever_was_in_the_line) {
@@ -149,7 +149,7 @@ TEST(dialogue, who_is_no_rig_is_not_met) {
     TEST_ASSERT_EQUAL_STRING("", d.refused);
 }
 
-/* === fault ==================================================================================== */
+/* === suite fault ============================================================================== */
 /* Faults in the loop must do what their words say: missing and extra pulses and samples, the plant's inputs during a
  * fault and after it, and times of orders. Also refused words. */
 
@@ -336,7 +336,7 @@ TEST(fault, pulses_of_nothing) {
         TEST_ASSERT_TRUE((int32_t)(ill.edge[i].ticks - ill.edge[i - 1].ticks) >= 0);
         TEST_ASSERT_TRUE(ill.edge_s[i] >= second_of(ill.edge[i].ticks));
     }
-    run_with("edge-storm=1e6", &ill); /* limited by the buffer */
+    run_with("edge-storm=1e6", &ill); /* as many as the buffer takes */
     TEST_ASSERT_TRUE(ill.edges > 4000 && ill.edges <= READS * (int)WH_EDGES_MAX);
 }
 

@@ -92,8 +92,8 @@ TEST(plant, edges_of_an_angle) {
         close_bench();
         const double level = (double)(speed > 0.0 ? low : high) + wish.place[0] * TURN_RAD / 360.0;
         double turns = (level - start) / TURN_RAD * (speed > 0.0 ? 1.0 : -1.0);
-        turns -= floor(turns); /* the part of a turn before the first edge */
-        const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* edges in a second */
+        turns -= floor(turns); /* part of a turn before the first edge */
+        const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* edges in 1 s */
         TEST_ASSERT_INT_WITHIN(1, wanted, count); /* one more or less at the end of the second */
         for (int i = 0; i < count; i++) {
             const double t = (turns + i) * TURN_RAD / fabs(speed);
@@ -332,7 +332,7 @@ TEST(plant, watchdog) {
         TEST_ASSERT_TRUE(plant_advance(&on, (turn + 1) * 2000.0));
         plant_read(&on, &r);
         TEST_ASSERT_EQUAL_INT(turn < 5 ? 0 : WH_READING_CUT, r.flags);
-        orders.flags = turn == 7 ? WH_ORDER_ALIVE : 0; /* the watchdog has already cut the power */
+        orders.flags = turn == 7 ? WH_ORDER_ALIVE : 0; /* the watchdog has cut the power before */
     }
     TEST_ASSERT_TRUE(fabs(speed_of_y() - 10.05e-3) < 1e-12);
     TEST_ASSERT_TRUE(fabs(on.cut_ticks - 10050.0) < 1e-6);

@@ -5,7 +5,7 @@
 
 #include "command.h"
 
-/* === envelope ================================================================================= */
+/* === suite envelope =========================================================================== */
 /* The envelope of a run for its picture: random signals of every length, compared with all their values. */
 
 /* Columns: time, an oscillation with peaks of one step, an oscillation with gaps, noise. */
@@ -139,7 +139,7 @@ TEST(envelope, at_every_moment_all_is_there) {
     decimation_free(v);
 }
 
-/* === palette ================================================================================== */
+/* === suite palette ============================================================================ */
 /* Colours of pictures (host/io/gnuplot.h): their contrast ratio by WCAG 2.1, and their distance in CIELAB, for eyes
  * with and without colour blindness (Machado, Oliveira and Fernandes, 2009, severity 1). */
 
@@ -262,7 +262,7 @@ TEST(palette, lines_that_share_a_colour_differ_otherwise) {
     }
 }
 
-/* === recording plot =========================================================================== */
+/* === suite recording_plot ===================================================================== */
 /* The samples that a recording stores for a plot (host/monitor/recording.h). They must be thinned evenly and never
  * changed. Without samples there must be no plot. */
 

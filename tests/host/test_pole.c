@@ -145,7 +145,7 @@ typedef enum difference_kind {
 
 typedef struct difference {
     difference_kind which;
-    double from; /* the argument runs from here through zero */
+    double from; /* start of the argument, which ends beyond zero */
     double to;
 } difference;
 
@@ -243,7 +243,7 @@ TEST(pole, what_changes_twice) {
         drawn d = {.place = dice_between(&die, 0.3, 0.7),
                    .order = exp(dice_between(&die, -15.0, -1.5))};
         TEST_ASSERT_EQUAL_INT(1, pole_of(&d, at_twice, 1.0));
-        d.order = 1.0; /* the pole is after the end of the path */
+        d.order = 1.0; /* now the pole is after the end */
         TEST_ASSERT_EQUAL_INT(-1, pole_of(&d, at_twice, 1.0));
     }
 }

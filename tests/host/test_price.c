@@ -11,7 +11,7 @@
 #include "derived.h"
 #include "priced.h"
 
-/* === price ==================================================================================== */
+/* === suite price ============================================================================== */
 
 /* Number of operations, and of pairs of sine and cosine, for one output. The names are seven numbers x0 ... x6 and
  * two angles a and b. */
@@ -110,7 +110,7 @@ TEST(price, sines_of_multiples_follow_from_one) {
         }
         expect(price_of("%s", sum), 40, 1, sum);
     }
-    /* sines inside functions count, too */
+    /* sines inside other functions */
     expect(price_of("exp(sin(a)) + 3*exp(cos(2*a))"), 40, 1, "sines inside functions");
     expect(price_of("atan2(sin(2*a), x0 + cos(a)) + x1*sqrt(3 + sin(3*a))"), 40, 1, "sines inside");
     expect(price_of("sin(x0*sin(2*a)) + x1*cos(a)"), 40, 2, "a sine inside a sine");
@@ -167,7 +167,7 @@ static int price_of_system(int n, int number) {
 /* Up to three equations are solved by Cramer's rule. Each further equation costs an elimination: divide a column,
  * subtract the row from each other row, and substitute back. */
 TEST(price, equations_are_eliminated_one_by_one) {
-    int last = 0; /* three equations: four determinants with common parts */
+    int last = 0; /* operations for one equation fewer */
     for (int n = 1; n <= 6; n++) {
         const int now = price_of_system(n, -1);
         const int more = (n - 1) + 2 * (n - 1) * (n - 1) + 2 * (n - 1) + 2 * (n - 1) + 1;
@@ -210,7 +210,7 @@ TEST(price, decimals_cost_nothing) {
     TEST_ASSERT_EQUAL_INT(least, most);
 }
 
-/* === price dearest ============================================================================ */
+/* === suite price_dearest ====================================================================== */
 /* The cost of a setting in trials (host/study/trial.h): the maximum over all places, finer steps if a coarse step
  * fails, and settings without an image. */
 
@@ -281,7 +281,7 @@ TEST(price_dearest, the_dearest_of_all_places) {
         bool own = true;
         const cost none = trial_cost(&p.trial, &lookup, (deviation_pace){5, 1}, &own);
         TEST_ASSERT_TRUE(!own && none.instructions.basis == COST_NOT_KNOWN);
-        /* leapfrog is not possible with a damper */
+        /* leapfrog is not a setting if there is a damper */
         const setting leapfrog = priced_setting(WH_LEAPFROG, &engine_float);
         (void)trial_cost(&p.trial, &leapfrog, (deviation_pace){5, 1}, &own);
         TEST_ASSERT_FALSE(own);
@@ -321,7 +321,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
         TEST_ASSERT_EQUAL_INT(rows[i].asked, p.asked - asked);
         TEST_ASSERT_EQUAL_INT(rows[i].own, own);
         if (own) {
-            /* the result is stored for this step only */
+            /* the result is stored for the step of the plan */
             asked = p.asked;
             const trial_result r = trial_run(&p.trial, &in_fixed, rows[i].at);
             TEST_ASSERT_TRUE(r.ran);

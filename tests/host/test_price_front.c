@@ -14,7 +14,7 @@
 #include "made_up_tree.h"
 #include "priced.h"
 
-/* === price front ============================================================================== */
+/* === suite price_front ======================================================================== */
 
 enum { ROWS_MOST = 40 };
 
@@ -108,7 +108,7 @@ TEST(price_front, substeps_rise_as_they_are_told) {
     TEST_ASSERT_EQUAL_UINT64(0, table_substeps(&(table_wish){.periods = 1}, &row));
 }
 
-/* === price measured =========================================================================== */
+/* === suite price_measured ===================================================================== */
 /* Counted prices (host/study/price_table.h), and choices that use them (choice.h), in a made-up source tree
  * (made_up_tree.h). */
 
@@ -116,7 +116,7 @@ TEST(price_measured, what_is_missing_is_told) {
     static const struct {
         const char *says;
         const char *status;
-        const char *answer; /* NULL: no answer */
+        const char *answer; /* printed answer; NULL: none */
     } rows[] = {
         {"", "0\n", NULL},
         {"a 'tool' is missing\n", "0\n", NULL},
@@ -411,7 +411,7 @@ TEST(price_measured, choices_are_as_if_all_was_counted) {
     priced_close(&p);
 }
 
-/* === price motion ============================================================================= */
+/* === suite price_motion ======================================================================= */
 /* The reference (host/study/reference_run.h) is compared with closed forms and its order, and deviation_measure()
  * with a loop of the test. test_price_reference.c has long motions. */
 

@@ -9,7 +9,7 @@
 #include "derived.h"
 #include "priced.h"
 
-/* === price settings =========================================================================== */
+/* === suite price_settings ===================================================================== */
 
 /* Every method with three number types: sines are rotated, looked up, or in one of six tables, or the step is one of
  * two matrices. In addition fixed point. */
@@ -89,7 +89,7 @@ TEST(price_settings, options_say_the_setting_and_no_more) {
     }
 }
 
-/* === price states ============================================================================= */
+/* === suite price_states ======================================================================= */
 /* The columns and the horizon of a reference (host/study/reference_run.h), and their report. */
 
 /* Largest values by a loop. Outputs and columns that stay zero do not count. */
@@ -126,15 +126,15 @@ static const kind_row kind_rows[] = {
     {"mechanism m\ncoordinate x [m]\noutput twice [m] = 2*x\nT = 1 [kg]*x'^2/2\n"
      "V = 40 [N/m]*x^2/2\n" SCENE("start x = 0.02 [m];"),
      1e8, true, 20, 20, NULL},
-    /* a pole at 0.52 s */
+    /* a solution with a pole at 0.52 s */
     {"mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n" SCENE("start y = 1.923076923;"), 1e8, true,
      9, 10, " after 0."},
-    /* everything is zero; at rest at another position */
+    /* no motion: everything is zero; then rest at another position */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(""), 1e8, false,
      0, 20, "nothing moves"},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n" SCENE("start x = 2 [m];"), 1e8, true, 20,
      20, NULL},
-    /* a contact, and a jump */
+    /* a scene with a contact, and one with a jump */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [kg]*9.81 [m/s^2]*x\n"
      "stop x >= 0 [m] restitution 0.5\n" SCENE("start x = 0.5 [m];"),
      1e8, true, 1, 20, ""},
@@ -161,7 +161,7 @@ TEST(price_states, references_say_how_far_they_are_trusted) {
         TEST_ASSERT_TRUE_MESSAGE(
             row->why == NULL || row->why[0] == '\0' || strstr(r->why, row->why) != NULL, row->text);
         expect_columns(r);
-        reference_cut(r, r->records + 1); /* must change nothing */
+        reference_cut(r, r->records + 1); /* cuts nothing */
         expect_columns(r);
         reference_cut(r, r->records / 2);
         expect_columns(r);
@@ -182,7 +182,7 @@ TEST(price_states, references_are_stopped) {
     derived_free(&d);
 }
 
-/* === price trials ============================================================================= */
+/* === suite price_trials ======================================================================= */
 /* Trials of settings (host/study/trial.h): steps as exact fractions, and the worst error and highest cost over all
  * places, compared with each place alone. */
 
@@ -227,7 +227,7 @@ TEST(price_trials, steps_are_exact) {
         const bool fits = left >> 64U == 0 && right >> 64U == 0;
         const double value = (double)left / (double)right;
         if (value < 1e-12 || value > 1e12) {
-            continue; /* no step */
+            continue; /* no steps: not tested */
         }
         const whole_ratio step = trial_step(&t, pace);
         if (fits) {
@@ -305,7 +305,7 @@ TEST(price_trials, operations_are_those_of_all_places) {
     char text[TRIAL_TIME];
     TEST_ASSERT_EQUAL_STRING("0.5", trial_until(&p.trial, text));
     const double most = trial_operations(&p.trial, &in_fixed, fine);
-    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine)); /* no limit is set */
+    TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine)); /* without a limit */
     p.trial.planned_most = most;
     TEST_ASSERT_FALSE(trial_is_slow_to_plan(&p.trial, &in_fixed, fine));
     p.trial.planned_most = most * 0.999;
@@ -365,7 +365,7 @@ TEST(price_trials, the_horizon_is_that_of_the_place_that_ends_first) {
         TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 150, NULL));
         TEST_ASSERT_TRUE(p.trial.reliable);
         TEST_ASSERT_EQUAL_INT((4 - turn) % 3, p.trial.worst);
-        /* 0.8 s: the pole is at record 40 */
+        /* the pole at 0.8 s is at record 40 */
         TEST_ASSERT_TRUE(p.trial.records >= 37 && p.trial.records < 40);
         for (int k = 0; k < 3; k++) {
             TEST_ASSERT_EQUAL_INT(p.trial.records, p.trial.reference[k]->records);

@@ -302,7 +302,7 @@ TEST(price_words, tables_of_nothing_say_why) {
     text = table_of_nothing(&p.trial, NULL);
     (void)behind(text, "\nno setting follows the motion:");
     free(text);
-    p.trial.records = 10; /* ends before the requested time */
+    p.trial.records = 10; /* the run ends early */
     text = table_of_nothing(&p.trial, NULL);
     (void)behind(text, "  horizon     0.2 s of 0.4 s: the reference ends\n");
     free(text);

@@ -14,7 +14,7 @@
 
 #include "command.h"
 
-/* === ranges swept ============================================================================= */
+/* === suite ranges_swept ======================================================================= */
 
 static const char sample[] =
     "mechanism swing\ncoordinate theta [rad]\ncoordinate z [m]\nparameter m = 2 [kg]\n"
@@ -87,7 +87,7 @@ static void add_axis(drawn_axis *a) {
             : sign == 1.0 ? a->from * exp(dice_between(&die, -9.0, 9.0))
                           : dice_between(&die, -900.0, 900.0);
     if (a->is_log && a->count > 1 && strcmp(names[a->name].name, "step") != 0 &&
-        dice_one_of(&die, 4) == 0) { /* the ratio of the ends overflows or underflows */
+        dice_one_of(&die, 4) == 0) { /* the ratio of both ends over- or underflows */
         const double way = dice_one_of(&die, 2) == 0 ? -1.0 : 1.0;
         a->from = copysign(exp(-way * dice_between(&die, 380.0, 690.0)), a->from);
         a->to = copysign(exp(way * dice_between(&die, 380.0, 690.0)), a->from);
@@ -318,7 +318,7 @@ TEST(ranges_swept, mistakes) {
 TEST(ranges_swept, bare_numbers) {
     static const struct {
         const char *text;
-        const char *typed; /* NULL: accepted */
+        const char *typed; /* what to write instead; NULL: accepted */
     } bare[] = {{"q=1..2:3", "1"},      {" q = 1 .. 2.5 :3", "1"}, {"q=1..2 [mm]:3", NULL},
                 {"q=1..2 [m]:3", NULL}, {"q=0..0:1", NULL},        {"r=1..2:3", NULL},
                 {"theta=1..2:3", NULL}, {"step=1..2:3", NULL},     {"q=1..2 [mm]:x", NULL}};
@@ -385,7 +385,7 @@ TEST(ranges_swept, given_twice) {
 
 SUITE(ranges_swept) { die = dice_of("ranges_swept", 61); }
 
-/* === sheet ==================================================================================== */
+/* === suite sheet ============================================================================== */
 /* The CSV file of a sweep (host/study/session.h): created, resumed after it was cut off anywhere, restarted, or
  * refused and left unchanged because it is from another sweep. Compared with the test's own text. */
 
@@ -527,7 +527,7 @@ TEST(sheet, gone_on_with) {
         draw_sheet();
         unsigned rows = 0;
         for (size_t length = 0; length <= strlen(d.whole); length++) {
-            const char *at = d.whole + length; /* end of the part that is left */
+            const char *at = d.whole + length; /* the part that is left ends here */
             const bool ends = strchr("\r\n", *at) != NULL || (length > 0 && at[-1] == '\n');
             if (dice_one_of(&die, ends ? 3 : 25) > 0) {
                 continue;

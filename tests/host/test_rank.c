@@ -11,7 +11,7 @@
 #include "command.h"
 #include "derived.h"
 
-/* === rank ===================================================================================== */
+/* === suite rank =============================================================================== */
 
 enum { MOST = 6 };
 
@@ -122,7 +122,7 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
         /* a pivot counts as zero below n times the largest error of an entry; here, with n = 2, below 1.4 or 1.6 */
         const double size = k % 2 == 0 ? 1.0 : 0x1p80;
         const bool blurred = k >= 2;
-        double m[4] = {2.0 * size, size, size, 2.0 * size}; /* pivots 2 and 1.5 */
+        double m[4] = {2.0 * size, size, size, 2.0 * size}; /* its pivots are 2 and 1.5 */
         double error[4] = {0.0, blurred ? 0.8 * size : 0.7 * size, 0.0, 0.0};
         TEST_ASSERT_EQUAL_INT(blurred ? 1 : 2, rank_of(m, error, 2, false));
     }
@@ -240,7 +240,7 @@ TEST(rank, the_equation_that_depends_is_shown) {
     TEST_ASSERT_GREATER_THAN_INT(200, shown);
 }
 
-/* === solving ================================================================================== */
+/* === suite solving ============================================================================ */
 /* The operation list solves systems of one to five equations, with entries of every kind. The results must satisfy
  * the equations. Also the choice of turn angles. */
 
@@ -264,8 +264,7 @@ static char *written_system(int n, uint64_t *seed) {
     size_t size = 0;
     FILE *to = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(to);
-    const unsigned variety =
-        2 + random_one_of(seed, 6); /* from numbers only to all kinds of symbols */
+    const unsigned variety = 2 + random_one_of(seed, 6); /* variety: 2 is numbers only */
     fputs("mechanism m\n", to);
     for (int i = 0; i < n; i++) {
         fprintf(to, "state x%d\n", i);
@@ -298,7 +297,7 @@ static int check_solution(const derived *d, uint64_t *seed, const char *text) {
             largest = fmax(largest, fabs(result[i]));
         }
         if (!isfinite(largest) || largest > 1e4) {
-            continue; /* nearly singular state */
+            continue; /* this state is nearly singular */
         }
         for (int i = 0; i < e->count; i++) {
             double size;
@@ -428,7 +427,7 @@ TEST(solving, what_can_be_a_turn_angle) {
     }
 }
 
-/* === underivable ============================================================================== */
+/* === suite underivable ======================================================================== */
 /* Models that cannot be derived must be refused with their place, and within bounded time. */
 
 static void expect_refused(const char *text, const char *wanted) {
@@ -586,7 +585,7 @@ TEST(underivable, expressions_that_explode_are_refused) {
                              "T = 1 [kg*m^2]*(x'^2 + y'^2)\noutput o = a40\n");
     expect_refused(doubled, "error: the equations of 'm' grow beyond what can be handled");
     free(doubled);
-    /* with fewer nested lets, the algebra gets further */
+    /* at a smaller depth, the derivation may succeed, but must end in time */
     for (int deep = 4; deep < 12; deep++) {
         char end[96];
         snprintf(end, sizeof end, "T = 1 [kg*m^2]*(x'^2 + y'^2)*(1 + a%d^2)\n", deep);

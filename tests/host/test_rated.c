@@ -79,10 +79,10 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
     double largest[RATED_STATES] = {0};
     static char line[1000];
     bool whole = what.status == said_owes(what.err);
-    whole = whole && fgets(line, sizeof line, in) != NULL; /* the names of the columns */
+    whole = whole && fgets(line, sizeof line, in) != NULL; /* reads the header */
     for (int k = 0; k <= records && whole; k++) {
         whole = fgets(line, sizeof line, in) != NULL;
-        const char *at = line + (whole ? strcspn(line, " ") : 0); /* skips the time */
+        const char *at = line + (whole ? strcspn(line, " ") : 0); /* skips the time column */
         for (int i = 0; i < r->states && whole; i++) {
             const long double now = row[(size_t)k * (size_t)r->states + (size_t)i];
             char *end;
@@ -94,7 +94,7 @@ static double error_of(const rated *r, double step_s, double spacing_s, int reco
         }
     }
     fclose(in);
-    double worst = whole ? 0.0 : (double)INFINITY; /* infinite if the run diverged */
+    double worst = whole ? 0.0 : (double)INFINITY; /* infinite after a failed run */
     for (int i = 0; i < r->states; i++) {
         const double unit = state >= 0 ? 1.0 : largest[i];
         if (unit > 0.0 && (state < 0 || state == i)) {

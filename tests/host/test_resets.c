@@ -143,15 +143,15 @@ TEST(resets, what_is_lost) {
 TEST(resets, watchdog) {
     run_with("unkicked@0.5");
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[240] > 0.0 && h.push[260] == 0.0);
-    run_with("watchdog-resets@0.6"); /* a firmware that kicks is not reset */
+    run_with("watchdog-resets@0.6"); /* no reset while the firmware kicks */
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[READS] == (double)READS);
     run_with("watchdog-resets=3ms,unkicked@0.5+5ms");
     TEST_ASSERT_TRUE(h.resets == 1 && h.starved[0]);
     TEST_ASSERT_TRUE(h.reset_s[0] > 0.503 && h.reset_s[0] < 0.506);
     TEST_ASSERT_TRUE(fabs(h.again_s[0] - h.reset_s[0] - 3e-3) < 1e-9);
     TEST_ASSERT_TRUE(h.push[READS] == (double)READS); /* the power is not cut permanently */
-    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* the watchdog cuts the power again */
+    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* then the watchdog cuts the power */
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[READS] == 0.0);
-    run_with("watchdog-resets=0,unkicked@0.5"); /* resets again and again */
+    run_with("watchdog-resets=0,unkicked@0.5"); /* resets after each restart */
     TEST_ASSERT_TRUE(h.resets > 50);
 }

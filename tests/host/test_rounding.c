@@ -109,7 +109,7 @@ TEST(rounding, no_step_is_too_small_for_compensated_sums) {
         expect_within(what, 0.0, theta_at_9s * U,
                       whole_error("epicyclic_conserved", NULL, 9.0, step_s[i]));
         snprintf(what, sizeof what, "S8c compensated, %g ms, whole state at 8 s", step_s[i] * 1e3);
-        if (i != 1) { /* its step does not divide 8 s */
+        if (i != 1) { /* the step 0.9e-4 s does not divide 8 s */
             expect_within(what, 5e-6, 1e-4, middle_error("thomson_a_conserved", 8.0, step_s[i]));
         }
     }
@@ -215,7 +215,7 @@ TEST(rounding, motion_after_a_million_turns_is_the_same) {
     motion_close(&turned);
 }
 
-/* === energy kept ============================================================================== */
+/* === suite energy_kept ======================================================================== */
 /* Random conservative mechanisms with constant mass. For every method of order two or higher, compensated float must
  * conserve energy as well as double does. Its remaining round-off is unbiased (core/step/step_end.h,
  * wh_square_short). */
@@ -226,10 +226,10 @@ enum { COORDINATES = 2, STEPS = 20000, LOOKS = 200, APART = 7 };
  * coordinates. */
 typedef struct swinging {
     int coordinates;
-    bool turns[COORDINATES]; /* the coordinate is an angle */
+    bool turns[COORDINATES]; /* is the coordinate an angle? */
     double inertia[COORDINATES], a[COORDINATES], b[COORDINATES], start[COORDINATES];
     double both;
-    double fastest_radps; /* upper bound, for small motions */
+    double fastest_radps; /* upper bound for small motions */
 } swinging;
 
 static swinging drawn(dice *d) {
@@ -356,5 +356,5 @@ TEST(energy_kept, energy_does_not_leak_by_rounding) {
     printf(
         "  (h w)^2 times at most %.1e of the energy a step, %.1e at the root of the mean square\n",
         worst, sqrt(sum / cases));
-    TEST_ASSERT_TRUE(sqrt(sum / cases) > 1e-10 && sqrt(sum / cases) < 1e-8); /* with bias: 2.7e-8 */
+    TEST_ASSERT_TRUE(sqrt(sum / cases) > 1e-10 && sqrt(sum / cases) < 1e-8); /* biased: 2.7e-8 */
 }

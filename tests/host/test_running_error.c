@@ -135,7 +135,7 @@ static void define(const drawn_list *l, double least, double part, double *error
 static int draw_leaf(dice *d, op_list *t) {
     static const op_code leaves[] = {OP_LINEAR, OP_RATE, OP_INPUT, OP_ACCEL};
     switch (dice_one_of(d, 8)) {
-    /* float does not represent it */
+    /* float does not represent this constant */
     case 0: return op_list_constant(t, dice_between(d, -2.0, 2.0));
     case 1: return op_list_constant(t, 0.25 * (1.0 + dice_one_of(d, 9)));
     case 2: return op_list_leaf(t, OP_TIME, 0);

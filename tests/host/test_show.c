@@ -14,7 +14,7 @@
 #include "printed.h"
 #include "reread.h"
 
-/* === show ===================================================================================== */
+/* === suite show =============================================================================== */
 
 enum { TEXT_SIZE = 1 << 16 };
 
@@ -86,7 +86,7 @@ static int check_batch(uint64_t *seed, int depth, int tame) {
         }
         char *one = shown(a, p[i], SHOW_TEXT);
         if (strlen(one) > TEXT_SIZE || strstr(one, "inf") != NULL || strstr(one, "nan") != NULL) {
-            free(one); /* a derivation would have refused this expression */
+            free(one); /* never finite: would be refused */
             continue;
         }
         char *latex = shown(a, p[i], SHOW_LATEX);
@@ -221,7 +221,7 @@ static int check_mechanism(int depth, uint64_t *seed) {
         count += 2;
         line = end + 1;
     }
-    for (int i = 0; i < 2; i++) { /* s3' = theta1'' = FORMULA */
+    for (int i = 0; i < 2; i++) { /* lines such as s3' = theta1'' = FORMULA */
         char wanted[32];
         const unknown *u = &d.equations->unknowns[i];
         snprintf(wanted, sizeof wanted, " = %s%.*s = ", u->symbol->name, u->order, "''''");
@@ -310,7 +310,7 @@ TEST(show, printing_outlives_an_overflow) {
     free(source_text);
 }
 
-/* === show events ============================================================================== */
+/* === suite show_events ======================================================================== */
 /* Stops, frictions, holds and crossings, as `whirl derive` prints them. */
 
 static const char text[] =
@@ -366,7 +366,7 @@ static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "blo
 
 TEST(show_events, events_stand_beside_the_equations) {
     expect(as_text, "", true);
-    expect(as_octave, "%", true); /* as comments, outside the function */
+    expect(as_octave, "%", true); /* comments in the function's file */
 }
 
 TEST(show_events, no_events_no_word_of_them) {
@@ -410,7 +410,7 @@ static int check_scene(const scene *of) {
     derived d = derived_builtin(of->name);
     const mechanism *m = d.instance->mechanism;
     int all = 0;
-    for (int form = 0; form < 4; form += m->is_system ? 2 : 1) { /* a system has no steps */
+    for (int form = 0; form < 4; form += m->is_system ? 2 : 1) { /* not the steps of a system */
         char *text_of = printed(&d, forms[form]);
         const bool latex = form >= 2;
         all = 0;

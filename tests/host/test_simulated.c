@@ -136,7 +136,7 @@ TEST(simulated, outputs_that_end) {
         char text[500];
         char wanted[400];
         char more[60] = "";
-        const unsigned ends = dice_one_of(&die, c % 4U == 0 ? 1200 : 1000); /* ms, plus 0.5 */
+        const unsigned ends = dice_one_of(&die, c % 4U == 0 ? 1200 : 1000); /* ms */
         const bool second = dice_one_of(&die, 2) == 0;
         const bool recorded = c % 3U > 0;
         const uint64_t every = 1 + dice_one_of(&die, c % 2U == 0 ? 1 : 200);
@@ -159,7 +159,7 @@ TEST(simulated, outputs_that_end) {
                 count++;
             }
         }
-        if (count == 0 && ends < 1000) { /* without records, the end is checked */
+        if (count == 0 && ends < 1000) { /* else the rows were checked */
             first = 1000;
             count = 1;
         }

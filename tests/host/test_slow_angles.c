@@ -7,7 +7,7 @@
 
 static uint64_t seed_now;
 
-static double random_share(void) { /* the generator xorshift64 (Marsaglia, 2003) */
+static double random_share(void) { /* the random generator xorshift64 (Marsaglia, 2003) */
     seed_now ^= seed_now << 13;
     seed_now ^= seed_now >> 7;
     seed_now ^= seed_now << 17;

@@ -5,7 +5,7 @@
 #include "command.h"
 #include "motion.h"
 
-/* === stabilized =============================================================================== */
+/* === suite stabilized ========================================================================= */
 
 enum {
     LINKS = 3,
@@ -114,7 +114,7 @@ typedef struct drift {
     double second;
     double whole;
     double last;
-    double steepest; /* largest change within a window of readings */
+    double steepest; /* largest change of energy within a window */
 } drift;
 
 static drift drift_of(const chain *c, stepping how, uint64_t steps) {
@@ -157,7 +157,7 @@ TEST(stabilized, energy_stays) {
     unsigned bursts = 0; /* chaotic motions that lose more in their second half */
     for (unsigned i = 0; i < cases; i++) {
         const chain c = drawn_chain(&d);
-        /* so coarse that RK4 loses energy */
+        /* a step so coarse that RK4 loses energy */
         const double step_s = 0.06 / c.fastest;
         const unsigned n = i % 3;
         const stepping plain = {.kind = numbers[n].kind,
@@ -274,7 +274,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
 TEST(stabilized, coarse_steps_are_told) {
     dice d = dice_of("stabilized springs", 20261201);
     for (unsigned i = 0; i < usual_or(8, 2); i++) {
-        const double swing = dice_between(&d, 0.3, 1.5); /* rad a step */
+        const double swing = dice_between(&d, 0.3, 1.5); /* phase in a step, rad */
         char text[TEXT];
         said what;
         snprintf(text, sizeof text,
@@ -298,7 +298,7 @@ TEST(stabilized, what_others_lost_is_told) {
     for (unsigned i = 0; i < cases; i++) {
         static const char *const words[2][3] = {{"--quiet", NULL},
                                                 {"--stabilized", "--quiet", NULL}};
-        const double fast = dice_between(&d, 0.12, 0.3); /* rad a step */
+        const double fast = dice_between(&d, 0.12, 0.3); /* phase in a step, rad */
         const double share = dice_between(&d, 0.001, 0.1);
         char text[TEXT];
         said what[2];
@@ -345,7 +345,7 @@ TEST(stabilized, what_is_made_wrong_is_not_trusted) {
         static const char *const words[2][5] = {
             {"--stabilized", NULL}, {"--stabilized", "--number", "float", "--compensated", NULL}};
         const bool is_heavy = i % 2 == 1;
-        const double fast = dice_between(&d, 1.0, 1.8); /* rad a step */
+        const double fast = dice_between(&d, 1.0, 1.8); /* phase in a step, rad */
         const double step_s = 0.0125;
         char text[TEXT];
         if (is_heavy) {
@@ -381,7 +381,7 @@ TEST(stabilized, what_is_made_wrong_is_not_trusted) {
 
 SUITE(stabilized) { UnitySetTestFile(__FILE__); }
 
-/* === stabilized beside ======================================================================== */
+/* === suite stabilized_beside ================================================================== */
 /* The effect of --stabilized on a slow motion (a free wheel or cart with little energy) beside a swing. With
  * Runge-Kutta 4, the swing loses (h w)^6/72 of its energy in each step. All rates must get the same relative
  * correction. If the correction were larger at the turning points of the swing, the slow motion would get most of
@@ -445,7 +445,7 @@ TEST(stabilized_beside, what_is_slow_gets_its_part) {
         const beside b = drawn(&d);
         const bool is_float = i % 3 == 2;
         const double lost =
-            (double)steps * pow(b.angular_radps * b.step_s, 6.0) / 72.0; /* of the swing's energy */
+            (double)steps * pow(b.angular_radps * b.step_s, 6.0) / 72.0; /* of the energy */
         const stepping how = {.kind = is_float ? &engine_float : &engine_double,
                               .method = WH_RK4,
                               .compensated = is_float};

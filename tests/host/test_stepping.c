@@ -12,7 +12,7 @@
 #include "derived.h"
 #include "made_sweep.h"
 
-/* === stepping ================================================================================= */
+/* === suite stepping =========================================================================== */
 
 #define PI 3.14159265358979323846
 
@@ -136,12 +136,12 @@ TEST(stepping, failed) {
     w.from_s = 1.5;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
                   "--from 1.5 s is after the last step", "");
-    list.kind = MEASURE_FINAL; /* needs no series, so any start time is allowed */
+    list.kind = MEASURE_FINAL; /* accepts any begin: needs no series */
     derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
     measured_point p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
     drop(&p);
-    w.from_s = 1.0; /* the end of the last step is one sample */
+    w.from_s = 1.0; /* begins at the end: one sample */
     list.kind = MEASURE_MAX;
     p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
@@ -157,7 +157,7 @@ TEST(stepping, failed) {
                   "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
                   &w, "the expression of the measure '1/x' is not a finite number at every step",
                   "");
-    /* each value is finite, but not their sum */
+    /* each sample is finite, but not the sum of all samples */
     list = (gauged){MEASURE_MEAN, "large", -1};
     expect_failed("mechanism m\nstate x\nequation x' = 0*x/(1 [s])\noutput y = 1e308*(1 + x)\n"
                   "scene s { step 1 [ms]; until 0.1 [s] }\n",
@@ -250,7 +250,7 @@ TEST(stepping, measures_of_whole_runs) {
 
 SUITE(stepping) { die = dice_of("stepping", 51); }
 
-/* === sweep settings =========================================================================== */
+/* === suite sweep_settings ===================================================================== */
 /* A sweep's header, the settings that are stored beside its file, and its points as workers run them. */
 
 static const char settings_text[] =
@@ -316,17 +316,17 @@ TEST(sweep_settings, points) {
         const char *measure;
         bool good;
     } points[] = {
-        {made_sweep_floor, "x=-1..1:2", "x", false},        /* refused at the start */
-        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* no period, but good */
-        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* 1/x is infinite */
+        {made_sweep_floor, "x=-1..1:2", "x", false},        /* the start is refused */
+        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* has no period, still good */
+        {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* 1/x is infinite at x = 0 */
         /* these scenes are derived again for each point */
         {settings_text, "m=1..2:2", "max(x)", true},
-        {settings_text, "m=0..2:2", "max(x)", false}, /* m = 0 fails */
+        {settings_text, "m=0..2:2", "max(x)", false}, /* mass 0 is refused */
         {"mechanism m\nstate x\nequation x' = 1 [1/s]*x^2\nscene s { step 1 [ms]; until 2 [s] }\n",
-         "x=4..1:2", "x", false}, /* diverges */
+         "x=4..1:2", "x", false}, /* the run diverges */
         {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 1 [J]*sqrt(x/(1 [m]))\n"
          "scene s { step 1 [ms]; until 2 [s] }\n",
-         "x=-1..1:2", "x", false}, /* undefined */
+         "x=-1..1:2", "x", false}, /* the output is undefined */
     };
     for (size_t i = 0; i < sizeof points / sizeof points[0]; i++) {
         made_sweep m;

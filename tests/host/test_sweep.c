@@ -131,9 +131,9 @@ TEST(sweep, series_of_a_sine) {
 }
 
 TEST(sweep, series_without_a_value) {
-    TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 250, 1e-3))); /* one crossing */
+    TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 250, 1e-3))); /* 1 period */
     TEST_ASSERT_FALSE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 500, 1e-3)));
-    /* only round-off varies */
+    /* here, only round-off varies */
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 1.0, 1e-15, 0.2, 2001, 1e-3)));
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_MEAN, 0.0, 1.0, 0.2, 0, 1e-3)));
     TEST_ASSERT_TRUE(of_sine(MEASURE_MEAN, 2.0, 0.0, 0.2, 1, 1e-3) == 2.0);
@@ -151,7 +151,7 @@ TEST(sweep, measures_are_read) {
     static const struct {
         const char *text;
         int mechanism;
-        int kind; /* -1: refused */
+        int kind; /* kind of measure; -1: refused */
     } cases[] = {{"theta", 0, MEASURE_FINAL},
                  {"max(theta)", 0, MEASURE_MAX},
                  {" min ( height + r ) ", 0, MEASURE_MIN},
@@ -161,12 +161,12 @@ TEST(sweep, measures_are_read) {
                  {"mean((theta)*(M))", 0, MEASURE_MEAN},
                  {"period(x')", 1, MEASURE_PERIOD},
                  {"(theta)*(theta)", 0, MEASURE_FINAL},
-                 {"period(x'')", 1, -1}, /* the equation has x' only */
+                 {"period(x'')", 1, -1}, /* refused: the equation has x' only */
                  {"theta'''", 0, -1},
                  {"2*amplitude(theta)", 0, -1},
                  {"mean(theta) theta", 0, -1},
                  {"max(theta)*max(theta)", 0, -1},
-                 {"theta + r", 0, -1}, /* an angle and a length */
+                 {"theta + r", 0, -1}, /* refused: an angle and a length */
                  {"heigth", 0, -1},
                  {"mean(theta", 0, -1},
                  {"", 0, -1}};

@@ -7,7 +7,7 @@
 #include "motion.h"
 #include "named_cures.h"
 
-/* === swings =================================================================================== */
+/* === suite swings ============================================================================= */
 
 /* The energy of the swing is H - 2 for a = b = 1. If it changes by more than TOLD of itself, there must be a
  * warning. If it changes by less than SILENT, and the errors of u and v are below RIGHT of their ranges, there must
@@ -17,7 +17,7 @@
 #define RIGHT 4e-3
 
 typedef struct prey {
-    double a; /* 1/s */
+    double a; /* rates a and b, 1/s */
     double b;
     double u; /* start of u; v starts at 1 */
     double step_ms;
@@ -90,7 +90,7 @@ TEST(swings, predator_and_prey) {
         double off = 0.0;
         const double lost = lost_of(&p, text, &off);
         if (!(lost >= 0.0)) {
-            continue; /* diverged, which has a warning of its own */
+            continue; /* diverged runs have another warning */
         }
         said what;
         const char *words[] = {model_keep(text),
@@ -118,12 +118,12 @@ TEST(swings, predator_and_prey) {
     TEST_ASSERT_TRUE(told > cases / 8 && silent > cases / 8);
 }
 
-/* === forced swing ============================================================================= */
+/* === suite forced_swing ======================================================================= */
 /* A body on a spring, with or without damping, under a force whose phase advances by 0.3 to 1.8 rad in a step. This
  * is fast for the quadrature of its power, but not for the method. The reference is the closed form. A right run
  * must have no warning, even with an energy residual; a wrong run must have a warning or not be trusted. */
 
-enum { RECORDS = 20 }; /* divides the number of steps */
+enum { RECORDS = 20 }; /* divides the number of steps of a run */
 
 typedef struct forced_case {
     /* the clock is a real number instead of a turn angle, so the force's phase may advance by more than half a turn

@@ -16,11 +16,11 @@ enum {
 };
 
 enum {
-    GRAVITY = 1,  /* in V, along y */
+    GRAVITY = 1,  /* a force in V, along y */
     ANCHOR = 2,   /* in V: pulls one x towards a point of the plane */
-    DRAG = 4,     /* in F, of one y' */
+    DRAG = 4,     /* a loss in F, of one y' */
     DAMPER = 8,   /* in F, between two x', so no force from outside */
-    HAND = 16,    /* in Q, an input along one x */
+    HAND = 16,    /* a force in Q: an input along one x */
     COUPLE = 32,  /* in Q: an input pushes two x apart, so no force from outside */
     WALL = 64,    /* a stop of one y */
     BUMPER = 128, /* a stop between two x, so no force from outside */
@@ -37,11 +37,11 @@ enum {
 typedef struct particles {
     int bodies;
     unsigned with;
-    int at; /* the body on which an outside force acts */
+    int at; /* the body with an outside force */
     double mass[BODIES];
-    double spring[BODIES]; /* between body i and body i + 1 */
+    double spring[BODIES]; /* stiffness between body i and i + 1 */
     double length[BODIES];
-    double strength; /* of the hidden force; as small as a millionth */
+    double strength; /* strength of the hidden force; 1e-6 at least */
 } particles;
 
 /* Writes the mechanism. Each sum begins with a zero, so that every part can be appended. */

@@ -161,7 +161,7 @@ static derived drawn_mechanism(unsigned number, char **text) {
 typedef struct comparison {
     evaluator *exact;
     evaluator *tables;
-    evaluator *moved[128]; /* [table] list with this table shifted */
+    evaluator *moved[128]; /* [table] the list with this table shifted */
     int count;
 } comparison;
 
@@ -357,7 +357,7 @@ TEST(tables, straight_pieces_end_the_order_of_the_step) {
 static const struct {
     const char *text;
     const char *said;
-    const char *at; /* line and column */
+    const char *at; /* its line and column */
 } refused[] = {
     {"mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\nT = 1 [kg*m^2]*(a'^2 + b'^2)/2\n"
      "V = 1 [J]*(cos(a) + cos(b))\n",

@@ -11,7 +11,7 @@
 #include "drawn_talk.h"
 #include "test.h"
 
-/* === talk ===================================================================================== */
+/* === suite talk =============================================================================== */
 
 static void expect_same(const stream *wanted, const uint8_t *bytes, size_t length) {
     TEST_ASSERT_EQUAL_size_t(wanted->length, length);
@@ -57,7 +57,7 @@ TEST(talk, heard_and_kept) {
         talk_expect_report(LOCKSTEP_DONE, talk_drawn.turns);
         TEST_ASSERT_EQUAL_INT(status, talk_report.status.status);
         alloc_text_end(onto);
-        expect_same(&talk_on_tape, (const uint8_t *)kept, length); /* hello and turns as sent */
+        expect_same(&talk_on_tape, (const uint8_t *)kept, length); /* hello and turns */
         free(kept);
         wanted.length = 0;
         talk_put(&wanted, WH_FRAME_ASK, 0, 0, NULL, 0);
@@ -144,7 +144,7 @@ TEST(talk, wrong_words) {
         uint8_t payload[WH_ORDERS_BYTES + 4];
         const unsigned way = c % (SILENT + 1);
         if (way == SILENT && c > SILENT) {
-            continue; /* waiting takes long, so this is tried once */
+            continue; /* tried once, because waiting takes long */
         }
         talk_draw();
         talk_drawn.remembers[1] = 99;
@@ -292,7 +292,7 @@ TEST(talk, same_hello) {
 
 SUITE(talk) { talk_die(dice_of("talk", 49)); }
 
-/* === taped ==================================================================================== */
+/* === suite taped ============================================================================== */
 /* Invalid tapes: channels that their hello does not have, words that would break a row, times beyond a wrap of the
  * timer. */
 

@@ -7,7 +7,7 @@
 #include "command.h"
 #include "evaluated.h"
 
-/* === tape entered ============================================================================= */
+/* === suite tape_entered ======================================================================= */
 
 enum { ANGLES = 2, LEAVES = 3, POOL = 400, ENTERED = 330 };
 
@@ -345,7 +345,7 @@ TEST(tape_entered, what_turns_a_phase) {
 
 SUITE(tape_entered) { die = dice_of("tape_entered", 4170); }
 
-/* === tape freed =============================================================================== */
+/* === suite tape_freed ========================================================================= */
 /* Parts of op_list_scale() (host/image/op_list_scaling.h). The lists have known scaling freedoms. A list that is
  * scaled by them must compute the same. */
 
@@ -566,7 +566,7 @@ TEST(tape_freed, operands_are_entered_in_one_order) {
 
 SUITE(tape_freed) { die = dice_of("tape_freed", 4190); }
 
-/* === tape gauged ============================================================================== */
+/* === suite tape_gauged ======================================================================== */
 /* The gauges that op_list_scale() must find (host/image/op_list_scaling.h). Each list has a factor that makes all
  * its constants exact in float: a product of small primes. */
 
@@ -643,7 +643,7 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
                     if (op_list_bias(t, t) > 1e-10) {
                         expect_none_off(t);
                     } else {
-                        op_list_free(t); /* float represents the constants already */
+                        op_list_free(t); /* float represents these constants */
                     }
                 }
             }

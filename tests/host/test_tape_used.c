@@ -81,7 +81,7 @@ static bool leads_from(const op_list *t, int i, int by) {
 static void check_finite(scene_list *l) {
     op_list *t = &l->list;
     if (t->count > 40) {
-        return; /* the number of paths becomes too large */
+        return; /* too many paths to count */
     }
     TEST_ASSERT_EQUAL_INT(-1, op_list_not_finite(t));
     const int by = (int)dice_one_of(&die, (unsigned)t->count);
@@ -139,7 +139,7 @@ TEST(tape_used, images_know_what_float_has_no_room_for) {
         const bool matrix = im->settings.matrix != MATRIX_NONE;
         const bool moves = role == (matrix ? IMAGE_MATRIX : IMAGE_STEP) || role == IMAGE_SIGNALS ||
                            role == IMAGE_FORCES || role == IMAGE_SETS;
-        if (im->list[role] != NULL) { /* operation 0 is a constant */
+        if (im->list[role] != NULL) { /* its operation 0 is a constant */
             drawn.list[role].ops[0].value = 1e-50;
             TEST_ASSERT_TRUE(image_out_of_float(im) == (moves ? 1e-50 : 0.0));
             drawn.list[role].ops[0].value = 1.0;
@@ -175,7 +175,7 @@ TEST(tape_used, images_are_read) {
             calls = calls || (im->list[role] != NULL && counted(im->list[role]).calls > 0);
         }
         TEST_ASSERT_EQUAL(calls, image_calls(im));
-        for (int i = 0; i < im->inputs; i++) { /* 5 mm is 0.005 m */
+        for (int i = 0; i < im->inputs; i++) { /* the input's 5 mm are 0.005 m */
             const image_unit *u = &im->input[i].unit;
             const double si = im->input[i].value;
             TEST_ASSERT_EQUAL(strcmp(u->shown, u->si) == 0, image_shows_si(u));
@@ -262,7 +262,7 @@ static bool enter_pair(op_list *t, int k, unsigned way) {
     }
     t->result[3 * k] = half;
     t->result[3 * k + 1] = whole;
-    t->result[3 * k + 2] = way == 3 ? times : other; /* for 3, the doubled part is a result */
+    t->result[3 * k + 2] = way == 3 ? times : other; /* way 3: the double itself */
     return way < 3 || way == 7;
 }
 

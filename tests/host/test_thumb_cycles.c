@@ -9,7 +9,7 @@ typedef struct timed {
     const char *text;
     unsigned first;
     unsigned second;
-    unsigned cycles[3]; /* on M0, M3 and M4; 0: no such instruction */
+    unsigned cycles[3]; /* cycles on M0, M3, M4; 0: no such instruction */
 } timed;
 
 static const timed instructions[] = {

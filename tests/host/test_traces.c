@@ -12,7 +12,7 @@
 #include "command.h"
 #include "derived.h"
 
-/* === traces =================================================================================== */
+/* === suite traces ============================================================================= */
 
 enum { POWERS = 16, NAME = 60, CHANGES = 4000, SIGNALS = 60 };
 
@@ -35,7 +35,7 @@ static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double un
         for (int i = 0; i < k; i++) {
             rest = rest * 10 % under;
         }
-        const long double step = (long double)over * units_per_s; /* in time units, times `under` */
+        const long double step = (long double)over * units_per_s; /* step length, times `under` */
         if (rest == 0) {
             if (!contacts || step >= 1000.0L * (long double)under) {
                 return k;
@@ -309,7 +309,7 @@ TEST(traces, moments) {
         const double above_s[] = {0.0, b.crosses_m / b.passes_mps};
         static const double rises[] = {0.0, 1.0};
         static const double falls[] = {1.0, 0.0};
-        const double off = kind == &engine_float ? 3e-6 : 0.0; /* in s, as float sums x */
+        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s, round-off of x in float */
         if (off == 0.0 && rests_s > 0.95 && fabs(next_s - 0.9) > 1e-3 &&
             (hits == 0 || fabs(hits_s[hits - 1] - 0.9) > 1e-3)) {
             expect_changes("stop2_hit", hits_s, ones, hits, units_per_s);
@@ -334,7 +334,7 @@ TEST(traces, moments) {
 
 SUITE(traces) { die = dice_of("traces", 64); }
 
-/* === vcd ====================================================================================== */
+/* === suite vcd ================================================================================ */
 /* Value change dumps (host/io/vcd.h), read by the test. Random changes of many signals, slightly out of sequence,
  * must appear sorted and once each. Late changes must be counted, and notes must follow their signals. */
 
@@ -502,7 +502,7 @@ TEST(vcd, changes_come_in_order) {
             highest = h->time > highest ? h->time : highest;
             now += (int64_t)dice_one_of(&d, 4);
             if (dice_one_of(&d, 10) == 0) {
-                vcd_settle(v, now - JITTER); /* no earlier change will follow */
+                vcd_settle(v, now - JITTER); /* nothing earlier follows */
                 highest = now - JITTER > highest ? now - JITTER : highest;
             }
         }

@@ -3,7 +3,7 @@
 #include "command.h"
 #include "horizons.h"
 
-/* === trust ==================================================================================== */
+/* === suite trust ============================================================================== */
 
 typedef struct arithmetic {
     const char *name;
@@ -88,7 +88,7 @@ TEST(trust, lorenz) {
             (const double[]){40.0, 40.0, 45.0, 60.0});
 }
 
-/* === trust scenes ============================================================================= */
+/* === suite trust_scenes ======================================================================= */
 /* Horizons of built-in scenes. Without divergence, they must reach the end. With coarse steps, simple methods or
  * small tables, they must agree with the reference. With contacts, the reference has 1/32 of the step and finds
  * events by itself. */
@@ -154,7 +154,7 @@ TEST(trust_scenes, steps_and_methods_that_are_too_coarse) {
         {WH_RK4, 5.0, 3e-8},       {WH_RK38, 20.0, 1e-4},    {WH_NYSTROEM5, 20.0, 1e-5},
         {WH_NYSTROEM3, 5.0, 1e-4}, {WH_HEUN, 1.0, 1e-5},     {WH_LEAPFROG, 5.0, 1e-3},
         {WH_EULER, 0.1, 1e-2},     {WH_LEAPFROG, 5.0, 3e-4}, {WH_SEMI_IMPLICIT_EULER, 0.5, 1e-4}};
-    const size_t apart = few_or_all(1, 0) == 1 ? 2 : 1; /* all methods, or every second one */
+    const size_t apart = few_or_all(1, 0) == 1 ? 2 : 1; /* takes all methods, or every second one */
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i += apart) {
         char text[500];
         char what[100];

@@ -151,7 +151,7 @@ static double twin_ratio(const horizons *h, board_twin which) {
         memcpy(start_rad, other.start_rad, (size_t)other.angles * sizeof *start_rad);
         memcpy(start_turns, other.start_turns, (size_t)other.angles * sizeof *start_turns);
         start_rad[0] += kind == &engine_float ? 0x1p-24 : 0x1p-52;
-        start_turns[0] += 41; /* 2^-24 rad, in units of 2^-32 turns */
+        start_turns[0] += 41; /* a change of 2^-24 rad, in units */
         other.start_rad = start_rad;
         other.start_turns = start_turns;
         break;
@@ -224,10 +224,10 @@ TEST(trust_drawn, drawn_mechanisms) {
         horizons h = horizons_of(text, "s", s.how, HORIZON_TOLERANCE);
         char what[60] = "";
         sscanf(text, "mechanism drawn \"%59[^\"]", what);
-        if (h.known >= 0.05) { /* the references are not accurate enough */
+        if (h.known >= 0.05) { /* the references disagree: no truth */
             beyond++;
         } else if (h.estimate.to_the_end && h.true_until_s >= h.twins->end_s) {
-            regular++; /* both are accurate to the end */
+            regular++; /* run and estimate are accurate to the end */
         } else {
             ratio[count] = horizons_ratio(&h);
             near += ratio[count] >= 0.8 && ratio[count] <= 1.2;

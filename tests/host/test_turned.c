@@ -31,7 +31,7 @@ TEST(turned, settings_and_lists_choose) {
         TEST_ASSERT_TRUE(turns("", "a = 1", turned) == wh_method_turns((wh_method)m));
         TEST_ASSERT_FALSE(turns("", "a = 1", lookup));
         TEST_ASSERT_TRUE(turns("", "a' = 3000 [rad/s]", turned) ==
-                         wh_method_turns((wh_method)m)); /* whatever the speed */
+                         wh_method_turns((wh_method)m)); /* some methods rotate at any speed */
     }
     /* a sine of an angle plus a length is looked up, because its argument is not a sum of angles */
     TEST_ASSERT_TRUE(turns(" + 0.01 [N/m]*x^2", "a = 1", plainly));

@@ -36,7 +36,7 @@ typedef struct trial {
     victim victim;
     char text[2048];
     char statement[160]; /* the message must quote it */
-    int line;            /* its line */
+    int line;            /* line number of the statement */
     double end_s;        /* time at which the run must end */
     double step_s;
     bool is_float;
@@ -86,10 +86,10 @@ static void state(trial *t, const char *form, dice *d) {
 
 static void make(trial *t, dice *d) {
     const double v = dice_between(d, 0.3, 2.0);
-    const double c = dice_between(d, 0.2, 1.5) * v; /* x reaches c after 0.2 to 1.5 s */
+    const double c = dice_between(d, 0.2, 1.5) * v; /* then x reaches c after 0.2 to 1.5 s */
     unsigned form = dice_one_of(d, t->is_float ? FORMS_IN_FLOAT : FORMS);
     if (t->victim == CONDITION_AND || t->victim == CONDITION_OR) {
-        form += form == 1; /* infinity is allowed in `and` and `or` */
+        form += form == 1; /* `and` and `or` allow infinity */
     } else if (t->victim == HELD && (form == 1 || form == 2 || form == 6)) {
         form = 0; /* a hold uses only the rate, which is defined everywhere for a logarithm */
     }
@@ -110,7 +110,7 @@ static void make(trial *t, dice *d) {
         snprintf(around, sizeof around, "%s%s", t->statement, t->victim == CROSSING ? " }" : "");
     }
     snprintf(t->text, sizeof t->text,
-             "mechanism trial\n" /* line 1 */
+             "mechanism trial\n" /* the file's first line */
              "coordinate x [m]\ncoordinate y [m]\n"
              "parameter c = %.9f [m]\nparameter u = 1 [m]\n"
              "let d = (c - x)/u\n"
@@ -148,7 +148,7 @@ static void check(const trial *t, const char *file) {
     const double most = t->ends_later                           ? 5.0
                         : t->victim == OUTPUT || t->is_infinite ? 1.01 * t->step_s
                                                                 : 1e-3 * t->step_s;
-    const double rounding_s = t->is_float ? 1e-3 : 0.0; /* round-off of x, a sum in float */
+    const double rounding_s = t->is_float ? 1e-3 : 0.0; /* round-off of x in float */
     TEST_ASSERT_TRUE_MESSAGE(
         late_s <= most + rounding_s && late_s >= -1.01 * t->step_s - rounding_s, note);
 }
@@ -159,7 +159,7 @@ TEST(undefined, expressions_that_stop_being_numbers) {
     unsigned tried = 0;
     for (unsigned i = 0; i < rounds; i++) {
         for (victim v = 0; v < VICTIMS; v++) {
-            /* in float and double, or in one of them */
+            /* runs in float and double, or in one of them */
             for (unsigned k = 0; k < usual_or(2, 1); k++) {
                 trial t = {.victim = v, .is_float = (v + k) % 2U == 1U};
                 make(&t, &d);
@@ -253,7 +253,7 @@ TEST(undefined, energies_that_are_no_numbers) {
         said what;
         char when[60];
         const double h = 1e-6 * floor(dice_between(&d, 1e2, 1e4));
-        const unsigned before = i % 4U; /* in steps */
+        const unsigned before = i % 4U; /* number of steps before the pole */
         const double v = dice_between(&d, 5.0, 20.0) / sqrt(h);
         snprintf(text, sizeof text,
                  "mechanism m\ncoordinate x [m]\nparameter u = 1 [m]\nT = 1 [kg]*x'^2/2\n"

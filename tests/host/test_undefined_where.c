@@ -140,7 +140,7 @@ TEST(undefined_where, angles_that_it_is_made_of) {
         TEST_ASSERT_EQUAL_INT(2, im->angles);
         double angle_rad[2];
         double real[4];
-        double of[3][2]; /* position and rate of a, b and x */
+        double of[3][2]; /* positions and rates of a, b and x */
         for (int i = 0; i < 6; i++) {
             const component at = image_component(im, i);
             const char name = im->unknown[at.unknown].name[0];

@@ -16,7 +16,7 @@ typedef struct definition {
     const char *name;
     double si;
     int m, kg, s, A, K;
-    bool prefixed; /* SI prefixes are allowed */
+    bool prefixed; /* the unit takes SI prefixes */
 } definition;
 
 static const definition definitions[] = {
@@ -47,7 +47,7 @@ static const definition definitions[] = {
     {"rev", TURN_RAD, 0, 0, 0, 0, 0, false},
     {"rpm", TURN_RAD / 60, 0, 0, -1, 0, 0, false},
     {"bar", 1e5, -1, 1, -2, 0, 0, false},
-    /* from the inch and the pound */
+    /* units of the inch and the pound */
     {"in", INCH_M, 1, 0, 0, 0, 0, false},
     {"ft", FOOT_M, 1, 0, 0, 0, 0, false},
     {"lb", POUND_KG, 0, 1, 0, 0, 0, false},
@@ -261,7 +261,7 @@ TEST(units, dimensions_are_written_in_their_usual_units) {
     for (int of_si = 0; of_si < 3 * DEFINITIONS * DEFINITIONS; of_si++) {
         const definition *a = &definitions[of_si % DEFINITIONS];
         const definition *b = &definitions[of_si / DEFINITIONS % DEFINITIONS];
-        const int sign = of_si / DEFINITIONS / DEFINITIONS - 1; /* a/b, a, a*b */
+        const int sign = of_si / DEFINITIONS / DEFINITIONS - 1; /* a/b, a or a*b */
         const dimension dim = dim_of(a->m + sign * b->m, a->kg + sign * b->kg, a->s + sign * b->s,
                                      a->A + sign * b->A, a->K + sign * b->K);
         for (int k = 0; k < 2 && !dim_is_none(dim); k++) {

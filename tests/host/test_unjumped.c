@@ -23,10 +23,10 @@ static const char *const harmless[] = {
     "abs(s - a)^(-0.8)",
     "1/tanh(s - a) - 1/(s - a)",
     "1/tanh((s - a)/0.1) - 0.1/(s - a)",
-    "1/(exp(s - a) - 1) - 1/(s - a)", /* round-off grows near the pole */
+    "1/(exp(s - a) - 1) - 1/(s - a)", /* its round-off grows near a */
     "(exp(s - a) - 1 - (s - a))/(s - a)^2",
-    "1/(s - a + 1e-9/(s - a))", /* grows up to its end */
-    /* the divisor touches zero, or nearly does */
+    "1/(s - a + 1e-9/(s - a))", /* its slope grows up to the end */
+    /* in these, the divisor touches zero, or nearly does */
     "(s - a)^2/(1 - cos(s - a))",
     "sin(s - a)^2/(s^2 - 2*a*s + a^2)",
     "1/sqrt(sqrt(s^2 - 2*a*s + a^2))",

@@ -29,7 +29,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
             "V = 1 [N/m]*x^2/2\nscene s { start x = 1 [m]\nstep %.12g [s]\nuntil %.12g [s] }\n",
             coarse, until);
         break;
-    case 1: /* the quadrature of the energy balance is doubtful */
+    case 1: /* a run whose power is badly integrated */
         snprintf(text, TEXT,
                  "mechanism m\ncoordinate x [m]\nparameter p = 1\nT = 1 [kg]*x'^2/2\n"
                  "F = 1 [N*s/m]*x'^2/2\n"
@@ -242,7 +242,7 @@ TEST(verdict, json_of_price_and_choose) {
     expect_rows(command_price, price, "rows", columns);
     const char *within[] = {"two_mass_relative", "--effort=1e5",  "--quiet",
                             "--method=rk4",      "--error=1e-30", NULL};
-    expect_rows(command_price, within, "rows", columns); /* no row meets the error: status 1 */
+    expect_rows(command_price, within, "rows", columns); /* exit status 1: no such row */
     for (unsigned i = 0; i < 2; i++) {
         static said object;
         said what;
@@ -406,7 +406,8 @@ TEST(verdict, a_point_is_judged_as_its_run) {
             char id[20];
             snprintf(id, sizeof id, "[%s]", finding_rows[k].word);
             const bool told = strstr(ran.err, id) != NULL;
-            const bool is_note = finding_rows[k].severity == FINDING_NOTE; /* notes have no id */
+            /* notes are not counted */
+            const bool is_note = finding_rows[k].severity == FINDING_NOTE;
             TEST_ASSERT_TRUE_MESSAGE(is_note || told == (strstr(swept.err, id) != NULL), about);
             TEST_ASSERT_TRUE_MESSAGE(k != FINDING_APART || shape != 7 ||
                                          told == (strstr(trusted.err, id) != NULL),

@@ -184,7 +184,7 @@ TEST(vocabulary, other_notations_are_mended) {
     static const char names[][6] = {"q", "theta", "x_1", "arm"};
     static const char units[][8] = {"kg", "m/s", "N*s/m", "deg", "kg*m^2"};
     static const char calls[][6] = {"sin", "cos", "exp", "tanh", "sqrt"};
-    static const struct { /* $ name, K number, U unit, C function */
+    static const struct { /* $: name, K: number, U: unit, C: function */
         const char *wrong, *hint, *right;
     } rows[] = {
         {"let a = $dot*2", "write $'", "let a = $'*2"},

@@ -25,7 +25,7 @@ typedef struct made_up {
     double damping; /* between the first body and the wall, N s/m */
     double start[MASSES];
     double rate;
-    double fastest; /* about this frequency, 1/s */
+    double fastest; /* largest angular frequency, about, 1/s */
     char text[TEXT];
 } made_up;
 
@@ -259,7 +259,7 @@ TEST(warnings, passing_a_pole_is_told) {
     for (unsigned i = 0; i < cases; i++) {
         const double past_m = pow(10.0, dice_between(&d, -3.7, -0.7));
         const double speed = dice_between(&d, 3.0, 9.0);
-        const double away = dice_between(&d, 0.35, 0.65) * speed; /* distance from the axis, m */
+        const double away = dice_between(&d, 0.35, 0.65) * speed; /* metres from the axis */
         const double height = dice_between(&d, 3.0, 6.0);
         const double rise = dice_between(&d, 1.0, 5.0);
         const bool is_float = i % 3 == 2;
@@ -349,7 +349,7 @@ TEST(warnings, built_in_scenes_say_nothing) {
             const char *words[] = {name, "--quiet", "--number", is_float ? "float" : "double",
                                    NULL};
             command_say(command_run, words, &what);
-            if (is_ball) { /* this scene has too many events for its step */
+            if (is_ball) { /* this scene demonstrates a warning */
                 expect_ball_between(&what, words);
             }
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, name);

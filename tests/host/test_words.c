@@ -66,7 +66,7 @@ TEST(words, a_misspelt_statement_is_offered_its_word) {
             const bool body = (word->stands & (IN_FILE | IN_MECHANISM)) != 0;
             const char *text = body ? in_mechanism(line, "until 1 [s]") : in_mechanism("", line);
             const char *report = report_of_text(text);
-            if (strcmp(wrong, "setp") != 0) { /* as near to `set` */
+            if (strcmp(wrong, "setp") != 0) { /* `setp` is as near to `set` */
                 expect_in(report, wanted, text);
             }
         }
@@ -114,7 +114,7 @@ TEST(words, a_word_stands_only_where_its_row_says) {
                                  strstr(report, "is not possible inside") != NULL ||
                                  strstr(report, "belongs into a mechanism or an effect") != NULL ||
                                  strstr(report, "is not closed with '}'") != NULL;
-            TEST_ASSERT_TRUE_MESSAGE(report[0] != '\0', text); /* an empty statement */
+            TEST_ASSERT_TRUE_MESSAGE(report[0] != '\0', text); /* an empty line */
             TEST_ASSERT_TRUE_MESSAGE(stands != refused || (word->rules & ENDS_SCENE) != 0, text);
         }
     }
@@ -173,8 +173,7 @@ TEST(words, the_page_lists_every_word) {
     const char *const stop = strstr(reserved, "the names of the");
     for (int i = 0; i < WORD_COUNT; i++) {
         const statement_word *word = word_row((word_id)i);
-        const bool said =
-            listed(word->text, page, end) || i >= STATEMENT_WORDS; /* others are in examples */
+        const bool said = listed(word->text, page, end) || i >= STATEMENT_WORDS; /* other words */
         TEST_ASSERT_TRUE_MESSAGE(said && strstr(page, word->text) != NULL, word->text);
         TEST_ASSERT_TRUE_MESSAGE(
             listed(word->text, reserved, stop) == ((word->rules & RESERVED) != 0), word->text);

@@ -132,7 +132,7 @@ TEST(zonotope, mapped) {
             TEST_ASSERT_TRUE(now.count <= (reduced ? z->most / 2 + 2 * n : before.count + n));
             TEST_ASSERT_TRUE(!reduced || now.count >= z->most / 2 + n);
             long double size = 1.0L;
-            long double shorter = 0.0L; /* total length of the generators that become a box */
+            long double shorter = 0.0L; /* total length of the generators in the box */
             long double length[MOST] = {0.0L};
             for (int k = 0; k < before.count; k++) {
                 long double to[SIZE] = {0.0L};
@@ -146,7 +146,7 @@ TEST(zonotope, mapped) {
             }
             if (reduced) {
                 reductions++;
-                for (int k = z->most / 2; k < before.count; k++) { /* the shortest ones */
+                for (int k = z->most / 2; k < before.count; k++) { /* of the shortest */
                     int least = 0;
                     for (int l = 1; l < before.count; l++) {
                         least = length[l] < length[least] ? l : least;
@@ -281,7 +281,7 @@ TEST(zonotope, frame) {
             z->generator[i] = 1.0;
             z->generator[n + i] = -2.0;
             z->generator[2 * n + i] = 0.0;
-            /* does not count, so must never be read */
+            /* must not be read, because count is 3 */
             z->generator[3 * n + i] = i == 0 ? 100.0 : 0.0;
         }
         expect_frame(z);

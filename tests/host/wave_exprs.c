@@ -22,7 +22,7 @@ static int any(uint64_t *seed, int count) { return (int)(random_bits(seed) % (un
 static wave_argument make_argument(uint64_t *seed) {
     wave_argument made = {.pieces = 1 + any(seed, WAVE_PIECES)};
     const int first = any(seed, WAVE_SYMBOLS);
-    for (int i = 0; i < made.pieces; i++) { /* each symbol once */
+    for (int i = 0; i < made.pieces; i++) { /* draws each symbol once */
         wave_piece *p = &made.piece[i];
         p->symbol = (first + i) % WAVE_SYMBOLS;
         p->form = any(seed, FORMS);
@@ -179,7 +179,7 @@ static long double sine_error(const reckoned *r, const arithmetic *in, bool mult
 
 typedef struct share {
     long double value;
-    long double most; /* the largest size, in any form */
+    long double most; /* the largest size of the argument in any form */
     long double error;
 } share;
 

@@ -29,7 +29,7 @@ typedef struct wave_factor {
     wave_argument argument;
     bool has_inner;
     wave_argument inner;
-    int product; /* the symbol that u multiplies, or -1 */
+    int product; /* number of the symbol after u, or -1 */
 } wave_factor;
 
 /* size * factors / (2 + cos(below)) * (the symbol `outside`, not reduced to one turn) */
@@ -50,7 +50,7 @@ typedef struct wave_expr {
 
 typedef struct wave_value {
     long double value;
-    long double bound; /* bound on the round-off */
+    long double bound; /* bound on the program's round-off */
     long double scale; /* sum of the terms' sizes */
 } wave_value;
 

@@ -11,7 +11,7 @@ const fault_kind kinds[] = {
     KIND(pickup, 0.1, 5, false)         /* N, once in a turn */
     KIND(clip_above, 0.9, 0.995, false) /* share of the record's upper peak */
     KIND(clip_below, 0.9, 0.995, false) /* share of the record's lower peak */
-    KIND(play, 0.5, 2, false)           /* N, the whole hysteresis */
+    KIND(play, 0.5, 2, false)           /* N, full width of the hysteresis */
     KIND(cubic, 0.005, 0.02, true)      /* error at the nominal amplitude */
     KIND(drift, 0.01, 0.5, true)        /* N/s */
     KIND(gain, 0.005, 0.3, true)        /* relative error */
@@ -167,7 +167,7 @@ void draw_run_out(bench *b, dice *d) {
     if (way < 0.3 && b->supply > 17) {
         draw_fault(b, b->kind = KIND_SWING, d);
     } else if (way < 0.6 && b->rpm > 170) {
-        b->coasts = 1; /* at duty 0 the drive stage is open */
+        b->coasts = 1; /* the drive stage is open at duty 0 */
     } else {
         b->brakes = chance(d, 0.7);
     }
