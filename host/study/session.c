@@ -10,11 +10,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/hash.h"
 #include "core/method.h"
 #include "core/version.h"
 #include "host/base/alloc.h"
 #include "host/base/exit.h"
+#include "host/base/hashing.h"
 #include "host/check/energy_residual.h"
 #include "host/check/finding.h"
 #include "host/check/run_json.h"
@@ -365,15 +365,7 @@ static void json_sweep_end(json *j, uint64_t failed, int status) {
     json_close(j, '}');
 }
 
-/* === the settings of a sweep, hashed ============================================================== */
-
-static uint64_t hash_text(const char *text) {
-    uint64_t hash = WH_HASH_START;
-    for (; *text != '\0'; text++) {
-        hash = wh_hash_u64(hash, (unsigned char)*text);
-    }
-    return hash;
-}
+/* === the settings of a sweep ================================================================== */
 
 static void put_instance(FILE *out, const instance *base) {
     const mechanism *m = base->mechanism;
@@ -401,7 +393,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     FILE *out = alloc_text(&text, &length);
     fprintf(out, "whirl " WH_VERSION " sweep: settings of the CSV beside this file, format 3\n");
     fprintf(out, "scene: %s\n", base->name);
-    fprintf(out, "model text: 0x%016" PRIx64 "\n", hash_text(model_text));
+    fprintf(out, "model text: 0x%08" PRIx32 "\n", hash_text(model_text, strlen(model_text)));
     fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");
     if (s->engine.stabilized) {
         fprintf(out, "stabilized\n");
@@ -439,7 +431,6 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
 
 /* === drawing the progress of a sweep ========================================================== */
 
-enum { BAR_WIDTH = 30 };
 #define SHOW_EVERY_S 0.2
 
 progress progress_start(FILE *out, uint64_t from, uint64_t end) {
@@ -457,12 +448,7 @@ void progress_show(progress *p, uint64_t done) {
     p->drawn = true;
     const double part = p->end > 0 ? (double)done / (double)p->end : 1.0;
     const double rate = (double)(done - p->from) / (now - p->start_s);
-    char bar[BAR_WIDTH + 1];
-    for (int i = 0; i < BAR_WIDTH; i++) {
-        bar[i] = (double)i < part * BAR_WIDTH ? '#' : '.';
-    }
-    bar[BAR_WIDTH] = '\0';
-    fprintf(p->out, "\r%5.1f %% [%s] %llu/%llu", 100.0 * part, bar, (unsigned long long)done,
+    fprintf(p->out, "\r%5.1f %% %llu/%llu", 100.0 * part, (unsigned long long)done,
             (unsigned long long)p->end);
     if (done > p->from && rate > 0.0) {
         const double left_s = (double)(p->end - done) / rate;
@@ -475,7 +461,7 @@ void progress_show(progress *p, uint64_t done) {
 
 void progress_clear(progress *p) {
     if (p->drawn) {
-        fprintf(p->out, "\r%*s\r", BAR_WIDTH + 70, "");
+        fprintf(p->out, "\r%70s\r", "");
         fflush(p->out);
         p->drawn = false;
     }

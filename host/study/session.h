@@ -64,7 +64,7 @@ typedef struct shard {
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part);
 
-/* === a bar with rate and remaining time, on one line that is redrawn ========================== */
+/* === a line with share, rate and remaining time, which is redrawn ============================== */
 
 typedef struct progress {
     FILE *out;     /* NULL: no progress */
