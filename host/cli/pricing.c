@@ -263,16 +263,8 @@ static bool read_ranges(pricing *p) {
 
 /* Checks that the varied values are used by the scenes, and that every point can start. */
 static bool can_start(pricing *p, const instance *inst) {
-    for (int i = 0; i < p->grid.count; i++) {
-        const effect *missing = instance_lacks(inst, p->grid.axes[i].symbol);
-        if (missing != NULL) {
-            fprintf(stderr,
-                    "whirl %s: error: '%s' belongs to the effect '%s', which is not selected here\n"
-                    "hint: add --with %s\n",
-                    p->options->command, p->grid.axes[i].symbol->name, missing->name,
-                    missing->name);
-            return false;
-        }
+    if (!changes_take_part(&p->grid, inst)) {
+        return false;
     }
     for (int i = 0; i < p->scene->source.points; i++) {
         const setting plain = {IMAGE_SETTINGS_DEFAULT, &engine_double};

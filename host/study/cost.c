@@ -404,7 +404,7 @@ static cost_figure sum_of(const cost_row *row, const cost_counts *c, cost_figure
     return (cost_figure){COST_PREDICTED, sum, sum / row->within, sum * row->within};
 }
 
-static bool takes_method(const image *im) {
+bool cost_takes_method(const image *im) {
     diags *unsaid = diags_new();
     const bool takes = start_has_method(im, im->settings.method, unsaid);
     diags_free(unsaid);
@@ -420,7 +420,7 @@ static double state_bytes(const image *im, cost_number number) {
 }
 
 cost cost_of(const image *im, const cost_board *board, cost_number number) {
-    if (number != COST_FIXED && !takes_method(im)) {
+    if (number != COST_FIXED && !cost_takes_method(im)) {
         return (cost){.why = "this method is not possible for the scene"};
     }
     if (im->contacts > 0) { /* the board's compiler decides about the layout of their memory */

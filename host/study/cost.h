@@ -160,6 +160,8 @@ typedef struct cost {
  * depends on the motion. */
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
+/* Can the scene take the steps of the image's method? */
+bool cost_takes_method(const image *im);
 cost_figure cost_known(double value, cost_basis basis);
 /* On a board without counted cycles (COST_RANGE), fills in the ranges of cycles, and returns true. */
 bool cost_ranges(const cost_board *board, cost *c);

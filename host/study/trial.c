@@ -7,7 +7,6 @@
 
 #include "host/base/alloc.h"
 #include "host/base/spelling.h"
-#include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/image/image.h"
@@ -195,16 +194,10 @@ bool setting_price_varies(const setting *s) { return has_matrix(s) || setting_is
 const char *setting_form(const setting *s) { return numbers[setting_number(s)].form; }
 
 bool setting_is_own(const setting *s, const image *im) {
-    diags *unsaid = diags_new();
-    const bool takes = start_has_method(im, s->image.method, unsaid);
-    diags_free(unsaid);
-    if (!takes) {
-        return false;
-    }
     image turned = *im;
     turned.settings.angles = ANGLES_TURNED;
-    return setting_may_be_refused(&s->image) || s->image.angles == ANGLES_TURNED ||
-           image_turns(&turned);
+    return cost_takes_method(im) && (setting_may_be_refused(&s->image) ||
+                                     s->image.angles == ANGLES_TURNED || image_turns(&turned));
 }
 
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]) {
