@@ -91,8 +91,8 @@ static double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 #define PERIOD_STEPS 200 /* simulated steps in a control period of 2 ms */
 #define INERTIA_KGM2 5.77e-3
 
-/* If the drive ignores the voltage in a run at target_rpm: the greatest speed allowed until the enable line is off.
- * At least CAUGHT_RPM. */
+/* The greatest speed that is allowed before the enable line is off, if the drive ignores the voltage in a run at
+ * target_rpm. The result is not below CAUGHT_RPM. */
 static double rig_caught_rpm(double target_rpm) {
     const double weight_Nm = (double)(WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2);
     double rpm = target_rpm;

@@ -16,7 +16,7 @@ typedef struct reference_of {
 static void reference_open(reference_of *r, const image *im, bool finer) {
     *r = (reference_of){.fine = *im, .each = finer ? 32 : 16};
     r->fine.settings.compensated = true;
-    r->fine.list[IMAGE_MATRIX] = NULL; /* a matrix is for one length of step */
+    r->fine.list[IMAGE_MATRIX] = NULL; /* a matrix is valid for one step length only */
     r->fine.settings.method = im->contacts > 0 ? WH_RK4 : WH_NYSTROEM5;
     r->fine.step.denominator *= r->each;
     r->fine.step_s = ratio_times(1, r->fine.step);
@@ -29,7 +29,7 @@ static void reference_close(reference_of *r) {
     records_close(r->records);
 }
 
-/* Advances the reference to time_s, `steps` of the run's steps later. */
+/* Advances the reference by `steps` steps of the run, to time_s. */
 static void reference_go(reference_of *r, uint64_t steps, double time_s) {
     for (uint64_t i = 0; i < steps * r->each && !r->failed; i++) {
         r->failed = engine_double.step(r->run) != WH_OK;

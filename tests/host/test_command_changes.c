@@ -78,8 +78,8 @@ TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
 TEST(command_changes, measures_that_overflow_fail_their_points) {
     static const struct {
         const char *measure; /* a measure of x, which swings between -1 and 1 */
-        double most;         /* largest factor of x, in 1e308, for which the measure is finite */
-        double least;        /* least factor, in 1e308, for which the measure is infinite */
+        double most;         /* largest factor of x / 1e308 for which the measure is finite */
+        double least;        /* least factor / 1e308 for which the measure is infinite */
     } cases[] = {{"mean", 1e-8, 0.1}, {"amplitude", 0.8, 1.5}, {"period", 1e-8, 1.5}};
     dice d = dice_of("overflows", 4302);
     for (unsigned i = 0; i < 30; i++) {

@@ -128,7 +128,7 @@ static worst run_randomly(const derived *d, const engine_kind *kind, long steps)
     return w;
 }
 
-/* Checks a scene with the energy balance, as it is or with all effects, with one number type. */
+/* Checks a scene from random states with this number type, with its own effects or, if `all`, with every effect. */
 static void check_scene(const scene *of, bool all, const engine_kind *kind) {
     diags *errors = diags_new();
     const char *with[EFFECTS_MAX];

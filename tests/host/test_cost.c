@@ -33,7 +33,8 @@ static void expect_whole(const cost_figure *f, const char *what) {
     }
 }
 
-/* Prices are whole. */
+/* Fails the test if a price of the image, on any board and with any number type, contradicts itself. Returns
+ * how many of these prices are known. */
 static int check_whole(image *im, const scene *s) {
     char what[160];
     int priced = 0;

@@ -68,8 +68,7 @@ TEST(describe, every_field_is_documented) {
 
 /* === suite image_rows ========================================================================= */
 /* The tables of an image, row by row. Each component, account and input must have exactly one row, in the core's
- * sequence (core/scene.h, core/ledger.h), with the meaning that the file gives. A scene that does not use a wrong
- * row would move correctly. */
+ * sequence (core/scene.h, core/ledger.h), with the meaning that the file gives. A wrong row would not change the motion of a scene that does not use it. */
 
 /* Dimension of a unit's text. Exponents are in twelfths. */
 static dimension dimension_of(const char *unit) {

@@ -208,9 +208,8 @@ TEST(far_origin, fine_steps_are_silent) {
     TEST_ASSERT_TRUE(told > 0);
 }
 
-/* With these coarse steps, RK4 loses more than a hundredth of a spring's energy in 60 steps. The round-off is
- * smaller up to 1e5 amplitudes in double, 30 in float. BELT and PUSHED are left out, because the entries of their
- * balance are larger by the same ratio. */
+/* With these coarse steps, RK4 loses more than a hundredth of a spring's energy in 60 steps. Up to 1e5 amplitudes in double, or
+ * 30 in float, round-off is smaller than this loss. BELT and PUSHED are left out, because their balance has large entries. */
 TEST(far_origin, coarse_steps_are_told) {
     static const far_kind kinds[] = {SPRING, APART, PARAMETER, DAMPED};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };

@@ -633,8 +633,8 @@ TEST(blurred, equations_that_say_nearly_the_same) {
  * friction or the `set` of an event. The reference is the closed form with the intended stiffness. Wrong runs must
  * not be trusted; accurate runs must cause no report. */
 
-/* A way to compute the soft spring. Either the parameter `k` is the spring, or a number is chosen so that the
- * formula yields the spring. */
+/* A formula for the stiffness of the soft spring. In OF_K rows it yields the parameter `k`. In other rows, the parameter `a`
+ * is chosen so that the formula yields the wanted stiffness. */
 typedef struct maker {
     const char *numbers; /* parameters that the formula uses */
     const char *soft;    /* formula of the soft spring */

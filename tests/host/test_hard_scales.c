@@ -224,7 +224,7 @@ static double carried(const linkage *of, const moved *wanted, double share) {
 /* Runs with unequal masses. The expected relative error of an acceleration is one unit in the last place (`last`),
  * divided by the smallest ratio of a pivot to its diagonal entry. */
 typedef struct unequal {
-    double worst; /* largest relative error, of runs in which that ratio exceeds 1e-4 */
+    double worst; /* largest relative error of runs whose pivot ratios all exceed 1e-4 */
     /* runs with an error above 100 times the expected one, and above the effect of such an error in the start */
     unsigned beyond;
     unsigned plain; /* number of runs that count in `worst` */

@@ -91,7 +91,7 @@ static char *text_of(const bodies *b, const double *force) {
     return text;
 }
 
-/* One-norm of the inverse of the matrix without units, which is the factor by which round-off grows. */
+/* How much the inverse of the matrix magnifies round-off: the one-norm of the inverse, after scaling to unit diagonal. */
 static double inverse_size(const long double *mass, int n) {
     long double scaled[ROOM];
     double most = 0.0;

@@ -1,5 +1,4 @@
-/* test_price_settings.c: priced settings (host/study/trial.h): their number, order, and options, read back.
- * Also references and trials. */
+/* test_price_settings.c: the settings that have a price (host/study/trial.h): their number, sequence and options. Also references and trials. */
 #include "host/cli/options.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/os/system.h"

@@ -97,8 +97,8 @@ static void run_with(const char *words) {
     motion_close(&bench);
 }
 
-/* A reset must begin once, at the first step that does not begin before its time, even between two exchanges. It
- * must end after its length. */
+/* A reset must begin once, at the end of the step that contains its time, also between two exchanges. The reset must
+ * have the requested length. */
 TEST(resets, instants) {
     for (int i = 0; i < 40; i++) {
         const double at_s = 0.2 + i * 0.01037;
