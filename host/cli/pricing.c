@@ -396,7 +396,7 @@ static bool write_csv(const char *file, const trials *t, const table *made,
     return out != NULL && plot_run_csv_end(out, file, true, "price", t->image[0]->name);
 }
 
-/* Prints the cheapest row that keeps the error. */
+/* Prints the cheapest row within --error. Returns an exit status. */
 static int say_cheapest(FILE *out, const pricing *p, const table *made, const table_words *words) {
     for (int i = 0; i < made->count; i++) {
         const table_row *row = &made->row[i];
@@ -528,7 +528,7 @@ static bool fits(const pricing *p) {
     return p->asks_error;
 }
 
-/* "32KB", "2048", "1 MiB": bytes. */
+/* Reads a number of bytes: "32KB", "2048", "1 MiB". */
 static bool read_bytes(const char *option, const char *text, double *bytes) {
     static const struct {
         const char *word;

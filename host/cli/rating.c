@@ -25,7 +25,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, const cha
     if (command != NULL) {
         char *target = pricing_quoted(w->target);
         overrides asked = *w->changes;
-        asked.step = NULL; /* price tries several steps */
+        asked.step = NULL; /* `whirl price` tries steps of its own */
         char *changes = pricing_words(&asked, false);
         fprintf(out, "; %sthey are shown by: whirl %s %s%s%s%s",
                 strcmp(command, "price") != 0 ? "in Whirl's source tree " : "", command, target,
@@ -93,7 +93,7 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
     const bool on_board = strcmp(w->board->name, "host") != 0;
     if (trust->still) {
         say_none(out, w, "nothing moves", NULL);
-    } else if (w->image->contacts > 0) { /* only choose counts them, in emulators */
+    } else if (w->image->contacts > 0) { /* only `whirl choose` counts events, in emulators */
         say_none(out, w, "events make the cost of a step depend on the motion",
                  on_board ? "choose --error 1e-3" : "price");
     } else if (why != NULL) {

@@ -13,7 +13,7 @@ typedef struct rating_wish {
     const char *target;
     const cost_board *board;
     const char *board_word;    /* NULL: the default board */
-    const engine_kind *number; /* from the command line; NULL: the board's */
+    const engine_kind *number; /* the number type of the command line; NULL: the board's */
     const image_settings *settings;
     const overrides *changes;
     const mechanism *of;
@@ -23,7 +23,7 @@ typedef struct rating_wish {
     const image *plain; /* trusting_plain() */
 } rating_wish;
 
-/* The rows, or a line with the reason for their absence. */
+/* Prints the rows, or a line with the reason for their absence. */
 void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust);
 
 /* The largest step of a run that satisfies `--error X=0.1mm`: *step, and *chosen, its description; both to be freed.

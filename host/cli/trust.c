@@ -108,7 +108,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
                                      .plain = plain,
                                      .books = true,
                                      .progress = shows_progress(o) ? show_progress : NULL};
-    if (!atomic_file_can(o->csv)) { /* a long run would be in vain */
+    if (!atomic_file_can(o->csv)) { /* checked before the run, which may take long */
         return EXIT_BAD_INPUT;
     }
     step_doubling *t = step_doubling_run(&wish);
@@ -212,7 +212,7 @@ static int trust_target(void *options) {
     return code;
 }
 
-/* Remove the word --proved, and return true if it was present. */
+/* Removes the word --proved. Returns true if it was present. */
 static bool take_proved(int *count, char **words) {
     for (int i = 0; i < *count; i++) {
         if (strcmp(words[i], "--proved") == 0) {

@@ -113,7 +113,7 @@ choice choice_make(const trials *t, const table *made, const choice_wish *w) {
  * one of them is counted. */
 #define UNTRIED 1e-3
 
-/* With contacts: the expected cost of runs that were not counted, from the cost of an evaluation by number type. */
+/* With contacts: sets the expected cost of each run that was not counted, from the cost of an evaluation with its number type. */
 static void expect(const trials *t, table *made, const table_row *last,
                    double each[SETTING_NUMBERS]) {
     if (last != NULL && last->result.evaluations_most > 0.0) {
@@ -366,7 +366,7 @@ static void print_bytes(FILE *out, const table *made, const choice_row *row) {
             number_ceiling(c->ram_bytes.most + c->stack_bytes.most));
 }
 
-/* The limit to relax, and the row that would then fit. */
+/* Prints the limits that could be relaxed, each with the row that would then fit. */
 static void print_remedies(FILE *out, const trials *t, const table *made, const choice_wish *w,
                            const choice *c) {
     char text[AMOUNT];
@@ -387,7 +387,7 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
         print_bytes(out, made, &c->larger);
         print_options(out, t, &made->row[c->larger.row]);
     }
-    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* clock and memory must grow */
+    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* both clock and memory must grow */
         print_clock(out, w, &c->any);
         print_bytes(out, made, &c->any);
         print_options(out, t, &made->row[c->any.row]);

@@ -20,7 +20,8 @@ typedef struct choice_wish {
     double clock_Hz;    /* 0: not known, and no limit */
     double flash_bytes; /* 0: no limit */
     double ram_bytes;   /* limit of the RAM with the stack; 0: no limit */
-    bool counts; /* chosen rows will be counted: a prediction may exceed a limit by its error */
+    bool
+        counts; /* chosen rows will be counted, so a prediction may exceed a limit by the prediction's own error */
     const char *prices;                           /* the source of the prices, in words */
     void (*counting)(void *context, int counted); /* may be NULL */
 } choice_wish;
@@ -53,7 +54,7 @@ choice choice_make(const trials *t, const table *made, const choice_wish *w);
 measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
                             choice *c);
 
-/* Prints both answers; or, if no row is within the limits, says so and prints the nearest row. */
+/* Prints both answers. If no row is within the limits, says so, and prints limits that a row would keep. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
                   const choice *c, const table_words *words);
 /* The same as one JSON object (docs/warnings.md has the schema), without the hint of limits that would fit;

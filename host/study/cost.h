@@ -50,7 +50,7 @@ typedef struct cost_board {
     /* name of its folder in boards/, or "host" for this kind of machine (x86-64) */
     const char *name;
     const char *core; /* "Cortex-M4F" */
-    bool fpu;         /* float in hardware */
+    bool fpu;         /* it computes float in hardware */
     /* How its cycles are known: COST_ESTIMATED, COST_SIMULATED, or COST_RANGE: cycles an instruction, least and most. */
     cost_basis cycles;
     double cycles_least; /* COST_RANGE only, else 0 */
@@ -145,7 +145,7 @@ typedef struct cost_figure {
 
 typedef struct cost {
     const char *why;          /* why figures are not known, a sentence for people; "" if all are */
-    cost_figure instructions; /* a step, mean of a run */
+    cost_figure instructions; /* of a step, mean of a run */
     cost_figure instructions_worst; /* the longest step: with contacts far above the mean */
     cost_figure cycles;             /* a step, mean of a run */
     cost_figure cycles_worst;

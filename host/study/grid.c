@@ -126,7 +126,7 @@ static void range_free(range_text *r) {
     free(r->count);
 }
 
-/* Cut the text at its '=', "..", and last ':'. */
+/* Cuts the text at its '=', "..", and last ':'. */
 static bool range_split(const grid *g, const char *text, range_text *r) {
     const char *equals = strchr(text, '=');
     const char *colon = strrchr(text, ':');
@@ -163,7 +163,7 @@ static const char *behind_number(const char *text) {
     return none ? NULL : end;
 }
 
-/* In "10..60 [mm]" the unit of TO is also that of FROM. */
+/* Gives FROM the unit of TO if FROM has none: "10..60 [mm]". */
 static void share_unit(range_text *r) {
     const char *rest = behind_number(r->from);
     const char *suffix = behind_number(r->to);

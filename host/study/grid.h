@@ -8,7 +8,7 @@
 
 /* One --over: `count` values from `from` to `to` (SI), equally spaced, or equally spaced in the logarithm. */
 typedef struct axis {
-    char *name;           /* name as typed: "r", "theta'", "step" */
+    char *name;           /* the name as typed: "r", "theta'", "step" */
     char *column;         /* CSV column: the name; "start(theta')" for a start value */
     const symbol *symbol; /* parameter, input, coordinate or state; NULL: the step */
     int primes;
@@ -18,7 +18,7 @@ typedef struct axis {
     bool is_log;
 } axis;
 
-/* Every combination; the last axis runs fastest. Starts as {0}; free with grid_free(). */
+/* All combinations of the axes' values; the last axis changes fastest. Starts as {0}; free with grid_free(). */
 typedef struct grid {
     const char *command; /* command in messages; NULL: "sweep" */
     const char *option;  /* NULL: "--over" */

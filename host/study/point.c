@@ -273,7 +273,7 @@ static void add_symbol(measures *m, const mechanism *of, const symbol *s, int pr
     add(m, MEASURE_FINAL, name, as_recorded(m, of, made));
 }
 
-/* The columns of `whirl run --csv`, without the time. */
+/* Adds the columns of `whirl run --csv`, without the time. */
 static void add_all(measures *m, const mechanism *of) {
     int highest = 0;
     for (int i = 0; i < of->coordinate_count; i++) {
@@ -404,7 +404,7 @@ static void meter_enter(meter *m, bool final) {
     }
 }
 
-/* Enters the energy balance of a step, and the samples. False, with a message, if an energy is not a finite number. */
+/* Enters a step into the energy balance and the series. Returns false, with a message, if an energy is not a finite number. */
 static bool see(void *of, uint64_t step) {
     meter *m = of;
     const books *b = m->verdict->books;
@@ -551,7 +551,7 @@ bool sweep_can_share(const grid *g, const image *im) {
 
 /* --- the point in numbers ----------------------------------------------------------------------*/
 
-/* The first message, without its place, source line and hint. */
+/* Prints the first message, without its place, source line and hint. */
 static void tell_first(diags *errors, FILE *reason) {
     char *text = NULL;
     size_t length = 0;
@@ -667,7 +667,8 @@ char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]) {
     if (shown == si) {
         return number_shortest(si, text);
     }
-    snprintf(text, NUMBER_SIZE, "%.15g", number_shown(shown)); /* 4 in, not 3.9999999999999996 in */
+    snprintf(text, NUMBER_SIZE, "%.15g",
+             number_shown(shown)); /* so that 4 in is not shown as 3.9999999999999996 in */
     return text;
 }
 

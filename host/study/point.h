@@ -88,7 +88,7 @@ void measures_free(measures *m);
 typedef struct gauged {
     measure_kind kind;
     const char *name;
-    int component; /* of the image; -1: the output with this measure's number */
+    int component; /* number of the image's component; -1: the output with this measure's number */
 } gauged;
 
 typedef struct measuring {
@@ -99,11 +99,11 @@ typedef struct measuring {
     double strict; /* run_checks_fails() */
 } measuring;
 
-/* Notes on a point that did not fail. */
+/* The findings at a point that did not fail. */
 typedef struct point_notes {
     unsigned found;    /* findings, as bits (host/check/finding.h) */
     unsigned against;  /* warnings, as bits */
-    unsigned fails;    /* findings for which the exit status is 1, as bits */
+    unsigned fails;    /* findings that make the exit status 1, as bits */
     unsigned unlooked; /* run_checks_unlooked() */
     double end_s;      /* end of the run */
 } point_notes;
@@ -117,7 +117,7 @@ bool stepping_measure(const measuring *w, const image *im, double *value, diags 
 typedef struct sweep {
     const grid *grid;
     const mechanism *mechanism; /* with the measures as its outputs, if there are any */
-    const measures *measures;   /* NULL of a map */
+    const measures *measures;   /* NULL if the sweep is a map */
     const scene *scene;         /* NULL for a bare mechanism */
     const overrides *changes;   /* the command line's, without the swept values */
     const engine_kind *kind;
@@ -134,7 +134,7 @@ typedef struct sweep {
  * (host/check/energy_residual.h; empty if unknown). For a swept step, the end of each run, `end_s`. */
 int sweep_columns(const sweep *s);
 
-/* Do all runs end at the same time, if a measure uses their end? False, reported: a step does not divide the time. */
+/* Returns false, and reports the reason, if a measure uses the end of the runs and a swept step does not divide `until_s`. */
 bool sweep_ends_are_alike(const sweep *s, double until_s);
 
 /* May the grid's points share the lists of this image? */

@@ -17,7 +17,7 @@
 
 /* === the table ================================================================================ */
 
-/* Finer steps are no longer tried if twice in succession the error exceeds this part of the least error so far. */
+/* No finer step is tried if twice in succession the error exceeds this part of the least error so far. */
 #define FALLS 0.7
 enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
@@ -58,7 +58,7 @@ typedef enum ending { TRIED, NOT_OWN, UNPRICED, BROKEN_OFF } ending;
 
 typedef struct climbed {
     ending end;
-    const char *why; /* UNPRICED */
+    const char *why; /* the reason, if `end` is UNPRICED */
     double operations;
     int count;
     table_row row[SUBSTEPS];
@@ -70,7 +70,8 @@ static void price_by_evaluations(table_row *row) {
     row->price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, each, each, each};
 }
 
-/* Tries ever finer steps of a setting. A step costs `each`, however long it is, except for a matrix and in fixed point. */
+/* Tries ever finer steps of a setting, with up to `each` operations in one trial. Only with a matrix and in fixed point does
+ * the price of a step depend on its length. */
 static void climb(trials *t, const table_wish *w, const setting *s, double each, climbed *c) {
     const bool contacts = t->image[0]->contacts > 0;
     deviation_pace first;
@@ -232,7 +233,8 @@ enum { RECORDS_MOST = 20000, SPACING = 2 };
 #define REFERENCE_STEPS (4.0 + 2.0)
 
 double three_rows_operations(const three_rows_wish *w, const image *im) {
-    const double runs = setting_is_fixed(&w->setting) ? 2.0 : 1.0; /* one run finds the ranges */
+    const double runs =
+        setting_is_fixed(&w->setting) ? 2.0 : 1.0; /* in fixed point a first run finds the ranges */
     const double each = ROWS_STEPS * runs * wh_methods[w->setting.image.method].stages +
                         REFERENCE_STEPS * wh_methods[w->method].stages;
     return (double)w->steps * each * (double)engine_evaluation(im);
@@ -523,7 +525,7 @@ void table_print_left(FILE *out, const table *made, double operations) {
     fputc('\n', out);
 }
 
-/* Explains the letters above the table, so that nobody reads m as metre. */
+/* Explains the letters above the table, so that nobody takes "m" for metre. */
 static void print_letters(FILE *out, const table_row *first) {
     fputs("\nletters after figures: the source of each figure\n", out);
     figure_legend(out, &first->cost);

@@ -25,7 +25,7 @@ typedef struct table_price {
 
 /* With contacts, all steps of a run are counted, at each point of the trials. */
 typedef struct counted_run {
-    double steps;              /* counted steps, all points together; 0: no whole run was counted */
+    double steps; /* number of counted steps at all points together; 0: no whole run was counted */
     double instructions_bound; /* declared bound for a step (docs/dev/events.md); 0: unknown */
     double cycles_bound;
 } counted_run;
@@ -55,11 +55,11 @@ typedef struct table {
 #define TABLE_MARGIN 2.0
 
 typedef struct table_wish {
-    double operations;  /* most that all trials may evaluate */
+    double operations;  /* limit on the operations of all trials */
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
     double error;     /* steps get finer until half this error; 0: until round-off stops the gain */
     double rate_Hz;   /* rate of calls, each of which takes a whole number of steps; 0: any step */
-    uint64_t periods; /* number of 1/rate_Hz in a record's spacing; 1 without a rate */
+    uint64_t periods; /* number of periods (1/rate_Hz) in a record's spacing; 1 without a rate */
     int workers;
     void (*progress)(void *context, int done, int of); /* may be NULL */
     void *context;
@@ -91,11 +91,11 @@ typedef struct three_rows_wish {
     const cost_board *board;
     setting setting;         /* the run's, in the board's number */
     image_settings plain;    /* settings of the reference's image */
-    wh_method method;        /* the reference's method, */
+    wh_method method;        /* the reference's method */
     int order;               /* the order by which the reference's error falls */
-    double limit;            /* as in reference_steps */
+    double limit;            /* `limit` of reference_steps */
     whole_ratio step;        /* the run's step, s */
-    whole_ratio priced_step; /* as in trial_wish */
+    whole_ratio priced_step; /* `priced_step` of trial_wish */
     uint64_t steps;          /* number of steps of the run */
 } three_rows_wish;
 
@@ -114,7 +114,7 @@ void three_rows_make(three_rows *t, const three_rows_wish *w);
 void three_rows_print(FILE *out, const three_rows *t);
 void three_rows_end(three_rows *t);
 
-/* "predicted, of simulated figures, within 8 %". Returns text. */
+/* "predicted: in nine of ten counted cases within 8 %". Returns text. */
 enum { FIGURE_WORDS = 120 };
 const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
 
@@ -125,23 +125,23 @@ void figure_reference(FILE *out, const trials *t);
 typedef struct table_words {
     const char *target;
     const char *changes; /* "" or " --set m=3 ..." */
-    bool all;            /* every row */
+    bool all;            /* print every row */
     double operations;   /* value of --effort */
 } table_words;
 
 /* "cycles/s", ...: heads of a column of prices, by table_unit. */
 extern const char *const table_heads[];
 
-/* How many settings were tried, and why others were not, or not to the end. */
+/* Prints how many settings were tried, and why others were left out or ended early. */
 void table_print_left(FILE *out, const table *made, double operations);
-/* At most TABLE_ROWS rows of the front, or every row. */
+/* Prints at most TABLE_ROWS rows of the front, or every row if words->all. */
 enum { TABLE_ROWS = 12 };
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
 void table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
 /* One JSON object (docs/warnings.md has the schema) with every row, or without a table; `status`: exit status. */
 void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
                 int status);
-/* The first keys of that object, and the keys of a row. */
+/* Write the first keys of that object, and the keys of a row. */
 void table_json_begin(json *j, const char *command, const trials *t);
 void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words);
 

@@ -12,7 +12,7 @@
 
 /* === the deviation of a run =================================================================== */
 
-/* Enter a record; false if the run is useless from now on. */
+/* Enters the errors at a record. Returns false if they exceed what.give_up. */
 static bool enter(const reference *r, const records *now, int record, deviation_of_what what,
                   deviation *d) {
     const double *row = r->row + (size_t)record * (size_t)r->columns;
@@ -38,7 +38,7 @@ typedef struct counted {
     double most; /* most evaluations in one step */
 } counted;
 
-/* Makes one step. With contacts the cost of a step varies; a step by one matrix evaluates one list. */
+/* Makes one step and counts its evaluations. With contacts their number varies; a step by a matrix is one evaluation. */
 static bool take_step(const engine_kind *kind, void *run, const image *im, counted *c) {
     uint64_t declared;
     const bool matrix = im->list[IMAGE_MATRIX] != NULL;
@@ -69,7 +69,8 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         }
     }
     uint64_t most;
-    const bool matrix = im->list[IMAGE_MATRIX] != NULL; /* a step then evaluates only that */
+    const bool matrix =
+        im->list[IMAGE_MATRIX] != NULL; /* a step then evaluates only the matrix's list */
     const uint64_t evaluations = matrix ? kind->steps(run) : kind->evaluations(run, &most);
     d.operations =
         (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
@@ -86,8 +87,8 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 
 /* === the reference ============================================================================ */
 
-/* The method of most references. Its steps are at first this many times shorter than the scene's. They are halved until both
- * runs agree within ENOUGH of each column's largest value, but at most until FINEST times shorter. */
+/* The method of a reference, if `by` requests no other. Its steps are at first FINER times shorter than the scene's. They are
+ * halved until both runs agree within ENOUGH of each column's largest value, or until they are FINEST times shorter. */
 #define METHOD WH_NYSTROEM5
 #define FINER 4.0
 #define FINEST 16.0
@@ -105,10 +106,10 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 
 /* --- two runs and their agreement ------------------------------------------------------------------*/
 
-/* A run's rows, and how many of them there are after the start. */
+/* The records of a run. */
 typedef struct computed {
     double *row; /* [wanted + 1][columns] */
-    int records;
+    int records; /* number of records after the start */
 } computed;
 
 static computed compute(const reference_wish *w, uint64_t steps) {
@@ -150,7 +151,8 @@ static double row_off(const reference *r, const computed *other, int record, int
 /* Finds a column's largest value and largest difference over the records up to `until`. Returns true if it is known
  * (KNOWN_BY). */
 static bool measure(reference *r, const computed *other, int until, int column) {
-    const double enough = KNOWN_BY * r->column[column].largest; /* of an earlier measurement */
+    const double enough =
+        KNOWN_BY * r->column[column].largest; /* the largest value comes from an earlier call */
     reference_column c = {.largest = 0.0};
     bool known = false;
     for (int i = 0; i <= until; i++) {
@@ -270,7 +272,8 @@ reference *reference_new(const reference_wish *w) {
         }
         other = best;
     }
-    for (int k = 1; k < r->columns && fixed; k++) { /* the finer run's error, by its order */
+    for (int k = 1; k < r->columns && fixed;
+         k++) { /* from the difference to the error of the finer run */
         r->column[k].off /= number_scaled(1.0, w->by.order) - 1.0;
     }
     r->stopped = interrupted != 0;

@@ -8,7 +8,7 @@
 #include "host/io/records.h"
 
 /* === the reference ============================================================================ */
-/* A requested reference, for a few rows of a run. */
+/* A reference with a method and steps of its own, for the three rows of a run. */
 typedef struct reference_steps {
     uint64_t
         steps; /* steps in a record's spacing, even; 0: nystroem5, with steps that follow from its agreement */
@@ -18,17 +18,17 @@ typedef struct reference_steps {
 } reference_steps;
 
 typedef struct reference_wish {
-    const image *image;  /* image with any step and end */
+    const image *image;  /* the scene; its end is not used */
     whole_ratio spacing; /* interval of the records, s */
     int records;         /* number of records after the start */
     double operations;   /* limit on the operations of the run with the shortest steps */
     reference_steps by;
 } reference_wish;
 
-/* The extent of a column's numbers. */
+/* The size of a column's values. */
 typedef struct reference_column {
-    bool
-        counts; /* enters the worst error of all components: a value or rate that the reference knows */
+    /* its error counts among those of all components: it is a value or rate that the reference knows */
+    bool counts;
     double largest; /* largest size over the records */
     double off;     /* largest difference of the two runs */
 } reference_column;
@@ -81,8 +81,8 @@ typedef struct deviation {
     double error; /* largest error of all records; if unusable, of the records before the stop */
     int column;   /* the column with that error */
     double known; /* the reference's own error in that column: errors near it are only bounds */
-    double operations;       /* evaluated */
-    double evaluations;      /* of the accelerations or the matrix, per simulated second */
+    double operations;  /* operations of the lists that were evaluated */
+    double evaluations; /* evaluations of the accelerations or the matrix, per simulated second */
     double evaluations_most; /* most evaluations in one step */
 } deviation;
 

@@ -127,7 +127,7 @@ static bool is_row(const resumable_csv_settings *s, const char *line, size_t len
     return good && commas == s->measures - 1;
 }
 
-/* Checks the rows; *whole is the end of the last complete one. */
+/* Checks the rows. *whole: the file's length up to the end of the last complete row. */
 static int check_rows(resumable_csv *sh, const resumable_csv_settings *s, off_t *whole) {
     char *line = NULL;
     size_t size = 0;
@@ -477,8 +477,8 @@ typedef struct sitting {
     progress progress;
     uint64_t first; /* point of the sheet's first row */
     uint64_t failed;
-    int told;                 /* failures that were described */
-    uint64_t ran;             /* points delivered in this session */
+    int told;                 /* number of failures that were described */
+    uint64_t ran;             /* number of points that ran in this session */
     uint64_t found[FINDINGS]; /* number of points with this finding, and the first one */
     uint64_t found_first[FINDINGS];
     uint64_t unlooked_points; /* points that were not checked for some finding */
@@ -528,7 +528,7 @@ static bool count_notes(sitting *s, uint64_t point, const point_notes *notes) {
     return good;
 }
 
-/* Findings of the file's earlier rows: a continued sweep ends as an uninterrupted one does. */
+/* Findings of the file's earlier rows. With them the exit status of a continued sweep is that of an uninterrupted one. */
 static unsigned fails_before(const sitting *s) {
     unsigned fails = 0;
     for (int id = 0; id < FINDINGS && s->sweep->strict >= 0.0; id++) {
@@ -537,7 +537,7 @@ static unsigned fails_before(const sitting *s) {
     return fails;
 }
 
-/* "point 17 (r=0.02, theta'=31.4)" */
+/* Prints a point: "point 17 (r=0.02, theta'=31.4)". */
 static void name_point(const sweep *s, uint64_t point) {
     double *value = alloc(s->grid->count, sizeof *value);
     char text[NUMBER_SIZE];

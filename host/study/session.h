@@ -21,8 +21,8 @@ typedef struct resumable_csv {
     FILE *out;
     const char *path;
     bool is_file;    /* it can be continued: not standard output, a pipe or a device */
-    uint64_t rows;   /* existing rows */
-    uint64_t failed; /* rows with empty measures */
+    uint64_t rows;   /* number of existing rows */
+    uint64_t failed; /* number of existing rows with empty measures */
     char *beside;    /* FILE.sweep */
     char *notes;     /* lines "noted: WORD" of the file; "" if there are none */
 } resumable_csv;
@@ -49,14 +49,14 @@ bool resumable_csv_has_note(const resumable_csv *sh, const char *word);
 bool resumable_csv_close(resumable_csv *sh);
 
 /* === a sweep from its first missing row to its last =========================================== */
-/* JSON (docs/warnings.md has the schema): a column for each axis. */
+/* Writes name and unit of each axis as JSON (docs/warnings.md has the schema). */
 void sweep_json_axes(json *j, const grid *g);
 
 /* === everything that decides the bytes of a sweep's CSV, as lines of text ===================== */
 
 typedef struct shard {
-    uint64_t number; /* number of the point, from 1 */
-    uint64_t of;
+    uint64_t number; /* number of this shard, from 1 */
+    uint64_t of;     /* number of shards */
 } shard;
 
 /* `model_text`: the whole .whirl text; `base` and `im`: the instance without the swept values, and its image. The
@@ -76,9 +76,9 @@ typedef struct progress {
 } progress;
 
 progress progress_start(FILE *out, uint64_t from, uint64_t end);
-/* Draw, at most five times a second. */
+/* Draws the line, but at most five times a second. */
 void progress_show(progress *p, uint64_t done);
-/* Erase the line, so that other text can be written. */
+/* Erases the line, so that other text can be written. */
 void progress_clear(progress *p);
 double progress_elapsed_s(const progress *p);
 
@@ -91,7 +91,7 @@ typedef struct session_settings {
     int jobs;    /* worker processes */
     bool fresh;
     bool quiet;
-    bool json; /* one object on standard output; `csv` is then no file */
+    bool json; /* JSON goes to standard output; `csv` is then /dev/null */
 } session_settings;
 
 /* Returns an exit code (host/base/exit.h). EXIT_RUN_FAILED: points failed or rows could not be written.

@@ -43,17 +43,18 @@ typedef struct map_cell {
 typedef struct map_wish {
     sweep of; /* the sweep with two axes, in float or double */
     double tolerance;
-    void (*progress)(double runs, void *told); /* completed runs; or NULL */
+    void (*progress)(double runs, void *told); /* `runs`: number of completed runs; may be NULL */
     void *told;
 } map_wish;
 
 typedef struct stability_map {
     const grid *grid;
-    map_cell *cell;    /* [grid->points] */
-    uint64_t done;     /* cells; fewer than points after an interrupt */
-    uint64_t unlooked; /* cells not checked for aliasing, because the budget was too small */
-    int along;         /* the step's axis, or 1 if no axis is the step */
-    bool by_step;      /* one axis is the step */
+    map_cell *cell; /* [grid->points] */
+    uint64_t done;  /* number of completed cells; fewer than points after an interrupt */
+    uint64_t
+        unlooked; /* number of cells that were not checked for aliasing, because it takes too long */
+    int along;    /* the step's axis, or 1 if no axis is the step */
+    bool by_step; /* one axis is the step */
 } stability_map;
 
 /* Runs the map row by row, each from its shortest step on. */

@@ -310,7 +310,7 @@ static int effects_of(uint64_t mask) {
     return count;
 }
 
-/* Is `a` better? It is if it has fewer effects; if equal, a shorter longest step; if equal, a shorter step. */
+/* Is `a` better? Fewer effects are better; then fewer evaluations in the longest step; then a cheaper step. */
 static bool is_better(const subset *a, const subset *b) {
     const int fewer = effects_of(a->out) - effects_of(b->out);
     const double longer = a->figure[SUBSET_WORST] - b->figure[SUBSET_WORST];

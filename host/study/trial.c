@@ -66,7 +66,7 @@ static int tables_of(const setting *s) {
 
 static bool has_matrix(const setting *s) { return s->image.matrix != MATRIX_NONE; }
 
-/* How many words an axis has. */
+/* Number of words of each axis. */
 static const int words[AXES] = {[AXIS_METHOD] = WH_METHODS,
                                 [AXIS_NUMBER] = SETTING_NUMBERS,
                                 [AXIS_ANGLES] = IMAGE_ANGLES,
@@ -214,7 +214,7 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 
 /* === trials =================================================================================== */
 
-/* Limit on the operations of each of a reference's two computations, for all points together. It takes some seconds. */
+/* Limit on the operations of a reference's finest run, for all points together. They take some seconds. */
 #define REFERENCE_OPERATIONS 6e8
 /* An error below this many times the reference's own is only a bound. */
 #define SURELY 10.0
@@ -334,7 +334,7 @@ static void cut(trials *t) {
     for (int p = 0; p < t->points; p++) {
         reference_cut(t->reference[p], t->records);
         if (!t->reference[p]->reliable) {
-            t->worst = p; /* the point to report */
+            t->worst = p; /* the output names this point */
         }
     }
 }
@@ -505,7 +505,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
             return (trial_result){.ran = false};
         }
         deviation_of_what what = t->what;
-        if (what.column >= 0) { /* errors are in the column's unit */
+        if (what.column >= 0) { /* give_up is then in the column's unit */
             what.give_up =
                 number_most(t->tolerated, USABLE * t->reference[p]->column[what.column].largest);
         }
@@ -527,7 +527,8 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
 double trial_operations(const trials *t, const setting *s, deviation_pace pace) {
     const double steps = (double)t->records * (double)pace.steps / (double)pace.records;
     const double each = (double)t->image[0]->list[IMAGE_STEP]->count + 1.0;
-    const double runs = setting_is_fixed(s) ? 2.0 : 1.0; /* a first run finds the ranges */
+    const double runs =
+        setting_is_fixed(s) ? 2.0 : 1.0; /* in fixed point a first run finds the ranges */
     return runs * steps * each * wh_methods[s->image.method].stages * t->points;
 }
 
@@ -572,7 +573,6 @@ cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     return dearest;
 }
 
-/* Finding undeclared ranges takes a run in double to the end. Would it take more than t->planned_most operations? */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace) {
     return setting_is_fixed(s) && t->planned_most > 0.0 &&
            trial_operations(t, s, pace) > t->planned_most;

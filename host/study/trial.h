@@ -62,7 +62,7 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 const char *setting_form(const setting *s);
 
 /* === trials =================================================================================== */
-/* The source of images: the scene, varied. */
+/* Makes images of the scene at each point of its varied values. */
 typedef struct trial_source {
     void *context;
     /* number of points: 1 for the scene itself; or points of its ranges and the scene's own values */
@@ -96,29 +96,32 @@ typedef struct trials {
     int points;    /* number of the source's points with motion; all points if there is no motion */
     int *place;    /* [points] their numbers in the source */
     char *still;   /* the options of the omitted points: " --set M=0,"; or NULL */
-    image **image; /* [points] of the references */
+    image **image; /* [points] images of the references */
     reference **reference;  /* [points] */
     trial_planned *planned; /* [points] images in fixed point, stored between pricing and running */
     int worst;              /* the point whose reference ends first, or is least accurate */
     int records;            /* records after the start for which all references are trusted */
     deviation_of_what what;
-    double tolerated;    /* for one column: an error that is usable even if values are smaller */
+    double
+        tolerated; /* with --of: an error up to this limit is usable even if the values are smaller */
     double planned_most; /* most operations to find ranges for fixed point; 0: no limit */
-    bool reliable;       /* false: some reference is not */
+    bool reliable;       /* false: the reference of some point is not reliable */
     bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
-    double operations; /* evaluated in trials so far */
+    double operations; /* operations of all trials so far */
 } trials;
 
 /* The results of one setting at one step. */
 typedef struct trial_result {
-    bool ran;     /* false: stopped, or there is no image */
-    bool usable;  /* at all points the run reached its end, with an error below the largest value */
-    double error; /* the worst error plus the reference's own, in trial_unit() */
-    bool bound;   /* `error` is only a bound, because the reference's own error is about as large */
-    int point;    /* the point with the worst error */
-    int column;   /* the component with the worst error */
-    double evaluations; /* of the accelerations, per simulated second; the most of all points */
+    bool ran;    /* false: stopped, or there is no image */
+    bool usable; /* at all points the run reached its end, with an error below the largest value */
+    double
+        error; /* the worst error of all points, in trial_unit(); a bound includes the reference's own error */
+    bool bound; /* `error` is only a bound, because the reference's own error is about as large */
+    int point;  /* the point with the worst error */
+    int column; /* the component with the worst error */
+    double
+        evaluations; /* evaluations of the accelerations per simulated second, the most of all points */
     double evaluations_most; /* most evaluations in one step */
 } trial_result;
 
@@ -137,7 +140,6 @@ cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own)
 /* Would the search for the ranges of fixed point take more than t->planned_most operations? */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace);
 
-/* The options of a point: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
 const char *trial_place(const trials *t, int point);
 whole_ratio trial_step(const trials *t, deviation_pace pace);
 double trial_horizon_s(const trials *t);
