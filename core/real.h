@@ -23,7 +23,7 @@
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
     defined(__NO_SIGNED_ZEROS__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
 #error \
-    "Whirl computes the same bits everywhere, which fast-math forbids: compile this file without -ffast-math, -Ofast, -funsafe-math-optimizations and their parts."
+    "Whirl computes the same bits everywhere, and fast-math changes them: compile this file without -ffast-math, -Ofast, -funsafe-math-optimizations and the options that these include."
 #endif
 
 /* The values 16 and 32 are allowed: types smaller than float are then computed in their own precision. */
@@ -31,7 +31,7 @@
     __FLT_EVAL_METHOD__ != 32 && \
     !(WH_DOUBLE && (__FLT_EVAL_METHOD__ == 1 || __FLT_EVAL_METHOD__ == 64))
 #error \
-    "Whirl computes the same bits everywhere, and this compiler keeps more of them in between: on x86 use -msse2 -mfpmath=sse, on s390x -std=gnu11."
+    "Whirl computes the same bits everywhere, and this compiler keeps intermediate results in a higher precision: on x86 use -msse2 -mfpmath=sse, on s390x -std=gnu11."
 #endif
 
 /* Tools that predefine no macros, such as cppcheck, skip this check. For compilers without these macros,
@@ -134,9 +134,9 @@ typedef float wh_real;
     /* The last good state is kept. */ \
     X(WH_E_UNDEFINED, -4, "an expression of a contact is not a finite number") \
     /* At this state the holds allow more than one motion; the last good state is kept. */ \
-    X(WH_E_SINGULAR, -5, "holds leave more than one motion") \
+    X(WH_E_SINGULAR, -5, "holds allow more than one motion") \
     /* The program is compiled or set up so that its bits would differ from those of all other builds: see arithmetic.h. */ \
-    X(WH_E_ARITHMETIC, -6, "compiled or set up for other arithmetic than IEEE 754")
+    X(WH_E_ARITHMETIC, -6, "the arithmetic is not that of IEEE 754")
 
 #define WH_STATUS_VALUE(name, value, words) name = (value),
 typedef enum wh_status { WH_STATUS_ROWS(WH_STATUS_VALUE) } wh_status;

@@ -22,7 +22,7 @@
 
 #ifdef __cplusplus
 #error \
-    "core/rk4.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/rk4.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
 #endif
 
 #include "step/step_end.h"

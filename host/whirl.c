@@ -144,10 +144,9 @@ int main(int count, char **words) {
     setlocale(LC_ALL, "C");
     system_begin();
     if (wh_arithmetic_wrong(wh_arithmetic) != WH_PROBED_COUNT) {
-        fputs(
-            "whirl: error: this program was compiled, or is run, with other arithmetic than IEEE 754\n"
-            "hint: build it without fast-math, and load no library that was linked with it\n",
-            stderr);
+        fputs("whirl: error: the arithmetic of this program is not that of IEEE 754\nhint: build "
+              "whirl without -ffast-math, and load no library that was linked with -ffast-math\n",
+              stderr);
         return EXIT_RUN_FAILED;
     }
     return after_writing(answer(count, words));

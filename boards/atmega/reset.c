@@ -42,9 +42,9 @@ hal_reset hal_reset_cause(void) {
 
 static const char *words_of_fault(atmega_fault_kind kind) {
     switch (kind) {
-    case ATMEGA_FAULT_STRAY: return " an interrupt that nobody takes, PC ";
-    case ATMEGA_FAULT_STACK: return " the stack came down to the variables, PC ";
-    case ATMEGA_FAULT_RESTART: return " it began anew without a reset, PC ";
+    case ATMEGA_FAULT_STRAY: return " an interrupt has no handler, PC ";
+    case ATMEGA_FAULT_STACK: return " the stack reached the variables, PC ";
+    case ATMEGA_FAULT_RESTART: return " restarted without a reset, PC ";
     case ATMEGA_FAULT_NONE: break;
     }
     return " unknown, PC ";

@@ -48,13 +48,17 @@ static bool make_link(const char *terminal) {
     wanted = wanted != NULL && wanted[0] != '\0' ? wanted : "build/rig.tty";
     if (lstat(wanted, &there) == 0 && S_ISLNK(there.st_mode)) {
         if (access(wanted, F_OK) == 0) {
-            fprintf(stderr, "%s was another terminal's: RIG_TTY names a place for one more\n",
+            fprintf(stderr,
+                    "warning: %s belonged to another running rig and now leads to this "
+                    "one\nhint: for a second rig: RIG_TTY=build/rig2.tty make rig\n",
                     wanted);
         }
         (void)unlink(wanted);
     }
     if (symlink(terminal, wanted) != 0) {
-        fprintf(stderr, "%s: error: cannot be made: %s\nhint: RIG_TTY names another place\n",
+        fprintf(stderr,
+                "%s: error: the link to the terminal cannot be made: %s\nhint: choose "
+                "another path: RIG_TTY=/tmp/rig.tty make rig\n",
                 wanted, strerror(errno));
         return false;
     }

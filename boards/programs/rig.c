@@ -251,7 +251,7 @@ static void refuse(const char *why) {
 static void put_supply(float supply_V) {
     char bytes[40];
     if (supply_V >= HAL_MOTOR_SUPPLY_BEYOND) {
-        put(": it is above the end of its measurement");
+        put(": the supply voltage is above its range");
         return;
     }
     wh_text text;
@@ -265,7 +265,7 @@ static void put_supply(float supply_V) {
 static void put_end(operator_step ended) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
         put(hal_reset_cause() == HAL_RESET_WATCHDOG ? "RESET by the watchdog" : "RESET");
-        put(": nothing moves by itself\n");
+        put(": the motor stays off\n");
     }
     const char *end = NULL;
     if (rig.state == WH_RIG_TRIPPED) {
@@ -276,7 +276,7 @@ static void put_end(operator_step ended) {
         end = "the stop input was pressed";
     } else if (ended == STOP_SILENT) {
         put("STOPPED: ");
-        end = "the stop input is not heard";
+        end = "the stop input cannot be read";
     } else if (ended != WAS_RESET && !rig.has_result) {
         put("REFUSED: ");
         end = wh_refusal_text(rig.answer);
@@ -314,7 +314,7 @@ int main(void) {
     config.swings = RIG_SWINGS != 0;
 #if RIG_CARRIAGE || RIG_DIALLED
     if (!take_dials(&config)) {
-        refuse("the dials are not heard");
+        refuse("the dials cannot be read");
     }
 #endif
     const operator_step ended = run(&config);

@@ -141,7 +141,7 @@ static const char *why_not_started(void) {
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
         /* A text of its own, because wh_status_text() would link all texts. */
-        return "compiled or set up for other arithmetic than IEEE 754";
+        return "the arithmetic is not that of IEEE 754";
     }
     return NULL;
 }

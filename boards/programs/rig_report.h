@@ -79,8 +79,8 @@ static inline void put_turns(const wh_run *run) {
         least = run->turn_radps[i] < least ? run->turn_radps[i] : least;
         most = run->turn_radps[i] > most ? run->turn_radps[i] : most;
     }
-    put_value("the last four turns' mean", run->mean_radps * RPM_PER_RADPS, 2, "rpm");
-    put_value("  between the slowest and fastest", (most - least) * RPM_PER_RADPS, 2, "rpm");
+    put_value("mean of the last four turns", run->mean_radps * RPM_PER_RADPS, 2, "rpm");
+    put_value("  fastest minus slowest turn", (most - least) * RPM_PER_RADPS, 2, "rpm");
 }
 
 /* Prints a run's measurement, and the formula's force at a nominal speed. */
@@ -94,7 +94,7 @@ static inline void put_result(const wh_rig_config *config, const wh_rig_result *
     put_value("  turns scatter by", force->scatter_radps * RPM_PER_RADPS, 3, "rpm");
     put_force("force, once per turn", force->amplitude_N);
     put_interval("  known to within", force->amplitude_half_N, 3, "N");
-    put_value("its phase to the masses", force->phase_rad * WH_RIG_DEG_PER_RAD, 2, "deg");
+    put_value("phase, force to masses", force->phase_rad * WH_RIG_DEG_PER_RAD, 2, "deg");
     put_interval("  known to within", force->phase_half_rad * WH_RIG_DEG_PER_RAD, 3, "deg");
     put_verdict(force);
     put_force("expected from masses, speed", force->expected_N);
@@ -106,8 +106,8 @@ static inline void put_result(const wh_rig_config *config, const wh_rig_result *
     put_force("mean force", force->mean_N);
     put_force("lowest peak", result->low_N);
     put_force("highest peak", result->high_N);
-    put_force("load at sensor 1's spikes", force->at_pulse_N[0]);
-    put_force("load at sensor 2's spikes", force->at_pulse_N[1]);
+    put_force("load at pulses of sensor 1", force->at_pulse_N[0]);
+    put_force("load at pulses of sensor 2", force->at_pulse_N[1]);
     put_force("tare subtracted", result->tare_N);
     put_value("motor voltage", result->volts, 2, "V");
     put_value("slot pulses lost", (float)result->lost, 0, "");
@@ -129,7 +129,7 @@ static inline void put_swung(const wh_swung *swung) {
     if (swung->why == WH_SWING_NONE) {
         return;
     }
-    put("The swing in which it came to rest: ");
+    put("Free swing at the end of the run: ");
     put(wh_swing_text(swung->why));
     put("\n");
     if (swung->why == WH_SWING_FOUND) {
@@ -143,12 +143,12 @@ static inline void put_carriage(const wh_rig_config *config, const wh_carriage *
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;
     const float lever_m = config->measure.rotor.unbalance_kgm / WH_RIG_ECCENTRIC_KG;
-    put("On a carriage: force divided by that on a fixed mount, 1/(1 + ratio)\n");
+    put("On a carriage the force of a fixed mount is multiplied by 1/(1 + ratio)\n");
     put_value("eccentric / carriage weight", carriage->ratio, 4, "");
     put_value("radius of the discs", 1e3f * carriage->disc_m, 1, "mm");
     put_value("1/(1 + ratio)", 100.0f * part, 2, "%");
-    put_value("carriage, to either side", 1e3f * displacement_m, 3, "mm");
-    put_value("by formula, S/(M + m)", 1e3f * lever_m * (1.0f - part), 3, "mm");
+    put_value("amplitude of the carriage", 1e3f * displacement_m, 3, "mm");
+    put_value("formula S/(M + m)", 1e3f * lever_m * (1.0f - part), 3, "mm");
 }
 
 #endif

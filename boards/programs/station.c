@@ -42,7 +42,7 @@ static void tell_reset(void) {
         put("\r\n");
     }
     if (hal_clock_source_now() == HAL_CLOCK_FALLBACK) {
-        put("# the crystal does not answer: no run until it does"
+        put("# no crystal clock: runs are refused until it works"
             "\r\n");
     }
 }

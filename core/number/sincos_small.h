@@ -4,7 +4,7 @@
 
 #ifdef __cplusplus
 #error \
-    "core/number/sincos_small.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/number/sincos_small.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
 #endif
 
 #include "sine.h"

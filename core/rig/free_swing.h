@@ -145,8 +145,8 @@ typedef enum wh_swing_piece {
     X(WH_SWING_FOUND, "found") \
     X(WH_SWING_NOT_FREE, "the rotor did not come to rest freely") \
     X(WH_SWING_FEW, "too few swings: friction stops the rotor") \
-    X(WH_SWING_MISFIT, "the pulses are not those of a free swing") \
-    X(WH_SWING_SIDES, "right and left cannot be distinguished: sensor 2 was not passed") \
+    X(WH_SWING_MISFIT, "the pulses do not fit a free swing") \
+    X(WH_SWING_SIDES, "right and left look the same: the arms did not pass sensor 2") \
     X(WH_SWING_WIDE, "the swings do not determine the angles: the interval is too wide")
 
 #define WH_SWING_NAME(name, words) name,

@@ -28,7 +28,7 @@ extern "C" {
     X(WH_TRIP_UNBRAKED, 12, \
       "the rotor does not slow when the motor brakes: the stage ignores its duty, or cannot brake") \
     X(WH_TRIP_FASTER, 14, \
-      "faster than the motor can turn: check no_load_speed, rated_voltage, the supply's divider") \
+      "a speed above the motor's limit: check no_load_speed, rated_voltage, the supply's divider") \
     X(WH_TRIP_ORDER, 15, \
       "slot pulses in the wrong order: the motor runs backwards, or the sensors are swapped")
 

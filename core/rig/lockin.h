@@ -95,7 +95,7 @@ wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harm
     X(WH_TURN_FIRST, "first") \
     X(WH_TURN_GAP, "load samples are missing") \
     X(WH_TURN_OUTLIERS, "too many outliers") \
-    X(WH_TURN_FROZEN, "the load stands still") \
+    X(WH_TURN_FROZEN, "the load never changes") \
     X(WH_TURN_UNSTEADY, "the speed changes")
 
 #define WH_TURN_NAME(name, words) name,

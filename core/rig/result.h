@@ -28,7 +28,7 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
 /* Reasons, beginning with the strongest: X(name, quality, words). */
 #define WH_WHY_ROWS(X) \
     X(WH_WHY_NONE, WH_GOOD, "no reason to doubt it") \
-    X(WH_WHY_FEW_TURNS, WH_REFUSED, "less than three turns could be used") \
+    X(WH_WHY_FEW_TURNS, WH_REFUSED, "fewer than three turns are usable") \
     X(WH_WHY_POLARITY, WH_REFUSED, \
       "the force is opposite to the masses: check the cell's polarity and the sensors") \
     X(WH_WHY_AMPLITUDE, WH_REFUSED, \
@@ -44,8 +44,7 @@ typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
     X(WH_WHY_OUTLIERS, WH_DOUBTFUL, "more than one sample in a hundred was left out") \
     X(WH_WHY_RESIDUAL, WH_DOUBTFUL, "noise, or orders other than the first, are large") \
     X(WH_WHY_ROTOR, WH_DOUBTFUL, "the second sensor's pulses do not fit the rotor's motion") \
-    X(WH_WHY_FED, WH_DOUBTFUL, \
-      "gravity compensation leaves a seventh of gravity's torque or more") \
+    X(WH_WHY_FED, WH_DOUBTFUL, "1/7 or more of gravity's torque remains uncompensated") \
     X(WH_WHY_MEAN, WH_DOUBTFUL, "the mean force is not zero: the tare has moved") \
     X(WH_WHY_WIDE, WH_DOUBTFUL, "the interval is wider than a twentieth of the force") \
     X(WH_WHY_SWING, WH_DOUBTFUL, "within a turn, the load's speed differs from the rotor's") \

@@ -47,15 +47,15 @@ extern "C" {
     X(WH_REFUSED_NOT_RUNNING, 7, "the rig is not running") \
     X(WH_REFUSED_STOP_INPUT, 8, "the stop input is pressed") \
     X(WH_REFUSED_SUPPLY, 9, "the motor's supply is out of its range") \
-    X(WH_REFUSED_CLOCK, 10, "the clock runs on its fallback, and speeds would be wrong") \
+    X(WH_REFUSED_CLOCK, 10, "the fallback clock is in use: speeds would be wrong") \
     X(WH_REFUSED_TURNING, 11, "the rotor is not at rest") \
-    X(WH_REFUSED_LOAD_CELL, 12, "the load cell gives no good samples") \
+    X(WH_REFUSED_LOAD_CELL, 12, "the load cell has no valid samples") \
     X(WH_REFUSED_WATCHDOG, 13, "the watchdog has cut the drive: reset the board") \
     X(WH_REFUSED_TARGET, 14, \
-      "the set-point is below what the loop can hold or above what the shaft carries") \
+      "the set-point is too low for the control loop or too high for the shaft") \
     X(WH_REFUSED_VOLTAGE, 15, "the supply is too low for the set-point") \
-    X(WH_REFUSED_QUEUE, 16, "too many orders at once") \
-    X(WH_REFUSED_EVENT, 17, "there is no such order")
+    X(WH_REFUSED_QUEUE, 16, "too many commands at once") \
+    X(WH_REFUSED_EVENT, 17, "unknown command")
 
 /* The way in which the last run ended: X(name, words). Reset at the next start. */
 #define WH_END_ROWS(X) \

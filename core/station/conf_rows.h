@@ -49,17 +49,17 @@
     X(damping_tolerance, 4, WH_CONF_REAL, ONE, 0.0, 1.0, ALONE, measure.rotor.damping_tolerance, \
       "relative 95 % uncertainty of damping") \
     X(gravity, 5, WH_CONF_REAL, MPS2, 0.0, 20.0, ROTOR, measure.rotor.gravity_mps2, \
-      "in the arms' plane; 0: that plane is level") \
+      "in the plane of the arms; 0: horizontal plane") \
     X(gravity_angle, 6, WH_CONF_REAL, DEG, -180.0, 180.0, ROTOR, measure.rotor.gravity_rad, \
       "angle at which the arms hang at rest") \
     X(mount_factor, 7, WH_CONF_REAL, ONE, 0.01, 1.0, ROTOR, measure.result.mount_factor, \
-      "force divided by that on a fixed mount; on a carriage M/(M + m), m the eccentrics") \
+      "force divided by the force on a fixed mount; carriage: M/(M + m), eccentrics m") \
     X(sensor1, 8, WH_CONF_REAL, DEG, -30.0, 30.0, SENSORS, measure.rotor.pulse_rad[0], \
       "angle of sensor 1 from the loading-train axis") \
     X(sensor2, 9, WH_CONF_REAL, DEG, 60.0, 120.0, SENSORS, measure.rotor.pulse_rad[1], \
       "angle of sensor 2 from the loading-train axis") \
     X(slot_lead, 10, WH_CONF_REAL, DEG, 0.0, 20.0, SENSORS, swing.lead_rad, \
-      "angle by which a pulse precedes its sensor") \
+      "angle from a pulse to its sensor") \
     X(cell_scale, 11, WH_CONF_REAL, MILLINEWTON, 1e-4, 1000.0, CELL, \
       measure.cell.newton_per_count, "force of one count") \
     X(cell_reversed, 12, WH_CONF_SWITCH, ONE, 0.0, 1.0, CELL, measure.cell.newton_per_count, \
@@ -69,15 +69,15 @@
     X(cell_delay, 14, WH_CONF_WHOLE, MICROSECOND, 0.0, 100000.0, ALONE, measure.cell.delay_ticks, \
       "delay of the cell's filter and converter") \
     X(amplitude_floor, 15, WH_CONF_REAL, ONE, 0.0, 0.5, ALONE, measure.result.amplitude_floor, \
-      "relative 95 % uncertainty of the force; 0: uncalibrated, 0.005") \
+      "relative 95 % uncertainty of the force; 0: uncalibrated, uses 0.005") \
     X(phase_floor, 16, WH_CONF_REAL, DEG, 0.0, 45.0, ALONE, measure.result.phase_floor_rad, \
-      "95 % uncertainty of the phase; 0: uncalibrated, 0.5") \
+      "95 % uncertainty of the phase; 0: uncalibrated, uses 0.5") \
     X(record_time, 17, WH_CONF_REAL, SECOND, 0.2, 20.0, ALONE, measure.record_s, \
       "least duration of the record") \
     X(record_turns, 18, WH_CONF_REAL, ONE, 3.0, 100.0, ALONE, measure.record_turns, \
       "least duration of the record, in turns") \
     X(settle_time, 19, WH_CONF_REAL, SECOND, 0.1, 30.0, ALONE, run.settle_s, \
-      "time before the record with the mean of four turns within settle_band") \
+      "how long means of four turns stay in settle_band before the record") \
     X(settle_band, 20, WH_CONF_REAL, RPM, 0.05, 20.0, ALONE, run.settle_band_radps, \
       "allowed deviation of the speed, up or down") \
     X(ramp, 21, WH_CONF_REAL, RPM_S, 5.0, 200.0, ALONE, run.drive.ramp_radps2, \
@@ -93,13 +93,13 @@
     X(speed_most, 26, WH_CONF_REAL, RPM, 60.0, 400.0, ALONE, guard.target_max_radps, \
       "largest set-point") \
     X(speed_limit, 27, WH_CONF_REAL, RPM, 70.0, 400.0, ALONE, guard.limit_radps, \
-      "a faster turn trips; set what the shaft carries") \
+      "a faster turn trips; keep it safe for the shaft") \
     X(supply_least, 28, WH_CONF_REAL, VOLT, 1.0, 60.0, ALONE, guard.supply_min_V, \
       "a lower supply voltage trips") \
     X(supply_most, 29, WH_CONF_REAL, VOLT, 1.0, 60.0, ALONE, guard.supply_max_V, \
       "a higher supply voltage trips") \
     X(armed_time, 30, WH_CONF_REAL, SECOND, 1.0, 600.0, ALONE, armed_max_s, \
-      "time in which a start is allowed after arm") \
+      "time after arm in which start is allowed") \
     X(rest_time, 31, WH_CONF_REAL, SECOND, 5.0, 600.0, ALONE, rest_max_s, \
       "longest time until the rotor is at rest") \
     X(stop_brakes, 32, WH_CONF_SWITCH, ONE, 0.0, 1.0, ALONE, stop_brakes, \
@@ -110,14 +110,14 @@
       "stop a run when the host is lost") \
     X(feeds, 35, WH_CONF_FEEDS, ONE, 0.0, 2.0, ALONE, feeds, "gravity compensation by the motor") \
     X(yields, 36, WH_CONF_REAL, KGM2, 0.0, 10.0, ALONE, measure.rotor.yields_kgm2, \
-      "variation of the inertia on a yielding mount; only with gravity 0") \
+      "variation of inertia on a yielding mount; needs gravity 0") \
     X(no_load_speed, 45, WH_CONF_REAL, RPM, 200.0, 2000.0, ALONE, run.no_load_radps, \
       "speed of the motor without load at its rated voltage") \
     X(rated_voltage, 46, WH_CONF_REAL, VOLT, 3.0, 60.0, ALONE, run.rated_V, \
       "rated voltage of the motor") \
     X(stall_torque, 47, WH_CONF_REAL, NM, 0.05, 50.0, ALONE, compensation.stall_Nm, \
-      "torque of the motor at standstill and its rated voltage") \
+      "torque of the motor at standstill and rated voltage") \
     X(host, 48, WH_CONF_WHOLE, SECOND, 0.0, 3600.0, ALONE, host_max_s, \
-      "the host is lost after this time without a byte from it; 0: never")
+      "the host counts as lost after this time without a byte; 0: never")
 
 #endif

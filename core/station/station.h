@@ -40,15 +40,15 @@ extern "C" {
     X(set, 1, " RPM", "change the set-point during a run") \
     X(stop, 0, "", "motor off; also the Escape key, at once") \
     X(status, 0, "", "state, speeds, voltage, trip, verdict, losses, run and its end") \
-    X(measure, 0, "", "the last run's result, its intervals, its verdict") \
+    X(measure, 0, "", "result, intervals and verdict of the last run") \
     X(fault, 0, "", "the latched trip, the values at that moment, and how the last run ended") \
     X(clear, 0, "", "release a trip whose cause is gone") \
     X(conf, 3, " list [FROM]|get NAME|set NAME VALUE|save|default", \
-      "the settings; written while the rig is idle") \
+      "settings; set, save, default only while idle") \
     X(tel, 2, WH_TEL_FOLLOWS, "telemetry on the same line; off after a reset") \
     X(selftest, 0, "", "test at rest: arithmetic, cell, supply, stop input") \
     X(host, 1, " SECONDS", \
-      "the setting host, until a reset: a run ends after this time without a byte") \
+      "a run ends after this time without a byte (setting host, until a reset)") \
     X(talk, 1, " on|off", "echo typed characters, report each new state")
 
 /* A small chip's build may set 0: then station->tel stays NULL, and no telemetry is linked. */

@@ -28,7 +28,7 @@
 
 #ifdef __cplusplus
 #error \
-    "core/step/stage_turn.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/stage_turn.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
 #endif
 
 #include "../number/sincos_small.h"

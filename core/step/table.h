@@ -16,7 +16,7 @@
 
 #ifdef __cplusplus
 #error \
-    "core/step/table.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/table.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
 #endif
 
 #include "../number/flash.h"

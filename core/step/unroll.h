@@ -5,7 +5,7 @@
 
 #ifdef __cplusplus
 #error \
-    "core/step/unroll.h is C only, as generated .c files are: C++ includes core/scene.h and generated headers"
+    "core/step/unroll.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
 #endif
 
 /* Maximum number of coordinates (second order) or components (first order). A generated scene defines its own number

@@ -267,8 +267,10 @@ static void say(FILE *out, const char *who, apart *a) {
         moves = moves || speed != 0.0;
     }
     if (moves && isfinite(lost_J(a))) {
-        fprintf(out, "%s: warning: an impulse at t = 0 stops it and takes %.6g J\n", who,
-                lost_J(a));
+        fprintf(out,
+                "%s: warning: an impulse at t = 0 sets this rate to zero and removes %.6g J "
+                "of energy\n",
+                who, lost_J(a));
     }
     double was_place[N];
     double was_rate[N];
@@ -277,7 +279,7 @@ static void say(FILE *out, const char *who, apart *a) {
     if ((!off || fit(a, 0, fit_places)) && fit(a, 1, fit_rates)) {
         say_values(out, a, was_place, was_rate);
     } else {
-        fputs("hint: start the linkage elsewhere: no values near these satisfy the holds\n", out);
+        fputs("hint: choose other start values: none near the given ones satisfy the holds\n", out);
     }
 }
 

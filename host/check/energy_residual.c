@@ -187,8 +187,8 @@ static void print_momenta(FILE *out, const books *b) {
                 fprintf(out, "conserved momentum [SI]\n");
             }
             any = true;
-            fprintf(out, "  of %-13s %.9g, drift at most %.2e (numerical)\n", im->unknown[i].name,
-                    b->momentum[i], b->drift[i]);
+            fprintf(out, "  of %-13s %.9g, drifts by at most %.2e (numerical)\n",
+                    im->unknown[i].name, b->momentum[i], b->drift[i]);
         }
     }
     if (!any) {
@@ -206,7 +206,7 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
         account_print_entry(out, "work of inputs", balance->inputs_J, "");
         account_print_entry(out, "losses", balance->losses_J, "");
         if (b->image->contacts > 0) {
-            account_print_entry(out, contacts, balance->contacts_J, " (--with ledger says which)");
+            account_print_entry(out, contacts, balance->contacts_J, " (--with ledger lists each)");
         }
         account_print_end(out, b->energy_J[1] - b->energy_J[0], balance->left_J);
     } else if (!isfinite(a.left)) {
@@ -230,11 +230,11 @@ static void print_entries(FILE *out, const kept_account *kept, const char *unkno
             continue;
         }
         if (e->by == GIVER_STEPS) {
-            snprintf(text, sizeof text, "given back (--stabilized)");
+            snprintf(text, sizeof text, "energy correction (--stabilized)");
         } else if (e->by != GIVER_ENERGIES) {
             statement_text(e->at, text, sizeof text);
         } else {
-            snprintf(text, sizeof text, "of the energies: dL/d%.20s", unknown);
+            snprintf(text, sizeof text, "from T and V: dL/d%.20s", unknown);
         }
         account_print_entry(out, text, e->given, "");
     }
@@ -248,7 +248,7 @@ static void print_momentum(FILE *out, const image *im, const kept_account *kept,
     print_entries(out, kept, u->name);
     account_print_end(out, change, kept->left);
     if (u->is_length && time_s > 0.0) {
-        fprintf(out, "  change divided by the run's length, along %s: %.9g N; residual %.1e N\n",
+        fprintf(out, "  change divided by the run's duration, along %s: %.9g N; residual %.1e N\n",
                 u->name, change / time_s, fabs(kept->left) / time_s);
     }
 }

@@ -7,36 +7,37 @@
 
 const finding_row finding_rows[FINDINGS] = {
     [FINDING_MASS] = {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
-                      "an upper bound from rounding the matrix: steps are more accurate",
+                      "an upper bound, from rounding the matrix: the error of the steps is smaller",
                       "have a mass matrix that is nearly singular"},
     [FINDING_CONSTANTS] = {"constants", FINDING_WARNING, 0.0, "numbers",
-                           "rounded differently, one of the file's numbers is not finite",
+                           "a value is not finite if the file's numbers are rounded differently",
                            "have constants in which a small number is lost beside a large one"},
     [FINDING_ENERGY] =
         {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
-         "half of it is the error of an amplitude, which no plot shows",
+         "half of this limit is the error of an amplitude: too small to see in a plot",
          "fail the energy balance: the residual is too large compared with the balance's largest entry (" ENERGY_RESIDUAL_COLUMN
          "), at the end or at a time before"},
     [FINDING_ACCURACY] =
         {"accuracy", FINDING_WARNING, 0.5, "of the run",
-         "an error that grows evenly and is 2 % at the end passes 1 % there",
-         "are accurate to 0.01 of a range for less than half of the run, or lose it at once"},
+         "an error that grows steadily to 2 % at the end passes 1 % at half of the run",
+         "are accurate to 0.01 of a range for less than half of the run, or have a sudden error"},
     [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion continues through a pole",
                       "jumped over a pole of an expression"},
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
-                        "a contact or a force that no step met has not acted",
+                        "a contact or a force between two evaluations has not acted",
                         "passed, or may have passed, through a contact or over a force"},
-    [FINDING_ALIASED] =
-        {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
-         "the tolerance of a trusted run; horizon.h adds the error of the steps alone",
-         "alias a force or motion that is faster than the step"},
+    [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
+                         "the tolerance of a trusted run, to which the error of the steps is added",
+                         "alias a force or motion that is faster than the step"},
     [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
                         "the remainder of such a step is computed as rest or sticking",
-                        "had steps with more events than a step takes"},
+                        "had steps with more events than the limit of a step"},
     [FINDING_APART] = {"apart", FINDING_WARNING, APART_LEAST, "of the terms of the held expression",
                        "a start in decimal digits satisfies a hold better than this",
                        "have holds that the start violates"},
-    [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE, "of the span asked for",
+    [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE,
+                        "of the distance that the component "
+                        "should cover",
                         "the sum of the steps' round-off",
                         "have a component whose steps are below its resolution"},
 };
@@ -54,5 +55,5 @@ void finding_say_names(FILE *out, unsigned ids) {
 void finding_say_status(FILE *out, const char *command, unsigned fails) {
     fprintf(out, "whirl %s: exit status 1 because of ", command);
     finding_say_names(out, fails);
-    fputs("; --strict=off keeps 0\n", out);
+    fputs(" (0 with --strict=off)\n", out);
 }

@@ -108,10 +108,10 @@ static void say_missed(FILE *out, const run_checks *v) {
     char statement[STATEMENT_SIZE];
     if (slid_off(v)) {
         statement_text(im->contact[f->component].at, statement, sizeof statement);
-        fprintf(
-            out,
-            "in the step after t = %.6g s a body that rests on a stop slides over an edge of it, but Whirl keeps it on the stop: %s",
-            f->at_s, statement);
+        fprintf(out,
+                "in the step after t = %.6g s a body slides over an edge of the stop that it rests "
+                "on, but Whirl keeps the body on the stop: %s",
+                f->at_s, statement);
         return;
     }
     fprintf(out, "the step after t = %.6g s %s ", f->at_s,
@@ -119,12 +119,14 @@ static void say_missed(FILE *out, const run_checks *v) {
     if (f->component < im->contacts) {
         statement_text(im->contact[f->component].at, statement, sizeof statement);
         fprintf(out, "%s: %s",
-                im->contact[f->component].kind == WH_FRICTION ? "over a narrow change of a friction"
+                im->contact[f->component].kind == WH_FRICTION ? "over a brief change of a friction"
                                                               : "through a contact",
                 statement);
     } else {
         const component c = image_component(im, f->component - im->contacts);
-        fprintf(out, "over a force on %s that is far larger inside the step than at its ends",
+        fprintf(out,
+                "over a force on %s that is far larger within the step than at the step's "
+                "ends",
                 im->unknown[c.unknown].name);
     }
 }
@@ -136,7 +138,8 @@ static void say_aliased(FILE *out, const run_checks *v) {
     char name[NAME_TEXT];
     fprintf(
         out,
-        "the step aliases a fast force or motion: with steps of %.4g s, which share no period with it, %s is %.6g%s%s at t = %.6g s, not %.6g",
+        "the step aliases a fast force or motion: a run with steps of %.4g s, which do not alias "
+        "it, gives %s = %.6g%s%s at t = %.6g s, not %.6g",
         a->step_s, column_name(v, a->column, name), a->other, plain ? "" : " ", plain ? "" : unit,
         a->at_s, a->value);
 }
@@ -164,10 +167,10 @@ static void say_events(FILE *out, const run_checks *v) {
             WH_EVENTS_MAX);
     for (int i = 0; i < 2 && (i == 0 ? first : second) >= 0; i++) {
         statement_text(v->image->contact[i == 0 ? first : second].at, statement, sizeof statement);
-        fprintf(out, "%s'%s'", i == 0 ? ", most of " : " and ", statement);
+        fprintf(out, "%s'%s'", i == 0 ? ", most of them from " : " and ", statement);
     }
     fprintf(out, ": the remainder of %s was computed as rest or sticking",
-            v->overruns == 1 ? "it" : "them");
+            v->overruns == 1 ? "that step" : "those steps");
 }
 
 static bool is_without_restitution(const image *im, int k) {
@@ -440,9 +443,10 @@ static void say_remedy(FILE *out, const run_checks *v) {
         fprintf(out, "hint: try %sno --tables: the tables may be too coarse\n", cells);
     }
     switch (remedy_find(v, options)) {
-    case REMEDY_DOES: fprintf(out, "hint: %s would do (tried)\n", options); return;
+    case REMEDY_DOES: fprintf(out, "hint: %s cures this (tried)\n", options); return;
     case REMEDY_DEAR:
-        fputs("hint: try a smaller --step (not tried to the end, which takes more than a second)\n",
+        fputs("hint: try a smaller --step (Whirl's own search for one would take more than a "
+              "second)\n",
               out);
         break;
     case REMEDY_NONE:
@@ -459,12 +463,12 @@ static void say_remedy(FILE *out, const run_checks *v) {
         const double passed_s = v->twins != NULL ? v->twins->jumped_s : -1.0;
         const double until_s = passed_s >= 0.0 ? number_least(passed_s, began_s) : began_s;
         if (v->found[FINDING_MISSED].value < 1.0) {
-            fputs(
-                "hint: write the expression without a pole or a jump, as in 1/x or sign(x): Whirl cannot bound it\n",
-                out);
+            fputs("hint: write the expression without poles and jumps, such as 1/x or sign(x): "
+                  "Whirl cannot bound their values\n",
+                  out);
         }
         if (until_s > 0.0) {
-            fprintf(out, "hint: --until %.12gs ends the run before that\n", until_s);
+            fprintf(out, "hint: --until %.12gs ends the run before this step\n", until_s);
         }
     } else if (is_told(v, FINDING_EVENTS)) {
         fputs(
@@ -516,7 +520,7 @@ bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]
 void findings_say_failed(FILE *out, const run_checks *v) {
     char options[REMEDY_TEXT];
     if (remedy_find(v, options) == REMEDY_DOES) {
-        fprintf(out, "hint: %s would do (tried)\n", options);
+        fprintf(out, "hint: %s cures this (tried)\n", options);
     }
 }
 
@@ -570,25 +574,25 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     for (int k = 0; k < c.primes; k++) {
         fputc('\'', out);
     }
-    fputs(" left all bounds\n", out);
+    fputs(" grew without bound\n", out);
     if (kind->steps(run) == 0 && starts_beyond(im)) {
-        fprintf(
-            out,
-            "hint: choose an origin or units nearer to the motion: it starts beyond the limit of %g in SI units\n",
-            (double)WH_ABSURD);
+        fprintf(out,
+                "hint: choose an origin or units nearer to the motion: a start value is above the "
+                "limit of %g in SI units\n",
+                (double)WH_ABSURD);
         return;
     }
     const int k = pushing(im);
     if (k >= 0) {
         char statement[STATEMENT_SIZE];
         statement_text(im->contact[k].at, statement, sizeof statement);
-        fprintf(
-            out,
-            "hint: '%s' acts on every coordinate in it: give a clock in it far more inertia, or make it an input with a rate\n",
-            statement);
+        fprintf(out,
+                "hint: '%s' pushes every coordinate that it names: if one of them is a clock, give "
+                "the clock far more inertia, or write it as an input with a rate\n",
+                statement);
     }
-    fputs(
-        "hint: try a smaller --step; if the run still fails at this time, check whether its position is singular\n",
-        out);
+    fputs("hint: try a smaller --step; if the run still fails at this time, check whether the mass "
+          "matrix is singular there\n",
+          out);
     findings_say_failed(out, v);
 }

@@ -276,8 +276,8 @@ static void print_head(FILE *out, const horizon *h) {
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
             image_sums(im), h->of->shape->kind->name, im->step_s, im->steps,
             ratio_times(im->steps, im->step));
-    fprintf(out, "  beside %s%s, double, step %.9g s\n", image_stepper(finer), image_sums(finer),
-            finer->step_s);
+    fprintf(out, "  compared with %s%s, double, step %.9g s\n", image_stepper(finer),
+            image_sums(finer), finer->step_s);
 }
 
 /* Why it is unknown until when this column is accurate. */
@@ -346,12 +346,10 @@ static void print_invariants(FILE *out, const horizon *h) {
     if (!balance.known) {
         fputs("  energy: the balance is not known\n", out);
     } else if (energy_residual_lost(&balance, ENERGY_RESIDUAL_LIMIT)) {
-        fprintf(
-            out,
-            "  energy: not conserved either, residual %.2e of the largest entry of its balance\n",
-            balance.ratio);
+        fprintf(out, "  energy: the balance fails too, residual %.2e of its largest entry\n",
+                balance.ratio);
     } else {
-        fprintf(out, "  energy: residual %.2e of the largest entry of its balance\n",
+        fprintf(out, "  energy: residual %.2e of the largest entry of the balance\n",
                 balance.ratio);
     }
     print_momenta(out, h);
@@ -363,10 +361,12 @@ static const char *cut_by(const step_doubling *t) {
         return "after that the run with half the step diverges";
     }
     if (t->jumped_s < 0.0 || (t->overrun_s >= 0.0 && t->overrun_s < t->jumped_s)) {
-        return "after that a step, of this run or of the finer one, had more events than its limit";
+        return "after that a step of this run or of the finer run had more events than the limit "
+               "of a step";
     }
     return t->missed
-               ? "after that a step, of this run or of the finer one, passed through a contact or over an edge or a force"
+               ? "after that a step of this run or of the finer run passed through a contact or "
+                 "over an edge or a force"
                : "after that a step, of this run or of the finer one, jumped over a pole of an expression";
 }
 
@@ -397,9 +397,9 @@ void horizon_print(FILE *out, const horizon *h) {
     const step_doubling *t = h->of;
     print_head(out, h);
     if (image_of(h)->contacts > 0) {
-        fputs("  differences of rates in the steps around an event do not count\n", out);
+        fputs("  in the steps around an event, errors of rates are ignored\n", out);
     }
-    fprintf(out, "\naccurate to %.3g of its range until [s]\n", h->tolerance);
+    fprintf(out, "\neach quantity is accurate to %.3g of its range until [s]\n", h->tolerance);
     for (int k = 1; k < t->columns; k++) {
         print_column(out, h, k);
     }
@@ -412,7 +412,7 @@ void horizon_print(FILE *out, const horizon *h) {
     say_until(out, h, true);
     fputc('\n', out);
     if (t->unaliased) {
-        fputs("not checked: [aliased], because it takes longer than the two runs\n", out);
+        fputs("not checked: [aliased], because this check takes longer than the two runs\n", out);
     }
     print_invariants(out, h);
 }

@@ -205,8 +205,8 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     const bool sine = is_sine(n) && isfinite(v->value[n->a]);
     snprintf(
         hint, sizeof hint,
-        "it is %s() of %.6g rad, and sine and cosine are computed up to %g rad only: start it within "
-        "a turn%s",
+        "the value is %s() of %.6g rad, but sine and cosine are computed only up to %g rad: start "
+        "the angle within a turn%s",
         function_name(n->function), sine ? v->value[n->a] : 0.0, sine_limit_rad(at),
         at->turns ? "" : ", or --number float, whose angles count turns");
     return sine ? hint : hint_domain;
@@ -280,7 +280,8 @@ static void say_flat(const nonfinite_at *at, place where, diags *errors) {
     diag_error(
         errors, where,
         "choose lengths with which the linkage cannot lie flat, or hold one more coordinate there",
-        "%s the holds allow more than one motion from here, because this hold repeats the others: %s",
+        "%s the holds allow more than one motion, because this hold follows from the others at "
+        "this position: %s",
         at->when, text);
 }
 

@@ -66,9 +66,10 @@ static bool open_files(simulation *sim) {
     }
     int power;
     if (s->vcd != NULL && !traces_power(sim->image, s->every, &power)) {
-        fputs(
-            "whirl run: error: these records are too close for --vcd: its finest unit is a femtosecond, and a time has at most 2^52 units\nhint: use a larger --every, or --csv, which has no such limit\n",
-            stderr);
+        fputs("whirl run: error: --vcd cannot resolve the times of these records: its finest unit "
+              "is a femtosecond, and a time has at most 2^52 units\nhint: use a larger --every, or "
+              "use --csv, which has no such limit\n",
+              stderr);
         return false;
     }
     if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns) ||
@@ -245,8 +246,9 @@ static void say_clamped(const simulation *sim) {
         statement_text(sim->image->contact[c.contact].at, statement, sizeof statement);
         fprintf(stderr,
                 "whirl run: warning: the restitution was outside 0 .. 1 in %" PRIu64
-                " impact%s, first %.6g in the step after t = %.6g s, and counted as %d: %s\n"
-                "hint: limit it: restitution max(0, min(1, ...))\n",
+                " impact%s, first %.6g in the step after t = %.6g s, for which Whirl used %d: "
+                "%s\nhint: limit the expression: restitution"
+                " max(0, min(1, ...))\n",
                 c.count, c.count == 1 ? "" : "s", c.value, c.begin_s, c.value > 1.0 ? 1 : 0,
                 statement);
     }
@@ -387,12 +389,14 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     if (s->chosen != NULL) {
         fprintf(out, "%s%s\n", s->chosen,
                 (sim->verdict->against & ~FINDING_OF_SCENE) != 0
-                    ? "; chosen for this error alone, and the warning is about the whole motion"
+                    ? "; this choice considers only this error, but the warning concerns the "
+                      "whole motion"
                     : "");
     }
     summary_head(out, sim->image, s->kind, sim->run);
     if (s->no_scene) {
-        fputs("  no scene was named: everything starts at zero unless --start sets it\n", out);
+        fputs("  no scene was named: every coordinate and rate without --start starts at zero\n",
+              out);
     }
     if (s->changes != NULL && s->changes[0] != '\0') {
         fprintf(out, "  changed: %s\n", s->changes);
@@ -400,7 +404,8 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     if (result == SIMULATION_DONE && h != NULL) {
         horizon_print_line(out, h, (sim->verdict->against & ~FINDING_OF_SCENE) != 0);
     } else if (result == SIMULATION_DONE && sim->steps > 0) {
-        fputs("trusted            not computed: it takes more than a second; run `whirl trust`\n",
+        fputs("trusted            not computed, because that takes more than a second: run `whirl "
+              "trust`\n",
               out);
     }
     const unsigned unlooked = run_checks_unlooked(sim->verdict);

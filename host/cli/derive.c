@@ -45,13 +45,14 @@ static const command_usage usage = {
         "Prints the equations of motion of a mechanism, or of a scene with its effects, or the scene's code.\n"
         "\n"
         "  --as text    one equation per coordinate, its events, and the first-order form (default)\n"
-        "  --as latex   the same for a paper (with amsmath)\n"
+        "  --as latex   the same equations in LaTeX, for a paper (needs amsmath)\n"
         "  --as octave  a function file for Octave and Matlab; events are listed only\n"
         "  --as c       the scene as C for the core (docs/howto/firmware.md)\n"
         "  --steps, with --as text or latex: the derivation: the Lagrangian, and for each coordinate dL/dq',\n"
         "               its time derivative, dL/dq, dF/dq' and Q\n"
         "  --folded, with --as octave: values instead of parameter names, one operation per line\n"
-        "  --header FILE, with --as c: its header, for C and C++: names, units, memory (docs/embedding.md)\n"
+        "  --header FILE, with --as c: the header of the code, for C and C++: names, units, "
+        "memory (docs/embedding.md)\n"
         "  --name NAME, with --as octave or c: the scene's name in the code, so that a program can contain\n"
         "               it twice\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
@@ -117,7 +118,8 @@ static bool header_is_apart(const source_model *from, const char *header) {
     struct stat about_output;
     struct stat about_header;
     if (strcmp(header, "-") == 0 || header[0] == '\0') {
-        fputs("whirl derive: error: --header needs a file: standard output is for the C code\n",
+        fputs("whirl derive: error: --header needs the name of a file, because standard output is "
+              "for the C code\n",
               stderr);
         return false;
     }
@@ -128,8 +130,8 @@ static bool header_is_apart(const source_model *from, const char *header) {
         stat(header, &about_header) == 0 &&
         files_are_one(&about_output, NULL, &about_header, header)) {
         fprintf(stderr,
-                "%s: error: --header and standard output cannot share a file\n"
-                "hint: give it another name\n",
+                "%s: error: --header and standard output cannot share a file\nhint: give the "
+                "header another name\n",
                 header);
         return false;
     }
@@ -151,16 +153,18 @@ static bool write_header(const image *im, const fixed_plan *plan, const char *fi
 static bool has_name(const image *im, const source_model *from, const form_row *as, bool header) {
     const char *taken_by = NULL;
     if (as == &forms[OCTAVE]) {
-        taken_by = emit_octave_name_is_free(im->name) ? NULL : "a word of Octave or Matlab";
+        taken_by = emit_octave_name_is_free(im->name) ? NULL
+                                                      : "a reserved word of Octave or "
+                                                        "Matlab";
     } else if (!emit_c_name_is_free(im->name)) {
-        taken_by = "a word of C, of its library or of the core";
+        taken_by = "a name that C, its library or Whirl's core already uses";
     } else if (header && !emit_c_name_is_free_in_cpp(im->name)) {
         taken_by = "a word of C++";
     }
     if (taken_by != NULL) {
         fprintf(stderr,
                 "%s: error: '%s' is %s: the generated scene cannot have that name\n"
-                "hint: rename it, or give it another for this: --name NAME\n",
+                "hint: rename the scene, or choose a name for the code only: --name NAME\n",
                 from->file, im->name, taken_by);
     }
     return taken_by == NULL;
@@ -214,7 +218,9 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     bool good = true;
     fixed_plan *plan = NULL;
     if (code == EXIT_DONE && o->steps && of->is_system) {
-        fprintf(stderr, "%s: error: %s is given by equations: --steps derives them from energies\n",
+        fprintf(stderr,
+                "%s: error: --steps shows how energies lead to equations, but '%s' has no "
+                "energies\n",
                 from->file, of->name);
         code = EXIT_BAD_INPUT;
     }

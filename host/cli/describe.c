@@ -35,7 +35,7 @@ static const command_usage accel_usage = {
     .head =
         "usage: whirl accel FILE[:NAME]|SCENE|MECHANISM[:SCENE] [NAME=VALUE ...]\n"
         "\n"
-        "Prints the accelerations at one state, a line each, in SI with 17 significant digits.\n"
+        "Prints the accelerations at one state, one per line, in SI with 17 significant digits.\n"
         "\n"
         "  whirl accel core/models/epicyclic.whirl theta=0.3 \"theta'=1.2\" M=1.5\n"
         "\n"
@@ -167,7 +167,9 @@ static int check_one(const char *file) {
     source_model from;
     int code = source_open(&from, file);
     if (code == EXIT_DONE && from.name[0] != '\0' && from.path != NULL) {
-        fprintf(stderr, "whirl check: error: %s names a part of a file\nhint: whirl check %s\n",
+        fprintf(stderr,
+                "whirl check: error: %s is a part of a file, but whirl check reads whole "
+                "files\nhint: whirl check %s\n",
                 file, from.path);
         code = EXIT_BAD_INPUT;
     } else if (code == EXIT_DONE) {

@@ -24,7 +24,8 @@ static const command_usage usage = {
         "Prints for each effect of a scene how far it moves each coordinate, its cost on a board, and\n"
         "whether the allowed error permits leaving it out. Then it prints the smallest set of effects that\n"
         "stays within the error, as a command (docs/effects.md). It compares motions at every step, in\n"
-        "double. Costs are predictions in float. It does not judge an effect that did not act.\n"
+        "double. Costs are predictions in float. It cannot judge an effect that did not act in "
+        "the run.\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP,
     .tail =
@@ -163,7 +164,7 @@ static void print_effect(const subsets *s, int k) {
     }
     print_row(s, s->of->effects[s->effect[k]].name, without->moved, figure,
               all->contacts - without->contacts,
-              !s->acted[k]                ? "not tested by this run: it did not act"
+              !s->acted[k]                ? "not tested: the effect did not act in this run"
               : without->failed != NULL   ? without->failed
               : subsets_keeps(s, without) ? "may be left out"
                                           : "needed");
@@ -263,7 +264,7 @@ static void print_answer(const effects_options *o, subsets *s) {
     printf("\nsmallest set within the error%s: ",
            greedy ? ", found by leaving out one more effect at a time" : "");
     print_names(s, "", every & ~best->out, ", ");
-    print_names(s, "\nnot tested, so kept: ", untested, ", ");
+    print_names(s, "\nkept, because this run does not test them: ", untested, ", ");
     puts(best->out == every ? "no effect" : "");
     print_run(o, s, best->out);
 }
@@ -286,7 +287,8 @@ static int effects_of(const effects_options *o, subsets *s, diags *errors) {
         return EXIT_BAD_INPUT;
     }
     if (s->image->steps == 0) {
-        fputs("whirl effects: error: a run without steps compares nothing\nhint: --until 1s\n",
+        fputs("whirl effects: error: the run has no steps, so there is nothing to compare\nhint: "
+              "--until 1s\n",
               stderr);
         return EXIT_BAD_INPUT;
     }

@@ -139,8 +139,9 @@ static void print_uncommon(const show *s, const equations *e, const symmetry *of
     }
     if (moved[1] != NULL) {
         fprintf(s->out,
-                "%snot a common shift of %s and %s: not the total momentum, unless one is "
-                "measured from the other or in another direction\n",
+                "%sthis direction shifts %s and %s by different amounts: its momentum is not the "
+                "total momentum, unless one of the two is measured from the other or in another "
+                "direction\n",
                 prefix, moved[0]->name, moved[1]->name);
     }
 }
@@ -231,7 +232,9 @@ static void print_broken(const show *s, const equations *e, const char *prefix) 
         const poly *change =
             poly_expanded(e->algebra, poly_derivative(e->algebra, e->kinetic, q, 0));
         if (!poly_is_zero(change)) {
-            fprintf(s->out, "%s%s alone is no symmetry: T depends on it, its derivative is ",
+            fprintf(s->out,
+                    "%s%s alone is no symmetry: T depends on this coordinate, with the "
+                    "derivative ",
                     prefix, q->name);
             print_formula(s, change);
             fputc('\n', s->out);
@@ -275,10 +278,11 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
     printf("%sdirections and rotations found: %d, conserved momenta: %d\n", prefix, found->count,
            conserved);
     if (found->broken > 0) {
-        printf("%srotations of T that V does not have: %d\n", prefix, found->broken);
+        printf("%srotations that T permits but V does not: %d\n", prefix, found->broken);
     }
     if (!found->complete) {
-        printf("%snot decided: values at drawn states show a symmetry that the formulas do not\n",
+        printf("%snot decided: at random states there is a symmetry that Whirl cannot derive from "
+               "the formulas\n",
                prefix);
     }
     if (!found->flat) {
@@ -304,8 +308,8 @@ static int examine_source(source_model *from, void *options) {
     if (code == EXIT_DONE && made.equations->kinetic == NULL) {
         const mechanism *of = made.equations->instance->mechanism;
         fprintf(stderr,
-                "%s:%d:%d: error: '%s' is given by equations: its symmetries follow from energies\n"
-                "hint: write T and V\n",
+                "%s:%d:%d: error: whirl examine needs energies, but '%s' is given by "
+                "equations\nhint: write the mechanism with T and V instead\n",
                 from->file, of->at.line, of->at.column, of->name);
         code = EXIT_BAD_INPUT;
     }

@@ -31,7 +31,8 @@ static const command_usage plot_usage = {
         "  whirl plot light.csv heavy.csv --y \"X', theta\" --out both.svg\n"
         "\n"
         "  --out FILE           the picture, drawn by gnuplot: .svg, .pdf or .png\n" RUN_CHOICE_HELP
-        "  --legend NAMES       names of the runs, between commas, instead of their titles\n"
+        "  --legend NAMES       names of the runs, with commas between them, instead of their "
+        "titles\n"
         "\n"
         "Crosses at the foot of a panel mark events. The shade begins at the trusted time of the run.\n",
     .tail = "",
@@ -64,7 +65,8 @@ static bool sets_once(const plot_options *o) {
         for (int k = 0; k < at; k++) {
             if (strcspn(all[k], "= ") == length && strncmp(all[k], all[at], length) == 0) {
                 fprintf(stderr,
-                        "whirl plot: error: %.*s is given twice, and options change every scene\n"
+                        "whirl plot: error: %.*s is given twice, but an option changes both in "
+                        "the same way\n"
                         "hint: record each run, then draw both:\n"
                         "  whirl run %s --%s \"%s\" --csv a.csv\n"
                         "  whirl run %s --%s \"%s\" --csv b.csv\n"
@@ -90,19 +92,19 @@ static bool is_whole(const plot_options *o) {
     }
     if (o->passed_count > 0 && !scenes) {
         fprintf(stderr,
-                "whirl plot: error: %s changes a scene, and only files are named\n"
+                "whirl plot: error: %s changes a scene, but the command names only files\n"
                 "hint: whirl plot SCENE %s ... runs it\n",
                 o->passed[1], o->passed[1]);
         return false;
     }
     if (o->targets > RUNS_MOST) {
-        fprintf(stderr, "whirl plot: error: %d runs are more than the limit of %d\n", o->targets,
-                RUNS_MOST);
+        fprintf(stderr, "whirl plot: error: the command names %d runs; the limit is %d\n",
+                o->targets, RUNS_MOST);
         return false;
     }
     for (int i = 0; i < o->targets; i++) {
         if (files_same(o->target[i], o->out)) {
-            fprintf(stderr, "whirl plot: error: --out would write over %s\n", o->out);
+            fprintf(stderr, "whirl plot: error: --out would overwrite %s\n", o->out);
             return false;
         }
     }
@@ -227,11 +229,10 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
     static char csv_word[] = "--csv";
     static char strict_word[] = "--strict=off"; /* warnings are printed in any case */
     if (kind[0] == 't') {
-        fprintf(
-            stderr,
-            "whirl figure: error: the records '%s' are made by mk/figures/%s, which only make runs\n"
-            "hint: make figures, or --data %s=FILE.csv\n",
-            word[0], word[1], word[0]);
+        fprintf(stderr,
+                "whirl figure: error: the records '%s' come from mk/figures/%s, which whirl cannot "
+                "run\nhint: run `make figures`, or use --data %s=FILE.csv\n",
+                word[0], word[1], word[0]);
         return EXIT_BAD_INPUT;
     }
     if (!system_scratch_folder(folder)) {

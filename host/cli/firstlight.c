@@ -169,13 +169,14 @@ static int light_append(const char *page, const char *row, uint32_t crc) {
     char seen[24];
     char *text = read_all(page, MODEL_BYTES_MAX, &length);
     if (text == NULL) {
-        fputs("hint: --page FILE names it; " LIGHT_PAGE " is there from the project's root\n",
+        fputs("hint: give the page as --page FILE; " LIGHT_PAGE " exists only in the project's "
+              "root folder\n",
               stderr);
         return EXIT_RUN_FAILED;
     }
     (void)snprintf(seen, sizeof seen, "| 0x%08" PRIx32 " |", crc);
     if (strstr(text, seen) != NULL) {
-        printf("row: %s has this record already\n", page);
+        printf("row: not added, because %s already has this record\n", page);
         free(text);
         return EXIT_DONE;
     }
@@ -186,7 +187,9 @@ static int light_append(const char *page, const char *row, uint32_t crc) {
     behind = behind != NULL ? strchr(behind, '\n') : NULL;
     if (behind == NULL) {
         free(text);
-        fprintf(stderr, "%s: error: there is no table for the row\nhint: " LIGHT_PAGE " has one\n",
+        fprintf(stderr,
+                "%s: error: this page has no table for the row\nhint: " LIGHT_PAGE " has "
+                "one\n",
                 page);
         return EXIT_RUN_FAILED;
     }
@@ -232,7 +235,7 @@ static const command_usage firstlight_usage = {
         "cannot know (`none`).\n"
         "\n",
     .tail =
-        "  --board B            the record must be of this board\n"
+        "  --board B            fail if the record is of another board\n"
         "  --emulated FILE      the emulator's record of the same image: board and compiler must be equal\n"
         "  --page FILE          the page whose table gets a row, if the record has cycles (default:\n"
         "                       " LIGHT_PAGE ")\n"
@@ -256,7 +259,8 @@ static int listen(port *line, const firstlight_options *o, const char *from_name
     const double began_s = system_now_s();
     double asked_s = began_s - ASK_S;
     const char *hint =
-        "check that it is the board's console, that --baud is its speed, and that firstlight runs there";
+        "check that this line is the board's console, that --baud is its speed, and that the "
+        "image firstlight runs";
     const char *why = "no record came; --wait S waits longer";
     int code = EXIT_RUN_FAILED;
     bool ended = false;
@@ -291,7 +295,8 @@ static int listen(port *line, const firstlight_options *o, const char *from_name
 static int read_record(const firstlight_options *o, const char *from_name, light *l) {
     port line;
     if (!port_open(&line, from_name, o->baud)) {
-        port_say_unopened(from_name, "build/BOARD/firstlight.txt is that of make firstlight");
+        port_say_unopened(from_name, "`make firstlight` writes its record to "
+                                     "build/BOARD/firstlight.txt");
         return EXIT_BAD_INPUT;
     }
     interrupts_catch_waiting();
@@ -307,8 +312,8 @@ static int expect_emulated(const firstlight_options *o, light_expected *e) {
     for (int i = 0; code == EXIT_DONE && i < LIGHT_FIELDS; i++) {
         const bool hash = strncmp(light_names[i], "hash.", 5) == 0;
         if (hash && strcmp(emulated.value[i], e->of[i]) != 0) {
-            return say_wrong(o->emulated, "the emulator's record is not of these scenes",
-                             "make firstlight BOARD=... makes it again");
+            return say_wrong(o->emulated, "the emulator's record belongs to other scenes",
+                             "make the record again: make firstlight BOARD=...");
         }
     }
     static const char *const same[] = {"board", "compiler", "stack"};
@@ -369,7 +374,7 @@ static int compare(void *options) {
     light_verdict found[LIGHT_FIELDS];
     char names[600];
     if (!port_has_speed(o->baud)) {
-        return say_wrong("whirl firstlight", "--baud: no such speed", PORT_SPEEDS);
+        return say_wrong("whirl firstlight", "--baud: this speed is not supported", PORT_SPEEDS);
     }
     int code = light_expect(&e);
     code = code == EXIT_DONE && o->emulated != NULL ? expect_emulated(o, &e) : code;
@@ -392,7 +397,7 @@ static int compare(void *options) {
     list_of(found, LIGHT_DIFFERS, names, sizeof names);
     printf("differs: %s\n", names[0] != '\0' ? names : "-");
     if (o->page == NULL && is_emulated(&l)) {
-        puts("row: none, for an emulator counts no cycles either; --page FILE appends one");
+        puts("row: not added, because an emulator counts no cycles; --page FILE adds a row anyway");
     } else {
         char *row = light_row(&l, equal, names);
         code = light_append(o->page != NULL ? o->page : LIGHT_PAGE, row, l.crc);
@@ -408,7 +413,7 @@ int command_firstlight(int count, char **words) {
         {.word = "--emulated", .text = &o.emulated},
         {.word = "--page", .text = &o.page},
         {.word = "--keep", .text = &o.keep},
-        OWN_NUMBER("--wait", o.wait_s, 0.1, 86400.0, "in seconds: --wait 60"),
+        OWN_NUMBER("--wait", o.wait_s, 0.1, 86400.0, "a number of seconds: --wait 60"),
         OWN_NUMBER("--baud", o.baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
         {.word = NULL}};
     const target_reader reader = {.command = "firstlight",

@@ -16,12 +16,13 @@
 
 #define HARD_ROWS(X) \
     X("Chaos", "thomson_a", "each further digit adds the same trusted time", \
-      "warning: the time until which a run is trusted") \
+      "warning, with the time until which the run is right") \
     X("The pole and the origin", "polar", "no fixed step resolves every distance", \
       "right, or a warning that names a step") \
     X("Mass matrices that are nearly singular", "disc masses soft_spring", \
       "no correct digit at a ratio of 1e16 (in float 1e7)", "right, or a warning, or an error") \
-    X("Dead centres", "dead_centre", "rigid bodies leave a redundant load undetermined", "right") \
+    X("Dead centres", "dead_centre", "with rigid bodies a redundant load is undetermined", \
+      "right") \
     X("Springs too stiff for the step", "stiff_spring", \
       "Runge-Kutta 4 is unstable above h w = 2.83", "warning before 1 % of the energy is lost") \
     X("A hard floor", "stiff_stop", "above h w = 1 the energy after a bounce is arbitrary", \
@@ -31,20 +32,21 @@
     X("A motor too weak for a resonance", "sommerfeld", "only the error of the method", "right") \
     X("Friction under a load that vanishes", "pulsating_load", \
       "a step across a kink is of second order", "right: order 4, kinks are events") \
-    X("Bounces that end", "moving_floor", "infinitely many impacts in a finite time", "right") \
+    X("Bounces that end", "moving_floor", "infinitely many impacts happen in a finite time", \
+      "right") \
     X("Contacts that repeat each other", "redundant", "only the moment of release is determined", \
       "right") \
-    X("Newton's cradle", "cradle", "rigid bodies leave the order of impacts undetermined", \
+    X("Newton's cradle", "cradle", "with rigid bodies the sequence of impacts is undetermined", \
       "right") \
     X("Rotation", "rotor", "the direction is ambiguous at half a turn per step", \
       "right, or a warning, or an error") \
     X("Very long runs", "long", "no explicit step keeps the energy", "right with --stabilized") \
     X("Very large and very small numbers", "scales", "float has no numbers below 1.4e-45", \
       "right, or a warning, or an error") \
-    X("Inputs that jump", "jump", "an input stands still within a step", \
-      "right between steps and in a `when`") \
+    X("Inputs that jump", "jump", "an input is constant within a step", \
+      "right if it jumps between steps or in a `when`") \
     X("Poles that a step jumps over", "used_up", \
-      "no error estimate sees the motion between the stages", "warning, and not trusted")
+      "no error estimate sees the motion between evaluations", "warning, and not trusted")
 
 /* === the command ============================================================================== */
 
@@ -257,7 +259,8 @@ static int list_file(const char *file, const form *as, bool first) {
     int code = source_open(&from, file);
     if (code == EXIT_DONE && from.name[0] != '\0') {
         fprintf(stderr,
-                "whirl list: error: %s names a part of a file\nhint: name the whole file: FILE\n",
+                "whirl list: error: %s is a part of a file, but whirl list reads whole "
+                "files\nhint: whirl list FILE\n",
                 file);
         code = EXIT_BAD_INPUT;
     }
@@ -316,7 +319,9 @@ static int list_work(void *options) {
     const list_options *o = options;
     const int other = o->units + o->hard + o->figures;
     if (other + (o->files > 0) + (o->form != NULL) > 1 && other > 0) {
-        fputs("whirl list: error: --units, --hard and --figures go alone\n", stderr);
+        fputs("whirl list: error: --units, --hard and --figures allow no other option and no "
+              "file\n",
+              stderr);
         return EXIT_BAD_INPUT;
     }
     if (other > 0) {

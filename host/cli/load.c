@@ -110,7 +110,9 @@ static const mechanism *find_in(const sought *w, const whirl_model *m) {
 
 static void say_ambiguous(const sought *w, const struct builtin_model *models,
                           whirl_model *const *read, size_t count) {
-    fprintf(stderr, "whirl: error: '%s' is the name of more than one built-in thing\nhint: one of:",
+    fprintf(stderr,
+            "whirl: error: '%s' names more than one built-in scene or mechanism\nhint: "
+            "choose one of:",
             w->name);
     for (size_t i = 0; i < count; i++) {
         const mechanism *of = find_in(w, read[i]);
@@ -123,7 +125,7 @@ static void say_ambiguous(const sought *w, const struct builtin_model *models,
 
 /* All scenes of the named mechanism. */
 static void say_scenes(const sought *w, whirl_model *const *read, size_t count) {
-    fputs("hint: one of:", stderr);
+    fputs("hint: choose one of:", stderr);
     for (size_t i = 0; i < count; i++) {
         for (int k = 0; k < read[i]->scene_count; k++) {
             if (is_mechanism(w, read[i]->scenes[k]->mechanism)) {
@@ -131,7 +133,7 @@ static void say_scenes(const sought *w, whirl_model *const *read, size_t count) 
             }
         }
     }
-    fputs(", or the mechanism alone\n", stderr);
+    fputs(", or name the mechanism without a scene\n", stderr);
 }
 
 /* The nearest scene of the named mechanism; without one, the nearest of all names. */
@@ -274,8 +276,8 @@ bool source_would_be_lost(const source_model *s, const char *option, const char 
                files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);
         if (lost) {
             fprintf(stderr,
-                    "%s: error: %s would write over the model, which is read from this file\n"
-                    "hint: give it another name\n",
+                    "%s: error: %s would overwrite the model, which whirl reads from this "
+                    "file\nhint: give the output another name\n",
                     name, option);
         }
         free(name);
@@ -408,9 +410,9 @@ static char *hint_for(const instance *inst) {
     }
     const char *name = on->name;
     return alloc_words(
-        "%s:%d:%d: note: this force changes its sign with %s': at rest it shakes instead of "
-        "sticking\n"
-        "hint: dry friction is: friction %s static EXPR kinetic EXPR normal EXPR\n",
+        "%s:%d:%d: note: this force changes its sign with %s', so the body shakes at rest instead "
+        "of sticking\nhint: write dry friction as: friction"
+        " %s static EXPR kinetic EXPR normal EXPR\n",
         friction->at.source->file, friction->at.line, friction->at.column, name, name);
 }
 
@@ -419,7 +421,9 @@ static char *contacts_of(const equations *e, const char *comment) {
     size_t length;
     FILE *out = alloc_text(&text, &length);
     if (comment != NULL) {
-        show_events(out, e, comment, "The motion between events. Not in this function:");
+        show_events(out, e, comment,
+                    "This function has the motion between events. It does not "
+                    "contain:");
     }
     alloc_text_end(out);
     return text;
@@ -429,8 +433,8 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
          const overrides *changes, const load_wish *wish) {
     *made = (loaded){0};
     if (wish->settings.cells != 0 && wish->settings.tables == TABLES_NONE) {
-        fputs("whirl: error: --cells without --tables: there is no table\n"
-              "hint: --tables linear or --tables cubic\n",
+        fputs("whirl: error: --cells sets the size of tables, so it needs --tables\nhint: "
+              "--tables linear or --tables cubic\n",
               stderr);
         return EXIT_BAD_INPUT;
     }
@@ -467,8 +471,8 @@ void say_float_range(const image *im) {
             stderr,
             "warning: float cannot represent %.6g, a constant or an input of '%s' in SI units: quantities that "
             "depend on it are %s\n"
-            "hint: float holds sizes from 1.2e-38 to 3.4e+38, and (s/r)^12 is computed as s^12 times r^-12: "
-            "measure in larger or smaller units, or run in double\n",
+            "hint: float represents sizes from 1.2e-38 to 3.4e+38; choose larger or smaller "
+            "units, or use --number double (Whirl computes (s/r)^12 as s^12 times r^-12)\n",
             number, im->name, fabs(number) < 1.0 ? "imprecise or zero" : "infinite");
     }
 }

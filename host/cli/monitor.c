@@ -56,8 +56,8 @@ static const command_usage monitor_usage = {
         "  --strict             fail if samples were lost\n"
         "  --quiet              no summary\n",
     .why = {"Ctrl-C, --for, or the end of a file",
-            "no answer, --rate refused, a file not written or not read to its end, or\n"
-            "       samples lost with --strict",
+            "the rig did not answer or refused --rate, a file was not written or not read to\n    "
+            "   its end, or samples were lost with --strict",
             "", NULL}};
 
 static const char *const output_option[OUTPUTS] = {"--csv", "--vcd", "--ring", "--raw", "--plot"};
@@ -72,7 +72,7 @@ static bool are_apart(const monitor_options *o) {
             return false;
         }
         if (files_same(o->output[i], o->port)) {
-            fprintf(stderr, "whirl monitor: error: %s would be written over %s\n", output_option[i],
+            fprintf(stderr, "whirl monitor: error: %s would overwrite %s\n", output_option[i],
                     o->port);
             return false;
         }
@@ -89,8 +89,7 @@ static bool are_apart(const monitor_options *o) {
 
 static bool are_possible(const monitor_options *o) {
     if (!port_has_speed(o->baud)) {
-        fputs("whirl monitor: error: --baud: no such speed\n"
-              "hint: " PORT_SPEEDS "\n",
+        fputs("whirl monitor: error: --baud: this speed is not supported\nhint: " PORT_SPEEDS "\n",
               stderr);
         return false;
     }
@@ -315,7 +314,8 @@ static void listen(monitor *m) {
             if (!was_line) {
                 return; /* the end of a file, or of the part of it that can be read */
             }
-            fprintf(stderr, "whirl monitor: %s is gone; waiting for it\n", m->o->port);
+            fprintf(stderr, "whirl monitor: %s is disconnected; waiting until it is back\n",
+                    m->o->port);
             continue;
         }
         take_bytes(m, bytes, count);
@@ -372,12 +372,12 @@ static bool lost_any(const monitor *m) {
 
 static void tell(const monitor *m) {
     const recording_counts *c = &m->recording.counts;
-    fprintf(stderr,
-            "whirl monitor: %" PRIu64 " samples, %" PRIu64 " pulses in %" PRIu64
-            " frames; lost: %" PRIu64 " frames (%" PRIu64
-            " because the rig's buffer was full), %" PRIu64 " samples; damaged: %" PRIu64 "\n",
-            c->samples, c->pulses, c->frames, c->lost, c->dropped, c->lost_samples,
-            m->wire.damaged);
+    fprintf(
+        stderr,
+        "whirl monitor: %" PRIu64 " samples, %" PRIu64 " pulses in %" PRIu64
+        " frames; lost: %" PRIu64 " frames (%" PRIu64
+        " because the rig's buffer was full), %" PRIu64 " samples; damaged frames: %" PRIu64 "\n",
+        c->samples, c->pulses, c->frames, c->lost, c->dropped, c->lost_samples, m->wire.damaged);
     if (c->strange > 0) {
         fprintf(stderr, "whirl monitor: %" PRIu64 " frames of unknown type\n", c->strange);
     }
@@ -400,7 +400,7 @@ static bool has_source(const monitor *m) {
         return true;
     }
     fprintf(stderr, "whirl monitor: error: nothing was recorded: %s%s\n", m->o->port,
-            m->met ? " sends no samples at this --rate" : " has not answered");
+            m->met ? " cannot send samples at this --rate" : " has not answered");
     return false;
 }
 
@@ -422,7 +422,7 @@ static int run(void *options) {
     }
     one = (monitor){.o = o, .typing = true};
     if (!open_line(m)) {
-        port_say_unopened(m->o->port, "build/rig.tty is that of make rig");
+        port_say_unopened(m->o->port, "`make rig` makes the line build/rig.tty");
         return EXIT_BAD_INPUT;
     }
     m->live = m->line.is_line;
@@ -462,7 +462,7 @@ int command_monitor(int count, char **words) {
         {.word = output_option[RING], .text = &o.output[RING]},
         {.word = output_option[RAW], .text = &o.output[RAW]},
         {.word = output_option[PLOT], .text = &o.output[PLOT]},
-        OWN_WHOLE("--rate", o.rate, 1.0, 100000.0, "samples a second: --rate 500"),
+        OWN_WHOLE("--rate", o.rate, 1.0, 100000.0, "samples per second: --rate 500"),
         OWN_NUMBER("--for", o.for_s, 0.001, 1e9, "in seconds: --for 60"),
         OWN_NUMBER("--baud", o.baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),
         {.word = "--strict", .flag = &o.strict},

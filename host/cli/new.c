@@ -66,7 +66,7 @@ static int write_new(const char *name, const char *file) {
     if (out == NULL || !atomic_file_close(out, file, true)) {
         return EXIT_RUN_FAILED;
     }
-    printf("%s is written. Next:\n"
+    printf("whirl wrote %s. Next:\n"
            "  whirl derive %s\n"
            "  whirl run %s --plot %s.svg\n",
            file, file, file, name);

@@ -202,15 +202,15 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
         if (end <= before) {
             fprintf(stderr,
                     "whirl: error: a name is missing in %s \"%s\"\n"
-                    "hint: names with commas between them: %s drag,ledger\n",
+                    "hint: write names with commas between them: %s drag,ledger\n",
                     option, text, option);
             return false;
         }
         const char *name = keep(c, at + before, end - before);
         if (strcmp(name, "conserve") == 0 && list == &c->with) {
-            fputs(
-                "whirl: error: --with takes effects, not 'conserve': write conserve in the scene\n",
-                stderr);
+            fputs("whirl: error: 'conserve' is not an effect, so --with cannot add it: write "
+                  "conserve in the scene\n",
+                  stderr);
             return false;
         }
         if (is_in(*list, *count, name)) {
@@ -292,7 +292,8 @@ int options_choose(const char *command, const char *what, const char *value, con
             return i;
         }
     }
-    fprintf(stderr, "whirl %s: error: there is no %s '%s'\nhint: one of", command, what, value);
+    fprintf(stderr, "whirl %s: error: there is no %s '%s'\nhint: choose one of", command, what,
+            value);
     for (int i = 0; i < count; i++) {
         const char *const *word = (const void *)(row + (size_t)i * size);
         fprintf(stderr, "%s %s", i > 0 ? "," : "", *word);
@@ -308,8 +309,8 @@ bool options_is_name(const char *command, const char *name, int most) {
                       !(name[0] >= '0' && name[0] <= '9');
     if (!good) {
         fprintf(stderr,
-                "whirl %s: error: '%.70s' is no name\n"
-                "hint: letters, digits and _, no digit first, at most %d of them\n",
+                "whirl %s: error: '%.70s' is not a valid name\nhint: use letters, digits and _, "
+                "at most %d characters, no digit at the beginning\n",
                 command, name, most);
     }
     return good;
@@ -363,7 +364,7 @@ static bool take_cells(const char *command, const char *value, int *cells) {
     const bool good = number >= least && number <= most && (number & (number - 1)) == 0;
     if (!good) {
         fprintf(stderr,
-                "whirl %s: error: --cells '%.40s' is no power of two from %ld to %ld\n"
+                "whirl %s: error: --cells '%.40s' is not a power of two from %ld to %ld\n"
                 "hint: --cells 64, --cells 256, ...\n",
                 command, value, least, most);
     }
@@ -513,11 +514,15 @@ static bool take_target(const target_reader *r, char *word, const char **target)
         r->many[(*r->many_count)++] = word;
     } else if (*target != NULL) {
         if (r->derives) {
-            fprintf(stderr, "whirl %s: error: more than one thing to %s: %s\n", r->command,
+            fprintf(stderr,
+                    "whirl %s: error: the command takes only one scene or mechanism: '%s' is a "
+                    "second one\n",
                     r->command, word);
         } else {
-            fprintf(stderr, "whirl %s: error: one %s at a time, not also '%s'\n", r->command,
-                    r->one != NULL ? r->one : "scene", word);
+            fprintf(stderr,
+                    "whirl %s: error: the command takes only one %s: '%s' is a second "
+                    "one\n",
+                    r->command, r->one != NULL ? r->one : "scene", word);
         }
         return false;
     }

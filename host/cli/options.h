@@ -12,7 +12,7 @@
  * OPTION_TEXT_WIDTH columns). The descriptions of methods are made from core/method.h. */
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
-      "another value of a parameter or an input, each once (repeatable). A bare number is " \
+      "a new value for a parameter or an input (repeatable, each name once). A bare number is " \
       "SI, and refused if the declared unit is not. Parameters of effects need --with.") \
     X(OPTION_START, "--start", "NAME=EXPR", OPTIONS_CHANGE, \
       "a start value: --start \"theta'=330 [rpm]\" (repeatable)") \
@@ -20,21 +20,21 @@
       "effects to add; ledger: the balance of energy and momentum; all: every effect but " \
       "the ledger. Whirl applies all first: `--without all --with drag` leaves drag alone.") \
     X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
-      "effects to leave out; all: every effect; conserve: integrate also the coordinates " \
-      "that the scene conserves") \
+      "effects to leave out; all: every effect; conserve: integrate the coordinates in the " \
+      "scene's `conserve`, too") \
     X(OPTION_STEP, "--step", "1ms", OPTIONS_STEP, "the fixed step") \
     X(OPTION_UNTIL, "--until", "9s", OPTIONS_CHANGE, \
-      "the end of the run, to the nearest whole number of steps; 0 takes no step") \
+      "the end of the run, rounded to a whole number of steps; 0: no step") \
     X(OPTION_METHOD, "--method", "M", OPTIONS_ENGINE, "") \
     X(OPTION_NUMBER, "--number", "N", OPTIONS_NUMBER, \
       "double (default, the reference) or float (the same bits as on boards); fixed, for " \
       "`whirl run` and `whirl derive --as c`: 32-bit integers, for smooth mechanisms on " \
       "chips without an FPU, the same bits as in C") \
     X(OPTION_COMPENSATED, "--compensated", "", OPTIONS_ENGINE, \
-      "compensated sums, which carry their round-off") \
+      "compensated sums, which carry the round-off into the next step") \
     X(OPTION_STABILIZED, "--stabilized", "", OPTIONS_ENGINE, \
-      "correct the drift of the energy along the rates, by a 1024th of it each step: for " \
-      "very long runs without drive and damping. It adds the ledger.") \
+      "scale the rates in each step to remove up to 1/1024 of the energy drift: for very long " \
+      "runs without drive and damping. Adds the ledger.") \
     X(OPTION_ANGLES, "--angles", "A", OPTIONS_ENGINE, \
       "turned (default): look up sines once a step and rotate them at the stages; lookup: " \
       "look up the sines of each stage, for angles that turn up to half a turn a step") \
@@ -182,8 +182,7 @@ typedef struct own_option {
 #define OWN_WHOLE(name, to, from, up_to, such_as) \
     { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as, .whole = true }
 #define OWN_TOLERANCE(to) \
-    OWN_NUMBER("--tolerance", to, 1e-15, 1.0, \
-               "a part of the range that a coordinate has: --tolerance 1e-3")
+    OWN_NUMBER("--tolerance", to, 1e-15, 1.0, "a part of each coordinate's range: --tolerance 1e-3")
 #define OWN_EFFORT(to, such_as) \
     OWN_NUMBER("--effort", to, EFFORT_LEAST, EFFORT_MOST, "operations: --effort " such_as)
 

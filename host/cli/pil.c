@@ -31,11 +31,13 @@ static const command_usage usage = {
         "       whirl pil --replay TAPE --firmware IMAGE [options]\n"
         "       whirl pil --read TAPE [--csv FILE]\n"
         "\n"
-        "Processor in the loop (docs/pil.md): IMAGE runs in QEMU, or directly if it is a program for this\n"
-        "machine. The scene, as the plant, runs in double with its own step (50us). Firmware and plant wait\n"
-        "for each other. The firmware declares by name which inputs of the scene it sets, and which outputs,\n"
-        "coordinates and rates it reads. Its computing takes time in the plant: counted instructions times\n"
-        "--cycles, divided by --clock.\n"
+        "Processor in the loop (docs/pil.md): IMAGE runs in QEMU, or directly if it is a program "
+        "for this\nmachine. The scene is the plant, and runs in double with the scene's step. "
+        "Firmware and plant wait\nfor each other."
+        " The firmware declares by name which inputs of the scene it sets, and which outputs,\n"
+        "coordinates and rates it reads. The firmware's computing time passes in the plant, "
+        "too:\ncounted instructions times --cycles, divided by --clock."
+        "\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,
     .tail =
@@ -50,12 +52,12 @@ static const command_usage usage = {
         "  --replay TAPE        no scene: send TAPE to the firmware, and compare its answers to the bit\n"
         "  --read TAPE          no scene: print TAPE as rows of a CSV: each edge and sample with its time\n"
         "                       and value, and each change of outputs and notes\n"
-        "  --csv FILE           with --read: the rows; - is standard output (default). Else the records of\n"
-        "                       the plant, as of `whirl run`\n"
+        "  --csv FILE           with --read: the rows; - is standard output (default). Without "
+        "--read:\n                       the plant's records, as `whirl run --csv` writes them\n"
         "  --every 1ms          the spacing of the plant's records, a whole number of steps (default: 1ms)\n"
         "  --bind A=B,...       connect the firmware's name A to the scene's name B\n"
-        "  --place X,...        the displacement of each edge, in the firmware's order: degrees for an\n"
-        "                       angle, else SI\n"
+        "  --place X,...        the displacement of each edge, in the firmware's sequence: "
+        "degrees for an\n                       angle, else SI\n"
         "  --jitter 20us        standard deviation of the edges' times (default: 0)\n"
         "  --delay 1ms          delay of every sample (default: 0)\n"
         "  --fault KIND[:CHANNEL][=SIZE][@WHEN][+DURATION],...\n"
@@ -65,13 +67,14 @@ static const command_usage usage = {
         "  --seed N             seed of jitter and faults (default: 1)\n"
         "  --clock HZ           the processor's clock (default: 16e6)\n"
         "  --cycles C           cycles per instruction (default: 1.5; 0: computing takes no time)\n"
-        "  --patience S         seconds that the firmware may be silent, or may take to end (default: 10)\n"
+        "  --patience S         seconds to wait for an answer or for the end of the firmware "
+        "(default: 10)\n"
         "  --quiet              no report: only the firmware's text, and errors\n"
         "\n"
         "Without --until the run ends with the firmware, at the latest after an hour of the plant's time.\n",
     .why = {"the firmware ended with status 0, or --until came",
-            "the firmware ended with another status, died or fell silent, the plant\n"
-            "       diverged, or answers differ from the tape's",
+            "the firmware ended with another status, crashed or did not answer, the plant\n       "
+            "diverged, or answers differ from the tape's",
             "", ""}};
 
 typedef struct pil_options {
@@ -114,7 +117,7 @@ static bool is_read_alone(const pil_options *o) {
                          : o->fault_count > 0  ? "--fault"
                                                : NULL;
     if (beside != NULL) {
-        fprintf(stderr, "whirl pil: error: --read excludes %s: it only prints the tape\n", beside);
+        fprintf(stderr, "whirl pil: error: --read only prints a tape, so it excludes %s\n", beside);
         return false;
     }
     if (o->csv != NULL && files_same(o->read, o->csv)) {
@@ -147,28 +150,31 @@ static bool go_together(const pil_options *o) {
         fprintf(
             stderr,
             o->firmware != NULL || o->board != NULL
-                ? "whirl pil: error: --port excludes %s: the firmware runs on its board\n"
-                : "whirl pil: error: no %s has the speed of --baud\nhint: --baud 115200, 57600 or 9600\n",
+                ? "whirl pil: error: --port excludes %s, because the firmware already runs on the "
+                  "board\n"
+                : "whirl pil: error: no %s supports the speed of --baud\nhint: --baud 115200, "
+                  "57600 or 9600\n",
             o->firmware != NULL ? "--firmware"
             : o->board != NULL  ? "--board"
                                 : "serial line");
         return false;
     }
     if (o->firmware == NULL && o->port == NULL) {
-        fprintf(stderr, "whirl pil: error: no --firmware IMAGE\nhint: make pil-images builds "
+        fprintf(stderr, "whirl pil: error: --firmware IMAGE is missing\nhint: `make pil-images` "
+                        "builds "
                         "build/mps2-an386/pil_rig.elf, which runs against docs/plants/rig.whirl\n");
         return false;
     }
     if (o->target == NULL && o->replay == NULL) {
         fprintf(stderr,
-                "whirl pil: error: no scene for the plant\n"
-                "hint: whirl pil docs/plants/rig.whirl --firmware ...; or a tape: --replay TAPE\n");
+                "whirl pil: error: a scene for the plant is missing\nhint: name a scene, such as "
+                "docs/plants/rig.whirl, or a tape: --replay TAPE\n");
         return false;
     }
     if (o->replay != NULL &&
         (o->target != NULL || o->tape != NULL || o->csv != NULL || o->fault_count > 0)) {
         fprintf(stderr,
-                "whirl pil: error: --replay excludes %s: the tape takes the plant's place\n",
+                "whirl pil: error: --replay excludes %s, because the tape replaces the plant\n",
                 o->target != NULL ? "scene"
                 : o->tape != NULL ? "--tape"
                 : o->csv != NULL  ? "--csv"
@@ -201,8 +207,8 @@ static bool read_time(const char *option, const char *text, const mechanism *of,
     diags_free(errors); /* a general message is clearer than the parser's */
     if (!good) {
         fprintf(stderr,
-                "whirl pil: error: --%s '%s' is not a time, from 0 to an hour\n"
-                "hint: such as 20us, or 1ms\n",
+                "whirl pil: error: --%s '%s' is not a time from 0 to one hour\nhint: write a time "
+                "such as 20us or 1ms\n",
                 option, text);
     }
     return good;
@@ -256,7 +262,7 @@ static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
         return false;
     }
     if (!line->is_line) {
-        fprintf(stderr, "%s: error: no serial line: there is no answer\n", o->port);
+        fprintf(stderr, "%s: error: this is not a serial line, so no board can answer\n", o->port);
         port_close(line);
         return false;
     }
@@ -281,7 +287,7 @@ static bool would_be_lost(const pil_options *o, const source_model *from, const 
     }
     const bool lost = o->firmware != NULL && files_same(name, o->firmware);
     if (lost) {
-        fprintf(stderr, "whirl pil: error: %s would be written over the firmware\n", option);
+        fprintf(stderr, "whirl pil: error: %s would overwrite the firmware\n", option);
     }
     return lost;
 }
@@ -459,9 +465,9 @@ int command_pil(int count, char **words) {
         {.word = "--every", .text = &o.every},
         OWN_WHOLE("--seed", o.seed, 0.0, 4294967295.0, "a whole number: --seed 7"),
         OWN_NUMBER("--clock", o.clock_Hz, 1e3, 1e11, "in Hz: --clock 16e6"),
-        OWN_NUMBER("--cycles", o.cycles, 0.0, 1e4, "cycles an instruction: --cycles 1.5"),
+        OWN_NUMBER("--cycles", o.cycles, 0.0, 1e4, "cycles per instruction: --cycles 1.5"),
         OWN_WHOLE("--baud", o.baud, 1.0, 1e7, "a speed of serial lines: --baud 115200"),
-        OWN_NUMBER("--patience", o.patience_s, 0.01, 1e6, "in seconds: --patience 10"),
+        OWN_NUMBER("--patience", o.patience_s, 0.01, 1e6, "a number of seconds: --patience 10"),
         {.word = "--faults", .flag = &o.kinds},
         {.word = "--quiet", .flag = &o.quiet},
         {.word = NULL}};

@@ -82,8 +82,8 @@ static bool read_words(int count, char **words, pricing_options *o) {
     }
     if (o->target == NULL) {
         fprintf(stderr,
-                "whirl %s: error: there is no scene\nhint: whirl %s SCENE, FILE or FILE:SCENE; "
-                "`whirl list` names the built-in ones\n",
+                "whirl %s: error: a scene is missing\nhint: whirl %s SCENE, FILE or FILE:SCENE "
+                "(`whirl list` shows the built-in scenes)\n",
                 o->command, o->command);
     }
     return o->target != NULL;
@@ -168,13 +168,15 @@ static bool read_error(pricing *p) {
     p->quantity = p->options->value[PRICING_OF];
     if (equals != NULL && p->quantity != NULL) {
         fprintf(stderr,
-                "whirl %s: error: --of and --error both name a quantity\nhint: --error %s\n",
+                "whirl %s: error: --of and --error must not both name a quantity\nhint: --error "
+                "%s\n",
                 command, equals + 1);
         return false;
     }
     if (equals != NULL && equals == text) {
         fprintf(stderr,
-                "whirl %s: error: --error '%s': no quantity stands before '='\nhint: --error x%s\n",
+                "whirl %s: error: --error '%s': a quantity is missing before '='\nhint: --error "
+                "x%s\n",
                 command, text, text);
         return false;
     }
@@ -189,8 +191,9 @@ static bool read_error(pricing *p) {
 static bool read_effort(pricing *p) {
     const char *text = p->options->value[PRICING_EFFORT];
     p->effort = EFFORT;
-    return text == NULL || options_number(p->options->command, "--effort", text, EFFORT_LEAST,
-                                          EFFORT_MOST, "operations: --effort 1e10", &p->effort);
+    return text == NULL ||
+           options_number(p->options->command, "--effort", text, EFFORT_LEAST, EFFORT_MOST,
+                          "a number of operations: --effort 1e10", &p->effort);
 }
 
 static bool read_methods(pricing *p) {
@@ -297,7 +300,9 @@ static bool read_times(pricing *p) {
     }
     instance_free(inst);
     if (good && !(p->until_s > 0.0)) {
-        fprintf(stderr, "whirl %s: error: the horizon is 0 s\nhint: --horizon 1s\n",
+        fprintf(stderr,
+                "whirl %s: error: the motion to compare has a length of 0 s\nhint: "
+                "--horizon 1s\n",
                 p->options->command);
         return false;
     }
@@ -362,7 +367,9 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
         wanted = (uint64_t)number_floor(p->until_s / each_s * (1.0 + 1e-9));
     }
     if (wanted < 1) {
-        fprintf(stderr, "whirl %s: error: a motion of %.9g s is too short or too long\n",
+        fprintf(stderr,
+                "whirl %s: error: Whirl cannot compare steps over a motion of %.9g s: it "
+                "is too short or too long\n",
                 p->options->command, p->until_s);
         return EXIT_BAD_INPUT;
     }
@@ -403,14 +410,14 @@ static int say_cheapest(FILE *out, const pricing *p, const table *made, const ta
         if (trial_error_si(&p->trial, row->result.error) <= p->error_si) {
             char *line =
                 table_run_line(&p->trial, &row->setting, row->pace, row->result.point, words);
-            fprintf(out, "the cheapest within %s: %.2e %s\n  %s\n",
+            fprintf(out, "the cheapest setting within %s has an error of %.2e %s:\n  %s\n",
                     p->options->value[PRICING_ERROR], row->result.error, trial_unit(&p->trial),
                     line);
             free(line);
             return EXIT_DONE;
         }
     }
-    fprintf(stderr, "whirl price: no setting that was tried has an error below %s\n",
+    fprintf(stderr, "whirl price: error: no tried setting has an error below %s\n",
             p->options->value[PRICING_ERROR]);
     return EXIT_RUN_FAILED;
 }
@@ -497,8 +504,8 @@ static int price_scene(pricing *p) {
 int command_price(int count, char **words) {
     static const pricing_command price = {
         "price", PRICING_PRICE, price_head,
-        "no reference is accurate enough, or no setting follows the motion, has a price, or\n"
-        "       is within --error",
+        "no reference is accurate enough, or no setting follows the motion, has a cost, or\n      "
+        " is within --error",
         price_scene};
     return run_command(&price, count, words);
 }
@@ -517,13 +524,13 @@ static const char choose_head[] =
     "\n";
 static bool fits(const pricing *p) {
     if (p->options->value[PRICING_MEASURE] != NULL && p->options->value[PRICING_PREDICT] != NULL) {
-        fputs("whirl choose: error: --measure and --predict exclude each other\n", stderr);
+        fputs("whirl choose: error: --measure and --predict contradict each other\n", stderr);
         return false;
     }
     if (!p->asks_error) {
-        fputs(
-            "whirl choose: error: --error is missing\nhint: --error 1e-3 (a fraction of the largest value), or --of X --error 0.1mm\n",
-            stderr);
+        fputs("whirl choose: error: --error is missing\nhint: --error 1e-3 (a part of the largest "
+              "value), or --of X --error 0.1mm\n",
+              stderr);
     }
     return p->asks_error;
 }
@@ -600,8 +607,8 @@ static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing
     }
     if (rate.numerator == 0 || p->until_s * w->table.rate_Hz < 1.0 - 1e-9) {
         fprintf(stderr,
-                "whirl choose: error: not one period of --rate %.9g Hz lies in %.9g s of motion\n"
-                "hint: a later --until, or a higher rate\n",
+                "whirl choose: error: one period of --rate %.9g Hz is longer than the motion of "
+                "%.9g s\nhint: use a later --until, or a higher --rate\n",
                 w->table.rate_Hz, p->until_s);
         return false;
     }
@@ -679,7 +686,7 @@ static int choose_begun(pricing *p, choice_wish *w) {
         return EXIT_RUN_FAILED;
     }
     if (w->table.progress != NULL && !predicts) {
-        fputs("\rbuilding what counts ", stderr);
+        fputs("\rbuilding the counter ", stderr);
     }
     const char *missing = predicts ? "" : measured_missing(&p->trial, p->board, text);
     if (p->options->value[PRICING_MEASURE] != NULL && missing != NULL) {
@@ -693,7 +700,7 @@ static int choose_begun(pricing *p, choice_wish *w) {
         "%s%s",
         missing == NULL ? "counted on the board: the step or the whole run, and the bytes"
         : predicts      ? "predicted, as --predict asks for"
-                        : "predicted, since nothing can be counted: ",
+                        : "predicted, because Whirl cannot count: ",
         missing != NULL ? missing : "");
     w->prices = prices;
     const int done = choose_from(p, w, missing == NULL);

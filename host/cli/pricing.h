@@ -25,15 +25,16 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
       "compare errors up to this time (default: the scene's end). In a chaotic motion Whirl " \
       "uses an earlier time, and the output says so.") \
     X(PRICING_VARY, BOTH, "--vary", "RANGE", \
-      "take the worst error and cost over values of a parameter, an input or a start value. " \
+      "use the worst error and cost over several values of a parameter, an input or a start " \
+      "value. " \
       "duty=0.2..0.8 takes three values, both ends included, duty=0.2..0.8:5 five. " \
       "Repeatable: all combinations, at most 64. The scene's own values are always " \
       "included.") \
     X(PRICING_METHOD, BOTH, "--method", "M,...", \
       "try these methods instead of rk4,nystroem3,nystroem4,nystroem5; all: every method") \
     X(PRICING_EFFORT, BOTH, "--effort", "1e9", \
-      "operations that all trials may evaluate: 1e9 take about 5 s of processor time. " \
-      "Shorter steps that need more are left out and counted.") \
+      "operations that all trials together may evaluate: 1e9 take about 5 s. The table leaves " \
+      "out steps that need more, and says how many.") \
     X(PRICING_ALL, PRICE, "--all", NULL, "every row") \
     X(PRICING_CSV, PRICE, "--csv", "FILE", \
       "every row, with its command lines; - is standard output (the table then goes to " \
@@ -51,11 +52,11 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_RAM, CHOOSE, "--ram", "2KB", \
       "the available RAM for data and stack, in the same units") \
     X(PRICING_PREDICT, CHOOSE, "--predict", NULL, \
-      "predict steps instead of counting them, which saves a few seconds; not for scenes " \
-      "with contacts") \
+      "predict costs instead of counting steps, which saves a few seconds; not for scenes with " \
+      "contacts") \
     X(PRICING_MEASURE, BOTH, "--measure", NULL, \
-      "count the steps, or fail with exit status 2. It needs Whirl's source tree and the " \
-      "board's compiler and emulator. `whirl price` counts its front, which takes minutes.") \
+      "count the steps, or fail with exit status 2. Needs Whirl's source tree and the board's " \
+      "compiler and emulator. `whirl price` counts the rows of the front, which takes minutes.") \
     X(PRICING_QUIET, BOTH, "--quiet", NULL, "no progress; `whirl price` prints no table")
 #define PRICING_OPTION_ID(id, who, word, value, text) id,
 typedef enum pricing_option {

@@ -39,14 +39,13 @@ static const command_usage usage = {
         "  --tolerance 1e-3     the allowed distance of all others, as a part of the range of each over the\n"
         "                       run (default: 1e-3)\n"
         "  --csv FILE           a row for each step, in SI: the time, and for each coordinate and rate the\n"
-        "                       least and greatest value of the exact motion and the run's value. - is\n"
-        "                       standard output; the words then go to standard error.\n"
+        "                       least and greatest value of the exact motion and the run's value. "
+        "- is\n                       standard output; the report then goes to standard error.\n"
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. After that it\n"
         "                       prints the proof so far.\n"
-        "  --quiet              no progress; no words if there is --csv\n",
-    .why = {"also if the proof ends before the run",
-            "the run diverged; the proof until then is printed", "",
-            "the proof so far is printed"}};
+        "  --quiet              no progress; with --csv no report\n",
+    .why = {"the proof ended, perhaps early", "the run diverged; the proof until then is printed",
+            "", "the proof so far is printed"}};
 
 typedef struct prove_options {
     common_options common;
@@ -84,7 +83,7 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
         }
         const double value = expr_value(a.value, NULL);
         if (!isfinite(value) || !(value > 0.0)) {
-            diag_error(errors, a.at, "--within X=1mm", "a number above zero is wanted");
+            diag_error(errors, a.at, "--within X=1mm", "give a number above zero");
         }
         for (int s = 0; s < m->states; s++) {
             if (m->state[s].unknown == a.symbol->index && m->state[s].primes == a.primes) {
@@ -119,10 +118,10 @@ static void say_end(const containment_found *h, double end_s) {
     case CONTAINMENT_AT_END:
     case CONTAINMENT_RUN_ENDS: break;
     case CONTAINMENT_NO_STEP:
-        fprintf(
-            stderr,
-            "whirl prove: the tube ends at t = %.15g s: after that the exact motion is not enclosed\n",
-            h->tube_s);
+        fprintf(stderr,
+                "whirl prove: the proof ends at t = %.15g s: Whirl cannot enclose the exact motion "
+                "after that\n",
+                h->tube_s);
         break;
     case CONTAINMENT_SPENT:
         fprintf(
@@ -135,8 +134,8 @@ static void say_end(const containment_found *h, double end_s) {
             fprintf(stderr, "whirl prove: interrupted at t = %.15g s of %.15g s\n", h->tube_s,
                     end_s);
         } else {
-            fputs("whirl prove: interrupted in the run that measures the range of each coordinate: "
-                  "nothing is proved yet\n",
+            fputs("whirl prove: interrupted in the first run, which measures the range of each "
+                  "coordinate: nothing is proved yet\n",
                   stderr);
         }
         break;

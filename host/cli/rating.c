@@ -27,7 +27,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, const cha
         overrides asked = *w->changes;
         asked.step = NULL; /* `whirl price` tries steps of its own */
         char *changes = pricing_words(&asked, false);
-        fprintf(out, "; %sthey are shown by: whirl %s %s%s%s%s",
+        fprintf(out, "; this command %sshows them: whirl %s %s%s%s%s",
                 strcmp(command, "price") != 0 ? "in Whirl's source tree " : "", command, target,
                 changes, w->board_word != NULL ? " --board " : "",
                 w->board_word != NULL ? w->board_word : "");
@@ -67,16 +67,16 @@ static void say_rows(FILE *out, const rating_wish *w, const simulation_trust *tr
     const double steps = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
     wish.steps = (uint64_t)number_least(steps, (double)w->image->steps);
     if (wish.steps < 2) {
-        say_none(out, w, "the run is trusted for less than two steps", "price");
+        say_none(out, w, "the run is trusted for fewer than two steps", "price");
     } else if (three_rows_operations(&wish, w->image) > 0.5 * trust->left) {
-        say_none(out, w, "they take more than a second", "price");
+        say_none(out, w, "the rows take more than a second", "price");
     } else {
         three_rows rows;
         three_rows_make(&rows, &wish);
         if (rows.trial.stopped) {
             say_none(out, w, "interrupted", "price");
         } else if (!rows.trial.reliable) {
-            say_none(out, w, "there is no reference to compare with", NULL);
+            say_none(out, w, "no reference is accurate enough", NULL);
         } else {
             three_rows_print(out, &rows);
         }
@@ -99,9 +99,9 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
     } else if (why != NULL) {
         say_none(out, w, why, NULL);
     } else if (trust->dear) {
-        say_none(out, w, "they take more than a second", "price");
+        say_none(out, w, "the rows take more than a second", "price");
     } else if (trust->until_s < 0.0) {
-        say_none(out, w, "no time is known until which the run is trusted", "price");
+        say_none(out, w, "the trusted time of the run is unknown", "price");
     } else {
         say_rows(out, w, trust);
     }
@@ -192,13 +192,15 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
     if (ends_early) {
         snprintf(
             early, sizeof early,
-            "; a step below %s s would take %.1e operations or more, and all tries together may take %.1e",
+            "; steps below %s s need %.1e operations or more, and the limit of all tries together "
+            "is %.1e",
             trial_time(trial_step(t, *pace), text), operations, TRIES_OPERATIONS);
     }
     fprintf(stderr,
             "whirl run: error: no tried step stays within --error: %s%s\n"
             "hint: %s%s; `whirl choose` tries every setting\n",
-            smallest, rounds ? ", and shorter steps no longer reduce it: round-off" : early,
+            smallest,
+            rounds ? ", and shorter steps do not reduce the error, because of round-off" : early,
             rounds ? "a larger --error" : "a --method of higher order",
             s->number == &engine_float ? ", or --number double" : "");
     return -1;
@@ -252,7 +254,7 @@ static int choose(pricing *p, const setting *s, char **step, char **chosen) {
     }
     trials *t = &p->trial;
     if (!t->reliable && !t->stopped) {
-        fprintf(stderr, "whirl run: error: --error: there is no reference to compare with: %s\n",
+        fprintf(stderr, "whirl run: error: --error: no reference is accurate enough: %s\n",
                 t->reference[t->worst]->why);
         return EXIT_RUN_FAILED;
     }
@@ -266,8 +268,10 @@ static int choose(pricing *p, const setting *s, char **step, char **chosen) {
     }
     trial_time(trial_step(t, pace), text);
     char *longer = find_unwarned(t, s, at, &pace, &r)
-                       ? alloc_words("; %s s stays within it, too, but with warnings", text)
-                       : alloc_words("%s", longest ? "; longer ones are not tried" : "");
+                       ? alloc_words("; a step of %s s would keep the error, too, but has "
+                                     "warnings",
+                                     text)
+                       : alloc_words("%s", longest ? "; longer steps were not tried" : "");
     *step = alloc_words("%s", trial_time(trial_step(t, pace), text));
     *chosen = alloc_words("chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s",
                           *step, p->quantity, r.error, trial_unit(t), trial_horizon_s(t), longer);
@@ -280,10 +284,10 @@ int rating_choose(const common_options *common, const char *target, const char *
     const char *equals = strchr(error, '=');
     if (equals == NULL || equals == error || equals[1] == '\0' || common->change.step != NULL) {
         fputs(equals != NULL && common->change.step != NULL
-                  ? "whirl run: error: --error chooses the step, and --step sets it\n"
+                  ? "whirl run: error: --error chooses the step, so --step cannot set it\n"
                     "hint: leave one of them out\n"
-                  : "whirl run: error: --error takes a coordinate and the error that is allowed\n"
-                    "hint: such as --error x=0.1mm\n",
+                  : "whirl run: error: --error takes a coordinate and its allowed error\nhint: "
+                    "write a value such as --error x=0.1mm\n",
               stderr);
         return EXIT_BAD_INPUT;
     }

@@ -54,8 +54,8 @@ static const command_usage usage = {
         "second, Whirl leaves them out.\n"
         "\n"
         "Warnings go to standard error. They come from a finer run, the energy balance and other checks,\n"
-        "and name options that Whirl tried and that cure the fault (docs/warnings.md). The exit status is\n"
-        "then 1, after all outputs are written.\n"
+        "and name options that Whirl tried and that cure the fault (docs/warnings.md). After a "
+        "warning\nthe exit status is 1, and all outputs are complete.\n"
         "\n"
         "Summary, records and plot use the declared units. A column whose name has no unit is SI: theta\n"
         "[deg] is in degrees, theta in radians. No output file may be the model file.\n",
@@ -127,7 +127,7 @@ static bool read_options(int count, char **words, run_options *o) {
     o->settings.kind = o->common.number;
     if (o->settings.plot == NULL && o->settings.taken == NULL &&
         memcmp(&o->settings.choice, &(plot_choice){0}, sizeof(plot_choice)) != 0) {
-        fputs("whirl run: error: --y, --x and the like choose what --plot draws\n"
+        fputs("whirl run: error: --x, --y and other plot options need --plot\n"
               "hint: --plot picture.svg\n",
               stderr);
         return false;
@@ -170,8 +170,8 @@ static bool count_every(const run_options *o, double spacing_s, const image *im,
     }
     if (spacing_s < 0.0) {
         fprintf(stderr,
-                "whirl run: error: --every %s is not a time\n"
-                "hint: such as 2ms, or 0.002 in seconds; the step is %.9g s\n",
+                "whirl run: error: --every %s is not a time\nhint: write a time such as 2ms, or "
+                "0.002 in seconds; the step is %.9g s\n",
                 o->every, im->step_s);
         return false;
     }
@@ -207,7 +207,9 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     o->settings.progress = shows_progress(&o->settings);
     o->settings.plain = plain;
     if (im->steps >= STEPS_MANY && !o->settings.quiet && !o->settings.progress) {
-        fprintf(stderr, "whirl run: note: %" PRIu64 " steps follow, as --step and --until say\n",
+        fprintf(stderr,
+                "whirl run: note: --step and --until give %" PRIu64 " steps, which may "
+                "take long\n",
                 im->steps);
     }
     simulation_trust trust;

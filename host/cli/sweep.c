@@ -37,7 +37,8 @@ static const command_usage sweep_usage = {
         "usage: whirl sweep SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --over NAME=FROM..TO:COUNT[,log] ...\n"
         "                   [options]\n"
         "\n"
-        "Runs a scene at every point of a grid, and writes a row of measures each (docs/sweeps.md).\n"
+        "Runs a scene at every point of a grid, and writes a row of measures for each "
+        "(docs/sweeps.md).\n"
         "\n"
         "  --over RANGE         COUNT values of a parameter, an input, a start value or the step: \"r=10..60\n"
         "                       [mm]:11\", \"theta'=1..4 [rpm]:7\", \"step=0.1..10 [ms]:9,log\". A bare number is\n"
@@ -75,7 +76,8 @@ static const command_usage map_usage = {
         "\n"
         "  whirl map two_mass_relative --over step=5ms..0.5s:21,log --over 'm1=1..100 [kg]:5,log'\n"
         "\n"
-        "  --over RANGE         needed twice, as in `whirl sweep`. No other option may set a swept name.\n",
+        "  --over RANGE         two ranges, each as in `whirl sweep`. No other option may set a "
+        "swept name.\n",
     .groups = OPTIONS_SCENE,
     .tail =
         "  --tolerance 1e-3     the allowed error, as a part of the range of each coordinate over the run\n"
@@ -87,7 +89,7 @@ static const command_usage map_usage = {
         "  --plot FILE.svg|.png a picture with a rectangle for each pair\n"
         "  --effort 1.5e11      operations that it may evaluate: 1.5e10 take about a minute\n"
         "  --quiet              no progress; no map if there is --csv or --plot\n",
-    .why = {"even if runs diverged", "no pair could be run", "", ""}};
+    .why = {"even if some runs diverged", "no pair could be run", "", ""}};
 
 /* --- options -----------------------------------------------------------------------------------*/
 
@@ -156,8 +158,9 @@ static bool is_whole_sweep(sweep_options *o) {
     }
     o->csv = o->json ? "/dev/null" : o->csv != NULL ? o->csv : "-";
     if (o->over_count == 0) {
-        fprintf(stderr, "whirl sweep: error: nothing to sweep over\n"
-                        "hint: such as --over \"r=10..60 [mm]:11\"\n");
+        fprintf(stderr, "whirl sweep: error: --over is missing: whirl sweep needs a range of "
+                        "values\nhint: write a range such as --over"
+                        " \"r=10..60 [mm]:11\"\n");
     }
     return o->over_count > 0;
 }
@@ -165,13 +168,15 @@ static bool is_whole_sweep(sweep_options *o) {
 static bool is_whole_map(sweep_options *o) {
     const char *problem = NULL;
     if (o->over_count > AXES) {
-        fprintf(stderr, "whirl map: error: a map has two --over: '%.60s' is a third\n",
+        fprintf(stderr,
+                "whirl map: error: a map needs exactly two --over, but '%.60s' is a third "
+                "one\n",
                 o->over[AXES]);
         return false;
     }
     if (o->over_count < AXES) {
         fprintf(stderr,
-                "whirl map: error: a map needs two --over: %s\nhint: such as --over "
+                "whirl map: error: a map needs two --over: %s\nhint: write ranges such as --over "
                 "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'\n",
                 o->over_count == 0 ? "there is none" : "there is one");
         return false;
@@ -320,7 +325,8 @@ static int show_map(const sweep_options *o, const stability_map *m, const char *
     }
     if (map_count(m, MAP_NONE) == m->grid->points) {
         fputs(
-            "whirl map: error: no pair can be run\nhint: start one pair with `whirl run`: it prints the reason\n",
+            "whirl map: error: no pair of values can be run\nhint: try one pair with `whirl run`, "
+            "which prints the reason\n",
             stderr);
         return code == EXIT_DONE ? EXIT_RUN_FAILED : code;
     }

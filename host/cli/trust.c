@@ -37,13 +37,16 @@ static const command_usage usage = {
         "  --tolerance 1e-3     the allowed error, as a part of the range of each coordinate over the run\n"
         "                       (default: 1e-3)\n"
         "  --csv FILE           a row for each coordinate and rate: name, unit, verdict, trusted time,\n"
-        "                       range, largest error. Verdicts: end, until, still (it does not move),\n"
-        "                       rounding (only round-off moves it), untold (unknown: double has too few\n"
-        "                       digits). - is standard output; the words then go to standard error.\n"
-        "  --json               one JSON object on standard output instead of words (docs/warnings.md)\n"
+        "                       range, largest error. Verdicts: end, until, still (a constant "
+        "value),\n                       rounding (only round-off changes it), untold"
+        " (unknown: double has too few\n"
+        "                       digits). - is standard output; the report then goes to standard "
+        "error.\n"
+        "  --json               one JSON object on standard output instead of the report "
+        "(docs/warnings.md)\n"
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. Whirl refuses\n"
         "                       longer work.\n"
-        "  --quiet              no progress; no words if there is --csv\n",
+        "  --quiet              no progress; with --csv no report\n",
     .why = {"", "the run diverged; the output has the time of divergence and the trusted time", "",
             ""}};
 
@@ -83,10 +86,10 @@ static void say_failure(const image *im, const engine_kind *kind, const step_dou
     if (!known) {
         const int fault = kind->fault(t->run);
         const component c = image_component(im, fault < 0 ? 0 : fault);
-        fprintf(
-            stderr,
-            "whirl trust: error: the run diverged in the step after t = %.9g s: %s%.*s left all bounds\nhint: try a smaller --step\n",
-            t->end_s, im->unknown[c.unknown].name, c.primes, "''''''''''");
+        fprintf(stderr,
+                "whirl trust: error: the run diverged in the step after t = %.9g s: %s%.*s grew "
+                "without bound\nhint: try a smaller --step\n",
+                t->end_s, im->unknown[c.unknown].name, c.primes, "''''''''''");
     }
 }
 
@@ -119,8 +122,8 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     if (t->stopped) {
         fprintf(
             stderr,
-            "whirl trust: interrupted at t = %.9g s of %.9g s: the range of a coordinate is that "
-            "of the whole run\n",
+            "whirl trust: interrupted at t = %.9g s of %.9g s: no result, because the ranges of "
+            "the coordinates need the whole run\n",
             t->end_s, ratio_times(im->steps, im->step));
     } else {
         aliasing_find(t, &t->looks);

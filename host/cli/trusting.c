@@ -30,8 +30,9 @@ int trusting_plan(const char *command, image *im, bool progress, diags *errors, 
     diags_flush(errors, stderr);
     if (*plan == NULL && interrupted) {
         fprintf(stderr,
-                "whirl %s: interrupted in the run in double that measures the ranges for fixed "
-                "point\nhint: declare all ranges, which needs no such run: range NAME = A .. B\n",
+                "whirl %s: interrupted in the first run, in double, which measures the ranges for "
+                "fixed point\nhint: declare all ranges, then this run is not needed: range NAME = "
+                "A .. B\n",
                 command);
     }
     return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;

@@ -262,8 +262,8 @@ static bool find_inputs(const fault_case *f, const image *im) {
     for (int i = 0; i < INPUTS; i++) {
         if (inputs[i].kind == f->kind && input_of(im, inputs[i].input) < 0) {
             fprintf(stderr,
-                    "whirl pil: error: --fault %s: '%s' has no input '%s'\n"
-                    "hint: docs/plants/rig.whirl has\n",
+                    "whirl pil: error: --fault %s: '%s' has no input '%s', which this fault "
+                    "needs\nhint: use a plant that has it, such as docs/plants/rig.whirl\n",
                     fault_rows[f->kind].word, im->name, inputs[i].input);
             return false;
         }
@@ -286,7 +286,7 @@ static bool find_note(fault_case *f, const wh_hello *hello) {
         at += s->kind == WH_SIGNAL_NOTE;
     }
     if (f->note[0] != '\0') {
-        fprintf(stderr, "whirl pil: error: --fault %s@%s=...: the firmware sends no note '%s'\n",
+        fprintf(stderr, "whirl pil: error: --fault %s@%s=...: the firmware declares no note '%s'\n",
                 fault_rows[f->kind].word, f->note, f->note);
     }
     return f->note[0] == '\0';
@@ -297,7 +297,9 @@ static bool has_channel(const fault_case *f, const plant *p) {
     const unsigned count = at == FAULT_SAMPLES ? p->binding->samples : p->binding->edges;
     const bool asks = at == FAULT_SAMPLES || at == FAULT_EDGES || at == FAULT_SENSORS;
     if (asks && f->channel >= (int)count) {
-        fprintf(stderr, "whirl pil: error: --fault %s:%d: the firmware has %u such channels\n",
+        fprintf(stderr,
+                "whirl pil: error: --fault %s:%d: the firmware has only %u channels of "
+                "this kind\n",
                 fault_rows[f->kind].word, f->channel + 1, count);
         return false;
     }
@@ -575,7 +577,7 @@ static bool read_kind(words_of_fault *w, fault_case *f) {
     }
     char hint[80];
     nearest_hint(&search, hint, sizeof hint);
-    return wrong(w, "there is no such kind of fault",
+    return wrong(w, "this kind of fault does not exist",
                  hint[0] != '\0' ? hint : "whirl pil --faults lists the kinds");
 }
 
@@ -591,7 +593,7 @@ static bool read_channel(words_of_fault *w, fault_case *f) {
     }
     if (!read_number(w, &number) || !(number >= 1.0 && number <= (double)WH_SIGNALS_MAX) ||
         number != number_floor(number)) {
-        return wrong(w, "no such channel", "channels count from 1, such as edge-dead:2");
+        return wrong(w, "not a valid channel", "use a channel number from 1 on, as in edge-dead:2");
     }
     f->channel = (int)number - 1;
     return true;
@@ -609,32 +611,32 @@ static bool read_size(words_of_fault *w, fault_case *f) {
                                                        : read_number(w, &f->size)) ||
         !(f->size >= row->least && f->size <= row->most)) {
         char hint[80];
-        snprintf(hint, sizeof hint, "a number from %g to %g%s%s", row->least, row->most,
+        snprintf(hint, sizeof hint, "use a number from %g to %g%s%s", row->least, row->most,
                  row->unit[0] != '\0' ? " " : "", row->unit);
-        return wrong(w, "no such size", hint);
+        return wrong(w, "not a valid size", hint);
     }
     return true;
 }
 
 static bool read_when(words_of_fault *w, fault_case *f) {
-    static const char hint[] = "@1.5s, @state=4, or @state=4~200ms, which is 200 ms later";
+    static const char hint[] = "use @1.5s, @state=4, or @state=4~200ms (200 ms after state=4)";
     if (!takes(w, '@')) {
         return true;
     }
     if (fault_rows[f->kind].place == FAULT_PARAMETER) {
-        return wrong(w, "this fault lasts from the start to the end", "leave @WHEN out");
+        return wrong(w, "this fault always lasts from the start to the end", "leave @WHEN out");
     }
     const size_t length = strcspn(w->at, "=,+~");
     if (w->at[length] != '=') {
-        return read_time(w, &f->after_s) || wrong(w, "no such time", hint);
+        return read_time(w, &f->after_s) || wrong(w, "not a valid time", hint);
     }
     if (length == 0 || length >= sizeof f->note) {
-        return wrong(w, "no such note", hint);
+        return wrong(w, "not a valid note", hint);
     }
     memcpy(f->note, w->at, length);
     w->at += length + 1;
     return (read_number(w, &f->value) && (!takes(w, '~') || read_time(w, &f->after_s))) ||
-           wrong(w, "no such time", hint);
+           wrong(w, "not a valid time", hint);
 }
 
 static bool read_duration(words_of_fault *w, fault_case *f) {
@@ -644,7 +646,7 @@ static bool read_duration(words_of_fault *w, fault_case *f) {
     }
     const bool lasts = fault_rows[f->kind].place != FAULT_PARAMETER && f->kind != FAULT_RESET;
     return (lasts && read_time(w, &f->duration_s)) ||
-           wrong(w, "no such duration", "a time, such as +500ms");
+           wrong(w, "not a valid duration", "use a time such as +500ms");
 }
 
 static bool read_one(fault_plan *plan, words_of_fault *w) {
@@ -658,8 +660,9 @@ static bool read_one(fault_plan *plan, words_of_fault *w) {
         return false;
     }
     plan->count++;
-    return w->at == w->end ||
-           wrong(w, "unknown text after the fault", "KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]");
+    return w->at == w->end || wrong(w, "unknown text after the fault",
+                                    "write "
+                                    "KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]");
 }
 
 bool fault_read(fault_plan *plan, const char *text) {

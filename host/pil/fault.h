@@ -27,14 +27,16 @@ typedef enum fault_place {
     X(FAULT_EDGE_DEAD, "edge-dead", FAULT_EDGES, 0, 0, 0, "", "no pulses come") \
     X(FAULT_EDGE_LOST, "edge-lost", FAULT_EDGES, 1, 1, 1e6, "", "this number of pulses is lost") \
     X(FAULT_EDGE_DOUBLE, "edge-double", FAULT_EDGES, 1e-3, 1e-6, 10, "s", \
-      "each pulse comes again after this time") \
+      "each pulse is repeated after this time") \
     X(FAULT_EDGE_INVENTED, "edge-invented", FAULT_EDGES, 1, 1, 1e6, "", \
       "this number of false pulses, up to 0.1 s apart") \
-    X(FAULT_EDGE_STORM, "edge-storm", FAULT_EDGES, 5e3, 1, 1e6, "Hz", "false pulses at this rate") \
+    X(FAULT_EDGE_STORM, "edge-storm", FAULT_EDGES, 5e3, 1, 1e6, "Hz", \
+      "false pulses appear at " \
+      "this rate") \
     X(FAULT_EDGE_SWAPPED, "edge-swapped", FAULT_EDGES, 0, 0, 0, "", \
       "the first and the second sensor are exchanged") \
     X(FAULT_EDGE_STAMP, "edge-stamp", FAULT_EDGES, 1e-6, -10, 10, "s", \
-      "error of the time stamps, positive into the future") \
+      "time stamps have this error; positive: too late") \
     X(FAULT_EDGE_LATE, "edge-late", FAULT_EDGES, 5e-3, 0, 10, "s", \
       "pulses arrive late, with correct stamps") \
     X(FAULT_EDGE_PLACE, "edge-place", FAULT_SENSORS, 2, -180, 180, "deg", "a sensor is displaced") \
@@ -59,7 +61,7 @@ typedef enum fault_place {
     X(FAULT_CELL_REPEATED, "cell-repeated", FAULT_SAMPLES, 0, 0, 0, "", "each sample comes twice") \
     X(FAULT_CELL_LATE, "cell-late", FAULT_SAMPLES, 10e-3, 0, 10, "s", \
       "samples arrive late, with correct stamps") \
-    X(FAULT_READS, "reads", FAULT_SAMPLES, 0, -1e6, 1e6, "SI", "samples have this value") \
+    X(FAULT_READS, "reads", FAULT_SAMPLES, 0, -1e6, 1e6, "SI", "all samples have this value") \
     X(FAULT_CELL_TURNED, "cell-turned", FAULT_INPUT, 0, 0, 0, "", "the polarity is reversed") \
     X(FAULT_CELL_GAIN, "cell-gain", FAULT_INPUT, 0.5, -100, 100, "", \
       "the gain is multiplied by this factor") \
@@ -71,7 +73,7 @@ typedef enum fault_place {
     X(FAULT_RUNAWAY, "runaway", FAULT_INPUT, 1, 0.01, 1, "", \
       "the drive stage ignores the duty, at this share of the supply, but obeys its enable") \
     X(FAULT_STUCK, "stuck", FAULT_INPUT, 1, 0.01, 1, "", \
-      "as runaway, but the drive stage ignores its enable, too") \
+      "as for runaway, and the drive stage also ignores its enable") \
     X(FAULT_MOTOR, "motor", FAULT_INPUT, 0.5, 0, 10, "", \
       "the motor's torque is multiplied by this factor") \
     X(FAULT_FRICTION, "friction", FAULT_INPUT, 0.2, 0, 1e3, "N*m", \
@@ -85,16 +87,18 @@ typedef enum fault_place {
     X(FAULT_RESET, "reset", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
       "the controller is reset, and starts again after this time") \
     X(FAULT_WATCHDOG_RESETS, "watchdog-resets", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
-      "a starved watchdog resets the controller instead of cutting; it starts again after this time") \
+      "without kicks the watchdog resets the controller, which starts again after this time") \
     X(FAULT_SLOW, "slow", FAULT_ORDERS, 20, 0, 1e6, "", "computing is slower by this factor") \
     X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer is late by this time") \
     X(FAULT_HANG, "hang", FAULT_ORDERS, 0.1, 0, 100, "s", "one answer is late by this time") \
-    X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", "kicks do not reach the watchdog") \
+    X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", \
+      "the firmware's kicks do not reach " \
+      "the watchdog") \
     X(FAULT_UNWATCHED, "unwatched", FAULT_ORDERS, 0, 0, 0, "", "the watchdog never cuts") \
     X(FAULT_READINGS_LOST, "readings-lost", FAULT_LINE, 0.1, 0, 1, "", \
       "this share of the readings arrives empty") \
     X(FAULT_ORDERS_LOST, "orders-lost", FAULT_LINE, 0.1, 0, 1, "", \
-      "this share of the orders is lost: outputs keep their values")
+      "this share of the commands to the outputs is lost")
 
 #define FAULT_NAME(which, word, place, size, least, most, unit, words) which,
 typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;

@@ -35,11 +35,13 @@ static void keep_heard(talk *t, const wh_frame *frame) {
 
 static void say_silent(const talk *t) {
     fprintf(stderr,
-            "whirl pil: error: the firmware has said nothing for %g s\n"
-            "hint: %s; --patience S waits longer\n",
+            "whirl pil: error: the firmware has sent no message for %g s\nhint: %s; --patience S "
+            "waits longer\n",
             t->guest.wish.patience_s,
-            t->wish->guest.by_line ? "a damaged frame is not repeated: reset the board"
-                                   : "an endless loop, or a read without an answer");
+            t->wish->guest.by_line ? "reset the board, because the firmware does not repeat a "
+                                     "damaged message"
+                                   : "look for an endless loop in the firmware, or for a wait "
+                                     "without end");
 }
 
 /* If the user interrupts, the firmware may end before Whirl notices the interrupt. */
@@ -54,8 +56,8 @@ static bool hear_frame(talk *t, wh_frame *frame) {
     }
     if (frame->version != WH_FRAME_VERSION) {
         fprintf(stderr,
-                "whirl pil: error: the firmware speaks version %u of the exchange, this program "
-                "version %u\nhint: build both from one source\n",
+                "whirl pil: error: the firmware uses version %u of the protocol, but whirl uses "
+                "version %u\nhint: build both from the same version of the sources\n",
                 frame->version, WH_FRAME_VERSION);
         return ends(t->report, LOCKSTEP_BAD);
     }
@@ -140,7 +142,7 @@ bool talk_hear(talk *t, wh_orders *orders) {
         return false;
     }
     if (frame.kind != WH_FRAME_ORDERS || frame.sequence != t->sequence) {
-        return fail(t, "a frame that is not an answer");
+        return fail(t, "a message that is not an answer");
     }
     if (!wh_orders_get(orders, frame.payload, frame.length) || orders->outputs != t->outputs) {
         return fail(t, "invalid orders");
@@ -183,12 +185,14 @@ static void say_no_hello(talk *t) {
     t->report->end = LOCKSTEP_BAD;
     if (end.status == GUEST_NOT_RUN) {
         fputs(t->guest.emulated ? "hint: make deps installs QEMU\n"
-                                : "hint: check that it is an executable program of this machine\n",
+                                : "hint: check that the image is an executable program of this "
+                                  "machine\n",
               stderr);
     } else {
         fprintf(
             stderr,
-            "%s: error: it ended without a hello\nhint: use an image made for `whirl pil`, such as build/pil_rig or build/BOARD/pil_rig.elf\n",
+            "%s: error: this program ended without its first message (hello)\nhint: use an image "
+            "made for `whirl pil`, such as build/pil_rig or build/BOARD/pil_rig.elf\n",
             t->guest.wish.image);
     }
 }
@@ -239,7 +243,9 @@ static bool ask_for_hello(talk *t) {
     if (heard != GUEST_STOPPED) {
         fprintf(
             stderr,
-            "whirl pil: error: no hello has come over the line in %g s\nhint: reset the board, and check that it runs pil_line.elf and that --baud is its speed\n",
+            "whirl pil: error: the firmware's first message (hello) has not come over the line in "
+            "%g s\nhint: reset the board, and check that it runs pil_line.elf and that --baud is "
+            "its speed\n",
             patience_s);
     }
     return false;
@@ -303,7 +309,7 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
                             .payload = payload,
                             .length = wh_reset_put(reset, payload, sizeof payload)};
     if (t->wish->guest.by_line) {
-        return fail(t, "a reset, which cannot be done over a line");
+        return fail(t, "a reset, which is not possible over a serial line");
     }
     (void)guest_end(&t->guest);
     if (!guest_start(&t->guest, &t->wish->guest)) {
@@ -333,13 +339,14 @@ void talk_end(talk *t) {
     if (t->wish->guest.by_line) {
         t->report->status.status = t->end_status;
         if (!t->said_end) {
-            fprintf(stderr, "whirl pil: error: the line is gone\n");
+            fprintf(stderr, "whirl pil: error: the serial line is disconnected\n");
             t->report->end = LOCKSTEP_FAILED;
         }
         return;
     }
     if (t->report->status.killed) {
-        fprintf(stderr, "whirl pil: error: the firmware closed the line and did not end: killed\n");
+        fprintf(stderr, "whirl pil: error: the firmware closed the connection but did not end, so "
+                        "whirl killed it\n");
         t->report->end = LOCKSTEP_FAILED;
     } else if (t->report->status.signal_number != 0) {
         fprintf(stderr, "whirl pil: error: the firmware's process ended by signal %d (%s)\n",
@@ -439,7 +446,8 @@ static bool advance(loop *l, double until_ticks) {
         if (!plant_advance(&l->plant, number_least(plant_now(&l->plant) + piece, end))) {
             fprintf(
                 stderr,
-                "whirl pil: error: the plant left all bounds at t = %.9g s (%s)\nhint: use a smaller --step, or check the firmware's outputs\n",
+                "whirl pil: error: the plant grew without bound at t = %.9g s (%s)\nhint: use a "
+                "smaller --step, or check the firmware's outputs\n",
                 plant_s(l), wh_status_text(l->plant.status));
             return ends(l->report, LOCKSTEP_FAILED);
         }
@@ -489,8 +497,9 @@ static bool time_goes_on(loop *l, double before_ticks) {
         return true;
     }
     fprintf(stderr,
-            "whirl pil: error: time stands still at t = %.9g s: the firmware asked %u times to be "
-            "called again at once\nhint: give hal_turns_wait() a later time, in ticks of the "
+            "whirl pil: error: time does not advance after t = %.9g s: the firmware asked %u "
+            "times to be called again without delay\n"
+            "hint: give hal_turns_wait() a later time, in ticks of the "
             "firmware's timer\n",
             plant_s(l), STANDING_MOST);
     return ends(l->report, LOCKSTEP_FAILED);
@@ -562,8 +571,8 @@ static bool has_places(const loop *l, unsigned places) {
     const bool has = places <= l->binding.edges;
     if (!has) {
         fprintf(stderr,
-                "whirl pil: error: --place has %u places, and the firmware %u edges\n"
-                "hint: give one place per edge, in the firmware's order\n",
+                "whirl pil: error: --place has %u values, but the firmware has %u edges\n"
+                "hint: give one value for each edge, in the firmware's sequence\n",
                 places, l->binding.edges);
     }
     return has;
@@ -583,9 +592,9 @@ static bool has_room(const loop *l, double delay_s) {
     if (!has) {
         fprintf(
             stderr,
-            "whirl pil: error: --delay %g s: %.0f samples of this firmware would be in transit, more "
+            "whirl pil: error: --delay %g s: %.0f samples would be delayed at the same time, more "
             "than the limit of %d\n"
-            "hint: use a shorter --delay, or --fault cell-late of one channel\n",
+            "hint: use a shorter --delay, or delay one channel only: --fault cell-late:1=50ms\n",
             delay_s, most, PLANT_PENDING);
     }
     return has;
@@ -609,7 +618,8 @@ void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *r
 
 static void print_computing(FILE *out, const lockstep_wish *wish, const lockstep_report *r) {
     if (!r->counted) {
-        fputs("computing          not counted: no emulator\n", out);
+        fputs("computing          not counted, because the firmware does not run in an emulator\n",
+              out);
         return;
     }
     fprintf(out, "until outputs set  %.0f instructions at most, %.4g ms, at t = %.6g s\n",
@@ -659,7 +669,7 @@ static const char *as_on_tape(lockstep_end end) {
     case LOCKSTEP_FAILED:
     case LOCKSTEP_STOPPED: break;
     }
-    return ", as on the tape so far; the rest was not replayed";
+    return ", as on the tape so far; the remainder was not replayed";
 }
 
 void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r) {
@@ -676,7 +686,7 @@ void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lock
     fprintf(out, "exchanges          %" PRIu64 " in %.9g s of the plant's time", r->exchanges,
             r->time_s);
     if (im != NULL && r->wall_s > 0.0) {
-        fprintf(out, "; %.0f a second, %.3g x real time", (double)r->exchanges / r->wall_s,
+        fprintf(out, "; %.0f per second, %.3g x real time", (double)r->exchanges / r->wall_s,
                 r->time_s / r->wall_s);
     }
     fprintf(out, "\ncommand stream     0x%016" PRIx64 "%s\n", r->hash,

@@ -77,7 +77,7 @@ static const char *find_set(bound *b, const image *im, const char *name) {
 static void say_unknown(const bound *b, const image *im, const char *name) {
     nearest search = nearest_start(name, strlen(name));
     fprintf(stderr,
-            "whirl pil: error: the firmware %s '%s', which '%s' does not have\nhint: it has",
+            "whirl pil: error: the firmware %s '%s', which '%s' does not have\nhint: the scene has",
             is_output(b) ? "sets" : "reads", name, im->name);
     const int count = is_output(b) ? im->inputs : im->own_outputs;
     const image_quantity *of = is_output(b) ? im->input : im->output;
@@ -89,7 +89,7 @@ static void say_unknown(const bound *b, const image *im, const char *name) {
         fprintf(stderr, " %s", im->unknown[i].name);
         nearest_offer(&search, im->unknown[i].name);
     }
-    fprintf(stderr, "; --bind %s=%s says which is meant\n", b->signal.name,
+    fprintf(stderr, "; to choose one: --bind %s=%s\n", b->signal.name,
             search.best != NULL ? search.best : "NAME");
 }
 
@@ -119,8 +119,9 @@ static bool has_good_range(const bound *b) {
                          (s->period_ticks > 0 && s->per_count > 0.0F && isfinite(s->per_count));
     if (!ordered || !sampled) {
         fprintf(stderr,
-                "whirl pil: error: the firmware declares '%s' from %g to %g, %g a count, every %u "
-                "ticks\nhint: low <= high; a sample needs a period and a value a count\n",
+                "whirl pil: error: the firmware declares '%s' with the range %g to %g, %g per "
+                "count, every %u ticks\nhint: change the declaration: low <= high, and for a "
+                "sample a period and a value per count above zero\n",
                 s->name, (double)s->low, (double)s->high, (double)s->per_count,
                 (unsigned)s->period_ticks);
         return false;
@@ -128,7 +129,9 @@ static bool has_good_range(const bound *b) {
     if (s->kind == WH_SIGNAL_SAMPLE && !fits_counts(s)) {
         fprintf(
             stderr,
-            "whirl pil: error: the firmware declares '%s' from %g to %g, %g a count: the range has more counts than 32 bits\nhint: use a coarser count, or a narrower range\n",
+            "whirl pil: error: the firmware declares '%s' with the range %g to %g, %g per count: "
+            "this range needs more than 32 bits\nhint: use a larger value per count, or a "
+            "narrower range\n",
             s->name, (double)s->low, (double)s->high, (double)s->per_count);
         return false;
     }
@@ -149,8 +152,8 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
     }
     if (!is_same_unit(unit, b->signal.unit)) {
         fprintf(stderr,
-                "whirl pil: error: the firmware's '%s' is in %s, and '%s' of '%s' in %s\n"
-                "hint: use SI on both sides of the line\n",
+                "whirl pil: error: the firmware's '%s' is in %s, but '%s' of '%s' is in %s\nhint: "
+                "use SI units in the firmware and in the scene\n",
                 b->signal.name, b->signal.unit, name, im->name, unit);
         return false;
     }
@@ -162,7 +165,7 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
 static const char *against(const binding *b, const char *renames, const char *at, size_t length) {
     const size_t name = strcspn(at, "=");
     if (name == 0 || name >= length || name + 1U == length) {
-        return "it must be NAME=OTHER";
+        return "this is not NAME=OTHER";
     }
     for (const char *before = renames; before < at; before += strcspn(before, ",") + 1U) {
         if (strncmp(before, at, name + 1U) == 0) {
@@ -185,7 +188,7 @@ static bool all_are_used(const binding *b, const char *renames) {
         if (why != NULL) {
             fprintf(stderr,
                     "whirl pil: error: --bind '%.*s': %s\n"
-                    "hint: --bind NAME=OTHER, the firmware's name first\n",
+                    "hint: write --bind NAME=OTHER, with the firmware's name first\n",
                     (int)length, at, why);
             return false;
         }
@@ -271,7 +274,7 @@ bool plant_read_places(const char *text, plant_wish *to) {
             fprintf(
                 stderr,
                 "whirl pil: error: --place '%s': give numbers with commas between them, one per edge\n"
-                "hint: --place 0,2.5 puts the second edge 2.5 degrees on\n",
+                "hint: --place 0,2.5 moves the second edge by 2.5 degrees\n",
                 text);
             return false;
         }

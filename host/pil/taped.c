@@ -67,7 +67,8 @@ static bool is_no_tape(taped *t, const char *why) {
         fprintf(stderr, "%s: error: cannot be read: %s\n", t->name, strerror(errno));
     } else {
         fprintf(stderr,
-                "%s: error: %s after %llu exchanges\nhint: whirl pil SCENE --tape FILE makes one\n",
+                "%s: error: %s after %llu exchanges\nhint: record a tape with "
+                "whirl pil SCENE --tape FILE\n",
                 t->name, why, (unsigned long long)t->turns);
     }
     t->failed = true;
@@ -91,11 +92,11 @@ static bool taped_open(taped *t, const char *name) {
     }
     if (!read_frame(t, &frame) || frame.version != WH_FRAME_VERSION ||
         frame.kind != WH_FRAME_HELLO || frame.length > sizeof t->words) {
-        return is_no_tape(t, "no tape of this version");
+        return is_no_tape(t, "this is not a tape of this version");
     }
     memcpy(t->words, frame.payload, frame.length);
     if (!wh_hello_get(&t->hello, t->signal, t->words, frame.length) || t->hello.ticks_per_s == 0) {
-        return is_no_tape(t, "no tape of this version");
+        return is_no_tape(t, "this is not a tape of this version");
     }
     return true;
 }
@@ -352,11 +353,13 @@ bool taped_show(const char *name, const char *csv) {
 /* === a tape in the place of the plant ========================================================= */
 
 static void say_difference(const wh_orders *kept, const wh_orders *now, const talk *t) {
-    fprintf(stderr, "whirl pil: error: exchange %llu, t = %.6f s: other orders than on the tape\n",
+    fprintf(stderr,
+            "whirl pil: error: exchange %llu, t = %.6f s: the firmware's outputs differ "
+            "from the tape\n",
             (unsigned long long)t->report->exchanges, t->report->time_s);
     for (unsigned i = 0; i < now->outputs && i < kept->outputs; i++) {
         if (memcmp(&now->output[i], &kept->output[i], sizeof now->output[i]) != 0) {
-            fprintf(stderr, "hint: output %u is %.9g, on the tape %.9g\n", i + 1,
+            fprintf(stderr, "output %u is %.9g now, and %.9g on the tape\n", i + 1,
                     (double)now->output[i], (double)kept->output[i]);
         }
     }
@@ -378,8 +381,8 @@ static bool play(taped *from, talk *t) {
     if (!talk_tell(t, kept.ticks, &kept.readings) || !talk_hear(t, &now)) {
         if (r->end == LOCKSTEP_DONE && kept.answered) {
             fprintf(stderr,
-                    "whirl pil: error: exchange %llu, t = %.6f s: the firmware ended, and the tape "
-                    "goes on\n",
+                    "whirl pil: error: exchange %llu, t = %.6f s: the firmware ended, but the "
+                    "tape continues\n",
                     (unsigned long long)r->exchanges, r->time_s);
             r->end = LOCKSTEP_DIFFERENT;
         }
@@ -409,10 +412,10 @@ void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_repor
         report->end = LOCKSTEP_BAD;
     } else if (talk_start(t, wish, report, NULL)) {
         if (!talk_is_same_hello(&from->hello, &t->hello)) {
-            fprintf(
-                stderr,
-                "%s: error: this tape is of '%s', whose signals differ from those of the firmware '%s'\n",
-                file, from->hello.program, t->hello.program);
+            fprintf(stderr,
+                    "%s: error: the signals of the firmware '%s' on this tape differ from those of "
+                    "the firmware '%s' now\n",
+                    file, from->hello.program, t->hello.program);
             report->end = LOCKSTEP_BAD;
         } else {
             while (play(from, t)) {

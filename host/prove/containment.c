@@ -323,13 +323,14 @@ static figure not_less(double x, int places) {
 /* Returns the words for the reason why the proved time ends. */
 static const char *behind(const containment_found *h, const containment_state *s) {
     static const char *const ends[] = {[CONTAINMENT_AT_END] = "",
-                                       [CONTAINMENT_RUN_ENDS] = "; there the run fails",
-                                       [CONTAINMENT_NO_STEP] = "; there the tube ends",
-                                       [CONTAINMENT_SPENT] = "; there the effort is used up",
-                                       [CONTAINMENT_STOPPED] = "; there it was interrupted"};
+                                       [CONTAINMENT_RUN_ENDS] = "; at that time the run fails",
+                                       [CONTAINMENT_NO_STEP] = "; at that time the tube ends",
+                                       [CONTAINMENT_SPENT] = "; at that time the effort is used up",
+                                       [CONTAINMENT_STOPPED] = "; at that time the proof was "
+                                                               "interrupted"};
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return "";
-    case CONTAINMENT_LEFT: return "; after that the error is larger: proved";
+    case CONTAINMENT_LEFT: return "; proved: the error is larger after that";
     case CONTAINMENT_UNTOLD: return "; after that the tube is too wide to decide";
     case CONTAINMENT_UNENDED: return ends[h->end];
     }
@@ -347,8 +348,8 @@ static void print_state(FILE *out, const containment_found *h, const containment
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(w, i, name));
     if (!s->begun) {
         fprintf(out, "%-12s within %s %s: %s\n", "never", within.text, shown,
-                s->verdict == CONTAINMENT_LEFT ? "its error is larger at the start: proved"
-                                               : "its start is not known that accurately");
+                s->verdict == CONTAINMENT_LEFT ? "proved: the error at the start is larger"
+                                               : "the start value is not known so accurately");
         return;
     }
     const figure off = not_less(image_shown(unit, s->off), 1);
@@ -380,7 +381,7 @@ void containment_print(FILE *out, const containment_found *h, const containment_
     const int first = first_of(h);
     char name[NAME_SIZE];
     print_head(out, h, w);
-    fputs("\naccuracy proved at the end of every step, until the time [s]\n", out);
+    fputs("\ntime [s] until which the accuracy at the end of every step is proved\n", out);
     for (int i = 0; i < h->states; i++) {
         print_state(out, h, w, i);
     }
@@ -392,7 +393,10 @@ void containment_print(FILE *out, const containment_found *h, const containment_
     } else {
         const containment_state *s = &h->state[first];
         fprintf(out, "proved until t = %.15g s of %.15g s", s->until_s, end_s);
-        fprintf(out, s->verdict == CONTAINMENT_UNENDED ? "\n" : ": %s is the first that is not\n",
+        fprintf(out,
+                s->verdict == CONTAINMENT_UNENDED ? "\n"
+                                                  : ": %s is the first quantity "
+                                                    "without a proof\n",
                 name_of(w, first, name));
     }
 }

@@ -25,7 +25,8 @@ static bool is_smooth(const instance *inst, diags *errors) {
         if (instance_has(inst, c->effect)) {
             diag_error(errors, c->at,
                        "use whirl trust, which estimates; a proof needs a smooth scene",
-                       "%s changes the equations during a run, and the proof cannot enclose when",
+                       "%s changes the equations during a run, and the proof cannot enclose the "
+                       "time of the change",
                        contact_called(c->kind));
             return false;
         }
@@ -42,7 +43,8 @@ static bool is_smooth(const instance *inst, diags *errors) {
     if (inst->scene != NULL && inst->scene->when_count > 0) {
         diag_error(errors, inst->scene->whens[0].at,
                    "use whirl trust, which estimates; a proof needs a smooth scene",
-                   "%s changes the equations during a run, and the proof cannot enclose when",
+                   "%s changes the equations during a run, and the proof cannot enclose the time "
+                   "of the change",
                    contact_called(CONTACT_WHEN));
         return false;
     }

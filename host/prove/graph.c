@@ -404,7 +404,7 @@ int graph_without(graph *g, int a, int first) {
 static int refused(reader_symbols *s, const expr *at, const char *what) {
     diag_error(s->errors, at->at,
                "use whirl trust, which estimates; a proof needs smooth functions",
-               "%s of a moving quantity has no enclosure", what);
+               "%s of a moving quantity cannot be enclosed in intervals", what);
     return -1;
 }
 

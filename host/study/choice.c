@@ -142,7 +142,7 @@ static void drop_long(const trials *t, table *made) {
         if (evaluations * each <= RUN_INSTRUCTIONS) {
             made->row[kept++] = *row;
         } else {
-            made->why = "the run has too many steps to be counted: use a shorter --horizon";
+            made->why = "the run has too many steps for a count: use a shorter --horizon";
         }
     }
     made->unpriced += kept < made->count;
@@ -237,7 +237,8 @@ static void print_load(FILE *out, const choice_wish *w, const table_row *row,
                        const choice_row *by) {
     const cost_figure *f = &row->cost.cycles_worst;
     if (!(w->clock_Hz > 0.0) || by->unknown[CHOICE_LOAD]) {
-        fputs(w->clock_Hz > 0.0 ? "  load        unknown, like the cycles of the longest step\n"
+        fputs(w->clock_Hz > 0.0 ? "  load        unknown, because the cycles of the longest step "
+                                  "are unknown\n"
                                 : "  load        not computed: add --clock 16e6\n",
               out);
         return;
@@ -254,14 +255,14 @@ static void print_load(FILE *out, const choice_wish *w, const table_row *row,
     } else {
         fputs(" of real time", out);
     }
-    fprintf(out, " at %.6g MHz, by the longest", 1e-6 * w->clock_Hz);
+    fprintf(out, " at %.6g MHz, from the longest", 1e-6 * w->clock_Hz);
     if (row->run.steps > 0.0) {
         fprintf(out, " of %.0f counted steps", row->run.steps);
     } else {
         fputs(" step", out);
     }
     if (declared_of(row) > 0.0) {
-        fprintf(out, "; %.3g %% by the declared one",
+        fprintf(out, "; %.3g %% from the declared bound",
                 100.0 * by->load_most * declared_of(row) /
                     (has_cycles(&row->cost) ? f->most : row->cost.instructions_worst.most));
     }
@@ -273,15 +274,15 @@ static void print_run(FILE *out, const table_row *row) {
     if (!(row->run.steps > 0.0)) {
         return;
     }
-    fprintf(out, "  of          %.0f counted steps: every one to the horizon, events included\n",
+    fprintf(out, "  counted     %.0f steps: all steps of the run to the horizon, with events\n",
             row->run.steps);
     if (declared_of(row) > 0.0) {
-        fprintf(
-            out,
-            "  declared    %.0f %s at most in a step, by the declared bounds (docs/dev/events.md)\n",
-            declared_of(row), has_cycles(&row->cost) ? "cycles" : "instructions");
+        fprintf(out,
+                "  declared    at most %.0f %s in a step, from the declared bounds "
+                "(docs/dev/events.md)\n",
+                declared_of(row), has_cycles(&row->cost) ? "cycles" : "instructions");
     } else {
-        fputs("  declared    not known: the stretches of a step are not counted on this board\n",
+        fputs("  declared    not known: this board does not count the parts of a step separately\n",
               out);
     }
 }
@@ -302,7 +303,7 @@ static void print_answer(FILE *out, const trials *t, const choice_wish *w, const
         fprintf(out, " (%s)", trial_column(t, row->result.column, name));
     }
     if (t->points > 1) {
-        fprintf(out, ", worst of %d sampled places with%s", t->points,
+        fprintf(out, ", the worst of %d combinations: with%s", t->points,
                 at[0] != '\0' ? at : " the scene's own values");
     }
     fprintf(out, "; %s is allowed\n", amount(t, w->table.error, text));
@@ -324,7 +325,7 @@ static void print_answer(FILE *out, const trials *t, const choice_wish *w, const
     }
     for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
         if (by->unknown[i]) {
-            fprintf(out, "  %s is limited, but unknown here: count it with --measure\n",
+            fprintf(out, "  %s has a limit, but its size is unknown: count it with --measure\n",
                     i == CHOICE_FLASH ? "flash" : "RAM");
         }
     }
@@ -418,9 +419,9 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_wi
             print_lines(out, t, row, words);
         }
     } else if (made->broken_off + made->unpriced == 0) {
-        fprintf(out, "nothing fits: all %d settings were tried\n", made->settings);
+        fprintf(out, "no setting fits: all %d settings were tried\n", made->settings);
     } else {
-        fprintf(out, "nothing fits among the tried steps%s\n",
+        fprintf(out, "no setting fits among the tried steps%s\n",
                 made->broken_off > 0 ? ": raise --effort" : "");
     }
     if (!found && made->count > 0) {

@@ -389,7 +389,8 @@ static cost_figure sum_of(const cost_row *row, const cost_counts *c, cost_figure
     for (int i = 0; row != NULL && i < COST_CLASSES; i++) {
         const double count = cost_counted(c, row->quantity)[i];
         if (count > 0.0 && row->figure[i] < 0.0) {
-            *why = "no counted step has one of this scene's operations: use --measure";
+            *why = "the cost of one of this scene's operations is unknown on this board: use "
+                   "--measure";
             row = NULL;
         } else {
             sum += count * row->figure[i];
@@ -421,14 +422,15 @@ static double state_bytes(const image *im, cost_number number) {
 
 cost cost_of(const image *im, const cost_board *board, cost_number number) {
     if (number != COST_FIXED && !cost_takes_method(im)) {
-        return (cost){.why = "this method is not possible for the scene"};
+        return (cost){.why = "this method is not possible for this scene"};
     }
     if (im->contacts > 0) { /* the board's compiler decides about the layout of their memory */
-        return (cost){.why = "the cost of contacts depends on the motion: it must be counted"};
+        return (cost){.why = "the cost of contacts depends on the motion, so whirl must count it "
+                             "in a run"};
     }
     cost c = {.why = "", .state_bytes = cost_known(state_bytes(im, number), COST_EXACT)};
     if (row_of(board, number, COST_OF_INSTRUCTIONS) == NULL) {
-        c.why = "no step was counted on this board with this number type";
+        c.why = "there are no counts for this board with this number type";
         return c;
     }
     const cost_counts counts = cost_count(im, board, number);

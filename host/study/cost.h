@@ -26,14 +26,15 @@
 
 /* X(id, word, description of the figure's source) */
 #define COST_BASIS_ROWS(X) \
-    X(COST_NOT_KNOWN, "not known", "unknown: it must be measured") \
-    X(COST_EXACT, "exact", "follows from the layout") \
-    X(COST_PREDICTED, "predicted", "from the image, as a sum over its operations") \
-    X(COST_MEASURED, "measured", "counted in an emulator, or read off a linked image") \
+    X(COST_NOT_KNOWN, "not known", "unknown; only a measurement gives it") \
+    X(COST_EXACT, "exact", "follows from the memory layout") \
+    X(COST_PREDICTED, "predicted", "a sum over the operations of the scene") \
+    X(COST_MEASURED, "measured", "counted in an emulator, or read from the linked program") \
     X(COST_ESTIMATED, "estimated", \
-      "cycles of counted instructions by Arm's timing, no wait states") \
+      "cycles from counted instructions and Arm's timing tables, no wait states") \
     X(COST_SIMULATED, "simulated", "cycles of a simulation of the chip by simavr") \
-    X(COST_RANGE, "range", "instructions times the fewest and most cycles per instruction")
+    X(COST_RANGE, "range", \
+      "instructions times the smallest and largest number of cycles per instruction")
 #define COST_BASIS_ID(id, word, says) id,
 typedef enum cost_basis { COST_BASIS_ROWS(COST_BASIS_ID) } cost_basis;
 #undef COST_BASIS_ID

@@ -82,8 +82,8 @@ bool changes_are_apart(const grid *g, const overrides *base) {
                                                                                : NULL;
         if (option != NULL) {
             fprintf(stderr,
-                    "whirl %s: error: '%s' is swept by --over and given by %s\nhint: leave out one "
-                    "of them\n",
+                    "whirl %s: error: --over sweeps '%s', but %s sets it, too\nhint: leave out "
+                    "one of these options\n",
                     command_of(g), a->name, option);
             return false;
         }
@@ -139,10 +139,10 @@ static bool range_split(const grid *g, const char *text, range_text *r) {
     }
     if (problem != NULL) {
         say(g, text);
-        fprintf(
-            stderr,
-            " %s\nhint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic range\n",
-            problem, option_of(g));
+        fprintf(stderr,
+                " %s\nhint: write a range such as %s \"r=10..60 [mm]:11\", or ...:11,log for a "
+                "logarithmic range\n",
+                problem, option_of(g));
         return false;
     }
     r->name = trimmed(text, (size_t)(equals - text));
@@ -185,11 +185,12 @@ static bool read_count(const grid *g, const char *over, const char *text, axis *
     const char *problem = NULL;
     if (made->count == 0) {
         problem =
-            "the COUNT after the last ':' must be a whole number from 1 to 999999999999, ',log' may follow";
+            "the COUNT after the last ':' must be a whole number from 1 to 999999999999, perhaps "
+            "with ',log' after it";
     } else if (made->count == 1 && made->from != made->to) {
-        problem = "a single point needs FROM = TO";
+        problem = "a COUNT of 1 needs FROM = TO";
     } else if (made->is_log && !(made->from * made->to > 0.0)) {
-        problem = "both ends of a logarithmic range must be above zero, or both below";
+        problem = "the ends of a logarithmic range must both be above zero or both below zero";
     }
     if (problem != NULL) {
         say(g, over);
@@ -258,13 +259,13 @@ static bool fits_in(const grid *g, const char *over, const axis *made) {
     for (int i = 0; i < g->count; i++) {
         if (g->axes[i].symbol == made->symbol && g->axes[i].primes == made->primes) {
             say(g, over);
-            fputs(": it is swept already\n", stderr);
+            fputs(": another option already sweeps this name\n", stderr);
             return false;
         }
     }
     if (g->count > 0 && made->count > GRID_POINTS_MAX / g->points) {
         say(g, over);
-        fprintf(stderr, ": more than %.0e points\n", (double)GRID_POINTS_MAX);
+        fprintf(stderr, ": the grid has more than %.0e points\n", (double)GRID_POINTS_MAX);
         return false;
     }
     return true;

@@ -180,8 +180,9 @@ static bool has_measure_inside(const source *typed, diags *errors) {
             if (begins && at[length + blanks(at + length)] == '(') {
                 const size_t offset = (size_t)(at - typed->text);
                 diag_error(errors, (place){typed, 1, (int)offset + 1, offset},
-                           "measure it alone, and compute with the column afterwards",
-                           "%s() must enclose the whole measure", kind_names[kind]);
+                           "use this measure alone, and compute with its column afterwards",
+                           "%s() must stand around the whole expression of a measure",
+                           kind_names[kind]);
                 return true;
             }
             at += length;
@@ -535,9 +536,10 @@ bool sweep_ends_are_alike(const sweep *s, double until_s) {
     if (off_s > 0.0) {
         const double down = number_most(number_floor(until_s / off_s), 1.0);
         fprintf(stderr,
-                "whirl sweep: error: the runs end at different times: with the step %.9g s at %.9g "
-                "s, not at %.9g s, and a measure at the end would compare different moments\n"
-                "hint: the nearest steps that divide %.9g s are %.9g s and %.9g s; or measure over "
+                "whirl sweep: error: the runs end at different times, so a measure at the end "
+                "would compare different moments: with the step %.9g s the run ends at %.9g s, "
+                "not at %.9g s\nhint: the nearest steps that divide"
+                " %.9g s are %.9g s and %.9g s; or measure over "
                 "the run, such as max(EXPR)\n",
                 off_s, off_s * (double)steps_off, until_s, until_s, until_s / (down + 1.0),
                 until_s / down);

@@ -375,7 +375,8 @@ static void say_missing(FILE *out, const trials *t) {
     for (int k = 1; k < r->columns; k++) {
         char name[TRIAL_NAME];
         if (r->shape->column[k].unknown >= 0 && !counts(t, k)) {
-            fprintf(out, "%s%s", first ? "  left out    zero except for round-off: " : ", ",
+            fprintf(out, "%s%s",
+                    first ? "  left out    these are zero except for round-off: " : ", ",
                     trial_column(t, k, name));
             first = false;
         }
@@ -392,7 +393,9 @@ void figure_reference(FILE *out, const trials *t) {
                 where[0] != '\0' ? ", with" : "", where, r->why);
         return;
     }
-    fprintf(out, "              the two agree within %.1e of each component's largest value\n",
+    fprintf(out,
+            "              both references agree within %.1e of each component's largest "
+            "value\n",
             reference_agreement(r));
     fprintf(out, "  horizon     %.9g s", trial_horizon_s(t));
     if (t->records < t->wish.records) {
@@ -405,7 +408,8 @@ void figure_reference(FILE *out, const trials *t) {
         say_missing(out, t);
     }
     if (t->still != NULL) {
-        fprintf(out, "  left out    nothing moves with%.*s\n", (int)strlen(t->still) - 1, t->still);
+        fprintf(out, "  left out    settings without motion:%.*s\n", (int)strlen(t->still) - 1,
+                t->still);
     }
 }
 
@@ -505,7 +509,7 @@ static void print_rows(FILE *out, const trials *t, const table *made, const tabl
     }
     free(show);
     fprintf(out,
-            "\n%d rows, %d of them on the front (*): no row has a smaller error at the same cost",
+            "\n%d rows; no other row beats the %d rows marked * (the front) in both error and cost",
             made->count, front);
     if (!words->all) {
         fprintf(out, "; %d are shown, --all shows all", rows);
@@ -516,11 +520,11 @@ static void print_rows(FILE *out, const trials *t, const table *made, const tabl
 void table_print_left(FILE *out, const table *made, double operations) {
     fprintf(out, "%d settings", made->settings);
     if (made->broken_off > 0) {
-        fprintf(out, "; for %d settings, finer steps exceed their share of --effort %.3g",
+        fprintf(out, "; for %d settings, finer steps need more than their share of --effort %.3g",
                 made->broken_off, operations);
     }
     if (made->unpriced > 0) {
-        fprintf(out, "; %d without a price here: %s", made->unpriced, made->why);
+        fprintf(out, "; %d without a price: %s", made->unpriced, made->why);
     }
     fputc('\n', out);
 }
@@ -531,7 +535,8 @@ static void print_letters(FILE *out, const table_row *first) {
     figure_legend(out, &first->cost);
     if (first->price.unit == PRICE_EVALUATIONS) {
         fputs(
-            "  m  measured: evaluations of the accelerations a simulated second, counted in the run\n"
+            "  m  measured: evaluations of the accelerations per simulated second, counted in the "
+            "run\n"
             "  -  not known: the cost of contacts depends on the motion\n",
             out);
     }
@@ -556,7 +561,7 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
     if (first->price.unit == PRICE_EVALUATIONS) {
         say_contacts(out, t, words);
     } else {
-        fprintf(out, "  %s a simulated second: %s\n", table_unit_words[first->price.unit],
+        fprintf(out, "  %s per simulated second: %s\n", table_unit_words[first->price.unit],
                 figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles
                                                                : &first->cost.instructions,
                              text));
@@ -568,7 +573,7 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
     const table_row *row = &made->row[last];
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
     char *derive = table_derive_line(t, &row->setting, row->pace, words);
-    fprintf(out, "commands that run the last row of the front, and print it as code:\n  %s\n  %s\n",
+    fprintf(out, "commands that run the last row of the front and print its code:\n  %s\n  %s\n",
             run, derive);
     free(run);
     free(derive);
@@ -580,8 +585,9 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
     fprintf(out, "%s on %s (%s)\n", im->name, t->wish.board->name, t->wish.board->core);
     if (t->what.column < 0) {
         fputs(
-            "  error       measured: the largest deviation from the reference over all records, of\n"
-            "              each coordinate and rate as a part of its largest value, of the worst\n",
+            "  error       measured: the largest deviation from the reference, divided by the "
+            "largest\n              value of the coordinate or rate; the worst coordinate or rate "
+            "counts\n",
             out);
     } else {
         fprintf(out,
@@ -590,7 +596,8 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
                 trial_column(t, t->what.column, name));
     }
     if (t->points > 1) {
-        fprintf(out, "              the worst of %d sampled places of what varies\n", t->points);
+        fprintf(out, "              the worst of %d combinations of the varied values\n",
+                t->points);
     }
     figure_reference(out, t);
     if (t->reliable && made != NULL && made->count > 0) {
@@ -598,13 +605,13 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
         print_rows(out, t, made, words);
         print_notes(out, t, made, words);
     } else if (t->reliable && made != NULL && made->unpriced + made->broken_off > 0) {
-        fputs("no setting has a row: ", out);
+        fputs("the table is empty: ", out);
         table_print_left(out, made, words->operations);
     } else if (t->reliable) {
         fputs("no setting follows the motion: every error is larger than the values themselves\n",
               out);
     } else {
-        fputs("no front: without a reference no error is known\n", out);
+        fputs("no table: without a reliable reference no error is known\n", out);
     }
 }
 
@@ -752,8 +759,7 @@ const char *measured_missing(const trials *t, const cost_board *board, char text
         return "runs with contacts are counted only in emulators";
     }
     if (access(COUNTS, R_OK) != 0) {
-        return "this is not the root of Whirl's source tree; run it there to count with the "
-               "emulator";
+        return "whirl can count in an emulator only in the root of its source tree";
     }
     char line[MEASURED_TEXT] = "";
     char *target = is_host(board) ? alloc_words("price-ready-host")
@@ -899,7 +905,7 @@ measured_end measured_count(const trials *t, table *made, int row, const table_w
     made->count = kept;
     if (status != 0) {
         made->unpriced++;
-        made->why = "it cannot be built, linked or run there";
+        made->why = "the step cannot be built, linked or run on this board";
     }
     table_sort(made);
     return MEASURED_COUNTED;

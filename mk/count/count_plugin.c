@@ -294,7 +294,7 @@ static uint64_t number_of(const char *text) {
     char *end = NULL;
     const uint64_t number = strtoull(text, &end, 0);
     if (end == text || *end != '\0') {
-        fail("what should be a number is none");
+        fail("a number is expected after '='");
     }
     return number;
 }

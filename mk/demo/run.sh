@@ -74,6 +74,6 @@ measured() { sed -n '/^Measured/,/^Formula/s/^ *'"$1"'  *//p' "$out/rig.txt"; }
 formula() { sed -n '/^Formula/,$s/^ *'"$1"'  *//p' "$out/rig.txt"; }
 row "rig: speed, asked for $(formula speed)" "$(measured speed)"
 row "rig: force, formula $(formula force)" "$(measured 'force, once per turn')"
-row "rig: phase to the masses, formula $(formula phase)" "$(measured 'its phase to the masses')"
+row "rig: phase to the masses, formula $(formula phase)" "$(measured 'phase, force to masses')"
 row "rig: firmware" "$rig"
 exit $failed

@@ -85,8 +85,8 @@ measure >"$scratch/plain"
     </dev/null >/dev/null 2>"$scratch/err"
 awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "X") x = i; next }
     { if (NR == 2 || $x > high) high = $x; if (NR == 2 || $x < low) low = $x } END { print (high - low) / 2 }' "$scratch/x.csv" >"$scratch/x"
-close_to "$(cat "$scratch/x")" 0.0320864 2e-5 && grep -q '^  carriage, to either side *32\.0[789][0-9]* mm$' "$scratch/said" &&
-    grep -q '^  by formula, S/(M + m) *32\.086 mm$' "$scratch/said" && grep -q '^  measured / formula *75\.3[34] %$' "$scratch/said"
+close_to "$(cat "$scratch/x")" 0.0320864 2e-5 && grep -q '^  amplitude of the carriage *32\.0[789][0-9]* mm$' "$scratch/said" &&
+    grep -q '^  formula S/(M + m) *32\.086 mm$' "$scratch/said" && grep -q '^  measured / formula *75\.3[34] %$' "$scratch/said"
 verdict $? "the plant's carriage swings by 32.09 mm, and the report says so" "$scratch/said"
 
 # --- wrong settings, and impossible ones ----------------------------------------------------------------------------------

@@ -41,7 +41,7 @@ cp "$scratch/swing.whirl" "$scratch/before"
 [ $? -eq 2 ] && grep -q '^hint: whirl new swing_2$' "$scratch/err" && cmp -s "$scratch/before" "$scratch/swing.whirl"
 verdict $? "whirl new leaves a file that exists as it is"
 for name in 1x 'a b' ä a/b a.b '' "$(printf '%058d' 0 | tr 0 n)"; do
-    exits 2 'is no name' new "$name"
+    exits 2 'is not a valid name' new "$name"
 done
 exits 2 '^usage: whirl new' new
 exits 2 '^usage: whirl check' check
@@ -97,13 +97,13 @@ for file in core/models/*.whirl; do
         verdict $? "$file: $count scenes are named"
     fi
     if [ "$effects" != - ]; then
-        exits 2 "hint: one of $effects\$" run "$file:$name" --with zzzzzzzzz
+        exits 2 "hint: choose one of $effects\$" run "$file:$name" --with zzzzzzzzz
     fi
 done
-prints 'no scene was named: everything starts at zero' run core/models/thomson.whirl:thomson --until 2ms
+prints 'no scene was named: every coordinate and rate without --start starts at zero' run core/models/thomson.whirl:thomson --until 2ms
 exits 2 'this text contains no mechanism' derive -
-exits 2 'more than one thing to derive: thomson' derive epicyclic thomson
-exits 2 "one scene at a time, not also 'thomson_b'" run thomson_a thomson_b
+exits 2 'the command takes only one scene or mechanism: 'thomson' is a second one' derive epicyclic thomson
+exits 2 "the command takes only one scene: 'thomson_b' is a second one" run thomson_a thomson_b
 prints '^thomson_a: ' run core/models/thomson.whirl:thomson_a --until 2ms
 prints '^thomson_a: ' run thomson:thomson_a --until 2ms
 prints '^mechanism thomson' derive thomson:thomson_a
@@ -112,7 +112,7 @@ prints '^  mechanism thomson of core/models/thomson.whirl, model hash 0x' descri
 prints '^  "method": "heun",$' describe thomson_a --json --method heun
 prints '^  "compensated": true,$' describe thomson_a --json --compensated
 prints '^    "asked": true,$' describe thomson_a --json --with ledger
-exits 2 'more than one thing to describe: thomson' describe epicyclic thomson
+exits 2 'the command takes only one scene or mechanism: 'thomson' is a second one' describe epicyclic thomson
 exits 2 'did you mean --json' describe epicyclic --jsn
 exits 2 "there is no method 'foo'" describe epicyclic --method foo
 prints '^start[(]theta1[)],' sweep thomson:thomson_a --until 2ms --over theta1=0..1:2 --quiet
@@ -133,14 +133,14 @@ exits 2 'hint: whirl run --help lists' run thomson_a --bogus
 exits 2 "unknown option '--'" run --
 exits 2 'whirl list: error: unknown option' list --all
 exits 2 "there is no form 'fortran'" derive epicyclic --as fortran
-exits 2 'hint: one of text, latex, octave, c' derive epicyclic --as fortran
+exits 2 'hint: choose one of text, latex, octave, c' derive epicyclic --as fortran
 exits 2 "there is no method 'rk5'" run thomson_a --method rk5
 methods_of() { # prints the words of the matching rows of core/method.h
     sed -n "s/^ *X(WH_[A-Z0-9_]*, \"\([a-z0-9-]*\)\", .*$1.*/\1/p" core/method.h
 }
 methods=$(methods_of WH_ | tr '\n' ',' | sed 's/,$//; s/,/, /g')
 of_any=$(methods_of WH_ANY_SYSTEM | tr '\n' ',' | sed 's/,$//; s/,\([^,]*\)$/ or \1/; s/,/, /g')
-exits 2 "hint: one of $methods$" run thomson_a --method rk5
+exits 2 "hint: choose one of $methods$" run thomson_a --method rk5
 # a method that the form does not accept is refused before anything runs, with its place and a remedy
 for command in run "sweep --over step=1..2[ms]:2" "derive --as c"; do
     exits 2 "lorenz.whirl:2:7: error: semi-implicit Euler is not defined here: 'x' is of order 1" $command \
@@ -162,7 +162,7 @@ done
 prints 'leapfrog, double' run mk/price/separable.whirl --method leapfrog --until 100ms
 prints 'semi-implicit Euler, double' run epicyclic_from_rest --method semi-implicit-euler --until 100ms
 prints '^system lorenz' derive tests/mechanisms/lorenz.whirl --method semi-implicit-euler
-exits 2 'hint: one of double, float' run thomson_a --number half
+exits 2 'hint: choose one of double, float' run thomson_a --number half
 exits 2 "hint: --as VALUE" derive epicyclic --as
 
 exits 2 "'q' is unknown in mechanism 'thomson'" run thomson_a --set q=3
@@ -229,10 +229,10 @@ exits 2 "there is no form of angles 'sideways'" run epicyclic --angles sideways
 exits 2 "unknown option '--tables'" accel epicyclic --tables linear
 exits 2 "there is no form of tables 'square'" run epicyclic_from_rest --tables square
 for cells in 100 4 131072 0 -8 64.0 6x4 "" 99999999999999999999; do
-    exits 2 "--cells '$cells' is no power of two from 8 to 65536" run epicyclic_from_rest --tables linear --cells "$cells"
+    exits 2 "--cells '$cells' is not a power of two from 8 to 65536" run epicyclic_from_rest --tables linear --cells "$cells"
 done
 for command in run describe "derive --as c"; do
-    exits 2 'error: --cells without --tables' $command epicyclic_from_rest --cells 64
+    exits 2 'error: --cells sets the size of tables' $command epicyclic_from_rest --cells 64
     exits 2 "thomson.whirl:22:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle: 'theta1' is one of them" $command thomson_a --tables cubic
 done
 exits 2 'contacts.whirl:24:3: error: --tables: a scene with events cannot use tables' run ball_bounces --tables linear
@@ -271,18 +271,18 @@ ln "$scratch/own.whirl" "$scratch/hard"
 own=$scratch/own.whirl:own_swings
 for file in own.whirl ./own.whirl soft hard; do
     for option in --csv --columns; do
-        exits 2 "$file: error: $option would write over the model" run "$own" "$option" "$scratch/$file"
+        exits 2 "$file: error: $option would overwrite the model" run "$own" "$option" "$scratch/$file"
     done
-    exits 2 "$file: error: --csv would write over the model" \
+    exits 2 "$file: error: --csv would overwrite the model" \
         sweep "$own" --over x=1..2:2 --fresh --csv "$scratch/$file"
 done
-exits 2 'hint: give it another name' run "$scratch/soft:own_swings" --csv "$scratch/hard"
-exits 2 'own.svg: error: --plot would write over the model' run "$scratch/own.svg" --plot "$scratch/own.svg"
+exits 2 'hint: give the output another name' run "$scratch/soft:own_swings" --csv "$scratch/hard"
+exits 2 'own.svg: error: --plot would overwrite the model' run "$scratch/own.svg" --plot "$scratch/own.svg"
 cp "$scratch/own.whirl" "$scratch/x.sweep"
-exits 2 'x.sweep: error: --csv would write over the model' \
+exits 2 'x.sweep: error: --csv would overwrite the model' \
     sweep "$scratch/x.sweep" --over x=1..2:2 --csv "$scratch/x"
 "$whirl" run - --csv "$scratch/own.whirl" <"$scratch/own.whirl" >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q 'would write over the model' "$scratch/err"
+[ $? -eq 2 ] && grep -q 'would overwrite the model' "$scratch/err"
 verdict $? "nor is what standard input reads"
 cmp -s "$scratch/own.whirl" "$scratch/kept" && cmp -s "$scratch/own.svg" "$scratch/kept" &&
     cmp -s "$scratch/x.sweep" "$scratch/kept"
@@ -305,7 +305,7 @@ END
 for call in 'run' 'derive' 'sweep --over x=0..1:2 --until 1s'; do
     exits 0 "hand.whirl:4:1: note: this force changes its sign with x'" $call "$scratch/hand.whirl"
 done
-exits 0 'hint: dry friction is: friction x static EXPR kinetic EXPR normal EXPR' run "$scratch/hand.whirl"
+exits 0 'hint: write dry friction as: friction x static EXPR kinetic EXPR normal EXPR' run "$scratch/hand.whirl"
 "$whirl" run "$scratch/hand.whirl" --quiet >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && [ ! -s "$scratch/err" ]
 verdict $? "--quiet says nothing of it"
@@ -383,7 +383,7 @@ exits 2 "error: --stabilized corrects .* 'lorenz' is given by equations" run "te
 exits 2 'thomson.whirl:[0-9]+:[0-9]+: error: --stabilized is for motion without drive or damping: this statement drives or damps' run thomson_a --stabilized
 exits 2 "error: --stabilized needs a ledger, which leapfrog cannot have" run docs/hard/long.whirl:pendulum_swings --stabilized --method leapfrog
 exits 2 "error: --stabilized corrects an energy drift, but with semi-implicit Euler" run docs/hard/long.whirl:pendulum_swings --stabilized --method semi-implicit-euler
-prints '^  given back \(--stabilized\) ' run docs/hard/long.whirl:gear_turns --stabilized
+prints '^  energy correction \(--stabilized\) ' run docs/hard/long.whirl:gear_turns --stabilized
 exits 2 'error: --stabilized needs the stages of a step' run two_mass_relative --stabilized --matrix exact
 exits 2 'error: there is no --stabilized in fixed point' run docs/hard/long.whirl:gear_turns --stabilized --number fixed
 exits 2 '^whirl price: error: ' price epicyclic_conserved --stabilized

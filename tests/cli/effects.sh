@@ -61,10 +61,10 @@ says '^allowed  *5  *-  *-  *1  *1  *-  *-  *-  *-$'
 cells drag '# # # # # # # # # may be left out'
 cells pull '# # # # # # # # # needed'
 for effect in buffer far_spring weight lift; do
-    says "^$effect .* not tested by this run: it did not act$"
+    says "^$effect .* not tested: the effect did not act in this run$"
 done
 says '^smallest set within the error: pull, buffer, far_spring, weight, lift$'
-says '^not tested, so kept: buffer, far_spring, weight, lift$'
+says '^kept, because this run does not test them: buffer, far_spring, weight, lift$'
 run=$(sed -n 's/^  whirl run/run/p' "$scratch/out")
 # the differences between the two runs, over all rows, compared with the answer
 eval "\"\$whirl\" $run --csv \"\$scratch/less.csv\" --quiet" && "$whirl" run "$cart" --csv "$scratch/all.csv" --quiet
@@ -106,7 +106,7 @@ says 'price on mps2-an505 \(Cortex-M33\), float, predicted$'
 says '^effect .* instructions  *evaluations '
 cells drag '# # # # # # # may be left out'
 ask "$cart"
-cells buffer '# # # - # - - not tested by this run: it did not act'
+cells buffer '# # # - # - - not tested: the effect did not act in this run'
 cells drag '# # # # # # # may be left out'
 
 # --- what cannot run without an effect --------------------------------------------------------------------------------------
@@ -125,7 +125,7 @@ END_OF_FILE
 check "a scene that needs its effects to run" ask "$scratch/odd.whirl" --until 900s --step 10ms
 cells mass '- - - - - - needed: no run can start without it'
 says '^wall .* needed: the run diverges without it$'
-says '^reader .* not tested by this run'
+says '^reader .* not tested: the effect did not act'
 says '^smallest set within the error: mass, wall, reader$'
 ask "$scratch/odd.whirl" --without wall --until 900s --step 10ms
 [ $? -eq 1 ] && grep -q '^hint: a smaller --step' "$scratch/err" && grep -q 'with all effects the run diverges' "$scratch/err"
@@ -142,8 +142,8 @@ refused 'unit' '^hint: ' "$cart" --error x=1mmm
 refused 'a number above zero, not -1mm' '' "$cart" --error x=-1mm
 refused "no effect is selected in 'bare'" '^hint: --with all, or --with drag' "$scratch/cart.whirl:bare"
 refused "no effect is selected in 'two_mass_absolute'" 'docs/effects.md' two_mass_absolute
-refused 'a run without steps compares nothing' '^hint: --until 1s' "$cart" --until 0
-refused "there is no board 'mps'" '^hint: one of' "$cart" --board mps
+refused 'the run has no steps, so there is nothing to compare' '^hint: --until 1s' "$cart" --until 0
+refused "there is no board 'mps'" '^hint: choose one of' "$cart" --board mps
 refused "unknown effect 'darg'" "^hint: did you mean 'drag'" "$cart" --without darg
 refused 'no scene' '' "$scratch/cart.whirl:nothing"
 "$whirl" help effects | grep -q '^usage: whirl effects' && "$whirl" effects >"$scratch/out" 2>"$scratch/err"

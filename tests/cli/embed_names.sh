@@ -15,12 +15,12 @@ flags="-ffp-contract=off -I. -I$gen -I$scratch -Wall -Wextra -Wconversion -Wshad
 "$whirl" derive --help | grep -q -- '--header FILE'
 verdict $? "--help tells of it"
 exits 2 'error: --header needs a value' derive thomson_a --as c --header
-exits 2 'error: --header goes with --as c' derive thomson_a --header "$scratch/x.h"
+exits 2 'error: --header needs --as c' derive thomson_a --header "$scratch/x.h"
 exits 2 'hint: --as c --header FILE' derive thomson_a --as latex --header "$scratch/x.h"
 [ ! -e "$scratch/x.h" ]
 verdict $? "nothing is written then"
-exits 2 'error: --header needs a file: standard output is for the C code' derive thomson_a --as c --header -
-exits 2 'error: --header needs a file: standard output is for the C code' derive thomson_a --as c --header=
+exits 2 'error: --header needs the name of a file, because standard output' derive thomson_a --as c --header -
+exits 2 'error: --header needs the name of a file, because standard output' derive thomson_a --as c --header=
 exits 2 "unknown option '--haeder'" derive thomson_a --as c --haeder x.h
 grep -q 'hint: did you mean --header' "$scratch/err"
 verdict $? "and a hint"
@@ -29,7 +29,7 @@ cp "$scratch/own.whirl" "$scratch/kept"
 ln -s own.whirl "$scratch/soft"
 ln "$scratch/own.whirl" "$scratch/hard"
 for file in own.whirl soft hard; do
-    exits 2 "$file: error: --header would write over the model" derive "$scratch/own.whirl" --as c --header "$scratch/$file"
+    exits 2 "$file: error: --header would overwrite the model" derive "$scratch/own.whirl" --as c --header "$scratch/$file"
 done
 cmp "$scratch/own.whirl" "$scratch/kept"
 verdict $? "the model is as it was"

@@ -45,7 +45,7 @@ for method in $no_rates; do
 done
 for scene in thomson_b spherical_flight two_mass_relative epicyclic_conserved; do
     add "$scene" --until 0.3s --compensated
-    for method in $("$whirl" derive "$scene" --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p'); do
+    for method in $("$whirl" derive "$scene" --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: choose one of //p'); do
         case " $(echo $no_rates) " in *" $method "*) continue ;; esac
         add "$scene" --until 0.2s --method "$method"
     done
@@ -70,7 +70,7 @@ for scene in epicyclic_conserved epicyclic_from_rest rig_fixed halvorson_smooth 
     tabled "${folds##* }" "$scene" --tables linear --cells 1024 --method heun
     tabled whole "$scene" --tables cubic --cells 8 --method rk38
 done
-for method in $("$whirl" derive epicyclic_conserved --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p'); do
+for method in $("$whirl" derive epicyclic_conserved --as c --method '?' 2>&1 | sed -n 's/,//g; s/^hint: choose one of //p'); do
     case " $(echo $no_rates) " in *" $method "*) continue ;; esac
     tabled folded epicyclic_conserved --tables cubic --method "$method"
 done

@@ -76,12 +76,12 @@ while read -r left right lines; do
         echo 'scene go { step 1 [ms]; until 1 [s] }'
     } >"$scratch/carts.whirl"
     "$whirl" examine "$scratch/carts.whirl" >"$scratch/out" 2>&1
-    remarks=$(grep -c '^     not a common shift of u and v: not the total momentum' "$scratch/out")
+    remarks=$(grep -c '^     this direction shifts u and v by different amounts: its momentum is not the total momentum' "$scratch/out")
     [ "$remarks" -eq $((left + right != 0)) ] && grep -q 'conserved momenta: 1$' "$scratch/out"
     verdict $? "forces $left f and $right f: the total momentum or not" "$scratch/out"
     says "the spring's line" "potential energy V, line $((lines + 8)) (effect tied): -u$" "$scratch/carts.whirl" --with tied
 done <"$scratch/pairs"
 "$whirl" examine eccentric_ratio >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q '^hint: write T and V$' "$scratch/err"
+[ $? -eq 2 ] && grep -q '^hint: write the mechanism with T and V instead$' "$scratch/err"
 verdict $? "a system of equations is refused with a hint"
 exit $failed

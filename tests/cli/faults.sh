@@ -26,10 +26,10 @@ exits 2 "did you mean 'supply'" --fault suply=2
 exits 2 'a number from 0 to 10' --fault supply=11
 exits 2 'this kind has no size' --fault jam,freewheel=1
 exits 2 'a number from 0.01 to 1' --fault stuck=1.2
-exits 2 'no such time' --fault jam@noon
-exits 2 'no such duration' --fault jam@1+long
-exits 2 "sends no note 'mood'" --fault jam@mood=3
-exits 2 'has 2 such channels' --fault edge-dead:3
+exits 2 'not a valid time' --fault jam@noon
+exits 2 'not a valid duration' --fault jam@1+long
+exits 2 "declares no note 'mood'" --fault jam@mood=3
+exits 2 'has only 2 channels of this kind' --fault edge-dead:3
 about=pil
 exits 2 "has no input 'runaway'" docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway
 exits 2 'excludes --fault' --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam
@@ -58,7 +58,7 @@ grep -aq '^watchdog .* t = 5.02' "$scratch/run" && [ "$(told trip "$scratch/run"
 verdict $? "one that hangs is cut by the watchdog" "$scratch/run"
 run watchdog-resets,hang=100ms@5s
 ! grep -aq '^watchdog' "$scratch/run" && grep -aq '^resets  *1, the last at t = 5.02' "$scratch/run" &&
-    grep -aq '^RESET by the watchdog: nothing moves by itself' "$scratch/run" && [ "$(told reset "$scratch/run")" -eq 1 ]
+    grep -aq '^RESET by the watchdog: the motor stays off' "$scratch/run" && [ "$(told reset "$scratch/run")" -eq 1 ]
 verdict $? "or is reset by it, and then leaves the rig alone" "$scratch/run"
 run stop@5s+10ms
 grep -aq '^STOPPED: ' "$scratch/run" && grep -aq '^5.002 s  \(coast\|brake\)' "$scratch/run" && ! grep -aq '^Measured' "$scratch/run"

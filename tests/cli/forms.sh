@@ -8,7 +8,7 @@ sed -n 's/^  --as \([a-z0-9]*\)  *[^ ].*/\1/p' "$scratch/help" >"$scratch/forms"
 sed -n 's/^ *{*\.word = "\(.*\)",$/\1/p; s/^ *{\.word = "\([a-z0-9]*\)", .*/\1/p' host/cli/derive.c |
     diff - "$scratch/forms" >"$scratch/err" && [ -s "$scratch/forms" ]
 verdict $? "help tells of every form"
-"$whirl" derive thomson_a --as x 2>&1 | sed -n 's/^hint: one of //p' | tr -d ',' | tr ' ' '\n' | diff "$scratch/forms" - >"$scratch/err"
+"$whirl" derive thomson_a --as x 2>&1 | sed -n 's/^hint: choose one of //p' | tr -d ',' | tr ' ' '\n' | diff "$scratch/forms" - >"$scratch/err"
 verdict $? "and so does the hint to a wrong one"
 
 cat >"$scratch/it.whirl" <<'END'
@@ -39,7 +39,7 @@ only_with() {
     if is_one_of "$3" "$4"; then
         [ $status -eq 0 ]
     else
-        [ $status -eq 2 ] && [ ! -s "$scratch/out" ] && [ "$(those_with "error: $1 goes with" "$scratch/err")" = "$4" ]
+        [ $status -eq 2 ] && [ ! -s "$scratch/out" ] && [ "$(those_with "error: $1 needs" "$scratch/err")" = "$4" ]
     fi
     verdict $? "--as $3 with $1, which is for: $4"
     sed -n "/^## .whirl derive/,/^## .whirl desc/p" docs/commands.md | grep -F -- "| \`$1" >"$scratch/told"

@@ -67,7 +67,7 @@ V = 40 [N/m]*x^2/2
 scene long { start x = 0.1 [m]; until 1000000 [s]; step 1 [ms] }
 END
 stop INT "has_worked 20" run "$scratch/long.whirl" --number fixed
-[ "$code" -eq 130 ] && grep -q '^whirl run: interrupted in the run in double that measures the ranges' "$scratch/err" && [ ! -s "$scratch/out" ]
+[ "$code" -eq 130 ] && grep -q '^whirl run: interrupted in the first run, in double, which measures the ranges' "$scratch/err" && [ ! -s "$scratch/out" ]
 verdict $? "run in fixed point, before it began: exit status 130, and why there is nothing" "$scratch/err"
 
 # a second signal ends a process that waits, here for a reader that never comes

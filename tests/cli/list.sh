@@ -102,8 +102,8 @@ for name in $names; do
     [ $bad -eq 0 ] || { cat "$scratch/got" >>"$scratch/err"; break; }
 done
 verdict $bad "names of files and titles with ends of fields and lines in them (seed $seed)"
-exits 2 "there is no form 'csv'" list --as csv
-exits 2 'names a part of a file' list core/models/cuff.whirl:cuff --as table
+exits 2 "--as takes text or table, not .csv." list --as csv
+exits 2 'is a part of a file' list core/models/cuff.whirl:cuff --as table
 exits 2 'unknown option' list --table
 
 # --- all effects, and none ---------------------------------------------------------------------------------
@@ -143,7 +143,7 @@ done
 "$whirl" sweep "$scratch/slide.whirl:kept" --without conserve --with drag --over x=1..2:2 --csv - --quiet >"$scratch/one" 2>"$scratch/err"
 "$whirl" sweep "$scratch/slide.whirl:moved" --with drag --over x=1..2:2 --csv - --quiet 2>>"$scratch/err" | cmp -s - "$scratch/one" && [ -s "$scratch/one" ]
 verdict $? "and swept so"
-exits 2 '--with takes effects, not .conserve.' derive "$scratch/slide.whirl:kept" --with conserve --as c
+exits 2 '.conserve. is not an effect, so --with cannot add it' derive "$scratch/slide.whirl:kept" --with conserve --as c
 for word in all conserve none ledger; do
     printf 'mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'"'"'^2/2\neffect %s { V += 1 [N]*x }\n' "$word" >"$scratch/word.whirl"
     exits 2 "^.*word.whirl:4:8: error: '$word' is a reserved word" derive "$scratch/word.whirl"
@@ -160,13 +160,13 @@ cmp -s "$scratch/plain.words" "$scratch/other.words" &&
 verdict $? "--name: the same code under another name, in the header too"
 "$whirl" derive thomson_a --as octave --name other 2>"$scratch/err" | grep -q '^function .*other('
 verdict $? "--name: in Octave's form"
-exits 2 '.--name. is no name|is no name' derive thomson_a --as c --name 1x
-exits 2 'is no name' derive thomson_a --as c --name=
-exits 2 'is no name' derive thomson_a --as c --name 'a b'
-exits 2 'is no name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
+exits 2 '.--name. is not a valid name|is not a valid name' derive thomson_a --as c --name 1x
+exits 2 'is not a valid name' derive thomson_a --as c --name=
+exits 2 'is not a valid name' derive thomson_a --as c --name 'a b'
+exits 2 'is not a valid name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
 exits 2 'given twice' derive thomson_a --as c --name a --name b
 exits 2 "'int' is a word of C" derive thomson_a --as c --name int
-exits 2 'error: --name goes with --as octave or c' derive thomson_a --name other
+exits 2 'error: --name needs --as octave or c' derive thomson_a --name other
 
 # --- hard cases: sections and scenes of the page, and each scene keeps the verdict ---------------------------
 "$whirl" list --hard >"$scratch/hard" 2>"$scratch/err"
@@ -198,6 +198,6 @@ while IFS="$tab" read -r name promised; do
     done
     case "$promised" in warning*) [ $warned -eq 1 ]; verdict $? "--hard: $name has a warning in one of its scenes" ;; esac
 done <"$scratch/scenes"
-exits 2 'error: --units, --hard and --figures go alone' list --hard thomson_a
-exits 2 'error: --units, --hard and --figures go alone' list --units --hard
+exits 2 'error: --units, --hard and --figures allow no other option' list --hard thomson_a
+exits 2 'error: --units, --hard and --figures allow no other option' list --units --hard
 exit $failed

@@ -43,25 +43,25 @@ verdict $? "rows on standard output, the map on standard error" "$scratch/words"
 "$whirl" map $spring $places $steps 2>"$scratch/err" | sed 's/^[^:]*: //' | cmp - "$scratch/falls" 2>"$scratch/err"
 verdict $? "the same map, whichever way its ranges go" "$scratch/falls"
 # --- pairs without a run ----------------------------------------------------------------------------------------------------
-exits 1 'error: no pair can be run' $spring --over=m=0..0:1 $steps --csv "$scratch/n.csv" --quiet
-exits 1 'error: no pair can be run' ball_bounces --over=z=-2..-1:3 --over=e=0.1..0.9:3 --plot "$scratch/n.svg" --quiet
+exits 1 'error: no pair of values can be run' $spring --over=m=0..0:1 $steps --csv "$scratch/n.csv" --quiet
+exits 1 'error: no pair of values can be run' ball_bounces --over=z=-2..-1:3 --over=e=0.1..0.9:3 --plot "$scratch/n.svg" --quiet
 
 # --- what is refused --------------------------------------------------------------------------------------------------------
 exits 2 'usage: whirl map'
 exits 2 'a map needs two --over: there is none' $spring
 exits 2 'a map needs two --over: there is one' $spring "$steps"
-exits 2 "a map has two --over: 'm=1..2:2' is a third" $spring "$steps" "$places" --over m=1..2:2
+exits 2 "a map needs exactly two --over, but 'm=1..2:2' is a third one" $spring "$steps" "$places" --over m=1..2:2
 for bad in 'k=1..2' 'k=:3' '=1..2:3' 'k=1...2:3' '' 'k' 'k=1..2:x' 'k=1..2:0' 'k=1..2:1' 'k=1..2:-3' 'k=1..2:1.5' 'k=-1..2:3,log' \
     'k=0..2:3,log' 'k=nan..2:3' 'k=1..inf:3' 'k=1..nan:3' 'nothing=1..2:3' 'x=1..m:3' 'k=1..2:3,lin' 'k=1..2 [kg]:3' 'k=1..2:99999999999999'; do
     exits 2 'error: ' $spring "$steps" --over "$bad"
 done
 exits 2 'step must be above zero' $spring "$places" --over step=0..1:3
 exits 2 'step must be above zero' $spring "$places" --over step=-1..1:3
-exits 2 'error: .*swept already' $spring "$steps" --over step=1ms..2ms:3
-exits 2 'error: .*swept already' $spring "$places" "$places"
-exits 2 "'k' is swept by --over and given by --set" $spring "$steps" "$places" --set 'k = 3'
-exits 2 "'x' is swept by --over and given by --start" $spring "$steps" --over x=1..2:2 --start x=3
-exits 2 "'step' is swept by --over and given by --step" $spring "$steps" "$places" --step 1ms
+exits 2 'error: .*already sweeps' $spring "$steps" --over step=1ms..2ms:3
+exits 2 'error: .*already sweeps' $spring "$places" "$places"
+exits 2 "--over sweeps 'k', but --set sets it, too" $spring "$steps" "$places" --set 'k = 3'
+exits 2 "--over sweeps 'x', but --start sets it, too" $spring "$steps" --over x=1..2:2 --start x=3
+exits 2 "--over sweeps 'step', but --step sets it, too" $spring "$steps" "$places" --step 1ms
 exits 2 '1000000 pairs exceed the limit of 250000' $spring --over k=1..2:1000 --over x=1..2:1000
 exits 2 'pairs exceed the limit of 250000' $spring --over k=1..2:999999 --over x=1..2:999999
 exits 2 'this would take about .* minutes: 105 pairs' $spring "$places" --over step=1e-9..1e-3:21,log
@@ -80,9 +80,9 @@ exits 2 'map.svg: error: cannot be written' $spring $slow --plot "$scratch/none/
 exits 2 'draws .svg, .pdf and .png files' $spring $slow --plot map.gif
 exits 2 'cannot share a file' $spring $slow --plot "$scratch/map.svg" --csv "$scratch/map.svg"
 cp $spring "$scratch/mine.whirl"
-exits 2 'would write over the model' "$scratch/mine.whirl" $slow --csv "$scratch/mine.whirl"
+exits 2 'would overwrite the model' "$scratch/mine.whirl" $slow --csv "$scratch/mine.whirl"
 ln -s "$scratch/mine.whirl" "$scratch/mine.svg"
-exits 2 'would write over the model' "$scratch/mine.whirl" $slow --plot "$scratch/mine.svg"
+exits 2 'would overwrite the model' "$scratch/mine.whirl" $slow --plot "$scratch/mine.svg"
 mkdir "$scratch/bin"
 for tool in sh env timeout; do ln -s "$(command -v $tool)" "$scratch/bin/$tool"; done
 program=$(realpath "$whirl")

@@ -77,7 +77,7 @@ contacts() { # SCENE HORIZON RATE
             d = $1 - $7; exit !(NF == 12 && d <= 0.5 && d >= -0.5 && $2 == $8 && $3 == $9 && $4 == $10 && $5 == $11 && $6 == $12 &&
                 $7 > 50 && $8 >= $7 && $9 > 3 * $8) }'
     verdict $? "$1: mean, longest and declared step, flash, RAM and stack are those that the line counts" "$scratch/row"
-    sed -n 's/^  load  *\([0-9.e+-]*\) %.* by the longest of \([0-9]*\) counted steps; \([0-9.e+-]*\) % by the declared one/\1 \2 \3/p' \
+    sed -n 's/^  load  *\([0-9.e+-]*\) %.* from the longest of \([0-9]*\) counted steps; \([0-9.e+-]*\) % from the declared bound/\1 \2 \3/p' \
         "$scratch/out" >"$scratch/load"
     echo "$(cat "$scratch/load") $(figure 'the longest') $(figure declared) $(step) $steps" | awk '
         function near(a, b) { return a > 0.99 * b && a < 1.01 * b }
@@ -139,20 +139,20 @@ missing() { # missing EXIT-STATUS SCENE TEXT OPTION...: runs choose without the 
     verdict $? "a compiler that is missing, choose $scene $*: exit status $wanted, $text" "$scratch/out"
 }
 missing 2 "$scratch/drawn.whirl:r23_1" "whirl cannot count on mps2-an386: 'no-such-compiler' is missing" --measure
-missing 0 "$scratch/drawn.whirl:r23_1" "^  prices  *predicted, since nothing can be counted: 'no-such-compiler' is missing"
+missing 0 "$scratch/drawn.whirl:r23_1" "^  prices  *predicted, because Whirl cannot count: 'no-such-compiler' is missing"
 missing 1 ball_bounces 'the cost of contacts must be counted'
 choose ball_bounces --error 1e-2 --board host --horizon 1s
 [ $? -eq 1 ] && grep -q 'counted only in emulators' "$scratch/err"
 verdict $? "a run with contacts is not counted on this machine, which is said" "$scratch/err"
 program=$(cd "$(dirname "$whirl")" && pwd)/whirl
 (cd "$scratch" && "$program" choose drawn.whirl:r23_1 --error 1e-2 --effort 4e7 --measure >"$scratch/out" 2>"$scratch/err")
-[ $? -eq 2 ] && grep -q "not the root of Whirl's source tree" "$scratch/err"
+[ $? -eq 2 ] && grep -q "only in the root of its source tree" "$scratch/err"
 verdict $? "outside of the source tree --measure fails: exit status 2" "$scratch/err"
 (cd "$scratch" && "$program" choose ball_bounces --error 1e-2 --horizon 1s >"$scratch/out" 2>"$scratch/err")
-[ $? -eq 1 ] && grep -q "contacts must be counted: .*root of Whirl's source tree; run it there" "$scratch/err" && [ ! -s "$scratch/out" ]
+[ $? -eq 1 ] && grep -q "contacts must be counted: .*root of its source tree" "$scratch/err" && [ ! -s "$scratch/out" ]
 verdict $? "nor does choose of a run with contacts, which says where to run it" "$scratch/err"
 (cd "$scratch" && "$program" choose drawn.whirl:r23_1 --error 1e-2 --effort 4e7 >"$scratch/out" 2>"$scratch/err")
-[ $? -eq 0 ] && grep -q "^  prices  *predicted, since .* not the root of Whirl's source tree" "$scratch/out"
+[ $? -eq 0 ] && grep -q "^  prices  *predicted, because .* only in the root of its source tree" "$scratch/out"
 verdict $? "and without it prices are predicted, which is said" "$scratch/out"
 
 # --- measure_one.sh ------------------------------------------------------------------------------------------------------

@@ -121,10 +121,10 @@ exits 2 'usage: whirl monitor PORT' --rate 500
 exits 2 'cannot be opened' "$scratch/none"
 exits 2 'cannot be opened: Is a directory' "$scratch"
 exits 2 '--rate takes a whole number' "$scratch/raw" --rate 2.5
-exits 2 'no such speed' "$scratch/raw" --baud 7
+exits 2 'this speed is not supported' "$scratch/raw" --baud 7
 exits 2 'draws .svg, .pdf and .png files' "$scratch/raw" --plot a.txt
 exits 2 'cannot share a file' "$scratch/raw" --csv "$scratch/x" --vcd "$scratch/x"
-exits 2 'would be written over' "$scratch/raw" --raw "$scratch/raw"
+exits 2 'would overwrite' "$scratch/raw" --raw "$scratch/raw"
 exits 2 "takes a file's name" "$scratch/raw" --vcd -
 exits 2 '--for takes a number from' "$scratch/raw" --for 0
 exits 2 'one line at a time' "$scratch/raw" "$scratch/csv"
@@ -183,7 +183,7 @@ running=$!
 exec 4>"$scratch/keys"
 until_said '^[0-9]' "$scratch/csv" # waits for samples
 kill $rig && wait $rig 2>/dev/null
-until_said 'is gone; waiting' "$scratch/said"
+until_said 'is disconnected; waiting' "$scratch/said"
 verdict $? "it is told that the line is gone" "$scratch/said"
 : >"$scratch/raw"
 station

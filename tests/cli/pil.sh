@@ -130,7 +130,7 @@ verdict $? "and those of the other kinds say what stands there" "$scratch/diff"
 # Two resets with a trip latched. After each, the program is a new one, which knows only the trip; all processors agree.
 fault='cell-open@6s,reset@6.4003,reset=0.05@7.7'
 sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --fault "$fault" --firmware "$build/pil_rig" --tape "$scratch/reset.tape" >"$scratch/reset" 2>"$scratch/err"
-[ $? -eq 1 ] && grep -aq '^TRIPPED: the load cell' "$scratch/reset" && grep -aq '^RESET: nothing moves by itself' "$scratch/reset" &&
+[ $? -eq 1 ] && grep -aq '^TRIPPED: the load cell' "$scratch/reset" && grep -aq '^RESET: the motor stays off' "$scratch/reset" &&
     [ "$(grep -ac '^Eccentric-mass rig on board' "$scratch/reset")" = 3 ] && [ "$(grep -ac '^0.000 s  tripped' "$scratch/reset")" = 2 ] &&
     grep -aq '^resets  *2, the last at t = 7.7' "$scratch/reset" && grep -aq '^it tells .* state 4, trip 5, .* reset 2$' "$scratch/reset"
 verdict $? "a trip is latched through two resets, and told" "$scratch/reset"
@@ -145,10 +145,10 @@ done
 
 # --- readings that are late, or missing ----------------------------------------------------------------------------------
 # The readings are late by this much, and the run begins. The phase error is the delay times 1980 degrees a second (330 rpm).
-first=$(number 'its phase to the masses' "$scratch/pc")
+first=$(number 'phase, force to masses' "$scratch/pc")
 for delay in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(5); for (i = 0; i < n; i++) print 0.05 + 9 * rand() }'); do
     sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_rig" --delay "${delay}ms" >"$scratch/late" 2>"$scratch/err"
-    close_to "$(number 'its phase to the masses' "$scratch/late")" "$(awk -v d="$delay" -v p="$first" 'BEGIN { print p - 1.98 * d }')" 0.1 &&
+    close_to "$(number 'phase, force to masses' "$scratch/late")" "$(awk -v d="$delay" -v p="$first" 'BEGIN { print p - 1.98 * d }')" 0.1 &&
         close_to "$(number 'measured \/ formula' "$scratch/late")" 100 0.5
     verdict $? "--delay ${delay}ms: the rig runs, and its phase is off by as much" "$scratch/late"
 done
@@ -156,13 +156,13 @@ sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_diall
 close_to "$(number speed "$scratch/late")" 250 0.5
 verdict $? "a dial that is read late is waited for" "$scratch/late"
 sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_dialled" --fault cell-dead:4 >"$scratch/late" 2>"$scratch/err"
-[ $? -eq 1 ] && grep -aq '^NOT STARTED: the dials are not heard' "$scratch/late"
+[ $? -eq 1 ] && grep -aq '^NOT STARTED: the dials cannot be read' "$scratch/late"
 verdict $? "and one that is not heard starts nothing" "$scratch/late"
 # A stop input with a broken line counts as pressed, from the start or at any time: the motor is off.
 for when in $(awk -v n=$((2 * rounds)) 'BEGIN { srand(6); print 0; for (i = 0; i < n; i++) print 1.7 + 9 * rand() }'); do
     sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --firmware "$build/pil_rig" --fault "cell-dead:3@${when}s" --tape "$scratch/silent.tape" \
         >"$scratch/silent" 2>"$scratch/err"
-    [ $? -eq 1 ] && grep -aq '^STOPPED: the stop input is not heard' "$scratch/silent" &&
+    [ $? -eq 1 ] && grep -aq '^STOPPED: the stop input cannot be read' "$scratch/silent" &&
         "$whirl" pil --read "$scratch/silent.tape" |
         awk -F, -v when="$when" '$5 == "duty" { duty = $6 } $2 > when + 0.054 && duty != 0 { bad++ } END { exit bad != 0 }'
     verdict $? "a stop input that is silent from $when s on stops the rig" "$scratch/silent"
@@ -200,7 +200,7 @@ exits 2 "of 'rig'" --replay "$scratch/pc.tape" --firmware "$build/pil_cart"
 # the beginning of one run with the end of another: frames end in zeros
 sh tests/limit.sh 60 "$whirl" pil docs/plants/cart.whirl --until 2s --set l=0.5 --firmware "$build/pil_cart" --tape "$scratch/long.tape" >"$scratch/out" 2>"$scratch/err"
 { tr '\0\n' '\n\0' <"$scratch/cart.tape" | head -n 1001 && tr '\0\n' '\n\0' <"$scratch/long.tape" | tail -n +1002; } | tr '\0\n' '\n\0' >"$scratch/mixed.tape"
-exits 1 'exchange 50[0-9], .*other orders than on the tape' --replay "$scratch/mixed.tape" --firmware "$build/pil_cart"
+exits 1 'exchange 50[0-9], .*outputs differ from the tape' --replay "$scratch/mixed.tape" --firmware "$build/pil_cart"
 
 # --- a tape as rows --------------------------------------------------------------------------------------------------------
 # rows KIND FILE: prints the number of rows of that kind
@@ -241,15 +241,15 @@ verdict $? "what comes late has its stamp, and what is saturated says so" "$scra
 "$whirl" pil --read "$scratch/flip.tape" >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q 'error: it is broken after 20 exchanges' "$scratch/err" && [ "$(grep -c . "$scratch/out")" -gt 1 ]
 verdict $? "a broken tape is read up to its fault" "$scratch/err"
-exits 2 'no tape of this version' --read "$build/pil_rig"
-exits 2 'no tape of this version' --read /dev/zero
+exits 2 'this is not a tape of this version' --read "$build/pil_rig"
+exits 2 'this is not a tape of this version' --read /dev/zero
 exits 2 'cannot be read' --read "$scratch/none"
 exits 2 'cannot be written' --read "$scratch/pc.tape" --csv "$scratch/no/rows"
 [ ! -c /dev/full ] || exits 1 'cannot be written' --read "$scratch/pc.tape" --csv /dev/full
 exits 2 'overwrite the tape' --read "$scratch/pc.tape" --csv "$scratch/pc.tape"
-exits 2 '--read excludes --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
-exits 2 '--read excludes scene' --read "$scratch/pc.tape" $rig
-exits 2 '--read excludes --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
+exits 2 'only prints a tape, so it excludes --firmware' --read "$scratch/pc.tape" --firmware "$build/pil_rig"
+exits 2 'it excludes scene' --read "$scratch/pc.tape" $rig
+exits 2 'it excludes --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.tape"
 exits 2 '--replay excludes --csv' --replay "$scratch/pc.tape" --csv - --firmware "$build/pil_rig"
 
 # --- refused input ----------------------------------------------------------------------------------------------------------
@@ -258,7 +258,7 @@ exits 2 'no scene' --firmware "$build/pil_rig"
 exits 2 'excludes scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
 exits 2 'cannot be read' rig_coupled --firmware "$scratch/none"
 exits 2 'not a firmware image' rig_coupled --firmware README.md
-exits 2 'ended without a hello' rig_coupled --firmware "$build/whirl"
+exits 2 'ended without its first message' rig_coupled --firmware "$build/whirl"
 cp "$build/pil_rig" "$scratch/closed" && chmod a-x "$scratch/closed"
 exits 2 'cannot be run' rig_coupled --firmware "$scratch/closed"
 exits 2 "sets 'push', which 'rig_coupled' does not have" rig_coupled --firmware "$build/pil_cart"
@@ -266,7 +266,7 @@ sed 's/theta/tilt/g' docs/plants/cart.whirl >"$scratch/tilt.whirl"
 exits 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart"
 exits 2 "'push' is in N, and 'duty' of 'rig_coupled' in 1" rig_coupled --bind push=duty --firmware "$build/pil_cart"
 exits 2 'no signal of that name' docs/plants/cart.whirl --bind pull=push --firmware "$build/pil_cart"
-exits 2 'must be NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
+exits 2 'this is not NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
 exits 2 'already renames this signal' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
 exits 2 'more than the limit' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
 exits 2 'more than the limit' $rig --delay 0.1 --firmware "$build/pil_rig"
@@ -290,8 +290,8 @@ done <<'END'
 --cycles --cycles_takes_a_number -1 nan inf 1e5 empty
 --patience --patience_takes_a_number -1 0 nan inf 1e7 empty
 --place --place_.*:_give_numbers_with_commas_between_them nan inf -inf 1e999 , 1, ,1 0x10 1,nan empty
---place --place_has_[2-9]_places,_and_the_firmware 0,0,0
---bind must_be_NAME=OTHER = =push , push=push, ,push=push push empty
+--place --place_has_[2-9]_values,_but_the_firmware_has 0,0,0
+--bind this_is_not_NAME=OTHER = =push , push=push, ,push=push push empty
 --bind sets_'' push= push=,push=
 --board no_board nan , empty
 --tape cannot_be_written /dev/null/x empty
@@ -312,8 +312,8 @@ verdict $? "and the scene is still there"
 for after in 0.02 0.05 0.1 0.2; do
     timeout --foreground --signal=INT $after "$whirl" pil --replay "$scratch/pc.tape" --firmware "$build/pil_rig" >"$scratch/out" 2>"$scratch/err"
     case $(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/out") in
-    "$(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/pc")") said=tape ;; # the replay ended before the signal
-    *) said="tape so far; the rest was not replayed" ;;
+    "$(sed -n "s/^exchanges  *\([0-9]*\) .*/\1/p" "$scratch/pc")") said=tape ;; # it was quicker
+    *) said="tape so far; the remainder was not replayed" ;;
     esac
     [ ! -s "$scratch/out" ] || grep -aq "^command stream .*, as on the $said$" "$scratch/out"
     verdict $? "a replay interrupted after $after s: as on the $said"
@@ -385,12 +385,12 @@ for image in $([ -r /proc/self/stat ] && echo "$build/pil_rig" ${boards:+"$m4"})
     end_of 137 "$image: the guest stands still, and the host is killed"
     begin "$image" && pause && kill -STOP "$guest"
     end_of 1 "$image: the guest stands still"
-    grep -q 'has said nothing for 1 s' "$scratch/err"
+    grep -q 'has sent no message for 1 s' "$scratch/err"
     verdict $? "and that is said"
 done
 # a firmware that reads nothing, and ignores the end of the line
 many=$(command -v yes)
 sh tests/limit.sh 60 "$whirl" pil rig_coupled --firmware "$many" --patience 0.2 >/dev/null 2>"$scratch/err"
-[ $? -eq 1 ] && grep -q 'has said nothing for 0.2 s' "$scratch/err"
+[ $? -eq 1 ] && grep -q 'has sent no message for 0.2 s' "$scratch/err"
 verdict $? "a program that is no firmware and does not end is ended"
 exit $failed

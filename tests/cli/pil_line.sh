@@ -55,19 +55,19 @@ unplug
 # --- errors on the line --------------------------------------------------------------------------------------------------
 exits 2 'excludes --firmware' "$plant" --port "$scratch/tty" --firmware "$build/pil_rig"
 exits 2 'excludes --board' "$plant" --port "$scratch/tty" --board mps2-an386
-exits 2 'has the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
+exits 2 'supports the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
 exits 2 'cannot be opened' "$plant" --port "$scratch/none"
 exits 2 "^'': error: cannot be opened" "$plant" --port ''
 exits 2 'Is a directory' "$plant" --port "$scratch"
 exits 2 'no serial line' "$plant" --port /dev/null
 plug
 kill -STOP $board
-exits 1 'has said nothing for 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6 # except for its hello
+exits 1 'has sent no message for 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6 # but its hello
 kill -CONT $board
 run --until 1s --set speed=330rpm
 [ $? -eq 0 ]
 verdict $? "who was asked before there was an answer is not confused by it" "$scratch/err"
-exits 2 'no hello has come over the line in 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6
+exits 2 '(hello) has not come over the line in 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6
 unplug
 rm -f "$scratch/tty" # a rig that answers all the time, but never sends its hello
 RIG_TTY=$scratch/tty "$build/station" >"$scratch/said" 2>&1 &
@@ -76,7 +76,7 @@ wait_for_tty
 while printf 'id\r'; do sleep 0.02; done >"$scratch/tty" 2>/dev/null &
 asks=$!
 sh tests/limit.sh 10 "$whirl" pil "$plant" --port "$scratch/tty" --patience 0.6 >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q 'no hello has come' "$scratch/err"
+[ $? -eq 2 ] && grep -q '(hello) has not come' "$scratch/err"
 verdict $? "who babbles is as good as silent" "$scratch/err"
 kill -9 $asks 2>/dev/null
 wait $asks 2>/dev/null
@@ -89,7 +89,7 @@ for seed in 1 2 3; do # the line is lost at some instant: when the tape has so m
         kill -9 $board
     ) &
     run --seed $seed --set speed=330rpm --tape "$scratch/tape"
-    [ $? -eq 1 ] && grep -q 'the line is gone' "$scratch/err" && grep -q '^exchanges' "$scratch/out"
+    [ $? -eq 1 ] && grep -q 'serial line is disconnected' "$scratch/err" && grep -q '^exchanges' "$scratch/out"
     verdict $? "a board that goes away is told, and what it had done" "$scratch/err"
     unplug
 done 2>/dev/null

@@ -120,5 +120,5 @@ bug() {
     verdict $? "$1: status $2, $3" "$scratch/err"
 }
 bug no_number 1 "set 'u' to NaN at t = 0.1 s" 's/wanted - rate) + sum)/wanted - rate) + sum + (period < 100U ? 0.0f : rate * 0.0f \/ (rate * 0.0f)))/'
-bug stands_still 1 'time stands still at t = 0 s' 's/period \* PERIOD); .*/0U); period = 1U;/'
+bug stands_still 1 'time does not advance after t = 0 s' 's/period \* PERIOD); .*/0U); period = 1U;/'
 exit $failed

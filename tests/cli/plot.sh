@@ -151,14 +151,14 @@ refused "draws .svg, .pdf and .png files" "--out picture.svg" plot "$scratch/sof
 refused "--ylabel has 3 texts for 1 panel" 'a comma stands between' plot "$scratch/soft.csv" --y x --ylabel "a, b, c" "$out"
 refused "--legend names 1 of 2 runs" '--legend "first, second"' plot "$scratch/soft.csv" "$scratch/stiff.csv" --legend one "$out"
 refused "--set changes a scene" "whirl plot SCENE --set" plot "$scratch/soft.csv" --set k=1 "$out"
-refused "k is given twice, and options change every scene" "record each run, then draw both:" plot "$model" --set k=5 "$model" --set=k=90 "$out"
+refused "k is given twice, but an option changes both in the same way" "record each run, then draw both:" plot "$model" --set k=5 "$model" --set=k=90 "$out"
 sed -n 's/^  whirl //p' "$scratch/err" | (cd "$scratch" && while read -r line; do eval "\"$program\" $line" || exit 1; done) >"$scratch/said" 2>&1 && [ -s "$scratch/no.svg" ]
 verdict $? "whose commands do" "$scratch/said"
 rm -f "$scratch/no.svg"
 for name in k "x'"; do
     refused "--y is given twice" "--y \"a, $name\"" plot "$model" --y a --y="$name" "$out"
 done
-refused "choose what --plot draws" "--plot picture.svg" run "$model" --y x
+refused "and other plot options need --plot" "--plot picture.svg" run "$model" --y x
 refused "no figure is called '999'" '`whirl list --figures` lists them' figure 999
 PATH=/nonexistent "$(command -v "$whirl" || echo "$whirl")" plot "$scratch/soft.csv" "$out" 2>"$scratch/err"
 [ $? -eq 2 ] && grep -q 'plots need gnuplot' "$scratch/err" && grep -q '^hint: make deps' "$scratch/err"
@@ -172,7 +172,7 @@ sed -n 's/^\([^ ]*\) .* (make figures)$/\1/p' "$scratch/figures" >"$scratch/mark
 grep -l '^table ' mk/figures/*.fig | sed 's:.*/::; s/^fig//; s/[.]fig$//' | diff - "$scratch/marked" >"$scratch/err" && [ -s "$scratch/marked" ]
 verdict $? "those that need a script are marked"
 while read -r figure; do
-    refused "which only make runs" "make figures, or --data" figure "$figure" --out "$scratch/f.svg"
+    refused 'which whirl cannot run' 'run .make figures., or use --data' figure "$figure" --out "$scratch/f.svg"
 done <"$scratch/marked"
 named=$(sed -n 's/^Figures \(.*\) and five findings need scripts.*/\1/p' docs/plot.md)
 [ "$named" = "$(grep -v finding "$scratch/marked" | tr '\n' ' ' | sed 's/\([0-9]*\) \([0-9]*\) \([0-9]*\) /\1, \2 and \3/')" ] &&

@@ -146,23 +146,23 @@ verdict $? "a spring has no tables, which is no error" "$scratch/err"
 "$whirl" price "$scratch/spring.whirl" --effort 2e7 --csv "$scratch/p.csv" --quiet >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && grep -q '^front,' "$scratch/p.csv" && [ ! -s "$scratch/out" ]
 verdict $? "--quiet says nothing"
-"$whirl" price "$scratch/spring.whirl" --effort 2e7 --error 1e-4 2>&1 | grep -A1 '^the cheapest within 1e-4' | tail -n 1 |
+"$whirl" price "$scratch/spring.whirl" --effort 2e7 --error 1e-4 2>&1 | grep -A1 '^the cheapest setting within 1e-4' | tail -n 1 |
     grep -q '^  whirl run .* --step '
 verdict $? "the cheapest within an error"
 for way in '--of x --error 0.1mm' '--error x=0.1mm'; do
     "$whirl" price "$scratch/spring.whirl" --effort 2e7 $way >"$scratch/out" 2>&1
-    grep -A1 '^the cheapest within' "$scratch/out" | tail -n 1 >>"$scratch/ways"
+    grep -A1 '^the cheapest setting within' "$scratch/out" | tail -n 1 >>"$scratch/ways"
 done
 [ "$(sort "$scratch/ways" | uniq -c | awk '{ print $1, $2 }')" = '2 whirl' ]
 verdict $? "--error x=0.1mm is --of x --error 0.1mm" "$scratch/ways"
 "$whirl" price "$scratch/spring.whirl" --effort 2e7 --error 1e-30 >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 1 ] && grep -q 'no setting that was tried has an error below' "$scratch/err"
+[ $? -eq 1 ] && grep -q 'no tried setting has an error below' "$scratch/err"
 verdict $? "none within 1e-30: exit status 1"
 
 # --- --vary: the worst place is at an end, and the printed line repeats it ------------------------------------------
 "$whirl" price "$scratch/spring.whirl" --of x --effort 1e8 --vary push=0..64 --csv "$scratch/v.csv" >"$scratch/out" 2>"$scratch/err"
 verdict $? "price --vary"
-grep -q 'worst of 3 sampled places' "$scratch/out" && grep -q -- '--set push=0' "$scratch/v.csv"
+grep -q 'worst of 3 combinations of the varied values' "$scratch/out" && grep -q -- '--set push=0' "$scratch/v.csv"
 verdict $? "three places, and the worst is named" "$scratch/out"
 # the spring is pushed with the force that holds it, so it does not move and has no error: the other end is the worst
 awk -F, 'NR > 1 { n++; if ($0 ~ /push=0 /) { zero++ } } END { exit !(n > 10 && zero > 0.9 * n) }' "$scratch/v.csv"
@@ -178,7 +178,7 @@ awk 'BEGIN { srand(71); for (i = 0; i < 6; i++) {
     print from, to, n, n + (to != 1), (to > 1 ? "far" : "") } }' >"$scratch/ranges"
 while read -r from to count places far; do
     "$whirl" price "$scratch/spring.whirl" --of x --method rk4 --effort 2e7 --vary "x=$from..$to:$count" --csv "$scratch/v.csv" >"$scratch/out" 2>&1
-    grep -q "worst of $places sampled places" "$scratch/out" &&
+    grep -q "worst of $places combinations" "$scratch/out" &&
         awk -F, -v far="$far" 'NR > 1 && $2 > 1e-10 && !/--number/ { n++; own = $(NF - 1) !~ /--start x=/ || $(NF - 1) ~ /--start x=1 /
             if (own == (far != "")) { bad++ } } END { exit n < 5 || bad > 0 }' "$scratch/v.csv"
     verdict $? "--vary x=$from..$to:$count samples the scene's own start as well" "$scratch/out"
@@ -215,8 +215,8 @@ derive=$(first '  as code *whirl ')
 verdict $? "and its code"
 for effort in 4e5 8e5; do
     "$whirl" choose --predict "$scratch/pendulum.whirl" --effort $effort --error 1e-8 --rate 200Hz >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq 1 ] && grep -q '^nothing fits among the tried steps: raise --effort$' "$scratch/out" &&
-        grep -q '; for [1-9][0-9]* settings, finer steps exceed their share of --effort' "$scratch/out"
+    [ $? -eq 1 ] && grep -q '^no setting fits among the tried steps: raise --effort$' "$scratch/out" &&
+        grep -q '; for [1-9][0-9]* settings, finer steps need more than their share of --effort' "$scratch/out"
     verdict $? "settings that take more than --effort $effort are counted" "$scratch/out"
 done
 # Named methods replace the default ones, and the same effort gives the same table again.
@@ -235,7 +235,7 @@ verdict $? "which are measured" "$scratch/b.csv"
 
 # --- no reference ---------------------------------------------------------------------------------------------------
 "$whirl" price incline_sticks >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 1 ] && grep -q 'no front: without a reference no error is known' "$scratch/out"
+[ $? -eq 1 ] && grep -q 'no table: without a reliable reference no error is known' "$scratch/out"
 verdict $? "where nothing moves there is no front" "$scratch/out"
 chaos() {
     "$whirl" price thomson_b --effort 1e7 >"$scratch/out" 2>"$scratch/err"
@@ -288,7 +288,7 @@ asked 0 '^fewest cycles' "$odd:odd_tiny" --of x --error 1mm
 asked 1 'nothing moves' "$odd:odd_rests" --error 1e-3
 usual asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 0.2s
 # places of a range at which nothing moves are omitted, and named
-asked 0 'left out *nothing moves with --start x=0$' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
+asked 0 'left out *settings without motion: --start x=0$' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
 asked 1 'with --start x=0: nothing moves' "$odd:odd_rings" --error 1e-2 --start "x=0 [m]" --vary "x=0..0 [m]:1"
 # a component that rests at a single place of a range is kept
 cat >"$scratch/two.whirl" <<'END'
@@ -310,9 +310,9 @@ for rate in 7Hz 333.333Hz 0.6Hz 123.456789123456Hz; do
     echo "$step $inside ${rate%Hz}" | awk '{ off = $1 * $2 * $3 - 1; exit !(off < 1e-12 && off > -1e-12) }'
     verdict $? "a period of $rate takes whole steps" "$scratch/out"
 done
-asked 1 'nothing fits among the tried steps: raise --effort' "$odd:odd_rings" --error 1e-2 --rate 1e9Hz
+asked 1 'no setting fits among the tried steps: raise --effort' "$odd:odd_rings" --error 1e-2 --rate 1e9Hz
 asked 2 'faster than the shortest possible step' "$odd:odd_rings" --error 1e-2 --rate 1e15Hz
-asked 2 'not one period' "$odd:odd_rings" --error 1e-2 --rate 1e-15Hz
+asked 2 'one period of --rate' "$odd:odd_rings" --error 1e-2 --rate 1e-15Hz
 asked 1 'a clock of' "$odd:odd_rings" --error 1e-2 --clock 1Hz
 asked 1 'a clock of' "$odd:odd_rings" --error 1e-2 --clock 1Hz --rate 100Hz
 asked 1 'an error of' "$odd:odd_rings" --error 1e-300
@@ -339,7 +339,7 @@ named=0
 still=0
 for target in $("$whirl" list | awk '$1 == "mechanism" { print $2 }') "thomson_a --step 0.1s" ball_bounces; do
     "$whirl" run $target --until 0.1s --board host >"$scratch/run" 2>/dev/null || continue
-    command=$(sed -n 's/^accuracy and cost  not shown: .* shown by: whirl //p' "$scratch/run")
+    command=$(sed -n 's/^accuracy and cost  not shown: .* shows them: whirl //p' "$scratch/run")
     if [ -n "$command" ]; then
         named=$((named + 1))
         eval "\"$whirl\" $command --effort 1e6 --quiet" >"$scratch/out" 2>"$scratch/err"
@@ -369,14 +369,14 @@ for command in price choose; do
     exits 2 'length' $command "$s" --of x --error 1s
     exits 2 'error:' $command "$s" --error 1mm
     exits 2 'above zero' $command "$s" --error=-1
-    exits 2 "no quantity stands before '='" $command "$s" --error =0.1mm
+    exits 2 "a quantity is missing before '='" $command "$s" --error =0.1mm
     exits 2 'above zero' $command "$s" --error 0
-    exits 2 'the horizon is 0 s' $command "$s" $e --horizon 0
+    exits 2 'the motion to compare has a length of 0 s' $command "$s" $e --horizon 0
     exits 2 'is not NAME=FROM..TO' $command "$s" $e --vary push
     exits 2 'error:' $command "$s" $e --vary nothing=1..2
     exits 2 'cannot change the step' $command "$s" $e --vary step=1..2
     exits 2 'the limit of 64' $command "$s" $e --vary push=0..1:100
-    exits 2 'swept already' $command "$s" $e --vary push=0..1 --vary push=0..2
+    exits 2 'already sweeps this name' $command "$s" $e --vary push=0..1 --vary push=0..2
     exits 2 'from 10000 to 1e+15' $command "$s" $e --effort 0
     exits 2 'did you mean --board' $command "$s" $e --bord x
     exits 2 'unknown option' $command "$s" $e --step 1ms
@@ -386,11 +386,11 @@ done
 exits 2 'cannot be written' price "$s" --csv "$scratch/none/p.csv"
 exits 2 'error:' price "$s" --csv "$s"
 exits 2 'error is missing' choose "$s"
-exits 2 'exclude each other' choose "$s" --error 1e-3 --predict --measure
+exits 2 'contradict each other' choose "$s" --error 1e-3 --predict --measure
 exits 2 'error:' choose "$s" --error 1e-3 --rate 1ms
 exits 2 'above zero' choose "$s" --error 1e-3 --rate 0
 exits 2 'number of bytes' choose "$s" --error 1e-3 --flash 32XB
-exits 2 'not one period' choose "$s" --error 1e-3 --rate 0.1Hz
+exits 2 'one period of --rate' choose "$s" --error 1e-3 --rate 0.1Hz
 
 # --- interrupted ------------------------------------------------------------------------------------------------------
 for signal in INT TERM; do

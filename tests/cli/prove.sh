@@ -35,9 +35,9 @@ proved '^proved to the end, t = 0 s$' epicyclic_from_rest --until 0
 "$whirl" trust epicyclic_from_rest --until 0.1s --proved --csv - 2>&1 >"$scratch/out" | cmp - "$scratch/err" && cmp "$scratch/rows" "$scratch/out" && [ -s "$scratch/rows" ]
 verdict $? "whirl trust --proved says the same"
 # with a step that is too coarse, the error is larger, and that is proved, too
-proved 'after that the error is larger: proved$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
+proved 'proved: the error is larger after that$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
 # a start that float cannot represent has an error from the beginning
-proved '^  theta  *never  *within 1.00e-12 rad: its error is larger at the start: proved$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
+proved '^  theta  *never  *within 1.00e-12 rad: proved: the error at the start is larger$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
 grep -q '^nothing is proved: theta is not within its tolerance at the start$' "$scratch/out"
 verdict $? "a start that is off: nothing is proved" "$scratch/out"
 # noise is added to records only: the motion is the same
@@ -111,7 +111,7 @@ if [ -z "${WHIRL_FEW:-}" ]; then
 fi
 
 # --- what ends a proof -------------------------------------------------------------------------------------------------------
-ended 0 '^whirl prove: the effort is used up at t = [0-9.]* s of 10 s$' 'there the effort is used up$' thomson_a --step 1ms --effort 7.5e7
+ended 0 '^whirl prove: the effort is used up at t = [0-9.]* s of 10 s$' 'at that time the effort is used up$' thomson_a --step 1ms --effort 7.5e7
 ended 0 '^hint: use a larger --effort' '^proved until t = [0-9.]* s of 10 s$' thomson_a --step 1ms --effort 7.5e7
 cat >"$scratch/pole.whirl" <<'END'
 mechanism pole "x'' = 2 x^3 is infinite at 1 s"
@@ -121,7 +121,7 @@ V = -0.5 [N/m^3]*x^4
 scene blows { start x = 1 [m], x' = 1 [m/s]; step 1 [ms]; until 2 [s] }
 END
 ended 1 'error: the run diverged in the step after t = 1 s' '^proved until t = 0.99' "$scratch/pole.whirl"
-ended 1 'the tube ends at t = 0.99.* s: after that the exact motion is not enclosed' 'there the tube ends$' "$scratch/pole.whirl" --within x=1e9m --within "x'=1e9m/s"
+ended 1 'the proof ends at t = 0.99.* s: Whirl cannot enclose the exact motion after that' 'at that time the tube ends$' "$scratch/pole.whirl" --within x=1e9m --within "x'=1e9m/s"
 # the first step is already impossible
 cat >"$scratch/root.whirl" <<'END'
 mechanism root "a force that has no slope at the start"
@@ -130,21 +130,21 @@ T = 1 [kg]*x'^2/2
 Q(x) = 1 [N]*sqrt(x/1 [m])
 scene begins { start x = 0 [m]; step 1 [ms]; until 1 [s] }
 END
-ended 0 'the tube ends at t = 0 s' 'there the tube ends$' "$scratch/root.whirl"
+ended 0 'the proof ends at t = 0 s' 'at that time the tube ends$' "$scratch/root.whirl"
 # the run fails first
 ended 1 'error: the run diverged in the step after t = 0 s' '^proved until t = 0 s of' tests/mechanisms/kepler.whirl
 proved '^proved to the end, t = 10 s$' tests/mechanisms/double_pendulum.whirl # it hangs at rest
 for signal in INT TERM; do
     stop $signal "has_bytes 200000 $scratch/i.csv.part" prove thomson_a --csv "$scratch/i.csv"
     [ "$code" -eq 130 ] && grep -q '^whirl prove: interrupted at t = [0-9.]* s of 10 s$' "$scratch/err" &&
-        grep -q 'there it was interrupted$' "$scratch/out" &&
+        grep -q 'at that time the proof was interrupted$' "$scratch/out" &&
         grep -q "^proved until t = $(tail -n 1 "$scratch/i.csv" | cut -d, -f1) s of 10 s" "$scratch/out"
     verdict $? "$signal: status 130, and what is proved until the last row" "$scratch/out"
     rm -f "$scratch/i.csv"
 done
 
 stop INT "has_worked 50" prove thomson_a --until 100000s --effort 1e15 --csv "$scratch/i.csv"
-[ "$code" -eq 130 ] && grep -q '^whirl prove: interrupted in the run that measures the range' "$scratch/err" &&
+[ "$code" -eq 130 ] && grep -q '^whirl prove: interrupted in the first run, which measures the range' "$scratch/err" &&
     [ ! -s "$scratch/out" ] && [ ! -e "$scratch/i.csv" ]
 verdict $? "interrupted before anything is proved: no rows" "$scratch/err"
 
@@ -152,9 +152,9 @@ verdict $? "interrupted before anything is proved: no rows" "$scratch/err"
 exits 2 'the stop changes the equations' carriage_stop
 exits 2 'the hold changes the equations' thomson_magnet
 exits 2 'the friction changes the equations' incline_slides
-exits 2 'abs of a moving quantity has no enclosure' epicyclic_from_rest --with air_drag
-exits 2 'a number above zero is wanted' epicyclic_from_rest --within X=-1mm
-exits 2 'a number above zero is wanted' epicyclic_from_rest --within X=0
+exits 2 'abs of a moving quantity cannot be enclosed in intervals' epicyclic_from_rest --with air_drag
+exits 2 'give a number above zero' epicyclic_from_rest --within X=-1mm
+exits 2 'give a number above zero' epicyclic_from_rest --within X=0
 exits 2 "'Y' is unknown" epicyclic_from_rest --within Y=1mm
 exits 2 "'X' is given twice" epicyclic_from_rest --within X=1mm --within X=2mm
 exits 2 '--within needs a value' epicyclic_from_rest --within
@@ -167,6 +167,6 @@ exits 2 "unknown option '--plot'" thomson_a --plot x.svg
 exits 2 'is not defined here' thomson_a --method leapfrog
 exits 2 'cannot be written' epicyclic_from_rest --csv "$scratch"
 cp "$scratch/pole.whirl" "$scratch/mine.whirl"
-exits 2 'would write over the model' "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
+exits 2 'would overwrite the model' "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
 
 exit $failed

@@ -12,7 +12,7 @@ sh tests/settings_hashes.sh "$whirl" "$here" $steps $scenes >"$scratch/out" 2>"$
 verdict $? "scenes with settings are written" "$scratch/err"
 
 for option in method angles matrix tables; do
-    words=$("$whirl" run two_mass_relative --$option '?' 2>&1 | sed -n 's/,//g; s/^hint: one of //p')
+    words=$("$whirl" run two_mass_relative --$option '?' 2>&1 | sed -n 's/,//g; s/^hint: choose one of //p')
     [ -n "$words" ] || verdict 1 "--$option has words"
     for word in $words; do
         case $word in turned | none) continue ;; esac # used if the option is omitted

@@ -15,7 +15,7 @@ verdict $? "build/pil_swing is there (make pil-images)"
 swing() {
     sh tests/limit.sh 120 "$whirl" pil $rig "$@" </dev/null >"$scratch/run" 2>"$scratch/err" || [ $? -eq 1 ]
     ended=$?
-    why=$(sed -n 's/^The swing in which it came to rest: //p' "$scratch/run")
+    why=$(sed -n 's/^Free swing at the end of the run: //p' "$scratch/run")
 }
 # place: prints the number of the report's line "sensor 1 stands"; the next function reads the line after it
 place() { sed -n 's/^  sensor 1 stands  *\([-0-9.]*\) deg.*/\1/p' "$scratch/run"; }

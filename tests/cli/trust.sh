@@ -88,7 +88,7 @@ whole=$("$whirl" run thomson_a --number float --step 1ms --until 9s --plot "$scr
 verdict $? "the state hash is the same with a plot" /dev/null
 [ "$("$whirl" run thomson_a | grep -c '^trusted ')" -eq 1 ] && ! "$whirl" run thomson_a --until 0 | grep -q '^trusted '
 verdict $? "one line; none where nothing runs" /dev/null
-"$whirl" run thomson_a --step 0.001ms --until 1s | grep -q '^trusted  *not computed: it takes more than a second'
+"$whirl" run thomson_a --step 0.001ms --until 1s | grep -q '^trusted  *not computed, because that takes more than a second'
 verdict $? "a hint where it would take seconds" /dev/null
 
 # --- tolerances: a larger one never gives an earlier end -----------------------------------------------------------------
@@ -119,7 +119,7 @@ verdict $? "a run that diverges: status 1, and until when it was right" "$scratc
 verdict $? "whirl run says nothing of trust where it fails" "$scratch/out"
 "$whirl" trust thomson_a --until 0 >"$scratch/out" 2>"$scratch/err" && grep -q '^trusted to the end, t = 0 s' "$scratch/out"
 verdict $? "a run of no step" "$scratch/out"
-"$whirl" trust ball_between >"$scratch/out" 2>"$scratch/err" && grep -q '^trusted until t = 0 s of .*: after that a step, of this run or of the finer one, had more events than its limit' "$scratch/out"
+"$whirl" trust ball_between >"$scratch/out" 2>"$scratch/err" && grep -q '^trusted until t = 0 s of .*: after that a step of this run or of the finer run had more events than the limit of a step' "$scratch/out"
 verdict $? "steps with more events than they take: nothing is known" "$scratch/out"
 
 # --- what is refused -------------------------------------------------------------------------------------------------------
@@ -138,7 +138,7 @@ exits 2 "is not defined here" thomson_a --method leapfrog
 exits 2 "there are no events in fixed point" carriage_stop --number fixed
 exits 2 "cannot be written" epicyclic_from_rest --csv "$scratch"
 cp "$scratch/pole.whirl" "$scratch/mine.whirl"
-exits 2 "would write over the model" "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
+exits 2 "would overwrite the model" "$scratch/mine.whirl" --csv "$scratch/mine.whirl"
 
 # --- what docs/dev/stability.md prints -----------------------------------------------------------------------------------------
 mkdir "$scratch/board" "$scratch/board/build"

@@ -32,7 +32,7 @@ TEST(station_odd, a_full_queue) {
         tel_type("arm");
         wh_station_step(&bench.station, &bench.even.rig);
         const bool full = posted == WH_RIG_ORDERS_MOST;
-        check_begins(full ? "ERR 16 too many orders at once" : "", hear());
+        check_begins(full ? "ERR 16 too many commands at once" : "", hear());
         TEST_ASSERT_EQUAL_INT(!full, bench.station.waits);
         even_step(&bench.even);
         TEST_ASSERT_EQUAL_INT(full ? WH_RIG_IDLE : WH_RIG_ARMED, bench.even.rig.state);

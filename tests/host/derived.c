@@ -194,7 +194,9 @@ void derived_octave(FILE *out, const derived *d, const char *file, bool folded) 
     size_t size = 0;
     FILE *words = open_memstream(&text, &size);
     TEST_ASSERT_NOT_NULL(words);
-    show_events(words, d->equations, "% ", "The motion between events. Not in this function:");
+    show_events(words, d->equations, "% ",
+                "This function has the motion between events. It does "
+                "not contain:");
     fclose(words);
     if (folded) {
         emit_octave(out, d->image, file, text);

@@ -24,8 +24,8 @@ void jumps_run(const char *text, const char *number, char *const more[static JUM
 bool jumps_named(char text[static SAID_SIZE], char *words[static JUMPS_WORDS]) {
     static const char before[] = "\nhint: ";
     char *at = strstr(jumps_said.err, before);
-    char *end = at != NULL ? strstr(at, " would do (tried)") : NULL;
-    end = end == NULL && at != NULL ? strstr(at, " ends the run before that") : end;
+    char *end = at != NULL ? strstr(at, " cures this (tried)") : NULL;
+    end = end == NULL && at != NULL ? strstr(at, " ends the run before this step") : end;
     if (end == NULL) {
         return false;
     }

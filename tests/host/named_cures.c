@@ -34,7 +34,7 @@ static int read_alternatives(char *piece, bool tried, named_cure *list, int coun
 }
 
 int named_cures(const char *err, named_cure *list) {
-    static const char *const says[] = {" would do", " should do", " resolves it;",
+    static const char *const says[] = {" cures this", " should do", " resolves it;",
                                        " resolves it ("};
     int count = 0;
     char text[SAID_SIZE];

@@ -91,19 +91,19 @@ TEST(apart, four_bars) {
         write(&b, "", text);
         char *told = said_of(&m, text);
         TEST_ASSERT_EQUAL_MESSAGE(k % 2 == 0, strstr(told, "with an error of") != NULL, text);
-        const char *takes = strstr(told, "and takes ");
+        const char *takes = strstr(told, "and removes ");
         TEST_ASSERT_NOT_NULL_MESSAGE(takes, text);
         const double from_J = kinetic_J(&b, &m);
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
         const double lost_J = from_J - kinetic_J(&b, &m);
-        const double told_J = strtod(takes + strlen("and takes "), NULL);
+        const double told_J = strtod(takes + strlen("and removes "), NULL);
         TEST_ASSERT_TRUE_MESSAGE(fabs(told_J - lost_J) <= 1e-4 * from_J, text);
         motion_close(&m);
         /* runs again with the proposed values in place of the scene's own */
         char *values = strstr(told, "write: start ");
         TEST_ASSERT_TRUE_MESSAGE(values != NULL || b.turned_rad > 0.05, text);
         if (values == NULL) {
-            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "no values near these satisfy the holds"),
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "none near the given ones satisfy the holds"),
                                          text);
             free(told);
             continue;

@@ -185,7 +185,7 @@ TEST(books_told, conserved_momenta) {
 TEST(books_told, ledgers) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",
-                                              [SPRUNG] = "\n  of the energies: dL/d",
+                                              [SPRUNG] = "\n  from T and V: dL/d",
                                               [DAMPED] = "\n  F = "};
     dice d = dice_of("ledgers told", 4122);
     for (unsigned k = 0; k < dice_cases(60); k++) {
@@ -202,12 +202,12 @@ TEST(books_told, ledgers) {
             const char *book = strstr(what.out, head);
             TEST_ASSERT_NOT_NULL_MESSAGE(book, what.out);
             const char *change = strstr(book + 1, "\n  change ");
-            const char *force = strstr(book + 1, "\n  change divided by the run's length, along ");
+            const char *force = strstr(book + 1, "\n  change divided by the run's duration, along ");
             TEST_ASSERT_TRUE_MESSAGE(change != NULL && force != NULL && change < force, book);
             const double wanted = change_Ns(&m.body[i], m.until_s);
             const char *number = change + strlen("\n  change ");
             expect_number(number + strspn(number, " +"), wanted, book);
-            force += strlen("\n  change divided by the run's length, along ");
+            force += strlen("\n  change divided by the run's duration, along ");
             TEST_ASSERT_EQUAL_CHAR(name_of(i), force[0]);
             expect_number(force + 3, wanted / m.until_s, book);
             for (int by = PUSHED; by < KINDS; by++) {

@@ -493,17 +493,17 @@ static slope_case draw(dice *d, unsigned i, double tens) {
 /* Applies the hint of a warning: --step, --number double, both, or --compensated. Then the error must be below 5 %. */
 static void take_cure(const slope_case *c, const char *text, const char *number, const said *warned,
                       const motion_rows *reference, double far_m) {
-    const char *hint = strstr(warned->err, "would do");
+    const char *hint = strstr(warned->err, "cures this");
     if (hint == NULL) {
         return;
     }
-    const bool in_double = strstr(warned->err, "--number double would do") != NULL;
+    const bool in_double = strstr(warned->err, "--number double cures this") != NULL;
     const double step_s = said_named_step_s(warned->err);
     char step[60] = "--quiet";
     if (step_s > 0.0) {
         snprintf(step, sizeof step, "--step=%.17g", step_s);
     }
-    if (step_s <= 0.0 && strstr(warned->err, "hint: --compensated would do") != NULL) {
+    if (step_s <= 0.0 && strstr(warned->err, "hint: --compensated cures this") != NULL) {
         snprintf(step, sizeof step, "--compensated");
     }
     said what;
@@ -549,7 +549,7 @@ static void hold(bool is_float) {
             TEST_ASSERT_TRUE_MESSAGE(is_float ? warns : !to_the_end || c.far > TOLD_MOST, text);
             /* a run may fail in float only if the hint names double */
             TEST_ASSERT_TRUE_MESSAGE(what.status == said_owes(what.err) || !is_float ||
-                                         strstr(what.err, "--number double would do") != NULL,
+                                         strstr(what.err, "--number double cures this") != NULL,
                                      what.err);
         }
         TEST_ASSERT_FALSE_MESSAGE(to_the_end && off > 5e-3 && c.far < TOLD_MOST, text);

@@ -616,11 +616,12 @@ TEST(replay, other_orders) {
         }
         const char *told = replay(LOCKSTEP_DIFFERENT, turn + 1U, true);
         snprintf(words, sizeof words,
-                 "whirl pil: error: exchange %u, t = %.6f s: other orders than on the tape\n",
+                 "whirl pil: error: exchange %u, t = %.6f s: the firmware's outputs differ from "
+                 "the tape\n",
                  turn + 1U, time_of(turn));
         told = said_exactly(told, words);
         if (c % 6 == 0) {
-            snprintf(words, sizeof words, "hint: output %u is %.9g, on the tape %.9g\n",
+            snprintf(words, sizeof words, "output %u is %.9g now, and %.9g on the tape\n",
                      output + 1U, (double)o->output[output], (double)before);
             told = said_exactly(told, words);
             hints++;
@@ -641,7 +642,7 @@ TEST(replay, not_replayed) {
             talk_put_end(&talk_line, 0, 4);
             const char *told = replay(LOCKSTEP_DIFFERENT, turns, true);
             snprintf(words, sizeof words,
-                     "exchange %u, t = %.6f s: the firmware ended, and the tape goes on\n", turns,
+                     "exchange %u, t = %.6f s: the firmware ended, but the tape continues\n", turns,
                      time_of(turns));
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, words), told);
         } else if (c % 4 == 1) { /* the tape of another firmware */
@@ -652,7 +653,7 @@ TEST(replay, not_replayed) {
             TEST_ASSERT_NOT_NULL_MESSAGE(
                 strstr(
                     told,
-                    "error: this tape is of 'drawn', whose signals differ from those of the firmware 'another'\n"),
+                    "error: the signals of the firmware 'drawn' on this tape differ from those of the firmware 'another' now\n"),
                 told);
         } else if (c % 4 == 2) { /* a broken tape */
             talk_on_tape.length -= 3;
@@ -662,7 +663,8 @@ TEST(replay, not_replayed) {
         } else { /* no tape */
             talk_on_tape.length = 2;
             const char *told = replay(LOCKSTEP_BAD, 0, false);
-            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "error: no tape of this version after 0"),
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "error: this is not a tape of this version "
+                                                      "after 0"),
                                          told);
         }
     }
@@ -679,7 +681,8 @@ TEST(replay, reset_on_tape) {
              wh_reset_put(&reset, payload, sizeof payload));
     talk_say_all(2);
     const char *told = replay(LOCKSTEP_FAILED, 2, true);
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "a reset, which cannot be done over a line"), told);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "a reset, which is not possible over a serial line"),
+                                 told);
 }
 
 SUITE(replay) { talk_die(dice_of("replay", 50)); }

@@ -901,7 +901,7 @@ static void expect_refused(const char *formula, const char *name) {
     diags_flush(r.errors, out);
     alloc_text_end(out);
     snprintf(wanted, sizeof wanted,
-             "x.whirl:6:%d: error: %s of a moving quantity has no enclosure\n",
+             "x.whirl:6:%d: error: %s of a moving quantity cannot be enclosed in intervals\n",
              (int)(strstr(formula, name) - formula) + 9, name);
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
     TEST_ASSERT_NOT_NULL(
@@ -941,7 +941,7 @@ TEST(reader, outputs) {
     FILE *out = alloc_text(&told, &length);
     diags_flush(r.errors, out);
     alloc_text_end(out);
-    const char wanted[] = "x.whirl:7:14: error: an output of a moving quantity has no enclosure\n";
+    const char wanted[] = "x.whirl:7:14: error: an output of a moving quantity cannot be enclosed in intervals\n";
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
     free(told);
     close_text();

@@ -375,7 +375,7 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
                                "--set", set,       NULL};
         command_say(command_run, words, &what);
         snprintf(about, sizeof about, "%s past %.3g m: %s", wh_methods[own].word, d_m, what.err);
-        const char *resolves = strstr(what.err, " would do (tried)");
+        const char *resolves = strstr(what.err, " cures this (tried)");
         TEST_ASSERT_NOT_NULL_MESSAGE(resolves, about);
         const char *hint = resolves;
         while (strncmp(hint, "hint: ", 6) != 0) {
@@ -916,7 +916,7 @@ TEST(hard_edges, products_that_fall_below_float) {
         snprintf(about, sizeof about, "%.3g m, off by %.3g: %s", A_m, off, what.err);
         if (off > 0.03) {
             off_course++;
-            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "--number double would do"), about);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "--number double cures this"), about);
         } else if (off < 1e-4) {
             sound++;
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);

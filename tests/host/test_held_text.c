@@ -83,17 +83,17 @@ static const char *read_not_less(const char *at, const image_unit *unit, double 
 static const char *said_behind(const char *at, const containment_state *s) {
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return said_exactly(at, "\n");
-    case CONTAINMENT_LEFT: return said_exactly(at, "; after that the error is larger: proved\n");
+    case CONTAINMENT_LEFT: return said_exactly(at, "; proved: the error is larger after that\n");
     case CONTAINMENT_UNTOLD:
         return said_exactly(at, "; after that the tube is too wide to decide\n");
     case CONTAINMENT_UNENDED: break;
     }
     switch (found.end) {
     case CONTAINMENT_AT_END: return said_exactly(at, "\n");
-    case CONTAINMENT_RUN_ENDS: return said_exactly(at, "; there the run fails\n");
-    case CONTAINMENT_NO_STEP: return said_exactly(at, "; there the tube ends\n");
-    case CONTAINMENT_SPENT: return said_exactly(at, "; there the effort is used up\n");
-    case CONTAINMENT_STOPPED: return said_exactly(at, "; there it was interrupted\n");
+    case CONTAINMENT_RUN_ENDS: return said_exactly(at, "; at that time the run fails\n");
+    case CONTAINMENT_NO_STEP: return said_exactly(at, "; at that time the tube ends\n");
+    case CONTAINMENT_SPENT: return said_exactly(at, "; at that time the effort is used up\n");
+    case CONTAINMENT_STOPPED: return said_exactly(at, "; at that time the proof was interrupted\n");
     }
     return at;
 }
@@ -124,8 +124,8 @@ static const char *said_state(const char *at, int i, const char *name) {
     at = said_exactly(at, ": ");
     if (!s->begun) {
         return said_exactly(at, s->verdict == CONTAINMENT_LEFT
-                                    ? "its error is larger at the start: proved\n"
-                                    : "its start is not known that accurately\n");
+                                    ? "proved: the error at the start is larger\n"
+                                    : "the start value is not known so accurately\n");
     }
     at = said_exactly(at, "error at most ");
     at = read_not_less(at, unit, s->off, 1);
@@ -177,7 +177,7 @@ static const char *said_end(const char *at, double end_s) {
     if (found.state[first].verdict != CONTAINMENT_UNENDED) {
         at = said_exactly(at, ": ");
         at = said_exactly(at, name_of(first, name));
-        at = said_exactly(at, " is the first that is not");
+        at = said_exactly(at, " is the first quantity without a proof");
     }
     return said_exactly(at, "\n");
 }
@@ -204,8 +204,8 @@ TEST(held_text, words) {
         at = read_time(at, (double)found.flowpipe_steps);
         at = said_exactly(at, " of them to t = ");
         at = read_time(at, found.tube_s);
-        at = said_exactly(at,
-                          " s\n\naccuracy proved at the end of every step, until the time [s]\n");
+        at = said_exactly(at, " s\n\ntime [s] until which the accuracy at the end of every step is "
+                              "proved\n");
         for (int i = 0; i < found.states; i++) {
             at = said_state(at, i, name_of(i, name));
         }

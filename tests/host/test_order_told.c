@@ -42,7 +42,7 @@ static const told_scene scenes[] = {
      .law = SPRUNG,
      .scene = SPRUNG_START "step 0.1 [s]; until 9 [s]",
      .words = {"--method", "leapfrog"}},
-    {.told = "left all bounds",
+    {.told = "grew without bound",
      .coordinates = THREE,
      .law = SPRUNG,
      .scene = SPRUNG_START "step 0.36 [s]; until 50 [s]",
@@ -89,7 +89,7 @@ static const told_scene scenes[] = {
             "equation u' = @1 [1/s]\nequation w' = @70 [kg/s]\n",
      .scene = "step 10 [ms]; until 1 [s]",
      .words = {"--number", "float"}},
-    {.told = "moments with events, most of 'hold b while",
+    {.told = "moments with events, most of them from 'hold b while",
      .coordinates = THREE,
      .law = "T = 1 [kg]*a'^2/2 + 2 [kg]*b'^2/2 + 3 [kg]*c'^2/2\nQ(a) = @1 [N]\nQ(b) = @30 [N]\n"
             "Q(c) = @20 [N]\n",

@@ -147,7 +147,7 @@ TEST(price_measured, what_is_missing_is_told) {
     tree_keep("status", "0\n");
     unlink("mk/price/measure_one.sh");
     TEST_ASSERT_NOT_NULL(
-        strstr(measured_missing(NULL, cost_board_named("host"), text), "not the root"));
+        strstr(measured_missing(NULL, cost_board_named("host"), text), "only in the root"));
     TEST_ASSERT_EQUAL_STRING("", tree_taken("made"));
     tree_leave();
 }
@@ -302,8 +302,8 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
         TEST_ASSERT_EQUAL_INT(refused ? 4 : 3, told);
         TEST_ASSERT_EQUAL_INT(refused ? 3 : 5, made.count);
         TEST_ASSERT_EQUAL_INT(refused ? 1 : 0, made.unpriced);
-        TEST_ASSERT_EQUAL_STRING(refused ? "it cannot be built, linked or run there" : "",
-                                 made.why);
+        TEST_ASSERT_EQUAL_STRING(
+            refused ? "the step cannot be built, linked or run on this board" : "", made.why);
         for (int i = 0; i < made.count; i++) {
             const table_row *r = &made.row[i];
             const wh_method method = r->setting.image.method;

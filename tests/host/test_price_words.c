@@ -25,7 +25,8 @@ static void copy_text(FILE *out, const char *name, int n, char *text, const char
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(text, from), from);
     for (char *line = strstr(text, from); *line != '\0';) {
         const size_t length = strcspn(line, "\n") + 1;
-        if (strncmp(line, "  reference ", 12) != 0 && strstr(line, "the two agree") != line + 14) {
+        if (strncmp(line, "  reference ", 12) != 0 &&
+            strstr(line, "both references agree") != line + 14) {
             for (size_t i = 0; i < length; i++) {
                 fputs(line[i] == '\r' ? "\\r" : (char[]){line[i], '\0'}, out);
             }
@@ -110,7 +111,7 @@ static void print_choice(FILE *out, const char *name, int n, const priced *p, co
     caught text;
     choice_print(catch_text(&text), &p->trial, made, w, c, &words);
     alloc_text_end(text.to);
-    copy_text(out, name, n, text.text, c->fastest.row < 0 ? "nothing fits" : "");
+    copy_text(out, name, n, text.text, c->fastest.row < 0 ? "no setting fits" : "");
 }
 
 static void print_answers(FILE *out) {
@@ -266,7 +267,8 @@ TEST(price_words, at_most_twelve_rows_of_a_front_are_shown) {
         TEST_ASSERT_NOT_NULL(strstr(out.text, want));
         TEST_ASSERT_TRUE(shown <= 12 && (made.count > 12 || shown == made.count));
         TEST_ASSERT_TRUE(made.count <= 12 || shown >= 4);
-        snprintf(want, sizeof want, "at the same cost; %d are shown, --all shows all\n", shown);
+        snprintf(want, sizeof want, "in both error and cost; %d are shown, --all shows all\n",
+                 shown);
         (void)behind(out.text, want);
         free(out.text);
     }
@@ -286,10 +288,10 @@ TEST(price_words, tables_of_nothing_say_why) {
     begin(&p, places, 1, NULL);
     table made = {.unpriced = 3, .why = "a reason"};
     char *text = table_of_nothing(&p.trial, &made);
-    (void)behind(text, "\nno setting has a row: 0 settings; 3 without a price here: a reason\n");
+    (void)behind(text, "\nthe table is empty: 0 settings; 3 without a price: a reason\n");
     /* z is at rest and has no relative error; the two references must agree as reported */
-    (void)behind(text, "\n  left out    zero except for round-off: z, z'\n");
-    const char *at = behind(text, "the two agree within ");
+    (void)behind(text, "\n  left out    these are zero except for round-off: z, z'\n");
+    const char *at = behind(text, "both references agree within ");
     double number;
     (void)said_number(at, &number);
     TEST_ASSERT_TRUE(fabs(number / reference_agreement(p.trial.reference[0]) - 1) <= 0.051);
@@ -312,8 +314,8 @@ TEST(price_words, tables_of_nothing_say_why) {
     p.trial.reference[0]->why = alloc_words("nobody knows");
     text = table_of_nothing(&p.trial, NULL);
     (void)behind(text, "\n              no reliable reference: nobody knows\n");
-    (void)behind(text, "\nno front: without a reference no error is known\n");
-    TEST_ASSERT_NULL(strstr(text, "the two agree"));
+    (void)behind(text, "\nno table: without a reliable reference no error is known\n");
+    TEST_ASSERT_NULL(strstr(text, "both references agree"));
     free(text);
     priced_close(&p);
 }

@@ -217,15 +217,16 @@ TEST(ranges_swept, shards) {
 static const char no_range[] = " is not NAME=FROM..TO:COUNT\n";
 static const char three_dots[] = " has three dots in a row\n";
 static const char count_wrong[] =
-    ": the COUNT after the last ':' must be a whole number from 1 to 999999999999, ',log' may follow\n";
-static const char single[] = ": a single point needs FROM = TO\n";
+    ": the COUNT after the last ':' must be a whole number from 1 to 999999999999, perhaps with "
+    "',log' after it\n";
+static const char single[] = ": a COUNT of 1 needs FROM = TO\n";
 static const char no_log[] =
-    ": both ends of a logarithmic range must be above zero, or both below\n";
+    ": the ends of a logarithmic range must both be above zero or both below zero\n";
 static const char no_numbers[] = ": FROM and TO must be numbers\n";
 static const char not_finite[] = ": FROM and TO must be finite numbers\n";
 static const char one_unit[] = ": one end has a unit and the other has none\n";
 static const char no_step[] = ": step must be above zero\n";
-static const char twice[] = ": it is swept already\n";
+static const char twice[] = ": another option already sweeps this name\n";
 
 /* '_' stands for random blanks. */
 static const struct {
@@ -298,8 +299,8 @@ TEST(ranges_swept, mistakes) {
                                         wrong[which].problem);
             if (hint) {
                 snprintf(wanted + length, sizeof wanted - (size_t)length,
-                         "hint: such as %s \"r=10..60 [mm]:11\", or ...:11,log for a logarithmic "
-                         "range\n",
+                         "hint: write a range such as %s \"r=10..60 [mm]:11\", or ...:11,log for "
+                         "a logarithmic range\n",
                          option);
             }
         }
@@ -371,8 +372,8 @@ TEST(ranges_swept, given_twice) {
         if (option != NULL) {
             snprintf(
                 wanted, sizeof wanted,
-                "whirl %s: error: '%s' is swept by --over and given by %s\nhint: leave out one "
-                "of them\n",
+                "whirl %s: error: --over sweeps '%s', but %s sets it, too\nhint: leave out one of "
+                "these options\n",
                 g.command != NULL ? g.command : "sweep", named[which], option);
         }
         errors_catch();

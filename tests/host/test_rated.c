@@ -262,9 +262,9 @@ static bool check_chosen(dice *d, const rated *r) {
     const char *chosen = strstr(what.out, "chosen step"); /* another sentence may come first */
     TEST_ASSERT_NOT_NULL_MESSAGE(chosen, what.out);
     TEST_ASSERT_TRUE_MESSAGE(strchr(chosen, '\n') < strstr(what.out, " steps to t = "), what.out);
-    const char *longer = strstr(chosen, " s stays within it, too, but with warnings\n");
+    const char *longer = strstr(chosen, " s would keep the error, too, but has warnings\n");
     const bool warned = strstr(what.err, "warning") != NULL;
-    TEST_ASSERT_TRUE_MESSAGE(warned <= (strstr(chosen, "for this error alone") != NULL), what.err);
+    TEST_ASSERT_TRUE_MESSAGE(warned <= (strstr(chosen, "considers only this error") != NULL), what.err);
     TEST_ASSERT_FALSE_MESSAGE(warned && longer != NULL, what.err);
     said_number(chosen + strlen("chosen step"), &step_s);
     said_number(strstr(what.out, "until t = ") + strlen("until t = "), &until_s);
@@ -284,7 +284,7 @@ static bool check_chosen(dice *d, const rated *r) {
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(other.err, "warning"), about);
         TEST_ASSERT_TRUE_MESSAGE(coordinate_error(r, strtod(step, NULL), until_s) <= 1.05 * allowed,
                                  about);
-    } else if (strstr(what.out, "longer ones are not tried") == NULL) {
+    } else if (strstr(what.out, "longer steps were not tried") == NULL) {
         TEST_ASSERT_TRUE_MESSAGE(coordinate_error(r, 2.0 * step_s, until_s) > 0.95 * allowed,
                                  about);
     }
@@ -316,21 +316,21 @@ static void test_a_run_without_rows_says_why(void) {
 #define RUN(...) ((const char *const[]){__VA_ARGS__, NULL})
     says(
         0,
-        "not shown: events make the cost of a step depend on the motion; in Whirl's source tree they are shown by: "
+        "not shown: events make the cost of a step depend on the motion; this command in Whirl's source tree shows them: "
         "whirl choose --error 1e-3 ball_bounces --set e=0.5 --until 1s --board rv32imac\n",
         RUN("ball_bounces", "--set", "e=0.5", "--until", "1s", "--board", "rv32imac"));
     says(
         0,
-        "not shown: they take more than a second; they are shown by: whirl price thomson_a --until 6s\n",
+        "not shown: the rows take more than a second; this command shows them: whirl price thomson_a --until 6s\n",
         RUN("thomson_a", "--step", "0.1ms", "--until", "6s"));
     says(0, "not shown: the cost of --stabilized is not known\n",
          RUN("docs/hard/long.whirl:pendulum_swings", "--until", "1s", "--stabilized"));
-    says(0, "less than two steps", RUN("thomson_a", "--step", "1s", "--until", "1s"));
-    says(2, "error: --error chooses the step, and --step sets it",
+    says(0, "fewer than two steps", RUN("thomson_a", "--step", "1s", "--until", "1s"));
+    says(2, "error: --error chooses the step, so --step cannot set it",
          RUN("thomson_a", "--error", "X=1mm", "--step", "1ms"));
-    says(2, "hint: such as --error x=0.1mm", RUN("thomson_a", "--error", "1mm"));
+    says(2, "hint: write a value such as --error x=0.1mm", RUN("thomson_a", "--error", "1mm"));
     says(2, "Y is no output, coordinate or rate", RUN("thomson_a", "--error", "Y=1mm"));
-    says(1, "no longer reduce it: round-off",
+    says(1, "shorter steps do not reduce the error, because of round-off",
          RUN("thomson_a", "--error", "X=1e-15m", "--until", "2s"));
     says(2, "length", RUN("thomson_a", "--error", "X=1s"));
     says(2, "there is no board 'nix'", RUN("thomson_a", "--board", "nix"));

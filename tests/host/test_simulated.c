@@ -214,7 +214,7 @@ TEST(simulated, diverged) {
             said_exactly(told, "whirl run: error: the run diverged in the step after t = "),
             &when_s);
         TEST_ASSERT_TRUE_MESSAGE(when_s >= t1_s - 0.003 && when_s < t1_s + 0.01, told);
-        snprintf(words, sizeof words, " s: x%s left all bounds\nhint: try a smaller --step",
+        snprintf(words, sizeof words, " s: x%s grew without bound\nhint: try a smaller --step",
                  rate && strstr(told, "x' left") != NULL ? "'" : "");
         (void)said_exactly(at, words);
         const char *rows = read_file(path_of("r.csv"));

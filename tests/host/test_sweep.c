@@ -54,7 +54,7 @@ TEST(sweep, grids_have_an_end) {
         const bool taken = over(axes[i][2]);
         const char *told = errors_caught();
         TEST_ASSERT_FALSE_MESSAGE(taken, axes[i][2]);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, ": more than 1e+12 points\n"), told);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, ": the grid has more than 1e+12 points\n"), told);
         TEST_ASSERT_EQUAL_UINT64(before, points.points);
         TEST_ASSERT_EQUAL_INT(2, points.count);
         close_sample();
@@ -209,12 +209,13 @@ TEST(sweep, measures_inside_are_told) {
         snprintf(text, sizeof text, "%s%s%s(theta)%s", before[c / 3U], word, c % 2U == 0 ? "" : " ",
                  c / 3U == 2 ? ")" : "");
         snprintf(wanted, sizeof wanted,
-                 "<measure>:1:%d: error: %s() must enclose the whole measure\n",
+                 "<measure>:1:%d: error: %s() must stand around the whole expression of a "
+                 "measure\n",
                  (int)strlen(before[c / 3U]) + 1, word);
         char *told = expect_wrong(text, wanted);
         TEST_ASSERT_NULL_MESSAGE(strstr(told + strlen(wanted), "error:"), told);
         TEST_ASSERT_NOT_NULL(
-            strstr(told, "hint: measure it alone, and compute with the column afterwards\n"));
+            strstr(told, "hint: use this measure alone, and compute with its column afterwards\n"));
         free(told);
     }
 }

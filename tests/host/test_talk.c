@@ -127,17 +127,18 @@ TEST(talk, wrong_words) {
         lockstep_end end;
         const char *why;
     } rows[] = {
-        {LOCKSTEP_FAILED, "error: the firmware sent a frame that is not an answer in exchange 1\n"},
-        {LOCKSTEP_FAILED, "a frame that is not an answer in exchange 1\n"},
+        {LOCKSTEP_FAILED, "error: the firmware sent a message that is not an answer in exchange "
+                          "1\n"},
+        {LOCKSTEP_FAILED, "a message that is not an answer in exchange 1\n"},
         {LOCKSTEP_FAILED, "invalid orders in exchange 1\n"},
         {LOCKSTEP_FAILED, "invalid orders in exchange 1\n"},
         {LOCKSTEP_FAILED, "more remembered bytes than the limit in exchange 1\n"},
         {LOCKSTEP_FAILED, "an invalid end in exchange 1\n"},
-        {LOCKSTEP_FAILED, "whirl pil: error: the line is gone\n"},
-        {LOCKSTEP_BAD, "the firmware speaks version 2 of the exchange, this program version 1\n"},
-        {LOCKSTEP_FAILED, "a frame that is not an answer in exchange 1\n"},
+        {LOCKSTEP_FAILED, "whirl pil: error: the serial line is disconnected\n"},
+        {LOCKSTEP_BAD, "the firmware uses version 2 of the protocol, but whirl uses version 1\n"},
+        {LOCKSTEP_FAILED, "a message that is not an answer in exchange 1\n"},
         {LOCKSTEP_DONE, ""},
-        {LOCKSTEP_FAILED, "the firmware has said nothing for 0.05 s\n"},
+        {LOCKSTEP_FAILED, "the firmware has sent no message for 0.05 s\n"},
     };
     enum { SILENT = sizeof rows / sizeof rows[0] - 1 };
     for (unsigned c = 0; c < dice_cases(usual_or(30, 22)); c++) {
@@ -183,7 +184,7 @@ TEST(talk, hellos) {
     for (unsigned c = 0; c < 5; c++) {
         static talk t;
         static stream heard;
-        static const char *const words[] = {"no hello has come over the line in 0.05 s\n",
+        static const char *const words[] = {"the firmware's first message (hello) has not come over the line in 0.05 s\n",
                                             "the firmware sent an invalid hello in exchange 0\n",
                                             "the firmware sent an invalid hello in exchange 0\n",
                                             "", ""};
@@ -245,7 +246,7 @@ TEST(talk, no_reset) {
     TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
     TEST_ASSERT_FALSE(talk_restart(&t, 5, &(wh_reset){.cause = WH_RESET_WATCHDOG}));
     const char *told = errors_caught();
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "a reset, which cannot be done"), told);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "a reset, which is not possible"), told);
     TEST_ASSERT_EQUAL_INT(LOCKSTEP_FAILED, talk_report.end);
     talk_close_line(&heard);
 }

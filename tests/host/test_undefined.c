@@ -284,7 +284,7 @@ TEST(undefined, angles_beyond_what_a_run_knows) {
                 {"float", "th=-6.3e9", 2, "<command line>:1:1: error: 'th' starts at -6.3e+09"},
                 {"float", "th=6.2e9", 0, ""},
                 {"double", "th=5.1e8", 1,
-                 "() of 5.1e+08 rad, and sine and cosine are computed up to 5e+08"}};
+                 "() of 5.1e+08 rad, but sine and cosine are computed only up to 5e+08"}};
     const char *file =
         model_keep("mechanism m\ncoordinate th [rad]\nT = 1 [kg*m^2]*th'^2/2\nV = 1 [J]*cos(th)\n"
                    "scene s { start th = 7e9\n until 1 [s] }\n");

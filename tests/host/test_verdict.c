@@ -212,7 +212,7 @@ TEST(verdict, json_of_trust_and_map) {
         const char *until = strstr(what.out, "trusted until t = ");
         const bool end = strstr(what.out, "trusted to the end, t = ") != NULL;
         const double said_s = until != NULL ? strtod(until + 18, NULL) : 0.0;
-        const bool aliased = strstr(what.out, "between the stages") != NULL;
+        const bool aliased = strstr(what.out, "the steps alias a fast force") != NULL;
         command_say(command_trust, json, &what);
         const char *value = value_at(&what, "trusted_until_s");
         if (until != NULL && !aliased) {

@@ -118,16 +118,16 @@ static bool one_fault(unsigned kind, bool tripped) {
         mega_push_pc();
         mega_set_pc(4U * 9U);
         return is_off_within(OFF_CYCLES) &&
-               begins_anew("# reset: fault: an interrupt that nobody takes", tripped);
+               begins_anew("# reset: fault: an interrupt has no handler", tripped);
     }
     if (kind ==
         1) { /* the stack's lowest byte: checked with each kick, so the motor is off a control period later */
         mega_data()[mega_symbol("_end")] ^= 0xFFU;
         return is_off_within(MEGA_HZ / 400U) &&
-               begins_anew("# reset: fault: the stack came down", tripped);
+               begins_anew("# reset: fault: the stack reached", tripped);
     }
     mega_set_pc(0); /* a stray jump: erased flash leads there */
-    return is_off_within(OFF_CYCLES) && begins_anew("# reset: fault: it began anew", tripped);
+    return is_off_within(OFF_CYCLES) && begins_anew("# reset: fault: restarted without", tripped);
 }
 
 bool all_faults(unsigned times) {

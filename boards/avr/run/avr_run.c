@@ -63,7 +63,7 @@ static uint32_t number_of(const char *text) {
     char *end = NULL;
     const unsigned long number = strtoul(text, &end, 0);
     if (end == text || *end != '\0') {
-        fail("what should be a number is none");
+        fail("a number is expected after '='");
     }
     return (uint32_t)number;
 }
