@@ -51,8 +51,7 @@ static const command_usage usage = {
         "  --steps, with --as text or latex: the derivation: the Lagrangian, and for each coordinate dL/dq',\n"
         "               its time derivative, dL/dq, dF/dq' and Q\n"
         "  --folded, with --as octave: values instead of parameter names, one operation per line\n"
-        "  --header FILE, with --as c: the header of the code, for C and C++: names, units, "
-        "memory (docs/embedding.md)\n"
+        "  --header FILE, with --as c: the header for C and C++: names, units, memory (docs/embedding.md)\n"
         "  --name NAME, with --as octave or c: the scene's name in the code, so that a program can contain\n"
         "               it twice\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE | OPTIONS_NUMBER,
@@ -153,11 +152,9 @@ static bool write_header(const image *im, const fixed_plan *plan, const char *fi
 static bool has_name(const image *im, const source_model *from, const form_row *as, bool header) {
     const char *taken_by = NULL;
     if (as == &forms[OCTAVE]) {
-        taken_by = emit_octave_name_is_free(im->name) ? NULL
-                                                      : "a reserved word of Octave or "
-                                                        "Matlab";
+        taken_by = emit_octave_name_is_free(im->name) ? NULL : "a word of Octave or Matlab";
     } else if (!emit_c_name_is_free(im->name)) {
-        taken_by = "a name that C, its library or Whirl's core already uses";
+        taken_by = "a word of C, of its library or of Whirl's core";
     } else if (header && !emit_c_name_is_free_in_cpp(im->name)) {
         taken_by = "a word of C++";
     }

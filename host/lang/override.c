@@ -184,7 +184,7 @@ const expr *override_duration(const mechanism *of, const char *what, const char 
 const char *effect_hint(const mechanism *of, const char *text, size_t length,
                         char hint[EFFECT_HINT]) {
     nearest search = nearest_start(text, length);
-    size_t at = (size_t)snprintf(hint, EFFECT_HINT, "one of ");
+    size_t at = (size_t)snprintf(hint, EFFECT_HINT, "choose one of ");
     for (int i = 0; i <= of->effect_count && at < EFFECT_HINT; i++) {
         const bool last = i == of->effect_count;
         const char *name = last ? word_row(WORD_LEDGER)->text : of->effects[i].name;

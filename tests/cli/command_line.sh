@@ -102,7 +102,7 @@ for file in core/models/*.whirl; do
 done
 prints 'no scene was named: every coordinate and rate without --start starts at zero' run core/models/thomson.whirl:thomson --until 2ms
 exits 2 'this text contains no mechanism' derive -
-exits 2 'the command takes only one scene or mechanism: 'thomson' is a second one' derive epicyclic thomson
+exits 2 "the command takes only one scene or mechanism: 'thomson' is a second one" derive epicyclic thomson
 exits 2 "the command takes only one scene: 'thomson_b' is a second one" run thomson_a thomson_b
 prints '^thomson_a: ' run core/models/thomson.whirl:thomson_a --until 2ms
 prints '^thomson_a: ' run thomson:thomson_a --until 2ms
@@ -112,7 +112,7 @@ prints '^  mechanism thomson of core/models/thomson.whirl, model hash 0x' descri
 prints '^  "method": "heun",$' describe thomson_a --json --method heun
 prints '^  "compensated": true,$' describe thomson_a --json --compensated
 prints '^    "asked": true,$' describe thomson_a --json --with ledger
-exits 2 'the command takes only one scene or mechanism: 'thomson' is a second one' describe epicyclic thomson
+exits 2 "the command takes only one scene or mechanism: 'thomson' is a second one" describe epicyclic thomson
 exits 2 'did you mean --json' describe epicyclic --jsn
 exits 2 "there is no method 'foo'" describe epicyclic --method foo
 prints '^start[(]theta1[)],' sweep thomson:thomson_a --until 2ms --over theta1=0..1:2 --quiet
