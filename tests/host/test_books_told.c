@@ -202,7 +202,8 @@ TEST(books_told, ledgers) {
             const char *book = strstr(what.out, head);
             TEST_ASSERT_NOT_NULL_MESSAGE(book, what.out);
             const char *change = strstr(book + 1, "\n  change ");
-            const char *force = strstr(book + 1, "\n  change divided by the run's duration, along ");
+            const char *force =
+                strstr(book + 1, "\n  change divided by the run's duration, along ");
             TEST_ASSERT_TRUE_MESSAGE(change != NULL && force != NULL && change < force, book);
             const double wanted = change_Ns(&m.body[i], m.until_s);
             const char *number = change + strlen("\n  change ");

@@ -70,7 +70,8 @@ static void flat_is_named(int before, int behind, bool across_first, dice *d) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, w.text);
     snprintf(line, sizeof line, ":%d:1: error: ", named);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, line), what.err);
-    snprintf(line, sizeof line, "because this hold follows from the others at this position: %s\n", along);
+    snprintf(line, sizeof line, "because this hold follows from the others at this position: %s\n",
+             along);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, line), what.err);
     model_drop();
 }

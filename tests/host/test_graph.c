@@ -941,7 +941,8 @@ TEST(reader, outputs) {
     FILE *out = alloc_text(&told, &length);
     diags_flush(r.errors, out);
     alloc_text_end(out);
-    const char wanted[] = "x.whirl:7:14: error: an output of a moving quantity cannot be enclosed in intervals\n";
+    const char wanted[] =
+        "x.whirl:7:14: error: an output of a moving quantity cannot be enclosed in intervals\n";
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
     free(told);
     close_text();

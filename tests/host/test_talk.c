@@ -184,10 +184,10 @@ TEST(talk, hellos) {
     for (unsigned c = 0; c < 5; c++) {
         static talk t;
         static stream heard;
-        static const char *const words[] = {"the firmware's first message (hello) has not come over the line in 0.05 s\n",
-                                            "the firmware sent an invalid hello in exchange 0\n",
-                                            "the firmware sent an invalid hello in exchange 0\n",
-                                            "", ""};
+        static const char *const words[] = {
+            "the firmware's first message (hello) has not come over the line in 0.05 s\n",
+            "the firmware sent an invalid hello in exchange 0\n",
+            "the firmware sent an invalid hello in exchange 0\n", "", ""};
         static const lockstep_end why[] = {LOCKSTEP_BAD, LOCKSTEP_FAILED, LOCKSTEP_FAILED,
                                            LOCKSTEP_DONE, LOCKSTEP_STOPPED};
         talk_draw();

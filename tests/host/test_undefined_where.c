@@ -214,7 +214,8 @@ TEST(undefined_where, the_sine_that_is_too_far) {
             char hint[100];
             snprintf(where, sizeof where, ":8:%d: error: then the force", column + 1);
             snprintf(hint, sizeof hint,
-                     "() of %.6g rad, but sine and cosine are computed only up to %g rad", size, limit);
+                     "() of %.6g rad, but sine and cosine are computed only up to %g rad", size,
+                     limit);
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, where), told);
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, hint), told);
             told_of_sines++;
