@@ -299,7 +299,7 @@ static char firmware[512];
 static motion cart;
 static lockstep_report report;
 
-/* The firmware is in a folder above that of this program. */
+/* Finds build/pil_cart, one folder above that of this program. */
 static void find_firmware(void) {
     const ssize_t length = readlink("/proc/self/exe", firmware, sizeof firmware - 20);
     firmware[length > 0 ? length : 0] = '\0';

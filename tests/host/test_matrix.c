@@ -254,7 +254,7 @@ TEST(matrix, motions_are_those_of_the_exponential) {
             linear_draw(&seed, 1 + (int)(n % 4), (linear_kind){n % 3 == 0 ? 6 : 0, n % 2 != 0},
                         text, sizeof text, &of);
             const bool coupled = n % 2 != 0;
-            const bool exact = n % 5 < 3 || n % 3 == 0 || coupled; /* RK4 may be unstable */
+            const bool exact = n % 5 < 3 || n % 3 == 0 || coupled; /* stiff: RK4 may be unstable */
             set_matrix(&m, text, ways[w].kind, exact ? MATRIX_EXACT : MATRIX_RK4,
                        ways[w].compensated);
             const double off = run_error(&of, text, &m, exact ? 0 : 4, 1000, &seed) / ways[w].unit;

@@ -208,7 +208,7 @@ TEST(missed, ways_out) {
         if (is_told) {
             jumps_run(text, number, words);
         }
-        if (is_told && strstr(jumps_said.err, "[missed]") != NULL) { /* if not, cosh() overflowed */
+        if (is_told && strstr(jumps_said.err, "[missed]") != NULL) { /* else cosh() overflowed */
             TEST_ASSERT_TRUE_MESSAGE(jumps_named(cure, words), text);
             ways[strncmp(cure, "--until", 7) == 0]++;
             jumps_run(text, number, words);

@@ -1,5 +1,5 @@
-/* test_octave.c: files for Octave: where values could become complex, and both forms, which are read line by line.
- * Their slopes must be the accelerations of the operation lists. Also LaTeX. */
+/* test_octave.c: files for Octave, in both forms. The test evaluates them line by line: the slopes must be the
+ * accelerations of the operation lists, and no value may become complex. Also evaluates the printed LaTeX. */
 #include "command.h"
 #include "formula.h"
 #include "latex.h"

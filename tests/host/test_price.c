@@ -321,7 +321,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
         TEST_ASSERT_EQUAL_INT(rows[i].asked, p.asked - asked);
         TEST_ASSERT_EQUAL_INT(rows[i].own, own);
         if (own) {
-            /* the result is stored for the step of the plan */
+            /* the result is stored under the step of the plan, so that step is not run again */
             asked = p.asked;
             const trial_result r = trial_run(&p.trial, &in_fixed, rows[i].at);
             TEST_ASSERT_TRUE(r.ran);

@@ -139,7 +139,7 @@ TEST(tape_used, images_know_what_float_has_no_room_for) {
         const bool matrix = im->settings.matrix != MATRIX_NONE;
         const bool moves = role == (matrix ? IMAGE_MATRIX : IMAGE_STEP) || role == IMAGE_SIGNALS ||
                            role == IMAGE_FORCES || role == IMAGE_SETS;
-        if (im->list[role] != NULL) { /* its operation 0 is a constant */
+        if (im->list[role] != NULL) { /* operation 0 of each drawn list is a constant */
             drawn.list[role].ops[0].value = 1e-50;
             TEST_ASSERT_TRUE(image_out_of_float(im) == (moves ? 1e-50 : 0.0));
             drawn.list[role].ops[0].value = 1.0;
@@ -236,7 +236,7 @@ TEST(tape_used, a_hash_is_of_everything) { each_list(60, check_hash); }
 
 enum { PAIRS_MOST = 6, WAYS = 8 };
 
-/* Enters two sums of two leaves; in one of them a part is doubled. Returns whether one sum can be computed from the
+/* Enters two sums of two leaves each. In one of them, a part is doubled. Returns whether one sum can be computed from the
  * other with one product less. */
 static bool enter_pair(op_list *t, int k, unsigned way) {
     const int a = op_list_leaf(t, OP_LINEAR, 2 * k);

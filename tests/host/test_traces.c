@@ -309,7 +309,7 @@ TEST(traces, moments) {
         const double above_s[] = {0.0, b.crosses_m / b.passes_mps};
         static const double rises[] = {0.0, 1.0};
         static const double falls[] = {1.0, 0.0};
-        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s, round-off of x in float */
+        const double off = kind == &engine_float ? 3e-6 : 0.0; /* s, from round-off of x in float */
         if (off == 0.0 && rests_s > 0.95 && fabs(next_s - 0.9) > 1e-3 &&
             (hits == 0 || fabs(hits_s[hits - 1] - 0.9) > 1e-3)) {
             expect_changes("stop2_hit", hits_s, ones, hits, units_per_s);
