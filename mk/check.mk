@@ -146,7 +146,7 @@ HOST_LESS_ASAN := aliasing angle_parts apart arm asked_first blurred books_told 
     double_functions effect_parts effect_subsets effect_work effects enclosure energy_integral energy_kept exact_books far_origin far_slopes firstlight fixed_loss fixed_ranges \
     fixed_runs folded folded_numbers force_free forced_swing hard_cases hard_contacts hard_edges hard_origin hybrids image_rows jumped latex_runs leans ledger_scenes limits linkages \
     lockin_truth map mass_scales matrix_runs methods octave order_told plant price_reference prove_drawn pulse_trains rated reference repeats_truth rounding show show_events \
-    slope_truth slow_angles stabilized stabilized_beside swings symmetry tables tape_gauge trajectory trust trust_drawn trust_scenes turned turned_errors undefined verdict walled warnings
+    slope_truth slow_angles stabilized stabilized_beside swings symmetry tables tape_gauge trajectory trust trust_drawn trust_scenes turned undefined verdict walled warnings
 ASAN_REALS := float
 ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))

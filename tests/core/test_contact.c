@@ -21,37 +21,6 @@ TEST(contact, ball_comes_to_rest_and_stays) {
     TEST_ASSERT_TRUE(hand_state.contacts->overruns == 0);
 }
 
-/* A spring presses the body onto the stop, then a load lifts it. */
-TEST(contact, resting_stop_lets_go_when_the_force_turns) {
-    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
-    hand_now.load[0] = WH_R(-1.0);
-    hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.25), WH_R(0.0), WH_R(0.0));
-    hand_now.start[0] = WH_R(0.25);
-    hand_start(false);
-    hand_steps(100);
-    TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_ACTIVE);
-    TEST_ASSERT_TRUE(hand_state.real[0] == WH_R(0.25) && hand_state.real[1] == WH_R(0.0));
-    hand_now.load[0] = WH_R(2.0);
-    hand_steps(500);
-    TEST_ASSERT_TRUE(hand_state.contacts->mode[0] == WH_FREE);
-    TEST_ASSERT_TRUE(hand_near(hand_state.real[1], WH_R(1.0), 1e-12, 1e-5)); /* the speed is 2 t */
-}
-
-/* Two stops one micrometre apart and a fast body: more bounces than a step can resolve. */
-TEST(contact, too_many_bounces_are_counted_and_end) {
-    hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
-    hand_add(WH_STOP, 0, WH_R(1.0), WH_R(0.0), WH_R(0.0), WH_R(1.0), WH_R(0.0));
-    hand_add(WH_STOP, 0, WH_R(-1.0), WH_R(0.0), WH_R(-1e-6), WH_R(1.0), WH_R(0.0));
-    hand_now.start[0] = WH_R(5e-7);
-    hand_now.start[1] = WH_R(1.0);
-    hand_start(false);
-    hand_steps(1);
-    TEST_ASSERT_TRUE(hand_state.contacts->overruns == 1);
-    TEST_ASSERT_TRUE(hand_state.contacts->events >= WH_EVENTS_MAX);
-    hand_steps(100);
-    TEST_ASSERT_TRUE(WH_ABS(hand_state.real[1]) <= WH_R(1.0));
-}
-
 /* A body bounces between two walls 1 m apart, n times in each step of 1 ms. All events are counted, and the first eight
  * are logged. */
 TEST(contact, a_step_has_room_for_so_many_moments) {

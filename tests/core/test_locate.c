@@ -1,5 +1,5 @@
-/* test_locate.c: event location within a step. A body under a constant load crosses a place at a time known in closed
- * form. test_contact_search.c tests the search itself, test_contact_exact.c the order of several events. */
+/* test_locate.c: crossings whose values are flat or steep where they vanish. test_contact_search.c checks the search of
+ * straight and bent ones, test_contact_exact.c whole steps with crossings, stops and friction. */
 #include "draw.h"
 #include "hand.h"
 
@@ -42,31 +42,6 @@ static unsigned add_crossing(wh_real at, int direction) {
     hand_now.contact[k].direction = (int8_t)direction;
     hand_now.contact[k].sets = 0;
     return k;
-}
-
-/* A crossing reverses and halves the rate: its time, and the motion after it, must be right. */
-TEST(locate, a_crossing_is_found_where_it_is) {
-    uint64_t seed = 411;
-    wh_real worst = WH_R(0.0);
-    for (unsigned i = 0; i < CASES; i++) {
-        const path p = random_path(&seed);
-        const wh_real t = STEP_S * share_of(&seed);
-        start(p);
-        hand_now.contact[add_crossing(place_at(p, t), p.v > WH_R(0.0) ? 1 : -1)].sets = 1;
-        hand_start(false);
-        hand_steps(1);
-        TEST_ASSERT_TRUE(hand_state.contacts->events == 1 && hand_state.contacts->logged == 1);
-        const wh_real off = WH_ABS(hand_state.contacts->log[0].at_s - t) / STEP_S;
-        worst = off > worst ? off : worst;
-        const wh_real rest = STEP_S - t;
-        const wh_real turned = WH_R(-0.5) * (p.v + p.a * t);
-        const wh_real end = place_at(p, t) + rest * (turned + WH_R(0.5) * p.a * rest);
-        const wh_real scale = WH_ABS(p.v) * STEP_S;
-        TEST_ASSERT_TRUE(hand_near(hand_state.real[0] / scale, end / scale, 1e-12, 2e-5));
-        TEST_ASSERT_TRUE(
-            hand_near(hand_state.real[1] / p.v, (turned + p.a * rest) / p.v, 1e-12, 2e-5));
-    }
-    TEST_ASSERT_TRUE((double)worst <= (WH_DOUBLE ? 1e-14 : 2e-6));
 }
 
 /* Crossings with flat or steep values are located with full accuracy before the limit of evaluations is reached. */

@@ -1,9 +1,6 @@
 /* test_trust_drawn.c: the time until which chaotic runs are accurate, for random mechanisms: pendulums of two and three
  * links, on carriages and springs, turning arms, and planetary gears with a disc on a hinge. Masses, lengths, springs,
- * starts, number type and method vary. WHIRL_CASES=30 tests thirty mechanisms and prints them.
- *
- * The same mechanisms measure an alternative for boards: two runs with the board's own number type
- * (docs/dev/stability.md). */
+ * starts, number type and method vary. WHIRL_CASES=30 tests thirty mechanisms and prints them. */
 #include "command.h"
 #include "horizons.h"
 #include "motion.h"
@@ -132,64 +129,6 @@ static drawn_setting setting_of(dice *d) {
     return s;
 }
 
-/* --- two runs on a board --- */
-
-typedef enum board_twin { TWIN_PERTURBED, TWIN_HALF, TWIN_METHOD, TWINS } board_twin;
-static const char *const twin_names[TWINS] = {"start off by one rounding", "half the step",
-                                              "another method"};
-
-/* The time at which two runs with one number type differ by the tolerance for the first time, divided by the true
- * time. */
-static double twin_ratio(const horizons *h, board_twin which) {
-    const engine_kind *kind = h->twins->shape->kind;
-    image other = *h->image;
-    double start_rad[IMAGE_COMPONENTS_MAX];
-    int64_t start_turns[IMAGE_COMPONENTS_MAX];
-    uint64_t each = 1;
-    switch (which) {
-    case TWIN_PERTURBED:
-        memcpy(start_rad, other.start_rad, (size_t)other.angles * sizeof *start_rad);
-        memcpy(start_turns, other.start_turns, (size_t)other.angles * sizeof *start_turns);
-        start_rad[0] += kind == &engine_float ? 0x1p-24 : 0x1p-52;
-        start_turns[0] += 41; /* a change of 2^-24 rad, in units */
-        other.start_rad = start_rad;
-        other.start_turns = start_turns;
-        break;
-    case TWIN_HALF:
-        other.step.denominator *= 2U;
-        other.step_s *= 0.5;
-        each = 2;
-        break;
-    case TWIN_METHOD:
-        other.settings.method = other.settings.method == WH_RK38 ? WH_RK4 : WH_RK38;
-        break;
-    case TWINS: break;
-    }
-    records *a = records_open(NULL, h->image, kind);
-    records *b = records_open(NULL, &other, kind);
-    void *run = kind->start(h->image);
-    void *beside = kind->start(&other);
-    uint64_t step = 0;
-    bool same = true;
-    while (same && step < h->image->steps && kind->step(run) == WH_OK) {
-        for (uint64_t i = 0; i < each; i++) {
-            same = kind->step(beside) == WH_OK && same;
-        }
-        step++;
-        records_read(a, run, 0.0);
-        records_read(b, beside, 0.0);
-        for (int k = 1; k < h->twins->columns; k++) {
-            same = same && fabs(a->row[k] - b->row[k]) <=
-                               h->estimate.tolerance * h->estimate.column[k].range;
-        }
-    }
-    kind->stop(run);
-    kind->stop(beside);
-    records_close(a);
-    records_close(b);
-    return ratio_times(step, h->image->step) / h->true_until_s;
-}
-
 static int by_size(const void *a, const void *b) {
     const double x = *(const double *)a;
     const double y = *(const double *)b;
@@ -207,7 +146,6 @@ enum { MOST_CASES = 400 };
 
 TEST(trust_drawn, drawn_mechanisms) {
     static double ratio[MOST_CASES];
-    static double twin[TWINS][MOST_CASES];
     dice d = dice_of("trust_drawn", 14);
     const unsigned wanted = dice_cases(few_or_all(3, 12));
     unsigned count = 0;
@@ -231,13 +169,8 @@ TEST(trust_drawn, drawn_mechanisms) {
         } else {
             ratio[count] = horizons_ratio(&h);
             near += ratio[count] >= 0.8 && ratio[count] <= 1.2;
-            printf("  %2u %-40s %-24s %g ms: %.5g s, true %.5g s: %.3f;", count, what, s.name,
+            printf("  %2u %-40s %-24s %g ms: %.5g s, true %.5g s: %.3f\n", count, what, s.name,
                    s.step_ms, h.estimate.until_s, h.true_until_s, ratio[count]);
-            for (int k = 0; k < TWINS; k++) {
-                twin[k][count] = twin_ratio(&h, (board_twin)k);
-                printf(" %.2f", twin[k][count]);
-            }
-            printf("\n");
             TEST_ASSERT_TRUE_MESSAGE(ratio[count] > 0.5 && ratio[count] <= 1.3, text);
             count++;
         }
@@ -249,7 +182,4 @@ TEST(trust_drawn, drawn_mechanisms) {
     TEST_ASSERT_TRUE_MESSAGE(10 * near >= 9 * count, "nine of ten within 0.8 ... 1.2");
     TEST_ASSERT_TRUE_MESSAGE(beyond <= count / 5, "the references know too little");
     spread_of("whirl trust", ratio, count);
-    for (int k = 0; k < TWINS; k++) {
-        spread_of(twin_names[k], twin[k], count);
-    }
 }
