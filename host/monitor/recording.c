@@ -117,29 +117,6 @@ static bool take_channel(schema *s, const char *line) {
     return true;
 }
 
-/* "OK 0=idle 1=armed ..." */
-static bool take_states(schema *s, const char *line) {
-    char states[SCHEMA_STATES][SCHEMA_NAME] = {{0}};
-    int count = 0;
-    for (const char *at = line + 2; *at == ' '; count++) {
-        const char *end;
-        const double index = decimal_read(at + 1, &end);
-        if (end == at + 1 || *end != '=' || !(index >= 0.0 && index < SCHEMA_STATES)) {
-            return false;
-        }
-        at = copy_word(states[(int)index], end + 1, " ");
-        if (at == NULL) {
-            return false;
-        }
-    }
-    if (count == 0) {
-        return false;
-    }
-    memcpy(s->state, states, sizeof states);
-    s->states_known = true;
-    return true;
-}
-
 /* Takes an answer about the rate, which has the new period of the first channel. */
 static bool take_rate(schema *s, const char *line) {
     uint32_t period_ticks = 0;
@@ -158,7 +135,7 @@ bool schema_take(schema *s, const char *line) {
     if (strncmp(line, "OK rate=", 8) == 0) {
         return take_rate(s, line);
     }
-    return strncmp(line, "OK 0=", 5) == 0 && take_states(s, line);
+    return strncmp(line, "OK 0=", 5) == 0;
 }
 
 /* Reads a field's value from bytes[field->size]. Returns false for the number that means "no value". */
@@ -201,8 +178,6 @@ void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plot
     *r = (recording){.csv = csv, .waves = waves, .ring = ring, .plots = plots, .every = 1};
 }
 
-/* --- sequences and times ---------------------------------------------------------------------------------- */
-
 static int64_t time_of(recording *r, uint32_t ticks) {
     if (!r->timed) {
         r->timed = true;
@@ -242,8 +217,6 @@ static void count(recording *r, const wire_frame *frame) {
     c->dropped = frame->dropped;
     r->counts.frames++;
 }
-
-/* --- a run's samples --------------------------------------------------------------------------------------- */
 
 static void put_number(FILE *to, bool there, double value) {
     if (there) {
@@ -369,8 +342,6 @@ static void take_run(recording *r, const schema_channel *c, const wire_frame *fr
     }
 }
 
-/* --- events, and the ring ------------------------------------------------------------------------------------ */
-
 static void take_event(recording *r, const schema_channel *run, const wire_frame *frame) {
     if (frame->length != 2U) {
         r->counts.strange++;
@@ -451,8 +422,6 @@ void recording_frame(recording *r, const schema *s, const wire_frame *frame) {
     default: break;
     }
 }
-
-/* --- the end ---------------------------------------------------------------------------------------------------- */
 
 bool recording_plot(const recording *r, const schema *s, const char *file) {
     const schema_channel *c = &s->channel[RECORDING_RUN];

@@ -11,7 +11,7 @@
 
 /* === the schema of a rig's telemetry, as the rig describes it (`tel schema`) ================== */
 
-enum { SCHEMA_CHANNELS = 8, SCHEMA_FIELDS = 8, SCHEMA_NAME = 32, SCHEMA_STATES = 32 };
+enum { SCHEMA_CHANNELS = 8, SCHEMA_FIELDS = 8, SCHEMA_NAME = 32 };
 
 typedef struct schema_field {
     char name[SCHEMA_NAME]; /* name with its unit: "load [N]" */
@@ -33,12 +33,10 @@ typedef struct schema_channel {
 
 typedef struct schema {
     schema_channel channel[SCHEMA_CHANNELS];
-    char state[SCHEMA_STATES][SCHEMA_NAME]; /* "" for an unnamed state */
-    bool states_known;
 } schema;
 
-/* Takes an answer of the console. Returns true if the answer describes a channel, the states or another rate, and
- * stores that. An answer that cannot be read changes nothing. */
+/* Takes an answer of the console. Returns true if the answer describes a channel or another rate, which is stored, or the
+ * states, "OK 0=idle 1=armed ...". An answer that cannot be read changes nothing. */
 bool schema_take(schema *s, const char *line);
 
 unsigned schema_bytes(const schema_field *fields, int count);
