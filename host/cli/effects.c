@@ -43,8 +43,6 @@ typedef struct effects_options {
     const char *board;
 } effects_options;
 
-/* --- the error -------------------------------------------------------------------------------------*/
-
 static const char primes[] = "''''''''''";
 
 static bool is_coordinate(const record_column *c) { return c->unknown >= 0 && c->primes == 0; }
@@ -111,8 +109,6 @@ static bool read_error(subsets *s, const char *error) {
     free(copy);
     return good;
 }
-
-/* --- the table ---------------------------------------------------------------------------------------*/
 
 static void print_cell(const char *head, bool is_head, const char *format, double number) {
     enum { LEAST = 9 };
@@ -268,8 +264,6 @@ static void print_answer(const effects_options *o, subsets *s) {
     puts(best->out == every ? "no effect" : "");
     print_run(o, s, best->out);
 }
-
-/* --- the command -------------------------------------------------------------------------------------*/
 
 static int effects_of(const effects_options *o, subsets *s, diags *errors) {
     s->board = pricing_board("effects", o->board);

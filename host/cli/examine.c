@@ -171,8 +171,6 @@ static void print_sources(const show *s, const equations *e, const symmetry *of,
     }
 }
 
-/* --- text and LaTeX -----------------------------------------------------------------------------------*/
-
 static void print_motion(const show *s, const equations *e, const symmetry *of) {
     bool first = true;
     for (int i = 0; i < e->count; i++) {
@@ -256,18 +254,15 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
             printf("%swith %s: %s\n", prefix, m->effects[i].name, m->effects[i].text);
         }
     }
-    for (int i = 0, left_out = 0; i < m->effect_count; i++) {
+    int left_out = 0;
+    for (int i = 0; i < m->effect_count; i++) {
         if (!e->instance->with[i]) {
-            printf("%s%s",
-                   left_out++ > 0 ? ", "
-                   : latex        ? "% left out: "
-                                  : "left out: ",
-                   m->effects[i].name);
-        }
-        if (i == m->effect_count - 1 && left_out > 0) {
-            fputc('\n', stdout);
+            printf("%s%s%s", left_out > 0 ? "" : prefix,
+                   left_out > 0 ? ", " : "left out: ", m->effects[i].name);
+            left_out++;
         }
     }
+    fputs(left_out > 0 ? "\n" : "", stdout);
     int conserved = 0;
     for (int i = 0; i < found->count; i++) {
         (latex ? print_latex : print_text)(&s, e, &found->each[i], i + 1);
@@ -292,8 +287,6 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
     show_lets_end(&s, latex ? "% with\n\\begin{align}\n" : "with\n", latex ? " \\\\\n" : "\n",
                   latex ? "\n\\end{align}\n" : "\n");
 }
-
-/* --- the command ----------------------------------------------------------------------------------------*/
 
 static int examine_source(source_model *from, void *options) {
     static const char *const forms[] = {"text", "latex"};

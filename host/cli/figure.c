@@ -191,8 +191,6 @@ typedef struct figure_options {
     char *varied; /* the same words as text, a blank before each */
 } figure_options;
 
-/* --- its records ----------------------------------------------------------------------------------------- */
-
 /* Split a built-in description into words by the shell's rules; in place. */
 static int words_of(char *line, char **word) {
     int count = 0;
@@ -294,8 +292,6 @@ static int take_data(const figure_options *o, const char *text, figure_data *dat
     }
     return code;
 }
-
-/* --- the figure ---------------------------------------------------------------------------------------------- */
 
 /* "51", "fig51" or "finding_spin" of mk/figures. */
 static const struct builtin_model *figure_named(const char *name) {

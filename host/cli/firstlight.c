@@ -245,8 +245,6 @@ static const command_usage firstlight_usage = {
     .why = {"no field differs", "a field differs, no record came, or the row could not be written",
             "wrong options, or an incomplete record", ""}};
 
-/* --- the record ------------------------------------------------------------------------------------------------- */
-
 static int say_wrong(const char *name, const char *why, const char *hint) {
     fprintf(stderr, "%s: error: %s\nhint: %s\n", name, why, hint);
     return EXIT_BAD_INPUT;
@@ -323,8 +321,6 @@ static int expect_emulated(const firstlight_options *o, light_expected *e) {
     }
     return code;
 }
-
-/* --- the comparison ------------------------------------------------------------------------------------------------ */
 
 static const char *const verdict_words[] = {[LIGHT_EQUAL] = "equal",
                                             [LIGHT_DIFFERS] = "differs",

@@ -70,8 +70,6 @@ static const command_usage usage = {
 
 enum { OUTSIDE = -1 }; /* outside every effect */
 
-/* --- the table ------------------------------------------------------------------------------------- */
-
 /* Append WORD, with a comma if needed. */
 static void add_word(bool *any, const char *word) {
     printf("%s%s", *any ? "," : "", word);
@@ -191,8 +189,6 @@ static bool put_rows(const source_model *from, const mechanism *m) {
     return true;
 }
 
-/* --- the text -------------------------------------------------------------------------------------- */
-
 static bool put_lines(const source_model *from, const mechanism *of) {
     const whirl_model *m = from->model;
     printf("mechanism  %-24s %s\n", of->name, of->title);
@@ -203,8 +199,6 @@ static bool put_lines(const source_model *from, const mechanism *of) {
     }
     return true;
 }
-
-/* --- the forms ------------------------------------------------------------------------------------- */
 
 typedef struct form {
     const char *word;

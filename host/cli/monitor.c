@@ -133,8 +133,6 @@ typedef struct monitor {
     uint64_t times;   /* how often the line was opened */
 } monitor;
 
-/* --- the line ------------------------------------------------------------------------------------------------- */
-
 static int64_t now_ms(void) { return (int64_t)(1000.0 * system_now_s()); }
 
 static void ask(monitor *m) {
@@ -329,8 +327,6 @@ static void listen(monitor *m) {
         keep_records(m);
     }
 }
-
-/* --- all of it ---------------------------------------------------------------------------------------------------- */
 
 static bool open_outputs(monitor *m) {
     for (int i = 0; i < PLOT; i++) {

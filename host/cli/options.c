@@ -28,7 +28,9 @@ static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
 /* Columns of help texts: the beginning of the description, and the width. */
 enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
 
-void options_text(FILE *out, const char *text, int column, int margin, int width) {
+/* Prints a help text that begins at `column`, broken at blanks into lines of at most `width` columns. Later lines are
+ * indented by `margin`. */
+static void options_text(FILE *out, const char *text, int column, int margin, int width) {
     for (; *text != '\0'; text++) {
         const int word = 1 + (int)strcspn(text + 1, " \n"); /* includes the blank before the word */
         if (*text == '\n' || (*text == ' ' && column + word > width)) {

@@ -83,10 +83,6 @@ typedef struct command_usage {
 
 void options_usage(FILE *out, const command_usage *usage);
 
-/* Print a help text that begins at `column`, broken at blanks into lines of at most `width` columns. Later lines are
- * indented by `margin`. */
-void options_text(FILE *out, const char *text, int column, int margin, int width);
-
 /* A row of a help text: an option, its value ("" without one) and its description. */
 void options_describe(FILE *out, const char *word, const char *value, const char *text);
 

@@ -105,8 +105,6 @@ typedef struct pil_options {
     bool kinds; /* list the kinds of faults */
 } pil_options;
 
-/* --- options ------------------------------------------------------------------------------------------------*/
-
 /* Printing a tape needs no firmware. */
 static bool is_read_alone(const pil_options *o) {
     const char *beside = o->target != NULL     ? "scene"
@@ -194,8 +192,6 @@ static bool is_known_board(pil_options *o) {
                           (int)(sizeof boards / sizeof boards[0])) >= 0;
 }
 
-/* --- the settings --------------------------------------------------------------------------------------------- */
-
 static bool read_time(const char *option, const char *text, const mechanism *of, double *time_s) {
     *time_s = 0.0;
     if (text == NULL) {
@@ -277,8 +273,6 @@ static void close_line(const pil_options *o, port *line) {
         port_close(line);
     }
 }
-
-/* --- against a scene ----------------------------------------------------------------------------------------------*/
 
 static bool would_be_lost(const pil_options *o, const source_model *from, const char *option,
                           const char *name) {

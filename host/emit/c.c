@@ -140,7 +140,7 @@ static const char *next_word(const char *words, size_t *length) {
     return *length > 0 ? words : NULL;
 }
 
-static bool is_among(const char *words, const char *text, size_t length) {
+bool emit_is_among(const char *words, const char *text, size_t length) {
     size_t size;
     for (const char *at = words; (at = next_word(at, &size)) != NULL; at += size) {
         if (size == length && strncmp(at, text, size) == 0) {
@@ -177,7 +177,7 @@ static bool is_maths(const char *name) {
     for (size_t i = 0; i < sizeof variants / sizeof variants[0]; i++) {
         const size_t tail = strlen(variants[i]);
         if (length > tail && strncmp(name + length - tail, variants[i], tail) == 0 &&
-            is_among(maths, name, length - tail)) {
+            emit_is_among(maths, name, length - tail)) {
             return true;
         }
     }
@@ -204,14 +204,15 @@ static bool is_of_integers(const char *name) {
 
 bool emit_c_name_is_free(const char *name) {
     const size_t length = strlen(name);
-    return !is_among(words_of_c, name, length) && !is_among(own, name, length) &&
-           !is_among(predefined, name, length) && !is_among(types_and_macros, name, length) &&
-           !is_among(functions, name, length) && !is_maths(name) && !is_of_integers(name) &&
+    return !emit_is_among(words_of_c, name, length) && !emit_is_among(own, name, length) &&
+           !emit_is_among(predefined, name, length) &&
+           !emit_is_among(types_and_macros, name, length) &&
+           !emit_is_among(functions, name, length) && !is_maths(name) && !is_of_integers(name) &&
            !is_in_a_family(name);
 }
 
 bool emit_c_name_is_free_in_cpp(const char *name) {
-    return !is_among(words_of_cpp, name, strlen(name));
+    return !emit_is_among(words_of_cpp, name, strlen(name));
 }
 
 /* === a scene's contacts as C ================================================================== */
@@ -304,6 +305,13 @@ static void c_ledger_bounds(FILE *out, const image *im) {
             l->entries > 0 ? l->entries : 1, l->accounts);
 }
 
+static void write_phases(FILE *out, const image *im, const char *angle) {
+    fprintf(out,
+            "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
+            "        phase[i] = wh_phase_of(%s[i]);\n    }\n",
+            im->angles, im->angles, angle);
+}
+
 /* Writes a wh_levels_fn, indented for a name as long as "ledger_levels" or "ledger_powers". */
 static void write_of_angles(FILE *out, const image *im, const op_list *t, const char *name,
                             const char *result) {
@@ -314,10 +322,7 @@ static void write_of_angles(FILE *out, const image *im, const op_list *t, const 
             "    (void)model;\n",
             name, result);
     if (c_list_uses_phase(t)) {
-        fprintf(out,
-                "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
-                "        phase[i] = wh_phase_of(angle[i]);\n    }\n",
-                im->angles, im->angles);
+        write_phases(out, im, "angle");
     } else {
         c_list_ignore(out, op_list_reads_turns(t), "angle");
     }
@@ -370,10 +375,7 @@ static void write_observer(FILE *out, const image *im) {
                  "wh_real *output) {\n");
     c_list_ignore(out, op_list_has(t, OP_TIME), "scene");
     if (c_list_uses_phase(t)) {
-        fprintf(out,
-                "    wh_phase phase[%d];\n    for (int i = 0; i < %d; i++) {\n"
-                "        phase[i] = wh_phase_of(state->angle[i]);\n    }\n",
-                im->angles, im->angles);
+        write_phases(out, im, "state->angle");
     }
     if (op_list_reads_turns(t)) {
         fprintf(out, "    const wh_angle *angle = state->angle;\n");

@@ -64,14 +64,8 @@ typedef struct item {
 } item;
 
 static int count_of(const image *im, list of) {
-    switch (of) {
-    case LIST_ANGLES: return im->angles;
-    case LIST_REALS: return im->reals;
-    case LIST_INPUTS: return im->inputs;
-    case LIST_OUTPUTS: return im->outputs;
-    case LISTS: break;
-    }
-    return 0;
+    const int count[LISTS] = {im->angles, im->reals, im->inputs, im->outputs};
+    return count[of];
 }
 
 static item of_unknown(const image *im, component c) {
@@ -82,19 +76,14 @@ static item of_unknown(const image *im, component c) {
 static item of_quantity(const image_quantity *q) { return (item){q->name, q->text, q->unit.si, 0}; }
 
 static item item_of(const image *im, list of, int i) {
-    switch (of) {
-    case LIST_ANGLES: return of_unknown(im, im->angle[i]);
-    case LIST_REALS: return of_unknown(im, im->real[i]);
-    case LIST_INPUTS: return of_quantity(&im->input[i]);
-    case LIST_OUTPUTS:
-        if (i >= im->own_outputs) { /* value or rate of a recovered coordinate */
-            const int k = i - im->own_outputs;
-            return of_unknown(im, (component){im->from_momentum[k / 2], k % 2});
-        }
-        return of_quantity(&im->output[i]);
-    case LISTS: break;
+    const int k = i - im->own_outputs; /* value or rate of a recovered coordinate */
+    if (of == LIST_ANGLES || of == LIST_REALS) {
+        return of_unknown(im, of == LIST_ANGLES ? im->angle[i] : im->real[i]);
     }
-    return (item){"", "", "", 0};
+    if (of == LIST_OUTPUTS && k >= 0) {
+        return of_unknown(im, (component){im->from_momentum[k / 2], k % 2});
+    }
+    return of_quantity(of == LIST_INPUTS ? &im->input[i] : &im->output[i]);
 }
 
 static void write_items(FILE *out, const image *im, list of, const char *where) {

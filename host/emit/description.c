@@ -8,13 +8,13 @@
 #include "host/base/json.h"
 #include "host/image/core_rows.h"
 
-const char *const describe_roles[IMAGE_ROLES] = {
+static const char *const describe_roles[IMAGE_ROLES] = {
     [IMAGE_STEP] = "step",       [IMAGE_OBSERVE] = "observe", [IMAGE_BOOKS] = "books",
     [IMAGE_SIGNALS] = "signals", [IMAGE_FORCES] = "forces",   [IMAGE_SETS] = "sets",
     [IMAGE_POWERS] = "powers",   [IMAGE_LEVELS] = "levels",   [IMAGE_MATRIX] = "matrix",
     [IMAGE_TABLES] = "tables"};
 
-const char *describe_ledger_kind(ledger_kind kind) {
+static const char *describe_ledger_kind(ledger_kind kind) {
     switch (kind) {
     case LEDGER_WORK: return "work";
     case LEDGER_LOSS: return "loss";

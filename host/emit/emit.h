@@ -19,6 +19,9 @@ void emit_octave(FILE *out, const image *im, const char *file, const char *conta
 void emit_octave_head(FILE *out, const image *im, const char *file, const char *contacts);
 void emit_octave_end(FILE *out, const image *im);
 
+/* Is text[length] one of the words, which spaces separate? */
+bool emit_is_among(const char *words, const char *text, size_t length);
+
 /* Can a scene have that name in C? It must be no keyword, no name of C's library, no predefined macro of a compiler,
  * and no name of the core or the generated file. */
 bool emit_c_name_is_free(const char *name);
@@ -58,9 +61,5 @@ void describe_json(FILE *out, const image *im, const char *file);
 
 /* Writes the description as text for readers. */
 void describe_text(FILE *out, const image *im, const char *file);
-
-/* Words of both descriptions. */
-extern const char *const describe_roles[IMAGE_ROLES];
-const char *describe_ledger_kind(ledger_kind kind);
 
 #endif

@@ -176,35 +176,24 @@ void emit_octave(FILE *out, const image *im, const char *file, const char *conta
     emit_octave_end(out, im);
 }
 
-static bool is_one_of(const char *name, const char *const *list) {
-    while (*list != NULL && strcmp(name, *list) != 0) {
-        list++;
-    }
-    return *list != NULL;
-}
-
 bool emit_octave_variable_is_free(const char *name) {
-    static const char *const taken[] = {
-        /* keywords of Octave or of Matlab */
-        "arguments", "break", "case", "catch", "classdef", "continue", "do", "else", "elseif",
-        "end", "end_try_catch", "end_unwind_protect", "endarguments", "endclassdef",
-        "endenumeration", "endevents", "endfor", "endfunction", "endif", "endmethods", "endparfor",
-        "endproperties", "endspmd", "endswitch", "endwhile", "enumeration", "events", "for",
-        "function", "global", "if", "methods", "otherwise", "parfor", "persistent", "properties",
-        "return", "spmd", "switch", "try", "until", "unwind_protect", "unwind_protect_cleanup",
-        "while",
-        /* names of the file itself, and functions it calls */
-        "t", "y", "dy", "Phi", "Gamma", "g0", "zeros", "isreal", "ode45", "odeset", "save", "NaN",
-        NULL};
+    /* Keywords of Octave or of Matlab; then names of the file itself, and functions that it calls. */
+    static const char taken[] =
+        "arguments break case catch classdef continue do else elseif end end_try_catch "
+        "end_unwind_protect endarguments endclassdef endenumeration endevents endfor endfunction "
+        "endif endmethods endparfor endproperties endspmd endswitch endwhile enumeration events "
+        "for function global if methods otherwise parfor persistent properties return spmd switch "
+        "try until unwind_protect unwind_protect_cleanup while "
+        "t y dy Phi Gamma g0 zeros isreal ode45 odeset save NaN";
     function_id called;
     /* Matlab's names begin with a letter. */
-    return name[0] != '_' && !function_find(name, strlen(name), &called) && !is_one_of(name, taken);
+    return name[0] != '_' && !function_find(name, strlen(name), &called) &&
+           !emit_is_among(taken, name, strlen(name));
 }
 
 bool emit_octave_name_is_free(const char *name) {
-    static const char *const constants[] = {
-        "ans",     "e",    "eps",      "false",     "i",        "I",       "inf",    "Inf",
-        "j",       "J",    "NA",       "nan",       "nargin",   "nargout", "pi",     "realmax",
-        "realmin", "true", "varargin", "varargout", "flintmax", "intmax",  "intmin", NULL};
-    return emit_octave_variable_is_free(name) && !is_one_of(name, constants);
+    static const char constants[] =
+        "ans e eps false i I inf Inf j J NA nan nargin nargout pi realmax realmin true varargin "
+        "varargout flintmax intmax intmin";
+    return emit_octave_variable_is_free(name) && !emit_is_among(constants, name, strlen(name));
 }

@@ -484,8 +484,6 @@ static void read_about(const char *csv, plot_run *run) {
     free(file);
 }
 
-/* --- the numbers ----------------------------------------------------------------------------------------------------- */
-
 /* The next line other than a comment, without its end, as UTF-8 text; false at the file's end. */
 static bool next_line(FILE *from, char **line, size_t *size) {
     ssize_t length;

@@ -186,8 +186,6 @@ struct traces {
     int *mode;     /* [contacts] scratch */
 };
 
-/* --- times ------------------------------------------------------------------------------------------------------ */
-
 /* The step in units of 10^-power s; false if a ratio cannot represent it. */
 static bool step_in_units(whole_ratio step, int power, whole_ratio *in_units) {
     *in_units = step;
@@ -233,8 +231,6 @@ bool traces_power(const image *im, uint64_t every, int *power) {
 static int64_t time_of(const traces *w, uint64_t steps) {
     return (int64_t)(ratio_times(steps, w->step) + 0.5);
 }
-
-/* --- the head ---------------------------------------------------------------------------------------------------- */
 
 static void name_quantity(traces *w, int *signal, const char *name, const char *text,
                           const image_unit *unit, double value) {
@@ -332,8 +328,6 @@ traces *traces_open(FILE *out, const records *form, uint64_t every) {
     name_contacts(w);
     return w;
 }
-
-/* --- events ------------------------------------------------------------------------------------------------------ */
 
 /* The value of a contact's wire when the contact is in this mode. */
 static double shown_mode(int kind, int mode) {

@@ -39,8 +39,6 @@ struct vcd {
     uint64_t late;
 };
 
-/* --- the head ------------------------------------------------------------------------------------------------- */
-
 static bool is_simple(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '$';
@@ -127,8 +125,6 @@ int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note) {
     }
     return (int)v->signals++;
 }
-
-/* --- changes -------------------------------------------------------------------------------------------------- */
 
 static void begin(vcd *v) {
     if (v->begun) {

@@ -191,8 +191,6 @@ static void break_samples(const fault_plan *plan, fault_case *f, double time_s, 
     }
 }
 
-/* --- edges and samples ---------------------------------------------------------------------------------------*/
-
 static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
     unsigned kept = 0;
     for (unsigned i = 0; i < f->pending_count; i++) {
@@ -249,18 +247,9 @@ enum { INPUTS = sizeof inputs / sizeof inputs[0] };
 
 /* --- before a fault begins -----------------------------------------------------------------------------------*/
 
-static int input_of(const image *im, const char *name) {
-    for (int i = 0; i < im->inputs; i++) {
-        if (strcmp(im->input[i].name, name) == 0) {
-            return i;
-        }
-    }
-    return -1;
-}
-
 static bool find_inputs(const fault_case *f, const image *im) {
     for (int i = 0; i < INPUTS; i++) {
-        if (inputs[i].kind == f->kind && input_of(im, inputs[i].input) < 0) {
+        if (inputs[i].kind == f->kind && bind_input(im, inputs[i].input) < 0) {
             fprintf(stderr,
                     "whirl pil: error: --fault %s: '%s' has no input '%s', which this fault "
                     "needs\nhint: use a plant that has it, such as docs/plants/rig.whirl\n",
@@ -314,7 +303,7 @@ static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken)
         if (inputs[i].kind != f->kind) {
             continue;
         }
-        const int at = input_of(im, inputs[i].input);
+        const int at = bind_input(im, inputs[i].input);
         const double healthy = im->input[at].value;
         const double size = inputs[i].value != 0.0 ? inputs[i].value : f->size;
         const double wrong = inputs[i].times ? healthy * size : size;
@@ -417,8 +406,6 @@ static void look_at_time(fault_plan *plan, double time_s) {
     }
     look_for_resets(plan);
 }
-
-/* --- as a tap ------------------------------------------------------------------------------------------------*/
 
 static bool tap_start(void *of, const wh_hello *hello, plant *p) {
     fault_plan *plan = of;

@@ -11,8 +11,6 @@
 
 #define ASK_S 0.25 /* interval between requests for a hello */
 
-/* --- frames ---------------------------------------------------------------------------------------------------*/
-
 /* Ends the run. Returns false. */
 static bool ends(lockstep_report *r, lockstep_end end) {
     r->end = end;
@@ -176,8 +174,6 @@ uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count) {
     }
     return hash;
 }
-
-/* --- beginning and end ------------------------------------------------------------------------------------------*/
 
 /* Report that the firmware ended before its first message. If the image could not be run, the child has reported that. */
 static void say_no_hello(talk *t) {

@@ -63,15 +63,18 @@ const char *bind_read(bound *b, const image *im, const char *name) {
     return NULL;
 }
 
-static const char *find_set(bound *b, const image *im, const char *name) {
-    for (int i = 0; i < im->inputs; i++) {
-        if (strcmp(im->input[i].name, name) == 0) {
-            b->place = BOUND_INPUT;
-            b->index = i;
-            return im->input[i].unit.si;
-        }
+int bind_input(const image *im, const char *name) {
+    int i = im->inputs - 1;
+    while (i >= 0 && strcmp(im->input[i].name, name) != 0) {
+        i--;
     }
-    return NULL;
+    return i;
+}
+
+static const char *find_set(bound *b, const image *im, const char *name) {
+    b->place = BOUND_INPUT;
+    b->index = bind_input(im, name);
+    return b->index >= 0 ? im->input[b->index].unit.si : NULL;
 }
 
 static void say_unknown(const bound *b, const image *im, const char *name) {
@@ -259,8 +262,6 @@ bool recorded_close(recorded *r) {
 #define TURN_DEG 360.0
 /* A step end counts as reaching an instant if only round-off separates them. */
 #define NEARLY 1e-6
-
-/* --- start and end ----------------------------------------------------------------------------------------*/
 
 static int components(const plant *p) { return p->image->angles + p->image->reals; }
 
@@ -563,8 +564,6 @@ static void take_samples(plant *p) {
         }
     }
 }
-
-/* --- advancing time ------------------------------------------------------------------------------------------- */
 
 static bool step(plant *p) {
     double *const state = p->before;

@@ -32,6 +32,9 @@ typedef struct binding {
     unsigned notes; /* notes are not bound */
 } binding;
 
+/* The index of the input of that name, or -1. */
+int bind_input(const image *im, const char *name);
+
 /* Binds an output, coordinate or rate of that name: sets place, index, rate and turns. Returns its unit, or NULL if
  * there is none. */
 const char *bind_read(bound *b, const image *im, const char *name);

@@ -172,19 +172,15 @@ static bool taped_next(taped *t, taped_turn *turn) {
     }
     turn->ticks = frame.ticks;
     turn->time_s = time_of(t, frame.ticks);
-    if (frame.kind != WH_FRAME_READINGS || frame.sequence != t->sequence ||
-        !wh_readings_get(&turn->readings, frame.payload, frame.length)) {
-        return is_no_tape(t, "it is broken");
+    bool good = frame.kind == WH_FRAME_READINGS && frame.sequence == t->sequence &&
+                wh_readings_get(&turn->readings, frame.payload, frame.length);
+    if (good) {
+        turn->answered = read_orders(t, &frame);
+        good = turn->answered ? frame.kind == WH_FRAME_ORDERS && frame.sequence == t->sequence &&
+                                    wh_orders_get(&turn->orders, frame.payload, frame.length)
+                              : !is_cut_off(t);
     }
-    turn->answered = read_orders(t, &frame);
-    if (!turn->answered && is_cut_off(t)) {
-        return is_no_tape(t, "it is broken");
-    }
-    if (turn->answered && (frame.kind != WH_FRAME_ORDERS || frame.sequence != t->sequence ||
-                           !wh_orders_get(&turn->orders, frame.payload, frame.length))) {
-        return is_no_tape(t, "it is broken");
-    }
-    if (!has_channels(t, turn)) {
+    if (!good || !has_channels(t, turn)) {
         return is_no_tape(t, "it is broken");
     }
     if (turn->answered) {

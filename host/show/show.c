@@ -188,8 +188,6 @@ void show_number(const show *s, double value) {
     fputs(text, s->out);
 }
 
-/* --- factors -------------------------------------------------------------------------------------*/
-
 static void show_open(const show *s) { fputs(s->style == SHOW_LATEX ? "\\left(" : "(", s->out); }
 static void show_close(const show *s) { fputs(s->style == SHOW_LATEX ? "\\right)" : ")", s->out); }
 
@@ -409,6 +407,19 @@ static int show_count_below(const piece *p) {
     return count;
 }
 
+/* The fraction bar, and the number and the factors below it. */
+static void show_below(const show *s, const piece *p, double bottom) {
+    const bool many = show_count_below(p) + (bottom != 1.0) > 1;
+    bool first = true;
+    fputs(s->style == SHOW_LATEX ? "}{" : many ? "/(" : "/", s->out);
+    if (bottom != 1.0) {
+        show_separate(s, &first);
+        show_number(s, bottom);
+    }
+    show_factors(s, p, -1, &first);
+    fputs(s->style == SHOW_LATEX ? "}" : many ? ")" : "", s->out);
+}
+
 /* The size of the coefficient times the factors: 2*m*r*sin(a)/3. A lone number is written, a factor 1 is not. */
 static void show_product(const show *s, const piece *p, double size) {
     double top;
@@ -429,15 +440,7 @@ static void show_product(const show *s, const piece *p, double size) {
     if (!bar) {
         return;
     }
-    const bool many = below + (bottom != 1.0) > 1;
-    fputs(s->style == SHOW_LATEX ? "}{" : many ? "/(" : "/", s->out);
-    first = true;
-    if (bottom != 1.0) {
-        show_separate(s, &first);
-        show_number(s, bottom);
-    }
-    show_factors(s, p, -1, &first);
-    fputs(s->style == SHOW_LATEX ? "}" : many ? ")" : "", s->out);
+    show_below(s, p, bottom);
 }
 
 /* === sums ===================================================================================== */
@@ -743,16 +746,8 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
         show_close(s);
     }
     show_behind(s, key);
-    const int below = latex ? 0 : show_count_below(&front) + (bottom != 1.0);
-    if (below > 0) {
-        fputs(below > 1 ? "/(" : "/", s->out);
-        first = true;
-        if (bottom != 1.0) {
-            show_separate(s, &first);
-            show_number(s, bottom);
-        }
-        show_factors(s, &front, -1, &first);
-        fputs(below > 1 ? ")" : "", s->out);
+    if (!latex && show_count_below(&front) + (bottom != 1.0) > 0) {
+        show_below(s, &front, bottom);
     }
 }
 

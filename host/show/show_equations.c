@@ -643,19 +643,14 @@ static bool is_numbered(const char *name, const char *letter) {
 /* The first of `letters` (NULL ends the list) with which no name such as y1 of the mechanism begins; the last one if all
  * are taken. */
 static const char *free_letter(const mechanism *m, const char *const *letters) {
-    for (; letters[1] != NULL; letters++) {
-        bool taken = false;
-        for (int i = 0; i < m->coordinate_count; i++) {
-            taken = taken || is_numbered(m->coordinates[i]->name, *letters);
-        }
-        for (int i = 0; i < m->parameter_count; i++) {
-            taken = taken || is_numbered(m->parameters[i]->name, *letters);
-        }
-        for (int i = 0; i < m->input_count; i++) {
-            taken = taken || is_numbered(m->inputs[i]->name, *letters);
-        }
-        if (!taken) {
-            break;
+    const symbol *const *const list[] = {m->coordinates, m->parameters, m->inputs};
+    const int count[] = {m->coordinate_count, m->parameter_count, m->input_count};
+    for (bool taken = true; letters[1] != NULL && taken; letters += taken ? 1 : 0) {
+        taken = false;
+        for (int k = 0; k < 3; k++) {
+            for (int i = 0; i < count[k]; i++) {
+                taken = taken || is_numbered(list[k][i]->name, *letters);
+            }
         }
     }
     return *letters;
