@@ -137,7 +137,7 @@ CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags fo
 # the remedies of many runs.
 CLI_LESS_ASAN := $(foreach t,angle_parts asked_first carriage command_line commands doc_examples \
     effects_cost_nothing embed_fixed embed_headers embed_names embed_sketch emitted_c faults figures fixed \
-    float_range forms full_output measure memory noise odd_values pil plot plots price price_pages printed_zeros \
+    float_range forms full_output measure memory odd_values pil plot plots price price_pages printed_zeros \
     prove recorded_bits recorded_lists settings_bits sizes suites summary swing trust undefined units \
     worst_step_marks,\
     tests/cli/$(t).sh)
