@@ -1,4 +1,4 @@
-/* pricing.c: `whirl price` and `whirl choose`: two printers of one table of error against cost (host/study/price_table.h). */
+/* pricing.c: `whirl price` and `whirl choose`, which print the same table of error against cost (host/study/price_table.h). */
 #include "pricing.h"
 
 #include <math.h>

@@ -18,7 +18,7 @@ typedef struct pricing_made {
 typedef struct pricing_scene {
     const mechanism *mechanism;
     const scene *scene;       /* NULL for a bare mechanism */
-    const overrides *changes; /* the command line's, except the varied ones */
+    const overrides *changes; /* the changes of the command line, without the varied values */
     const grid *grid;         /* the varied values; may have no axes */
     diags *errors;
     instance **instance;   /* [points] instances of the equations */

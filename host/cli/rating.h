@@ -19,7 +19,7 @@ typedef struct rating_wish {
     const mechanism *of;
     const scene *in;
     diags *errors;
-    const image *image; /* the run's */
+    const image *image; /* image of the run */
     const image *plain; /* trusting_plain() */
 } rating_wish;
 

@@ -233,7 +233,7 @@ int command_trust(int count, char **words) {
     }
     trust_options o = {
         .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
-    bool proved; /* for the list of options: command_prove() reads it */
+    bool proved; /* only so that the list of options has --proved; command_prove() reads it */
     const own_option own[] = {OWN_TOLERANCE(o.tolerance),
                               OWN_EFFORT(o.effort, "1.5e11"),
                               {.word = "--csv", .text = &o.csv},

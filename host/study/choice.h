@@ -29,9 +29,10 @@ typedef struct choice_wish {
 /* A row compared with the limits. A load is the time of the longest steps in a period, as a part of the period. Without a
  * rate the period is a second. */
 typedef struct choice_row {
-    int row;      /* index of the row in the table, or -1 */
-    double worst; /* upper bound on the cycles (or instructions) of a second of the longest steps */
-    double load;  /* 0: unknown */
+    int row; /* index of the row in the table, or -1 */
+    double
+        worst; /* upper bound on the cycles (or instructions) per simulated second, if each step is a longest one */
+    double load; /* 0: unknown */
     double load_most;
     bool fails[CHOICE_LIMITS];
     bool unknown[CHOICE_LIMITS]; /* there is a limit, but no figure */
@@ -49,7 +50,7 @@ typedef struct choice {
 
 choice choice_make(const trials *t, const table *made, const choice_wish *w);
 
-/* As above, but rows are counted until no row of the choice is a prediction. With contacts, a row that was not counted
+/* Does the same as choice_make(), but counts rows until no row of the choice is a prediction. With contacts, a row that was not counted
  * is expected to take as many cycles per evaluation as the last counted row with the same number type. */
 measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
                             choice *c);

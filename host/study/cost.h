@@ -110,7 +110,7 @@ typedef struct cost_counts {
 /* For COST_FIXED the image must contain its step in fixed point (image.h, `fixed`). */
 cost_counts cost_count(const image *im, const cost_board *board, cost_number number);
 
-/* A row of the table of figures (cost_rows.inc). */
+/* What a row of the table of figures (cost_rows.inc) predicts. */
 typedef enum cost_quantity {
     COST_OF_INSTRUCTIONS,
     COST_OF_CYCLES,
@@ -148,7 +148,7 @@ typedef struct cost {
     const char *why;          /* why figures are not known, a sentence for people; "" if all are */
     cost_figure instructions; /* of a step, mean of a run */
     cost_figure instructions_worst; /* the longest step: with contacts far above the mean */
-    cost_figure cycles;             /* a step, mean of a run */
+    cost_figure cycles;             /* of a step, mean of a run */
     cost_figure cycles_worst;
     /* The smallest firmware around the scene, which steps and computes the outputs (boards/programs/size.c): */
     cost_figure flash_bytes;
@@ -167,13 +167,13 @@ cost_figure cost_known(double value, cost_basis basis);
 /* On a board without counted cycles (COST_RANGE), fills in the ranges of cycles, and returns true. */
 bool cost_ranges(const cost_board *board, cost *c);
 
-/* The header of measure_one.sh's rows. cost_measured() reads a row; values that the row lacks (state_bytes) stay. False: not a
- * row, or a row of another board. */
+/* The header of measure_one.sh's rows. cost_measured() reads a row; it does not change state_bytes, which a row does not have.
+ * Returns false if the text is no row, or a row of another board. */
 #define COST_HEADER \
     "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
     "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 enum { COST_COLUMNS = 15 };
-/* Cuts a row at its commas outside quotes; false unless it has this many columns. */
+/* Cuts a row at its commas outside quotes. Returns false unless it has this number of columns. */
 bool cost_cut(char *row, char **column, int columns);
 bool cost_measured(const char *row, const cost_board *board, cost *c);
 

@@ -201,7 +201,7 @@ static bool read_count(const grid *g, const char *over, const char *text, axis *
 
 /* --- its values --------------------------------------------------------------------------------*/
 
-/* One end of the range as an expression; fills in the axis's symbol. */
+/* Reads one end of the range as an expression, and sets the axis's symbol. */
 static const expr *read_end(const mechanism *of, const char *name, const char *text,
                             struct arena *arena, diags *errors, axis *made) {
     if (strcmp(name, "step") == 0) {

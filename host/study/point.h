@@ -119,7 +119,7 @@ typedef struct sweep {
     const mechanism *mechanism; /* with the measures as its outputs, if there are any */
     const measures *measures;   /* NULL if the sweep is a map */
     const scene *scene;         /* NULL for a bare mechanism */
-    const overrides *changes;   /* the command line's, without the swept values */
+    const overrides *changes;   /* the changes of the command line, without the swept values */
     const engine_kind *kind;
     image_settings engine;
     double from_s; /* measure from this time on */

@@ -37,8 +37,8 @@ typedef struct reference {
     bool reliable;            /* false: there is no trusted reference, see `why` */
     records *shape;           /* names and units of the columns, as `whirl run --csv` has them */
     int columns;              /* as in the shape; column 0 is the time */
-    int wanted;               /* requested records after the start */
-    int records;              /* trusted records after the start */
+    int wanted;               /* number of requested records after the start */
+    int records;              /* number of trusted records after the start */
     double *row;              /* [wanted + 1][columns] in the units of the columns */
     reference_column *column; /* [columns] */
     double limit; /* trusted while columns differ by less than this part of the largest value */
@@ -62,7 +62,7 @@ int reference_find(const reference *r, const char *name, bool *noisy);
 
 /* === the deviation of a run =================================================================== */
 
-/* A run takes `steps` steps in `records` spacings of the records. If a step is longer than a spacing, only the records at its
+/* The length of a run's step: `steps` steps take as long as the spacing of the records times `records`. If a step is longer than a spacing, only the records at its
  * ends are compared. */
 typedef struct deviation_pace {
     uint64_t steps;
