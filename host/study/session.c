@@ -162,14 +162,6 @@ static int check_rows(resumable_csv *sh, const resumable_csv_settings *s, off_t 
 
 /* --- opening -----------------------------------------------------------------------------------*/
 
-static int lock(const resumable_csv *sh, const char *path) {
-    if (system_lock(sh->out)) {
-        return EXIT_DONE;
-    }
-    fprintf(stderr, "%s: error: another sweep is writing it\n", path);
-    return EXIT_BAD_INPUT;
-}
-
 static int go_on(resumable_csv *sh, const resumable_csv_settings *s, off_t size) {
     off_t whole = 0;
     int code = EXIT_DONE;
@@ -223,8 +215,11 @@ int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s) {
         forget(sh);
         return EXIT_BAD_INPUT; /* a wrong path is bad input, as for `run` */
     }
-    int code = lock(sh, s->path);
-    if (code == EXIT_DONE && fstat(file, &about) != 0) {
+    int code = EXIT_DONE;
+    if (!system_lock(sh->out)) {
+        fprintf(stderr, "%s: error: another sweep is writing it\n", s->path);
+        code = EXIT_BAD_INPUT;
+    } else if (fstat(file, &about) != 0) {
         code = cannot_write(s->path);
     }
     if (code == EXIT_DONE) {
