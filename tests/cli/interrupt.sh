@@ -5,8 +5,8 @@
 
 # said TEXT: standard error names the time of the last record and, unless --quiet, the number of steps; nothing else.
 said() {
-    [ "$(grep -c '^whirl run: note: 1000000000 steps follow, ' "$scratch/err")" = "${3:-1}" ] || return 1
-    sed -i '/ steps follow, /d' "$scratch/err"
+    [ "$(grep -c '^whirl run: note: --step and --until give 1000000000 steps, ' "$scratch/err")" = "${3:-1}" ] || return 1
+    sed -i '/ steps, which may take long/d' "$scratch/err"
     last=$(tail -n 1 "$1" | tr -d '\r' | sed 's/[, ].*//')
     printf 'whirl run: interrupted at t = %s s of %s s; the records so far are kept\n' "$last" "$2" >"$scratch/wanted"
     cmp -s "$scratch/wanted" "$scratch/err"

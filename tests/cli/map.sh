@@ -70,7 +70,7 @@ exits 2 "belongs to the effect 'rail_drag', which is not selected" epicyclic_fro
 exits 2 "there is no number 'fixed'" $spring "$steps" "$places" --number fixed
 exits 2 'is not defined here' tests/mechanisms/lorenz.whirl "$steps" --over x=1..2:2 --method leapfrog
 exits 2 'there is no file and no built-in scene' nothing "$steps" "$places"
-exits 2 'one scene at a time' $spring thomson_a "$steps" "$places"
+exits 2 'takes only one scene' $spring thomson_a "$steps" "$places"
 # refused before the work, which would take hours
 slow="--over=step=1..2[us]:100 $places --until 10s --effort 1e15"
 for file in "$scratch" "$scratch/none/map.svg"; do

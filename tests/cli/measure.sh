@@ -24,7 +24,7 @@ awk -v n=3 -v seed=23 -f mk/price/scenes.awk </dev/null >"$scratch/drawn.whirl"
 for scene in ${WHIRL_FULL:+r23_1 r23_2} r23_3; do
     choose "$scratch/drawn.whirl:$scene" --error 1e-2
     code=$?
-    if [ $code -eq 1 ] && grep -q '^nothing fits' "$scratch/out"; then
+    if [ $code -eq 1 ] && grep -q '^no setting fits' "$scratch/out"; then
         echo "ok - $scene: nothing fits, and nothing is promised"
         continue
     fi
@@ -111,7 +111,7 @@ limits() {
     [ $? -eq 1 ] && grep -q '^  a clock of' "$scratch/out"
     verdict $? "a tenth of it is not" "$scratch/out"
     choose ball_bounces --error 0.1 --horizon 2s --rate 200Hz --flash 4KB
-    [ $? -eq 1 ] && grep -q '^nothing fits' "$scratch/out" && grep -q 'bytes of flash' "$scratch/out"
+    [ $? -eq 1 ] && grep -q '^no setting fits' "$scratch/out" && grep -q 'bytes of flash' "$scratch/out"
     verdict $? "nor is 4 KB of flash" "$scratch/out"
     # In a range, the longest step of all places counts.
     choose hopper_hops --error 0.1 --horizon 0.5s --rate 200Hz --vary e=0.2..0.9

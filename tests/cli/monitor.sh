@@ -31,7 +31,7 @@ record() {
 of() { sed -n "s/.*$1 \([0-9]*\).*/\1/p" "$scratch/counts"; }
 # told NAME: prints the same count in monitor's summary
 told() {
-    grep -q ": $(of samples) samples, $(of pulses) pulses in $(of frames) frames; lost: $(of missing) frames ($(of dropped) because the rig's buffer was full), $(of gaps) samples; damaged: 0\$" \
+    grep -q ": $(of samples) samples, $(of pulses) pulses in $(of frames) frames; lost: $(of missing) frames ($(of dropped) because the rig's buffer was full), $(of gaps) samples; damaged frames: 0\$" \
         "$scratch/said"
 }
 
@@ -127,7 +127,7 @@ exits 2 'cannot share a file' "$scratch/raw" --csv "$scratch/x" --vcd "$scratch/
 exits 2 'would overwrite' "$scratch/raw" --raw "$scratch/raw"
 exits 2 "takes a file's name" "$scratch/raw" --vcd -
 exits 2 '--for takes a number from' "$scratch/raw" --for 0
-exits 2 'one line at a time' "$scratch/raw" "$scratch/csv"
+exits 2 'takes only one line' "$scratch/raw" "$scratch/csv"
 if [ -r /proc/self/mem ]; then # a file whose first byte cannot be read
     "$whirl" monitor /proc/self/mem --csv "$scratch/x" >/dev/null 2>"$scratch/err" </dev/null
     [ $? -eq 1 ] && grep -q '^/proc/self/mem: error: reading stopped: ' "$scratch/err"
@@ -161,7 +161,7 @@ running=$!
 until_said '^[0-9]' "$scratch/csv"
 exits 2 'another program is at this line' "$RIG_TTY" --for 1
 kill -INT $running
-wait $running && [ ! -s "$scratch/text" ] && ! grep -qv ' samples, 0 pulses in .* lost: 0 .*damaged: 0$' "$scratch/said"
+wait $running && [ ! -s "$scratch/text" ] && ! grep -qv ' samples, 0 pulses in .* lost: 0 .*damaged frames: 0$' "$scratch/said"
 verdict $? "what was in the line before is nobody's answer, nobody's words and no loss" "$scratch/said"
 running=
 "$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --rate 7 --quiet >"$scratch/text" 2>"$scratch/said" </dev/null &
@@ -200,7 +200,7 @@ wait $running
 status=$?
 running=
 exec 4>&-
-[ $status -eq 0 ] && grep -q 'opened 2 times, the rig restarted 1 times' "$scratch/said" && grep -q ' lost: 0 frames .*, 0 samples; damaged: 0$' "$scratch/said"
+[ $status -eq 0 ] && grep -q 'opened 2 times, the rig restarted 1 times' "$scratch/said" && grep -q ' lost: 0 frames .*, 0 samples; damaged frames: 0$' "$scratch/said"
 verdict $? "nothing is taken for lost that another rig would have sent, or that nobody has asked for" "$scratch/said"
 tr -d '\r' <"$scratch/csv" | awk -F, 'NR > 1 { if ($1 <= last && NR > 2) bad = 1; last = $1 } END { exit bad || NR < 100 }'
 verdict $? "and time goes on in the records" "$scratch/csv"

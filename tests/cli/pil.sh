@@ -253,8 +253,8 @@ exits 2 'it excludes --replay' --read "$scratch/pc.tape" --replay "$scratch/pc.t
 exits 2 '--replay excludes --csv' --replay "$scratch/pc.tape" --csv - --firmware "$build/pil_rig"
 
 # --- refused input ----------------------------------------------------------------------------------------------------------
-exits 2 'no --firmware' rig_coupled
-exits 2 'no scene' --firmware "$build/pil_rig"
+exits 2 '--firmware IMAGE is missing' rig_coupled
+exits 2 'scene for the plant is missing' --firmware "$build/pil_rig"
 exits 2 'excludes scene' rig_coupled --replay "$scratch/pc.tape" --firmware "$build/pil_rig"
 exits 2 'cannot be read' rig_coupled --firmware "$scratch/none"
 exits 2 'not a firmware image' rig_coupled --firmware README.md

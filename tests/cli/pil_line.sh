@@ -59,7 +59,7 @@ exits 2 'supports the speed of --baud' "$plant" --port "$scratch/tty" --baud 123
 exits 2 'cannot be opened' "$plant" --port "$scratch/none"
 exits 2 "^'': error: cannot be opened" "$plant" --port ''
 exits 2 'Is a directory' "$plant" --port "$scratch"
-exits 2 'no serial line' "$plant" --port /dev/null
+exits 2 'not a serial line' "$plant" --port /dev/null
 plug
 kill -STOP $board
 exits 1 'has sent no message for 0.6 s' "$plant" --port "$scratch/tty" --patience 0.6 # but its hello

@@ -172,7 +172,7 @@ sed -n 's/^\([^ ]*\) .* (make figures)$/\1/p' "$scratch/figures" >"$scratch/mark
 grep -l '^table ' mk/figures/*.fig | sed 's:.*/::; s/^fig//; s/[.]fig$//' | diff - "$scratch/marked" >"$scratch/err" && [ -s "$scratch/marked" ]
 verdict $? "those that need a script are marked"
 while read -r figure; do
-    refused 'which whirl cannot run' 'run .make figures., or use --data' figure "$figure" --out "$scratch/f.svg"
+    refused 'which whirl cannot run' 'run `make figures`, or use --data' figure "$figure" --out "$scratch/f.svg"
 done <"$scratch/marked"
 named=$(sed -n 's/^Figures \(.*\) and five findings need scripts.*/\1/p' docs/plot.md)
 [ "$named" = "$(grep -v finding "$scratch/marked" | tr '\n' ' ' | sed 's/\([0-9]*\) \([0-9]*\) \([0-9]*\) /\1, \2 and \3/')" ] &&

@@ -162,7 +162,7 @@ exits 2 "there is no number 'fixed'" epicyclic_from_rest --number fixed
 exits 2 '--csv is given twice' epicyclic_from_rest --csv a --csv b
 exits 2 'error: the run alone, of .* steps, would take about' thomson_a --until 1e6s
 exits 2 'or --effort [0-9.e+]*$' thomson_a --until 1e6s
-exits 2 'one scene at a time' thomson_a thomson_b
+exits 2 'takes only one scene' thomson_a thomson_b
 exits 2 "unknown option '--plot'" thomson_a --plot x.svg
 exits 2 'is not defined here' thomson_a --method leapfrog
 exits 2 'cannot be written' epicyclic_from_rest --csv "$scratch"

@@ -105,7 +105,7 @@ RIG_SETTINGS=$scratch/others "$station" >"$scratch/said" 2>"$scratch/err" </dev/
 running=$!
 await grep -q 'console is' "$scratch/said"
 kill "$first" && wait "$first" 2>/dev/null
-grep -q "was another terminal's" "$scratch/err" && [ -e "$RIG_TTY" ]
+grep -q "belonged to another running rig" "$scratch/err" && [ -e "$RIG_TTY" ]
 verdict $? "a second rig says whose link it takes, and keeps it when the first one ends" "$scratch/err"
 kill "$running" && wait "$running" 2>/dev/null
 running=

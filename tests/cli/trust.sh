@@ -132,7 +132,7 @@ exits 2 "or --effort [0-9.e+]*$" thomson_a --until 1e5s
 exits 2 "^hint: use an earlier --until" thomson_a --until 1e5s
 exits 2 "is less than one step" thomson_a --until 0.0001s
 exits 2 "there is no file and no built-in scene" nothing
-exits 2 "one scene at a time" thomson_a thomson_b
+exits 2 "takes only one scene" thomson_a thomson_b
 exits 2 "unknown option '--plot'" thomson_a --plot x.svg
 exits 2 "is not defined here" thomson_a --method leapfrog
 exits 2 "there are no events in fixed point" carriage_stop --number fixed

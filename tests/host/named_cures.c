@@ -27,7 +27,7 @@ static int read_alternatives(char *piece, bool tried, named_cure *list, int coun
             *next = '\0';
             next += strlen("or ");
         }
-        list[count++] = read_options(piece, tried && strstr(piece, "(not tried") == NULL);
+        list[count++] = read_options(piece, tried && strstr(piece, "(Whirl's own search") == NULL);
         piece = next;
     }
     return count;
