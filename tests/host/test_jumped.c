@@ -155,7 +155,8 @@ TEST(jumped, trust) {
         model_drop();
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(jumps_said.err), jumps_said.status, jumps_said.err);
         TEST_ASSERT_NULL_MESSAGE(strstr(jumps_said.out, "trusted to the end"), text);
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(jumps_said.out, "jumped over a pole of an expression"), text);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(jumps_said.out, "jumped over a pole of an expression"),
+                                     text);
     }
 }
 
