@@ -106,7 +106,7 @@ static bool goes_with(bool given, const char *option, const char *value, unsigne
                       const char *with, const form_row *as) {
     const bool goes = !given || (as->is & of) != 0;
     if (!goes) {
-        fprintf(stderr, "whirl derive: error: %s goes with --as %s\nhint: --as %.*s %s%s\n", option,
+        fprintf(stderr, "whirl derive: error: %s needs --as %s\nhint: --as %.*s %s%s\n", option,
                 with, (int)strcspn(with, " "), with, option, value);
     }
     return goes;

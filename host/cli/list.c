@@ -217,9 +217,14 @@ static const form forms[] = {
 };
 
 static const form *form_of(const char *word) {
-    const int chosen = options_choose("list", "form", word, forms, sizeof forms[0],
-                                      (int)(sizeof forms / sizeof forms[0]));
-    return chosen < 0 ? NULL : &forms[chosen];
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+        if (options_same(forms[i].word, word)) {
+            return &forms[i];
+        }
+    }
+    fprintf(stderr, "whirl list: error: --as takes text or table, not '%s'\nhint: --as table\n",
+            word);
+    return NULL;
 }
 
 /* `first`: no entry was listed before. */
