@@ -411,6 +411,9 @@ void horizon_print(FILE *out, const horizon *h) {
     }
     say_until(out, h, true);
     fputc('\n', out);
+    if (t->cut_s > h->until_s) {
+        fprintf(out, "unknown after t = %.9g s: %s\n", t->cut_s, cut_by(t));
+    }
     if (t->unaliased) {
         fputs("not checked: [aliased], because this check takes longer than the two runs\n", out);
     }
