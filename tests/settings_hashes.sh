@@ -5,7 +5,7 @@
 set -eu
 whirl=$1 out=$2 steps=$3
 shift 3
-words_of() { "$whirl" run two_mass_relative "--$1" '?' 2>&1 | sed -n 's/,//g; s/none//; s/^hint: one of //p'; }
+words_of() { "$whirl" run two_mass_relative "--$1" '?' 2>&1 | sed -n 's/,//g; s/none//; s/^hint: choose one of //p'; }
 methods=$(words_of method) matrices=$(words_of matrix) tables=$(words_of tables)
 settings() {
     for sums in "" " --compensated"; do
