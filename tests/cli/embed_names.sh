@@ -15,7 +15,7 @@ flags="-ffp-contract=off -I. -I$gen -I$scratch -Wall -Wextra -Wconversion -Wshad
 "$whirl" derive --help | grep -q -- '--header FILE'
 verdict $? "--help tells of it"
 exits 2 'error: --header needs a value' derive thomson_a --as c --header
-exits 2 'error: --header goes with --as c' derive thomson_a --header "$scratch/x.h"
+exits 2 'error: --header needs --as c' derive thomson_a --header "$scratch/x.h"
 exits 2 'hint: --as c --header FILE' derive thomson_a --as latex --header "$scratch/x.h"
 [ ! -e "$scratch/x.h" ]
 verdict $? "nothing is written then"

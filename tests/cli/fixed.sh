@@ -216,6 +216,6 @@ units() { sed -n "s/^#define gear_$1_OF_OUTPUTS //p" "$2"; }
 [ -n "$(units UNITS "$scratch/gear.h")" ] && [ "$(units UNITS "$scratch/gear.h")" = "$(units UNITS "$scratch/float.h")" ] &&
     [ "$(units NAMES "$scratch/gear.h")" = "$(units NAMES "$scratch/float.h")" ]
 verdict $? "it lists the outputs and units that the header in floating point lists" "$scratch/gear.h"
-exits 2 '--number fixed goes with --as c' derive two_mass_relative --number fixed
+exits 2 '--number fixed needs --as c' derive two_mass_relative --number fixed
 exits 2 "no number 'fixed'" sweep two_mass_relative --number fixed
 exit $failed

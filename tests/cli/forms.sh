@@ -39,7 +39,7 @@ only_with() {
     if is_one_of "$3" "$4"; then
         [ $status -eq 0 ]
     else
-        [ $status -eq 2 ] && [ ! -s "$scratch/out" ] && [ "$(those_with "error: $1 goes with" "$scratch/err")" = "$4" ]
+        [ $status -eq 2 ] && [ ! -s "$scratch/out" ] && [ "$(those_with "error: $1 needs" "$scratch/err")" = "$4" ]
     fi
     verdict $? "--as $3 with $1, which is for: $4"
     sed -n "/^## .whirl derive/,/^## .whirl desc/p" docs/commands.md | grep -F -- "| \`$1" >"$scratch/told"

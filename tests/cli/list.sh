@@ -102,7 +102,7 @@ for name in $names; do
     [ $bad -eq 0 ] || { cat "$scratch/got" >>"$scratch/err"; break; }
 done
 verdict $bad "names of files and titles with ends of fields and lines in them (seed $seed)"
-exits 2 "there is no form 'csv'" list --as csv
+exits 2 '--as takes text or table, not .csv.' list --as csv
 exits 2 'is a part of a file' list core/models/cuff.whirl:cuff --as table
 exits 2 'unknown option' list --table
 
@@ -166,7 +166,7 @@ exits 2 'is not a valid name' derive thomson_a --as c --name 'a b'
 exits 2 'is not a valid name' derive thomson_a --as c --name "$(printf '%064d' 0 | tr 0 a)"
 exits 2 'given twice' derive thomson_a --as c --name a --name b
 exits 2 "'int' is a word of C" derive thomson_a --as c --name int
-exits 2 'error: --name goes with --as octave or c' derive thomson_a --name other
+exits 2 'error: --name needs --as octave or c' derive thomson_a --name other
 
 # --- hard cases: sections and scenes of the page, and each scene keeps the verdict ---------------------------
 "$whirl" list --hard >"$scratch/hard" 2>"$scratch/err"
