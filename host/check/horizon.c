@@ -309,7 +309,7 @@ static void print_column(FILE *out, const horizon *h, int k) {
         fprintf(out, "%-15.9g of its range, %.4g %s, %.2e is %.2g %s", c->until_s, c->range, unit,
                 h->tolerance, h->tolerance * c->range, unit);
         break;
-    case HORIZON_STILL: fputs("to the end      it does not move", out); break;
+    case HORIZON_STILL: fputs("to the end      constant in this run", out); break;
     case HORIZON_NOT_TOLD: say_untold(out, h, k); break;
     case HORIZON_ROUNDING:
         fprintf(out, "to the end      only round-off moves it, by %.2e %s",

@@ -131,7 +131,7 @@ TEST(aliasing, what_is_wrong_is_told) {
                 command_say(command_trust, words, &trust);
                 TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "\ntrusted until t = 0 s of "),
                                              about);
-                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "\nthe steps alias a fast force"),
+                TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "the steps alias a fast force"),
                                              trust.out);
             }
             if (named_cures(what.err, list) > 0 && list[0].tried) {
