@@ -22,7 +22,7 @@ enum {
     HAL_MOTOR_CUT = 1,
     /* stop is pressed, or a fault of the drive stage: the stage cannot drive */
     HAL_MOTOR_FAULT = 2,
-    HAL_MOTOR_NO_SUPPLY = 4 /* no supply voltage is measured: the stage does not drive */
+    HAL_MOTOR_NO_SUPPLY = 4 /* the measured supply voltage is 0: the drive stage cannot drive */
 };
 
 /* Switch the enable on, at 0 V. After this call the stage can drive. Returns hal_motor_status(): 0, or the reason why

@@ -10,7 +10,8 @@
 #include "atmega.h"
 
 #define WHOLE 400U /* F_CPU/2 / 20 kHz */
-#define PARTS 64U  /* parts of a PWM step: the unit of the carried error */
+#define PARTS \
+    64U /* number of parts in a PWM step; the error that the next control step gets is counted in parts */
 _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 
 static volatile bool driving; /* an interrupt may clear it, too */

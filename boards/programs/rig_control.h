@@ -65,9 +65,9 @@ static bool drives;         /* true if the last command drove the motor (obey.h)
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* A step takes at most one pulse, and before it the end of one, because a storm of edges must not delay the step.
-     * The other edges wait, with valid time stamps. If a sample had to wait because of a pulse, the next step reads the
-     * sample first. */
+    /* A step takes at most two edges and stops after a leading one (a pulse), so that a storm of edges cannot delay it. The
+     * other edges wait and keep their time stamps. If a step with a pulse reads no samples (RIG_SAMPLES_WITH_PULSE is 0),
+     * the next step takes no edge and reads the waiting samples. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;

@@ -222,7 +222,7 @@ const poly *sum_close(algebra *a, poly_sum *s) {
 /* Limit of the work of a derivation, in bytes: some 500 MB, or half a minute. An arm of six joints without zero lengths
  * needs 0.42e9. */
 #define WORK_MAX ((size_t)1 << 29)
-/* Work of processing a term, in bytes. */
+/* Processing one term counts as this many bytes of work. */
 #define WORK_OF_TERM 2U
 /* Work of making an object, in bytes: its size on a 64-bit host. The numbers are fixed, so that the limit does not
  * depend on the host. */

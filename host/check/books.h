@@ -68,9 +68,9 @@ typedef struct books {
     double jump_J;      /* largest change of the residual between two even steps */
     double jump_s;      /* the end of those two steps */
     bool negative;      /* the kinetic energy was negative, which no masses allow */
-    double negative_s;  /* the first time */
+    double negative_s;  /* when the kinetic energy was first negative, s */
     bool undefined;     /* an energy, a power or a momentum was not a finite number */
-    double undefined_s; /* the first time */
+    double undefined_s; /* when one was first not finite, s */
     uint64_t entries;
     double time_s; /* time of the last entry, s */
     double step_s;

@@ -457,7 +457,8 @@ static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
 
 struct missed {
     const image *image;
-    taylor_bounds *signals; /* bounds of the contacts' signals, or NULL */
+    taylor_bounds *
+        signals; /* bounds of each contact's gap and condition, or of its rate or value; NULL without contacts */
     taylor_bounds
         *accel; /* bounds of the accelerations if they contain an exponential function; or NULL */
     bool edges; /* a gap may have an edge */

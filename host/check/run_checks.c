@@ -186,8 +186,8 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* The error of the column reached a tolerance after until_s, and a smaller tolerance after early_s. Did it grow no faster
- * than a power of time? In a chaotic motion errors grow faster, and no step helps. The accuracy line reports that. */
+/* Shall this error be reported? It reached a small tolerance at early_s, and the full tolerance at until_s. Yes, if early_s
+ * is near the run's begin, or if the error grew slowly. It grows faster in a chaotic motion, which no finer step cures. */
 static bool is_off(const run_checks *v, int k, double until_s, double early_s) {
     (void)k;
     return early_s <= RUN_CHECKS_BEGIN * v->twins->end_s || until_s >= RUN_CHECKS_GROWS * early_s;

@@ -31,10 +31,10 @@ typedef struct run_checks {
     /* the comparison with a finer run; NULL: it would take too long */
     step_doubling *twins;
     uint64_t overruns;                       /* steps with too many events */
-    double overran_s;                        /* begin of the first such step */
+    double overran_s;                        /* begin of the first step with too many events */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in such steps */
-    double taken_J;                          /* energy change in such steps */
-    double energy_J;                         /* the energy after the last step */
+    double taken_J;  /* sum of the sizes of the energy changes in steps with too many events */
+    double energy_J; /* the energy after the last step */
     energy_residual balance; /* set by run_checks_end(), like `found` and `against` */
     finding found[FINDINGS];
     unsigned against; /* the warnings, as bits */

@@ -577,7 +577,7 @@ static int planned(lowering *l, const poly *angle) {
     return i >= 0 ? i : append(l, (wave){angle, WAVE_EVALUATED, -1, -1, -1, -1});
 }
 
-/* The operation for the sine or cosine of an angle. An angle without a rule is evaluated. */
+/* Returns the operation for the sine or cosine of `angle`. If no identity was planned for it, the core's sine computes it. */
 static int waves_sine(lowering *l, const poly *angle) { return sine_of(l, planned(l, angle)); }
 static int waves_cosine(lowering *l, const poly *angle) { return cosine_of(l, planned(l, angle)); }
 

@@ -43,7 +43,7 @@ void emit_c(FILE *out, const image *im, const char *file);
 
 /* === a whole step as one matrix (IMAGE_MATRIX) ================================================ */
 
-/* Writes tables of Phi, Gamma and g with ten digits. */
+/* Writes the matrices of a step, x+ = Phi x + Gamma u + g, with ten digits. */
 void matrix_text(FILE *out, const image *im);
 void matrix_latex(FILE *out, const image *im);
 

@@ -258,7 +258,7 @@ char *input_rate_hint(const symbol *input, char *buffer) {
     return buffer;
 }
 
-/* Reports a rate that is not a suitable input, and returns false. */
+/* Checks the input that input `s` names as its rate. Returns false if it cannot be the rate, and reports why. */
 static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
     const named *rate = (const named *)s->rate;
     char unit[DIM_TEXT_SIZE];

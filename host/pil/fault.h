@@ -164,7 +164,7 @@ typedef struct fault_plan {
     unsigned resets; /* resets of the plant so far */
 } fault_plan;
 
-/* Add the faults in `text`, separated by commas. False, reported. */
+/* Adds the faults in `text`, separated by commas, to the plan. Returns false after an error, which it has reported. */
 bool fault_read(fault_plan *plan, const char *text);
 
 /* The `set` of its parameters, such as "inertia=2", to be freed; NULL if fault i changes no parameter. */

@@ -68,7 +68,7 @@ typedef struct table_wish {
 /* *pace: the pace of trial number `rung`, from 0 on. Each is finer than the one before by a factor of 2 to 2.5. With a rate
  * they are 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
 bool table_pace(const table_wish *w, int rung, deviation_pace *pace);
-/* Steps a period; 0 without a rate. */
+/* Returns the number of steps in a period of the calls; 0 if no rate of calls is given. */
 uint64_t table_substeps(const table_wish *w, const table_row *row);
 
 /* Tries the settings in several worker processes. Each setting has its own share of the allowed operations, so the rows

@@ -1,5 +1,5 @@
-/* test_rig_off.c: rotors with the motor off: they coast, swing, or a fault drives them. Supply, inertia, friction,
- * stuck stages and dead sensors are random, in every state with the motor off. */
+/* test_rig_off.c: rotors with the motor off, which coast, swing, or are driven by a fault. Supply, inertia, friction, dead
+ * sensors, stuck drive stages and the controller's state, one with the motor off, are random. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"
@@ -256,7 +256,8 @@ TEST(rig_off, a_hand_may_turn_the_rotor) {
         }
         b.share = WH_R(0.0);
         steps_on(STEPS_PER_S);
-        b.stuck = false; /* the stage does not drive any more */
+        b.stuck =
+            false; /* the hand lets go: the drive stage, which stood for the hand, obeys the controller again */
         steps_on(30U * STEPS_PER_S);
         TEST_ASSERT_TRUE(b.rig.guard.trip == WH_TRIP_NONE);
     }

@@ -549,7 +549,7 @@ static void add_up(judge *j, double from, double force_from, double to, double f
     j->sum.sine_N += half * (force_from * sin(from) + force_to * sin(to));
 }
 
-/* At the end of a complete turn: does it show a drive although the motor must not drive? */
+/* Called at the end of a complete turn in which the motor must not drive. Notes the time if the speed grows all the same. */
 static void see_undriven(judge *j, double at_s, double rpm) {
     const bool faster = rpm > j->rpm;
     j->on_turns++;
@@ -693,7 +693,9 @@ static double off_by(const judge *j, unsigned turns) {
         const double most = amplitude_off > phase_off ? amplitude_off : phase_off;
         least = most < least ? most : least;
     }
-    return isfinite(least) ? least : 1.0; /* the result has more turns than were recorded */
+    return isfinite(least)
+               ? least
+               : 1.0; /* 1.0 is far off: the result covers more turns than were kept to compare with */
 }
 
 /* --- the controller's messages -------------------------------------------------------------------------------- */

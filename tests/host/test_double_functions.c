@@ -2,8 +2,8 @@
  *
  *   WHIRL_FUNCTION_CASES=100000000 build/tests/host double_functions
  *
- * tests so many arguments of each kind; the usual number is a hundred thousand. Long double has the 64 bits of x87:
- * its errors are below 2^-10 of a double's last place, for angles of any size. The arguments are any bits, values
+ * tests that many arguments of each kind; the usual number is a hundred thousand. Long double has at least 64 bits, so
+ * the errors of its functions are below 2^-10 of a double's last place. The arguments are random bit patterns, values
  * with results that are neither 0 nor infinite, and values at which digits are easily lost. */
 #define WH_DOUBLE 1
 #include "core/function_double.h"

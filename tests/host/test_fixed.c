@@ -414,8 +414,8 @@ TEST(fixed_runs, ranges_in_the_language) {
 }
 
 /* === suite fixed_ranges ====================================================================== */
-/* Fixed point with ranges and steps of all sizes. Planning must end with a plan, or with a refusal whose hint helps.
- * Coordinates without acceleration must still move. */
+/* Fixed point with ranges and steps of all sizes. The choice of formats must end with a plan, or with a refusal whose
+ * hint helps. A coordinate whose acceleration is zero must still move. */
 
 static bool is_made(const image *im) {
     char *report;

@@ -26,7 +26,6 @@ typedef struct told {
     FILE *to_ring;
     recording_counts counts;
     int64_t time_us;     /* time of the next sample */
-    int64_t last_us;     /* time of the last run frame */
     uint32_t ticks_of_0; /* the rig's clock at time 0 */
     bool begun;          /* a frame has come since the start */
     bool run_came;
@@ -223,7 +222,6 @@ static void send_run(void) {
     send(RECORDING_RUN, begin_us, payload, at);
     t.counts.samples += samples;
     t.time_us = begin_us + (int64_t)(samples * c->period_ticks);
-    t.last_us = begin_us;
     t.run_came = true;
 }
 

@@ -7,7 +7,7 @@
 
 /* Sends a line; its answer begins with these words. */
 bool asks(const char *order, const char *begin);
-extern char answer[400]; /* the last answer */
+extern char answer[400]; /* the firmware's last answer to a line */
 
 /* From power-on to a run at this speed, `ms` after `start`. */
 bool runs(unsigned rpm, unsigned ms);
