@@ -91,12 +91,13 @@ bool energy_residual_lost(const energy_residual *b, double limit) {
 
 void energy_residual_print(FILE *out, const energy_residual *b) {
     if (b->known) {
-        fprintf(out, "energy residual    %.2e of %s, %.3g J\n", b->ratio,
-                b->rounded && b->exact
-                    ? "the smallest entry above round-off and the error of the balance's integrals"
-                : b->rounded ? "the smallest entry above round-off"
-                             : "the largest entry of the energy balance",
-                b->largest_J);
+        fprintf(
+            out, "energy residual    %.2e of %s, %.3g J\n", b->ratio,
+            b->rounded && b->exact
+                ? "the smallest energy that round-off and the balance's own error allow to judge"
+            : b->rounded ? "the smallest energy that round-off allows to judge"
+                         : "the largest entry of the energy balance",
+            b->largest_J);
     }
 }
 

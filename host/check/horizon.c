@@ -358,7 +358,7 @@ static void print_invariants(FILE *out, const horizon *h) {
 /* The reason why nothing is known after cut_s: that which came first. */
 static const char *cut_by(const step_doubling *t) {
     if (t->finer_failed_s >= 0.0 && t->finer_failed_s <= t->cut_s) {
-        return "after that the run with half the step diverges";
+        return "after that the run with half the step fails";
     }
     if (t->jumped_s < 0.0 || (t->overrun_s >= 0.0 && t->overrun_s < t->jumped_s)) {
         return "after that a step of this run or of the finer run had more events than the limit "

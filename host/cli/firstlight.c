@@ -231,8 +231,8 @@ static const command_usage firstlight_usage = {
         "usage: whirl firstlight FILE|PORT [options]\n"
         "\n"
         "Reads the record of the image firstlight from a file or a serial line (docs/firstlight.md), and\n"
-        "compares each field with runs of the interpreter in float. It lists the fields that the board\n"
-        "cannot know (`none`).\n"
+        "compares each field with runs of the interpreter in float. The line `none:` lists the fields\n"
+        "for which the board has no value, such as cycles without a cycle counter.\n"
         "\n",
     .tail =
         "  --board B            fail if the record is of another board\n"

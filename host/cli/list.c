@@ -25,11 +25,12 @@
       "right") \
     X("Springs too stiff for the step", "stiff_spring", \
       "Runge-Kutta 4 is unstable above h w = 2.83", "warning before 1 % of the energy is lost") \
-    X("A hard floor", "stiff_stop", "above h w = 1 the energy after a bounce is arbitrary", \
+    X("A hard floor", "stiff_stop", "above h w = 1 the energy after a bounce is random", \
       "warning; right with a stop") \
     X("Resonance without damping", "resonance", "relative phase error (h w)^4/120", \
       "right: order 4") \
-    X("A motor too weak for a resonance", "sommerfeld", "only the error of the method", "right") \
+    X("A motor too weak for a resonance", "sommerfeld", "none, except the error of the method", \
+      "right") \
     X("Friction under a load that vanishes", "pulsating_load", \
       "a step across a kink is of second order", "right: order 4, kinks are events") \
     X("Bounces that end", "moving_floor", "infinitely many impacts happen in a finite time", \

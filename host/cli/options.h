@@ -102,7 +102,7 @@ bool options_number(const char *command, const char *option, const char *text, d
 #define EFFORT_MOST 1e15
 
 #define OPTIONS_STRICT_HELP \
-    "  --strict=off         exit status 0 even with a warning (default: 1)\n" \
+    "  --strict=off         exit status 0 even with a warning; without this option it is 1\n" \
     "  --strict=LIMIT       the allowed energy residual, as a part of the balance's largest entry\n"
 
 /* The options that change an instance: --set, --start, --with, --without, --step, --until. */

@@ -35,17 +35,18 @@ static const command_usage usage = {
         "\n",
     .groups = OPTIONS_SCENE,
     .tail =
-        "  --within X=1mm       the allowed distance of a coordinate or rate (repeatable, each name once)\n"
-        "  --tolerance 1e-3     the allowed distance of all others, as a part of the range of each over the\n"
-        "                       run (default: 1e-3)\n"
-        "  --csv FILE           a row for each step, in SI: the time, and for each coordinate and rate the\n"
-        "                       least and greatest value of the exact motion and the run's value. "
+        "  --within X=1mm       allowed distance of X from the exact motion (repeatable, each name once)\n"
+        "  --tolerance 1e-3     allowed distance of the other coordinates and rates, as a part of the range of\n"
+        "                       each over the run (default: 1e-3)\n"
+        "  --csv FILE           a row for each step, in SI: the time, and for each coordinate and rate bounds\n"
+        "                       below and above the exact motion, then the run's value. "
         "- is\n                       standard output; the report then goes to standard error.\n"
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. After that it\n"
         "                       prints the proof so far.\n"
         "  --quiet              no progress; with --csv no report\n",
-    .why = {"the proof ended, perhaps early", "the run diverged; the proof until then is printed",
-            "", "the proof so far is printed"}};
+    .why = {"the run did not fail, but the proof may end before it",
+            "the run diverged; the proof until then is printed", "",
+            "the proof so far is printed"}};
 
 typedef struct prove_options {
     common_options common;

@@ -512,9 +512,10 @@ static bool is_possible(const image *im, diags *errors) {
                    "--matrix is not for scenes with events: '%s' has this %s", im->name,
                    im->contact[0].word);
     } else if (im->ledger.kept) {
-        diag_error(errors, im->at, "--without ledger, or leave out --matrix",
-                   "the ledger of '%s' needs the stages of a step, and a matrix has none",
-                   im->name);
+        diag_error(
+            errors, im->at, "--without ledger, or leave out --matrix",
+            "the ledger of '%s' needs the stages of a step, which steps with --matrix do not have",
+            im->name);
     } else if (im->settings.tables != TABLES_NONE) {
         diag_error(errors, im->at, "leave out --tables, or --matrix",
                    "a matrix has no place for tables: --matrix %s and --tables %s",

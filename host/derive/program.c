@@ -475,8 +475,9 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
                    "leave the effect out with --without EFFECT, or leave out --stabilized",
                    "--stabilized: '%s' has events, whose energy changes it would undo", m->name);
     } else if (settings->matrix != MATRIX_NONE) {
-        diag_error(errors, m->at, "leave out --matrix, or --stabilized",
-                   "--stabilized needs the stages of a step, and a matrix has none");
+        diag_error(
+            errors, m->at, "leave out --matrix, or --stabilized",
+            "--stabilized needs the stages of a step, which steps with --matrix do not have");
     } else if (wh_methods[settings->method].takes == WH_NO_RATES) {
         diag_error(
             errors, m->at, "choose another --method, or leave out --stabilized",

@@ -232,8 +232,8 @@ static void say(const reference_wish *w, reference *r, uint64_t steps, int reach
         wh_methods[w->by.steps > 0 ? w->by.method : METHOD].word, time_of(w, 1) / (double)steps);
     if (r->records < reached) {
         r->why = alloc_words(
-            "the two references differ by more than %.0e of a component's largest value after %.9g s: the motion diverges, jumps, or has its events in another order",
-            r->limit, time_of(w, r->records));
+            "after %.9g s the two references differ by more than %.0e of a component's largest value: the motion diverges or jumps, or their events come in different orders",
+            time_of(w, r->records), r->limit);
     } else if (reached < r->wanted) {
         r->why = alloc_words("the run fails after %.9g s", time_of(w, r->records));
     }

@@ -20,7 +20,7 @@
       "bounded, but more than a thousandth of its energy is unaccounted for") \
     X(MAP_DIVERGES, '#', "diverges", \
       "out of all bounds, or the error of a rate exceeds a hundred times its range") \
-    X(MAP_NONE, '-', "none", "no such run: its values are refused") \
+    X(MAP_NONE, '-', "none", "not run: Whirl refuses these values") \
     X(MAP_UNTRIED, '?', "untried", "interrupted before it was run")
 #define MAP_VERDICT_ID(id, mark, word, words) id,
 typedef enum map_verdict { MAP_VERDICT_ROWS(MAP_VERDICT_ID) MAP_VERDICTS } map_verdict;
