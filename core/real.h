@@ -87,7 +87,7 @@ typedef float wh_real;
 
 /* 1 on a chip that passes reals in floating-point registers and has small flash. There, all scenes share one function
  * for a rare path. */
-#if defined(__ARM_PCS_VFP) && !WH_DOUBLE && !(defined(WH_AHEAD) && WH_AHEAD)
+#if defined(__ARM_PCS_VFP) && !WH_DOUBLE && !(defined(WH_MULTI_STEP) && WH_MULTI_STEP)
 #define WH_REALS_IN_REGISTERS 1
 #else
 #define WH_REALS_IN_REGISTERS 0

@@ -71,7 +71,7 @@ struct wh_scene {
      * state->fault and leaves the rest unchanged. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
     /* Does `steps` steps, at least one, and counts them in state->steps: see wh_scene_steps(). NULL: wh_scene_steps()
-     * calls advance() in a loop. Generated code has this function if it is compiled with -DWH_AHEAD=1. */
+     * calls advance() in a loop. Generated code has this function if it is compiled with -DWH_MULTI_STEP=1. */
     wh_status (*ahead)(const wh_scene *scene, wh_state *state, uint32_t steps);
     /* Computes the outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
@@ -129,7 +129,7 @@ wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, s
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
 /* Do `steps` steps (0 is allowed), for example to predict faster than real time. The result has the same bits as
- * `steps` calls of wh_scene_step(). If the scene's file is compiled with -DWH_AHEAD=1, the steps take fewer
+ * `steps` calls of wh_scene_step(). If the scene's file is compiled with -DWH_MULTI_STEP=1, the steps take fewer
  * instructions and twice the flash. Returns as wh_scene_step() does; state->steps counts the steps done. */
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 

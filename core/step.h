@@ -27,7 +27,7 @@
 #include "number/arithmetic.h"
 #include "rk4.h"
 #include "root.h"
-#include "step/ahead.h"
+#include "step/multi_step.h"
 #include "step/step_end.h"
 
 /* Computes the angle at a stage whose shares of the rates add up to `sum`. A stage in the middle of the step moves the

@@ -10,7 +10,7 @@ BY_HAND := naive_epicyclic naive_thomson careful_thomson
 AHEAD := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
 again_matrix := --matrix exact
 again_c = $(patsubst %,build/$(1)/%.c,scenes $($(2)))
-AHEAD_C := $(call again_c,ahead,AHEAD)
+MULTI_STEP_C := $(call again_c,ahead,AHEAD)
 MATRIX_C := $(call again_c,matrix,MATRIX)
 # The flags that are stored beside a figure.
 TOLD = $(filter -O% -m%,$(1))
@@ -23,9 +23,9 @@ $(PLUGIN): $(PLUGIN_C) mk/count/thumb_cycles.h
 	$(Q)$(CC) -std=c11 $(WARN) -O2 -I. -fPIC -shared -fvisibility=hidden -o $@ $(PLUGIN_C)
 
 $(eval $(call program,bench,$(BENCH_C),scenes whirl))
-$(eval $(call program,bench_ahead,$(BENCH_C) $(AHEAD_C),whirl))
+$(eval $(call program,bench_multi_step,$(BENCH_C) $(MULTI_STEP_C),whirl))
 $(eval $(call program,scenes_matrix,boards/programs/scenes.c $(MATRIX_C),whirl))
-$(ELF)/build/ahead/%.o $(B)/float/build/ahead/%.o: FILE_FLAGS := -DWH_AHEAD=1
+$(ELF)/build/multi_step/%.o $(B)/float/build/multi_step/%.o: FILE_FLAGS := -DWH_MULTI_STEP=1
 
 $(B)/bench_double: $(call objects,double,$(BENCH_C) boards/host/board.c) \
     $(call libraries,double,scenes whirl)
@@ -44,7 +44,7 @@ build/$(1)/scenes.c: mk/count/index.sh $(2:%=build/$(1)/%.c)
 endef
 $(eval $(call scenes_again,ahead,$(AHEAD)))
 $(eval $(call scenes_again,matrix,$(MATRIX)))
-.SECONDARY: $(AHEAD_C) $(MATRIX_C)
+.SECONDARY: $(MULTI_STEP_C) $(MATRIX_C)
 
 $(addprefix $(B)/tools/,$(BY_HAND)): $(B)/tools/%: $(B)/host/tests/tools/%.o \
     $(B)/host/tests/tools/naive_main.o
@@ -78,14 +78,14 @@ worst-now: $(GEN)/.stamp
 
 bench-now: $(GEN)/.stamp
 	@$(MAKE) build/bench build/bench_double $(addprefix build/tools/,$(BY_HAND)) $(PLUGIN) \
-	    $(ELF)/bench.elf $(ELF)/bench_ahead.elf
+	    $(ELF)/bench.elf $(ELF)/bench_multi_step.elf
 	@mkdir -p $(FIGURES)
 	@echo "Instructions a step (executed, not cycles):"
 	@for program in bench bench_double $(addprefix tools/,$(BY_HAND)); do \
 	    BOARD=host CC="$(CC)" FLAGS="$(OPT)" \
 	        mk/count/count_rows.sh $(FIGURES)/bench.csv build/$$program || exit 1; done
 	@$(call count_board,$(ELF)/bench.elf)
-	@$(call count_board,$(ELF)/bench_ahead.elf)
+	@$(call count_board,$(ELF)/bench_multi_step.elf)
 
 # --- every board beside the others ----------------------------------------------------------------
 # The steps of these scenes are counted as for price-rows: instructions, cycles if something counts or estimates them, bytes.

@@ -78,7 +78,7 @@ endif
 
 # The objects that include the scenes' headers.
 $(foreach b,host float double $(BOARD),$(patsubst %,$(B)/$(b)/%.o,boards/programs/size \
-    $(addprefix tests/core/,fed_rotor test_rig_bounds test_rig_observed test_rig_observer test_scenes))): \
+    $(addprefix tests/core/,compensated_rotor test_rig_bounds test_rig_observed test_rig_observer test_scenes))): \
     | $(GEN)/.stamp
 
 define staged

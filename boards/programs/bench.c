@@ -144,8 +144,8 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
-/* Counts the steps of a scene that does many steps in one call (ahead.h). */
-static wh_status count_ahead(const wh_scene *scene, wh_state *state) {
+/* Counts the steps of a scene that does many steps in one call (multi_step.h). */
+static wh_status count_multi_step(const wh_scene *scene, wh_state *state) {
     const unsigned first = intervals;
     wh_status status = WH_OK;
     for (unsigned i = 0; i < COUNTED_STEPS / STEPS_A_CALL + 1U && status == WH_OK; i++) {
@@ -176,7 +176,7 @@ static bool count_scene(const wh_scene *scene) {
     if (status == WH_OK) {
         say_stack(scene->name);
         say_counted(scene->name, wh_methods[scene->method].word, sums, first, intervals - 1U);
-        status = scene->ahead != NULL ? count_ahead(scene, &state) : WH_OK;
+        status = scene->ahead != NULL ? count_multi_step(scene, &state) : WH_OK;
     }
     if (status != WH_OK) {
         say_failed(scene->name, status);

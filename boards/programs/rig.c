@@ -130,10 +130,10 @@ static bool take_dials(wh_rig_config *config) {
         return false;
     }
     target_radps = hal_frames_dial(HAL_DIAL_TARGET);
-    const float fed = hal_frames_dial(HAL_DIAL_FEED);
-    if (fed < 0.0f || fed > 0.0f) {
+    const float compensated = hal_frames_dial(HAL_DIAL_COMPENSATION);
+    if (compensated < 0.0f || compensated > 0.0f) {
         config->feeds = WH_COMPENSATION_ALWAYS;
-        config->compensation.weight_Nm *= fed;
+        config->compensation.weight_Nm *= compensated;
     }
     config->stop_brakes = hal_frames_dial(HAL_DIAL_BRAKES) > 0.5f;
     return true;

@@ -33,9 +33,9 @@ typedef struct trial {
     float target_rpm;
     unsigned lose_pulses[2];
     unsigned lose_samples;
-    float noise; /* largest noise of the load, in counts of either sign */
-    bool fed;    /* gravity is compensated even if the set-point does not need it */
-    bool swings; /* the run ends in a free swing, which is evaluated */
+    float noise;      /* largest noise of the load, in counts of either sign */
+    bool compensated; /* gravity is compensated even if the set-point does not need it */
+    bool swings;      /* the run ends in a free swing, which is evaluated */
 } trial;
 
 static const trial trials[] = {
@@ -44,7 +44,7 @@ static const trial trials[] = {
     {.name = "330_rpm", .target_rpm = 330.0f},
     {.name = "360_rpm", .target_rpm = 360.0f},
     {.name = "330_rpm_noise", .target_rpm = 330.0f, .noise = 200.0f},
-    {.name = "330_rpm_fed", .target_rpm = 330.0f, .fed = true},
+    {.name = "330_rpm_compensated", .target_rpm = 330.0f, .compensated = true},
     {.name = "330_rpm_swings", .target_rpm = 330.0f, .swings = true},
     {.name = "330_rpm_lost_marks", .target_rpm = 330.0f, .lose_pulses = {2, 1}},
     {.name = "330_rpm_lost_samples", .target_rpm = 330.0f, .lose_samples = 9},
@@ -94,7 +94,7 @@ static bool run(const trial *tried) {
                                            .raw_max = HAL_LOADCELL_RAW_MAX};
     wh_rig_slots(&config, HAL_SLOT_LEAD_DEG / WH_RIG_DEG_PER_RAD);
     config.observer.scene = &rig_observed;
-    config.feeds = tried->fed ? WH_COMPENSATION_ALWAYS : wh_rig_standard.feeds;
+    config.feeds = tried->compensated ? WH_COMPENSATION_ALWAYS : wh_rig_standard.feeds;
     config.swings = tried->swings;
     config.stop_brakes = true; /* so that runs without a free swing end soon */
     if (hal_clock_start() != HAL_STARTED) {

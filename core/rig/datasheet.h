@@ -74,7 +74,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
 /* Smallest set-point with gravity compensation (gravity_compensation.h). */
-#define WH_RIG_TARGET_MIN_FED_RPM WH_R(100.0)
+#define WH_RIG_TARGET_MIN_COMPENSATED_RPM WH_R(100.0)
 
 /* Range of the motor's supply, as multiples of the rated voltage. */
 #define WH_RIG_SUPPLY_LEAST WH_R(0.45)

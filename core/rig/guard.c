@@ -9,8 +9,10 @@ void wh_guard_start(wh_guard *guard, uint32_t now_ticks) {
     *guard = (wh_guard){.trip = WH_TRIP_NONE, .load_ticks = now_ticks, .pulse_ticks = now_ticks};
 }
 
-WH_CALLED bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed) {
-    return target_radps >= (fed ? config->target_min_fed_radps : config->target_min_radps) &&
+WH_CALLED bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps,
+                               bool compensated) {
+    return target_radps >=
+               (compensated ? config->target_min_compensated_radps : config->target_min_radps) &&
            target_radps <= config->target_max_radps;
 }
 

@@ -38,7 +38,7 @@ typedef enum wh_trip { WH_TRIP_ROWS(WH_TRIP_NAME) } wh_trip;
 
 typedef struct wh_guard_config {
     wh_real target_min_radps; /* smallest set-point (docs/rig.md) */
-    wh_real target_min_fed_radps;
+    wh_real target_min_compensated_radps;
     wh_real target_max_radps; /* largest set-point */
     wh_real limit_radps;      /* largest mean speed of a turn */
     /* Ripple at the speed limit: the largest speed within a turn minus its mean, as a fraction of the mean. */
@@ -135,9 +135,9 @@ typedef struct wh_guard {
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True if a set-point is safe for the control loop and the shaft. `fed` is true with gravity compensation. NaN is not
+/* True if a set-point is safe for the control loop and the shaft. `compensated` is true with gravity compensation. NaN is not
  * safe. */
-bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool fed);
+bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool compensated);
 
 /* Gain of speed in a fall from the top, for a rotor with half the configured inertia, with a margin. */
 #define WH_GUARD_LIGHTER WH_R(1.5)

@@ -78,11 +78,11 @@ void wh_lockin_pulse(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_
     lockin->most_equal = 0;
 }
 
-void wh_lockin_compensate(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V) {
-    if (lockin->angle.fed != fed) {
+void wh_lockin_compensate(wh_lockin *lockin, bool compensated, wh_real stall_Nm_per_V) {
+    if (lockin->angle.compensated != compensated) {
         wh_lockin_gap(lockin);
     }
-    wh_turn_angle_compensate(&lockin->angle, fed, stall_Nm_per_V);
+    wh_turn_angle_compensate(&lockin->angle, compensated, stall_Nm_per_V);
 }
 
 void wh_lockin_gap(wh_lockin *lockin) {
@@ -149,11 +149,11 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
 /* Sets the last node's weight: half of the distance between its two neighbours. */
 WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     const wh_lockin_node *node = &lockin->last;
-    const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->rest_N;
+    const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->residual_N;
     for (unsigned i = 0; i < WH_LOCKIN_ORDERS; i++) {
         lockin->sum.at[i] += rest * node->waves.at[i];
     }
-    lockin->square += rest * node->rest_N;
+    lockin->square += rest * node->residual_N;
     wh_repeats_add(&lockin->repeats, node->theta_rad, rest);
     lockin->mean += WH_R(0.5) * (part - lockin->before_part) * node->force_N;
 }
@@ -176,19 +176,19 @@ static void weigh_node(wh_lockin *lockin) {
     wh_lockin_node *node = &lockin->placed;
     const wh_lockin_place place = lockin->place;
     lockin->place = WH_LOCKIN_NOWHERE;
-    wh_real rest_N = node->force_N;
+    wh_real residual_N = node->force_N;
     for (unsigned i = 0; i < WH_LOCKIN_ORDERS; i++) {
-        rest_N -= lockin->expected_N.at[i] * node->waves.at[i];
+        residual_N -= lockin->expected_N.at[i] * node->waves.at[i];
     }
-    if (lockin->expects && !(WH_ABS(rest_N) <= lockin->outlier_N)) {
+    if (lockin->expects && !(WH_ABS(residual_N) <= lockin->outlier_N)) {
         if (place == WH_LOCKIN_WITHIN) {
             lockin->next.outliers++;
             return;
         }
-        node->force_N -= rest_N; /* node->force_N is now the predicted load at the pulse */
-        rest_N = WH_R(0.0);
+        node->force_N -= residual_N; /* node->force_N is now the predicted load at the pulse */
+        residual_N = WH_R(0.0);
     }
-    node->rest_N = rest_N;
+    node->residual_N = residual_N;
     if (place == WH_LOCKIN_BEGIN) {
         lockin->before_rad = node->theta_rad;
         lockin->before_part = node->part;
@@ -201,7 +201,7 @@ static void weigh_node(wh_lockin *lockin) {
     }
     if (place == WH_LOCKIN_WITHIN) {
         lockin->next.samples++;
-        const wh_real change_N = rest_N - lockin->last.rest_N;
+        const wh_real change_N = residual_N - lockin->last.residual_N;
         lockin->repeats.changes_N2 += change_N * change_N;
     }
     lockin->last = *node;

@@ -146,7 +146,7 @@ typedef struct wh_lockin_node {
     wh_real part; /* share of the turn's time before the node */
     wh_real theta_rad;
     wh_real force_N;
-    wh_real rest_N;         /* residual: force minus the prediction */
+    wh_real residual_N;     /* residual: force minus the prediction */
     wh_lockin_orders waves; /* factor of each coefficient at this node */
 } wh_lockin_node;
 
@@ -221,7 +221,7 @@ void wh_lockin_pulse(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_
 
 /* Switches gravity compensation on or off in the angle's model: see wh_turn_angle_compensate(). If that is a change,
  * the turn in progress does not count. */
-void wh_lockin_compensate(wh_lockin *lockin, bool fed, wh_real stall_Nm_per_V);
+void wh_lockin_compensate(wh_lockin *lockin, bool compensated, wh_real stall_Nm_per_V);
 
 /* Call this when the count of quarter turns has restarted: the turn in progress does not count. */
 void wh_lockin_gap(wh_lockin *lockin);

@@ -55,7 +55,7 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {
 
 /* Set-points that are too slow for gravity are used only after gravity compensation has begun. */
 static bool ramp(wh_run *run, const wh_run_scene *scene) {
-    const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->fed);
+    const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->compensated);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
     if (wh_rig_is_over(run->since_ticks, scene->now_ticks, scene->config->ramp_max_s)) {
         /* for example, because gravity compensation is impossible */

@@ -85,7 +85,7 @@ typedef struct wh_run_scene {
     wh_pulses *pulses;
     wh_measure *measure;
     wh_real supply_V;
-    bool fed;  /* gravity compensation is active, so lower set-points are possible */
+    bool compensated; /* gravity compensation is active, so lower set-points are possible */
     bool busy; /* this step has a pulse, so a record does not begin or end before the next step */
     uint32_t now_ticks;
 } wh_run_scene;

@@ -177,7 +177,7 @@ WH_INLINE void begin_mean(const wh_merge *merge, const wh_turn_angle *angle, wh_
     measured->at_pulse_N[0] = merge->at_pulse_N[0] - tare_N;
     measured->at_pulse_N[1] = merge->second_turns > 0 ? merge->at_pulse_N[1] - tare_N : WH_R(0.0);
     measured->residual_N = WH_SQRT(merge->residual_N2);
-    if (angle->fed && angle->whole_rad > WH_R(0.0)) {
+    if (angle->compensated && angle->whole_rad > WH_R(0.0)) {
         measured->uncompensated_part = WH_ABS(merge->ripple_rad) / angle->whole_rad;
     }
 }
@@ -230,7 +230,8 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
         /* If gravity is compensated at a wrong angle, a ripple remains a quarter turn after that of E. The quadrature
          * ratio takes it for a change of E. */
-        .quadrature = angle->fed ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
+        .quadrature =
+            angle->compensated ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
 }
 

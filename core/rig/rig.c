@@ -100,10 +100,10 @@ static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
 }
 
 static WH_CALLED void choose_feed(const wh_rig_config *config, wh_rig *rig, wh_real target_radps) {
-    rig->fed =
+    rig->compensated =
         config->feeds == WH_COMPENSATION_ALWAYS ||
         (config->feeds == WH_COMPENSATION_SLOW && target_radps < config->guard.target_min_radps);
-    if (!rig->fed) {
+    if (!rig->compensated) {
         wh_lockin_compensate(&rig->measure.lockin, false, WH_R(0.0));
     }
 }
@@ -312,11 +312,11 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
 }
 
 static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    if (!rig->fed || !wh_run_is_closed(&rig->run)) {
+    if (!rig->compensated || !wh_run_is_closed(&rig->run)) {
         rig->compensation.part = WH_R(0.0);
         return WH_R(0.0);
     }
-    if (rig->measure.lockin.angle.fed != (rig->compensation.part >= WH_R(1.0))) {
+    if (rig->measure.lockin.angle.compensated != (rig->compensation.part >= WH_R(1.0))) {
         wh_lockin_compensate(&rig->measure.lockin, rig->compensation.part >= WH_R(1.0),
                              config->compensation.stall_Nm / config->run.rated_V);
     }
@@ -368,7 +368,7 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
                                 .pulses = &rig->pulses,
                                 .measure = &rig->measure,
                                 .supply_V = inputs->supply_V,
-                                .fed = rig->compensation.part >= WH_R(1.0),
+                                .compensated = rig->compensation.part >= WH_R(1.0),
                                 .busy = rig->busy,
                                 .now_ticks = inputs->now_ticks};
     if (wh_run_step(&rig->run, &scene)) {
@@ -391,7 +391,7 @@ static unsigned halves(const wh_rig *rig) {
     if (rig->loads != 1U) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE + 1U : 1U;
     }
-    return WH_LOCKIN_HALVES_AT_ONCE - (rig->fed && rig->pulses.waits ? 1U : 0U);
+    return WH_LOCKIN_HALVES_AT_ONCE - (rig->compensated && rig->pulses.waits ? 1U : 0U);
 }
 
 /* A step that has processed a pulse confirms no pulse, unless more than this number of confirmed pulses wait. */
@@ -445,7 +445,7 @@ static void follow_trip(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
 }
 
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
-    if (rig->fed && wh_run_is_closed(&rig->run)) {
+    if (rig->compensated && wh_run_is_closed(&rig->run)) {
         observe(config, rig, inputs->now_ticks);
     }
     watch(config, rig, inputs);

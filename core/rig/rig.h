@@ -115,7 +115,7 @@ typedef struct wh_rig {
     wh_rig_state state;
     bool brakes; /* the motor brakes instead of coasting */
     /* In this run the observer follows the rotor, and gravity is compensated as soon as the observer is valid. */
-    bool fed;
+    bool compensated;
     /* This step has a pulse to process, which is work enough: other work waits for the next step. */
     bool busy;
     bool decides; /* this step has a pulse that came after a suspect */

@@ -28,7 +28,8 @@ const wh_rig_config wh_rig_standard = {
             .record_band_radps = RPM(2.0),
             .slow_radps = RPM(200.0)},
     .guard = {.target_min_radps = WH_RIG_TARGET_MIN_RPM * WH_RIG_RADPS_PER_RPM,
-              .target_min_fed_radps = WH_RIG_TARGET_MIN_FED_RPM * WH_RIG_RADPS_PER_RPM,
+              .target_min_compensated_radps =
+                  WH_RIG_TARGET_MIN_COMPENSATED_RPM * WH_RIG_RADPS_PER_RPM,
               .target_max_radps = WH_RIG_TARGET_MAX_RPM * WH_RIG_RADPS_PER_RPM,
               .limit_radps = WH_RIG_SHAFT_LIMIT_RPM * WH_RIG_RADPS_PER_RPM,
               .ripple = WH_R(0.1),
@@ -143,10 +144,10 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
     /* The motor stage gives no negative voltage. So the compensation is clipped at speeds where the drive's own voltage
      * is lower. */
     config->compensation.most *= before.stall_Nm / motor->stall_Nm;
-    const wh_real slowest = config->guard.target_min_fed_radps * before.stall_Nm / motor->stall_Nm *
-                            motor->no_load_radps / before.no_load_radps;
-    if (slowest > config->guard.target_min_fed_radps) {
-        config->guard.target_min_fed_radps = slowest;
+    const wh_real slowest = config->guard.target_min_compensated_radps * before.stall_Nm /
+                            motor->stall_Nm * motor->no_load_radps / before.no_load_radps;
+    if (slowest > config->guard.target_min_compensated_radps) {
+        config->guard.target_min_compensated_radps = slowest;
     }
     config->compensation.stall_Nm = motor->stall_Nm;
     run->no_load_radps = motor->no_load_radps;

@@ -35,11 +35,11 @@ void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle) {
     angle->begin_rad = config->pulse_rad[0] - config->gravity_rad;
 }
 
-void wh_turn_angle_compensate(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V) {
+void wh_turn_angle_compensate(wh_turn_angle *angle, bool compensated, wh_real stall_Nm_per_V) {
     angle->stall_Nm_per_V = stall_Nm_per_V;
-    if (angle->fed != fed) {
-        angle->fed = fed;
-        angle->part = fed ? WH_R(0.0) : WH_R(1.0);
+    if (angle->compensated != compensated) {
+        angle->compensated = compensated;
+        angle->part = compensated ? WH_R(0.0) : WH_R(1.0);
         angle->ratios = 0;
     }
 }
@@ -68,7 +68,7 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->drive_V * angle->stall_Nm_per_V;
-    if (!angle->fed || !(held_Nm < weight_Nm)) {
+    if (!angle->compensated || !(held_Nm < weight_Nm)) {
         angle->cut = WH_R(0.0);
         return;
     }
@@ -152,14 +152,15 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
     /* The derivative with respect to E includes that of psi, which depends on the inertia: d psi = tan psi dE / E. */
-    const wh_real lag_per_swing = angle->fed ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
+    const wh_real lag_per_swing =
+        angle->compensated ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real ratio_per_ripple = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(ratio_per_ripple) > SLOPE_LEAST)) {
         /* If the rotor is light, psi reverses the ratio's dependence on the inertia. Newton's method then converges if
          * it starts from a heavier rotor. If gravity acts along a diagonal, the ratio does not depend on the rotor. */
-        if (!angle->fed && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
+        if (!angle->compensated && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }
         return off;
@@ -171,7 +172,7 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     angle->ratios += angle->ratios < WH_TURN_ANGLE_PATIENCE + RATIOS_TO_FIND ? 1U : 0U;
     const uint32_t turns_averaged =
         angle->ratios > RATIOS_TO_FIND ? angle->ratios - RATIOS_TO_FIND : 1U;
-    if (angle->fed) {
+    if (angle->compensated) {
         angle->part = within(
             angle->part + off / (ratio_per_ripple * angle->whole_rad * (wh_real)turns_averaged),
             WH_R(1.0));

@@ -61,7 +61,7 @@ typedef struct wh_rotor_config {
 
 typedef struct wh_turn_angle {
     wh_real inertia_kgm2; /* present estimate of the inertia */
-    bool fed;
+    bool compensated;
     /* With gravity compensation: the motor's torque at standstill per volt. */
     wh_real stall_Nm_per_V;
     /* The drive's voltage without the compensation; the caller updates it. */
@@ -104,7 +104,7 @@ void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
 /* Switches gravity compensation on or off in the model. After a change, gravity's remaining part is estimated again,
  * and the inertia stays. stall_Nm_per_V > 0 is the motor's torque at standstill per volt. */
-void wh_turn_angle_compensate(wh_turn_angle *angle, bool fed, wh_real stall_Nm_per_V);
+void wh_turn_angle_compensate(wh_turn_angle *angle, bool compensated, wh_real stall_Nm_per_V);
 
 /* Computes the angle's shape at a mean speed > 0, with the present estimate of the inertia. The work is bounded: each
  * call does one iteration for begin_rad, which converges over a few turns. */

@@ -12,7 +12,7 @@
 #endif
 
 #include "../number/arithmetic.h"
-#include "ahead.h"
+#include "multi_step.h"
 #include "step_end.h"
 
 /* Returns what wh_all_believable() returns. Without floating-point hardware it compares magnitudes by their bits: on an

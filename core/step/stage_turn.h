@@ -95,13 +95,13 @@ typedef struct wh_turning {
 
 /* Look up the pairs at the step's begin. */
 WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, unsigned angles,
-                                  wh_phase *told, wh_turning *t) {
+                                  wh_phase *stage_phase, wh_turning *t) {
     wh_phase phase[WH_COORDS];
     WH_UNROLL
     for (unsigned i = 0; i < angles; i++) {
         phase[i] = wh_phase_of(angle[i]);
-        if (told != NULL) {
-            told[i] = phase[i];
+        if (stage_phase != NULL) {
+            stage_phase[i] = phase[i];
         }
     }
     waves->sines(waves->model, phase, t->parts);
@@ -295,17 +295,17 @@ WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, un
 }
 
 /* Computes the phases of the angles at a stage, for the ledger. They equal those of wh_stage_angle(). */
-WH_INLINE void wh_turning_tell(const wh_stepping *to, unsigned stage, const wh_real *rate,
-                               wh_given rates, wh_given accels, wh_phase *told) {
+WH_INLINE void wh_turning_phases(const wh_stepping *to, unsigned stage, const wh_real *rate,
+                                 wh_given rates, wh_given accels, wh_phase *stage_phase) {
     const wh_shares *of = &to->by->stage[stage];
     for (unsigned i = 0; i < to->angles; i++) {
         const wh_angle angle = to->state->angle[i];
         if (wh_stage_reaches(to->by)) {
             const wh_real rad = wh_stage_reach(to->by, stage, rate[i], accels, to->h, i);
-            (void)wh_phase_move(wh_phase_of(angle), rad * WH_PHASE_PER_RAD, &told[i]);
+            (void)wh_phase_move(wh_phase_of(angle), rad * WH_PHASE_PER_RAD, &stage_phase[i]);
         } else {
             (void)wh_stage_angle(angle, wh_stage_sum(of->share, stage, rates, i), to->h, of->parts,
-                                 &told[i]);
+                                 &stage_phase[i]);
         }
     }
 }
@@ -340,8 +340,9 @@ typedef struct wh_turned_second {
 } wh_turned_second;
 
 WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel,
-                                    const wh_waves *waves, const wh_stepping *to, wh_phase *told,
-                                    unsigned s, wh_turned_list *list, wh_turned_second *k) {
+                                    const wh_waves *waves, const wh_stepping *to,
+                                    wh_phase *stage_phase, unsigned s, wh_turned_list *list,
+                                    wh_turned_second *k) {
     const wh_tableau *by = to->by;
     const wh_shares *of = &by->stage[s];
     const wh_real h = to->h;
@@ -370,18 +371,18 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     } else {
         wh_turning_stage(to, waves, s, k->gained, false, &k->t, list->pair);
     }
-    if (told != NULL) {
-        wh_turning_tell(to, s, k->rate, all_rates, all_accels, told);
+    if (stage_phase != NULL) {
+        wh_turning_phases(to, s, k->rate, all_rates, all_accels, stage_phase);
     }
     accel(model, list->pair, list->at, list->v, k->input, list->given);
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
 /* Does a step of to->h = h.high. Before each call of accel(), told[to->angles] gets the phases of the angles, unless
- * `told` is NULL. */
+ * `stage_phase` is NULL. */
 WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *accel,
                                         const wh_waves *waves, const wh_stepping *to, wh_two_part h,
-                                        wh_phase *told, wh_state *state) {
+                                        wh_phase *stage_phase, wh_state *state) {
     const wh_tableau *by = to->by;
     const bool compensated = to->compensated;
     const unsigned angles = to->angles;
@@ -396,7 +397,7 @@ WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *a
     if (WH_TURN_ASKS_FIRST && by->stages > 1) {
         wh_turning_by(by, waves, k.rate, h.high, turn);
     }
-    wh_turning_look_up(waves, state->angle, angles, told, &k.t);
+    wh_turning_look_up(waves, state->angle, angles, stage_phase, &k.t);
     wh_turned_take(waves, &k.t, &list);
     accel(model, list.pair, k.linear, k.rate, k.input, list.given);
     wh_copy(list.given, n, k.a1);
@@ -404,7 +405,7 @@ WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *a
         wh_turning_by(by, waves, k.rate, h.high, turn);
     }
     wh_turning_begin(waves, turn, compensated, &k.t);
-#define WH_STAGE(stage) wh_turn_second_stage(model, accel, waves, to, told, stage, &list, &k)
+#define WH_STAGE(stage) wh_turn_second_stage(model, accel, waves, to, stage_phase, stage, &list, &k)
     WH_LATER_STAGES(by, WH_STAGE);
 #undef WH_STAGE
     return wh_second_end(by, k.a1, k.alike, true, compensated, angles, n, h, state);

@@ -54,7 +54,7 @@ void hal_frames_end(int status);
  * dial_brakes is 1 for a motor that brakes at a run's end and after stop. */
 #define HAL_BENCH_DIAL_ROWS(X) \
     X(HAL_DIAL_TARGET, "dial_speed", "rad/s", 64.0f) \
-    X(HAL_DIAL_FEED, "dial_feed", "1", 4.0f) \
+    X(HAL_DIAL_COMPENSATION, "dial_feed", "1", 4.0f) \
     X(HAL_DIAL_BRAKES, "dial_brakes", "1", 4.0f)
 
 #define ROW(name, word, unit, largest) name,

@@ -23,8 +23,8 @@ books *books_open(const image *im) {
     b->momentum = b->off + results;
     b->drift = b->momentum + im->count;
     b->momentum_now = b->drift + im->count;
-    b->lean = b->momentum_now + im->count;
-    b->terms = b->lean + im->count;
+    b->rateless = b->momentum_now + im->count;
+    b->terms = b->rateless + im->count;
     b->input = b->terms + im->count;
     b->rate = alloc(2 * (int64_t)im->count, sizeof *b->rate);
     b->push = b->rate + im->count;
@@ -174,7 +174,7 @@ static void look_at_momenta(books *b) {
     double sum[IMAGE_COMPONENTS_MAX];
     memcpy(real, b->real, sizeof real);
     for (int i = 0; i < im->count; i++) {
-        sum[i] = fabs(b->lean[i]);
+        sum[i] = fabs(b->rateless[i]);
     }
     for (int k = 0; k < im->reals; k++) {
         if (im->real[k].primes == 1 && b->real[k] != 0.0) {
@@ -249,20 +249,21 @@ static double reversed_J(books *b, const double *angle_rad, const double *from) 
         real[i] = im->real[i].primes == 1 ? -from[i] : from[i];
     }
     evaluate_now(b, angle_rad, real, b->time_s);
-    memcpy(b->lean, b->value + im->count + BOOK_MOMENTA, (size_t)im->count * sizeof *b->lean);
+    memcpy(b->rateless, b->value + im->count + BOOK_MOMENTA,
+           (size_t)im->count * sizeof *b->rateless);
     return b->value[im->count + BOOK_KINETIC];
 }
 
 /* lean[] becomes the mean of the momenta with reversed rates and of those just evaluated with the actual rates. */
 static void take_lean(books *b) {
     for (int i = 0; i < b->image->count; i++) {
-        b->lean[i] = 0.5 * (b->lean[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
+        b->rateless[i] = 0.5 * (b->rateless[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
     }
 }
 
 /* Does a momentum have a part that stays the same if all rates are reversed? Tests three states other than the start. A
  * coordinate that is recovered from its momentum has no rate to reverse. */
-static bool find_leans(books *b) {
+static bool find_rateless(books *b) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX] = {0};
@@ -282,7 +283,7 @@ static bool find_leans(books *b) {
             most = number_most(most, fabs(b->value[im->count + BOOK_MOMENTA + i]));
         }
         for (int i = 0; i < im->count; i++) {
-            found = found || (isfinite(most) && fabs(b->lean[i]) > 1e-9 * most);
+            found = found || (isfinite(most) && fabs(b->rateless[i]) > 1e-9 * most);
         }
     }
     return found;
@@ -377,15 +378,15 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     b->time_s = (double)kind->steps(run) * b->step_s;
     if (b->entries == 0) {
-        b->leans = find_leans(b);
+        b->has_rateless = find_rateless(b);
         find_frame(b);
-        memset(b->lean, 0, (size_t)im->count * sizeof *b->lean);
+        memset(b->rateless, 0, (size_t)im->count * sizeof *b->rateless);
     }
-    const double back_J = b->leans ? reversed_J(b, b->angle_rad, b->real) : 0.0;
+    const double back_J = b->has_rateless ? reversed_J(b, b->angle_rad, b->real) : 0.0;
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     const double *entry = b->value + im->count;
     b->moving_J[1] = entry[BOOK_KINETIC];
-    if (b->leans) {
+    if (b->has_rateless) {
         b->moving_J[1] = 0.5 * (b->moving_J[1] + back_J);
         take_lean(b);
     }
@@ -422,7 +423,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     for (int i = 0; i < im->count; i++) {
         all += entry[BOOK_MOMENTA + i];
-        const double own = entry[BOOK_MOMENTA + i] - b->lean[i];
+        const double own = entry[BOOK_MOMENTA + i] - b->rateless[i];
         spread_enter(&b->push[i], own, b->entries);
         b->momentum_now[i] = entry[BOOK_MOMENTA + i];
         b->drift[i] = number_most(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));

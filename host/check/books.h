@@ -55,8 +55,8 @@ typedef struct books {
     /* [count] does this momentum belong to a conserved sum? A common speed of its bodies then only changes the mean */
     bool *frame;
     /* [count] the part of each momentum that stays the same if all rates are reversed; it depends on the origin */
-    double *lean;
-    bool leans;         /* a lean[] is nonzero, as in a magnetic field */
+    double *rateless;
+    bool has_rateless;  /* a lean[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], in units of the unit round-off */
     double size_J;      /* largest |T| + |V| */
     double rounding_J;  /* largest sampled energy change by the round-off of one step */

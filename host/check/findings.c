@@ -23,7 +23,7 @@ enum { NAME_TEXT = 100 };
 /* --- single findings ------------------------------------------------------------------------------------*/
 
 static const char *column_name(const run_checks *v, int k, char text[NAME_TEXT]) {
-    const record_column *c = &v->twins->shape->column[k];
+    const record_column *c = &v->doubling->shape->column[k];
     snprintf(text, NAME_TEXT, "%.80s%.*s", c->name, c->primes, PRIMES);
     return text;
 }
@@ -64,14 +64,14 @@ static void say_energy(FILE *out, const run_checks *v) {
 
 static void say_accuracy(FILE *out, const run_checks *v) {
     const finding *f = &v->found[FINDING_ACCURACY];
-    const horizon h = horizon_of(v->twins, RUN_CHECKS_TOLERANCE);
+    const horizon h = horizon_of(v->doubling, RUN_CHECKS_TOLERANCE);
     const horizon_column *c = &h.column[f->component];
-    const char *unit = v->twins->shape->column[f->component].unit->shown;
+    const char *unit = v->doubling->shape->column[f->component].unit->shown;
     char name[NAME_TEXT];
     fprintf(out, "%s is accurate to %g of its range only until t = %.6g s of %.6g s",
             column_name(v, f->component, name),
             c->until_s > f->at_s ? HORIZON_TOLERANCE : RUN_CHECKS_TOLERANCE, f->at_s,
-            v->twins->end_s);
+            v->doubling->end_s);
     if (isfinite(c->off)) {
         fprintf(out, ": a finer run, in double, differs by up to %.2g %s", c->off, unit);
         if (c->range > 0.0) {
@@ -132,8 +132,8 @@ static void say_missed(FILE *out, const run_checks *v) {
 }
 
 static void say_aliased(FILE *out, const run_checks *v) {
-    const step_doubling_aliased *a = &v->twins->aliased;
-    const char *unit = v->twins->shape->column[a->column].unit->shown;
+    const step_doubling_aliased *a = &v->doubling->aliased;
+    const char *unit = v->doubling->shape->column[a->column].unit->shown;
     const bool plain = strcmp(unit, "1") == 0;
     char name[NAME_TEXT];
     fprintf(
@@ -216,18 +216,18 @@ typedef struct search {
     budget *budget;
     double a_step; /* operations of a step of the run, with its checks */
     double stages; /* stages of the run's method */
-    bool dear;
+    bool over_budget;
 } search;
 
-typedef struct wish {
+typedef struct request {
     double step_s;
     wh_method method;
     bool compensated;
     bool in_double;
-} wish;
+} request;
 
 /* *made: the scene with the settings `w`. Returns false if the end is not a whole number of steps. */
-static bool image_with(const image *im, const wish *w, image *made) {
+static bool image_with(const image *im, const request *w, image *made) {
     *made = *im;
     made->settings.method = w->method;
     made->settings.compensated = w->compensated;
@@ -247,19 +247,19 @@ static bool image_with(const image *im, const wish *w, image *made) {
 /* Is a trial inaccurate almost from its begin on? A chaotic motion stays accurate for longer. A trial in float must be
  * accurate to its end; if it is not, the same settings are tried in double. */
 static bool is_off_at_once(const run_checks *v) {
-    if (v->twins == NULL) {
+    if (v->doubling == NULL) {
         return false;
     }
     const bool whole = v->kind == &engine_float;
-    horizon h = horizon_of(v->twins, whole ? RUN_CHECKS_TOLERANCE : HORIZON_TOLERANCE);
+    horizon h = horizon_of(v->doubling, whole ? RUN_CHECKS_TOLERANCE : HORIZON_TOLERANCE);
     const bool off = h.first >= 0 && h.column[h.first].verdict == HORIZON_UNTIL &&
-                     (whole || h.until_s < RUN_CHECKS_BEGIN * v->twins->end_s);
+                     (whole || h.until_s < RUN_CHECKS_BEGIN * v->doubling->end_s);
     horizon_free(&h);
     return off;
 }
 
 static bool does(const run_checks *v) {
-    return (v->against & ~FINDING_OF_SCENE) == 0 && (v->books == NULL || !v->books->undefined) &&
+    return (v->warned & ~FINDING_OF_SCENE) == 0 && (v->books == NULL || !v->books->undefined) &&
            !is_off_at_once(v);
 }
 
@@ -278,13 +278,13 @@ static double operations(const search *s, const image *with) {
                                     wh_methods[with->settings.method].stages / s->stages;
 }
 
-static bool try(search *s, const wish *w) {
+static bool try(search *s, const request *w) {
     image with;
     if (!image_with(s->image, w, &with)) {
         return false;
     }
-    s->dear = s->dear || interrupted || operations(s, &with) > budget_left(s->budget);
-    if (s->dear) {
+    s->over_budget = s->over_budget || interrupted || operations(s, &with) > budget_left(s->budget);
+    if (s->over_budget) {
         return false;
     }
     const engine_kind *kind = w->in_double ? &engine_double : s->kind;
@@ -293,21 +293,21 @@ static bool try(search *s, const wish *w) {
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .pays = s->budget, .see = see, .of = v};
     wh_status status = WH_OK; /* without a finer run the error is not known */
-    const loop_end end = v->twins != NULL ? loop_run(&l, &status) : LOOP_SPENT;
+    const loop_end end = v->doubling != NULL ? loop_run(&l, &status) : LOOP_SPENT;
     run_checks_end(v, status);
     const bool good = end == LOOP_DONE && does(v);
-    s->dear = end == LOOP_SPENT || end == LOOP_INTERRUPTED;
+    s->over_budget = end == LOOP_SPENT || end == LOOP_INTERRUPTED;
     run_checks_close(v);
     kind->stop(run);
     return good;
 }
 
 /* Tries the settings with the number type of the run. If that is float and fails, tries double, too. */
-static bool try_either(search *s, wish *w) {
+static bool try_either(search *s, request *w) {
     if (try(s, w)) {
         return true;
     }
-    wish more = *w;
+    request more = *w;
     more.in_double = true;
     more.compensated = s->image->settings.compensated;
     if (s->kind != &engine_float || !try(s, &more)) {
@@ -317,7 +317,7 @@ static bool try_either(search *s, wish *w) {
     return true;
 }
 
-static void write_options(const search *s, const wish *w, char text[REMEDY_TEXT]) {
+static void write_options(const search *s, const request *w, char text[REMEDY_TEXT]) {
     char step[STEP_WORD];
     const image_settings *own = &s->image->settings;
     const bool other = w->method != own->method || own->matrix != MATRIX_NONE;
@@ -332,10 +332,10 @@ static void write_options(const search *s, const wish *w, char text[REMEDY_TEXT]
 }
 
 /* Tries ever finer steps: 1, 2 and 5 times powers of ten. */
-static bool try_steps(search *s, wish w, char text[REMEDY_TEXT]) {
+static bool try_steps(search *s, request w, char text[REMEDY_TEXT]) {
     w.step_s = step_nice_s(0.5 * s->image->step_s);
-    while (w.step_s > 0.0 && w.step_s * PARTS_MOST > s->image->step_s && !s->dear) {
-        wish now = w;
+    while (w.step_s > 0.0 && w.step_s * PARTS_MOST > s->image->step_s && !s->over_budget) {
+        request now = w;
         if (try_either(s, &now)) {
             write_options(s, &now, text);
             return true;
@@ -348,11 +348,11 @@ static bool try_steps(search *s, wish w, char text[REMEDY_TEXT]) {
 static remedy_outcome find(search *s, char text[REMEDY_TEXT]) {
     const image *im = s->image;
     const wh_method own = im->settings.matrix == MATRIX_RK4 ? WH_RK4 : im->settings.method;
-    wish w = {im->step_s, own, im->settings.compensated, false};
+    request w = {im->step_s, own, im->settings.compensated, false};
     if (im->fixed != NULL || im->settings.matrix == MATRIX_EXACT || im->steps == 0) {
         return REMEDY_NONE;
     }
-    wish other[2] = {w, w};
+    request other[2] = {w, w};
     other[0].compensated = true;
     other[1].in_double = true;
     for (int i = w.compensated ? 1 : 0; i < (s->kind == &engine_float ? 2 : 1); i++) {
@@ -363,13 +363,13 @@ static remedy_outcome find(search *s, char text[REMEDY_TEXT]) {
     }
     if (wh_methods[own].order < wh_methods[WH_METHOD_DEFAULT].order) {
         w.method = WH_METHOD_DEFAULT; /* the finer steps are tried with this method, too */
-        wish usual = w;
+        request usual = w;
         if (try_either(s, &usual)) {
             write_options(s, &usual, text);
             return REMEDY_DOES;
         }
     }
-    return try_steps(s, w, text) ? REMEDY_DOES : s->dear ? REMEDY_DEAR : REMEDY_NONE;
+    return try_steps(s, w, text) ? REMEDY_DOES : s->over_budget ? REMEDY_DEAR : REMEDY_NONE;
 }
 
 /* Finds options such as "--step 50us" for a finished run, within the budget that its checks left. */
@@ -391,14 +391,14 @@ static remedy_outcome remedy_find(const run_checks *v, char text[REMEDY_TEXT]) {
 bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind) {
     budget all = {0};
     search s = {.image = im, .plain = plain, .kind = kind, .budget = &all, .stages = 1.0};
-    const wish own = {im->step_s, im->settings.method, im->settings.compensated, false};
+    const request own = {im->step_s, im->settings.method, im->settings.compensated, false};
     budget_begin(&all);
     return try(&s, &own);
 }
 
 /* --- remedies ---------------------------------------------------------------------------------------------*/
 
-static bool is_told(const run_checks *v, finding_id id) { return v->found[id].told; }
+static bool is_reported(const run_checks *v, finding_id id) { return v->found[id].reported; }
 
 /* Names a cause that no smaller step removes. */
 static bool say_cause(FILE *out, const run_checks *v) {
@@ -407,21 +407,21 @@ static bool say_cause(FILE *out, const run_checks *v) {
     if (slid_off(v)) {
         hint =
             "round the edge over the distance e of a few steps: sqrt(x^2 + e^2) for abs(x), (a + b + sqrt((a - b)^2 + e^2))/2 for max(a, b)";
-    } else if (is_told(v, FINDING_MASS)) {
+    } else if (is_reported(v, FINDING_MASS)) {
         hint =
             v->image->has_energies
                 ? "give the heavy body the absolute coordinate, and give the light body's position relative to it"
                 : "two equations are nearly the same: replace one by their difference";
-    } else if (is_told(v, FINDING_CONSTANTS)) {
+    } else if (is_reported(v, FINDING_CONSTANTS)) {
         hint = "declare the small number as a parameter of its own";
-    } else if (is_told(v, FINDING_ENERGY) && b->stabilized &&
+    } else if (is_reported(v, FINDING_ENERGY) && b->stabilized &&
                number_most(fabs(b->left_J), v->books->most_J) > 1.5 * b->lost_J) {
         hint = "leave out --stabilized: it corrected an energy error that is only round-off";
-    } else if (is_told(v, FINDING_ENERGY) && b->exact) {
+    } else if (is_reported(v, FINDING_ENERGY) && b->exact) {
         hint = "run with --number double: steps of --matrix exact have no error but round-off";
-    } else if (is_told(v, FINDING_ENERGY) && b->saturated) {
+    } else if (is_reported(v, FINDING_ENERGY) && b->saturated) {
         hint = "widen the range: range NAME = A .. B; values saturated, which changes the energy";
-    } else if (v->against == FINDING_BIT(FINDING_EVENTS) &&
+    } else if (v->warned == FINDING_BIT(FINDING_EVENTS) &&
                is_without_restitution(v->image, busiest(v, -1))) {
         hint =
             "use restitution 0.01, or a force that presses the bodies together: without load, round-off separates bodies in contact again and again";
@@ -435,7 +435,7 @@ static bool say_cause(FILE *out, const run_checks *v) {
 static void say_remedy(FILE *out, const run_checks *v) {
     char options[REMEDY_TEXT];
     const image *im = v->image;
-    if (im->settings.tables != TABLES_NONE && is_told(v, FINDING_ENERGY)) {
+    if (im->settings.tables != TABLES_NONE && is_reported(v, FINDING_ENERGY)) {
         char cells[40] = "";
         if (im->settings.cells > 0 && 2 * im->settings.cells <= IMAGE_CELLS_MOST) {
             snprintf(cells, sizeof cells, "--cells %d, or ", 2 * im->settings.cells);
@@ -458,9 +458,9 @@ static void say_remedy(FILE *out, const run_checks *v) {
             out,
             "hint: correct T, or end the run earlier: the kinetic energy is negative from t = %.6g s on\n",
             v->books->negative_s);
-    } else if (is_told(v, FINDING_MISSED)) {
+    } else if (is_reported(v, FINDING_MISSED)) {
         const double began_s = v->found[FINDING_MISSED].at_s;
-        const double passed_s = v->twins != NULL ? v->twins->jumped_s : -1.0;
+        const double passed_s = v->doubling != NULL ? v->doubling->jumped_s : -1.0;
         const double until_s = passed_s >= 0.0 ? number_least(passed_s, began_s) : began_s;
         if (v->found[FINDING_MISSED].value < 1.0) {
             fputs("hint: write the expression without poles and jumps, such as 1/x or sign(x): "
@@ -470,11 +470,11 @@ static void say_remedy(FILE *out, const run_checks *v) {
         if (until_s > 0.0) {
             fprintf(out, "hint: --until %.12gs ends the run before this step\n", until_s);
         }
-    } else if (is_told(v, FINDING_EVENTS)) {
+    } else if (is_reported(v, FINDING_EVENTS)) {
         fputs(
             "hint: use restitution 0, or add hysteresis to the condition: this ends such events\n",
             out);
-    } else if ((v->against & ~FINDING_OF_SCENE) == FINDING_BIT(FINDING_ACCURACY) &&
+    } else if ((v->warned & ~FINDING_OF_SCENE) == FINDING_BIT(FINDING_ACCURACY) &&
                v->found[FINDING_ACCURACY].at_s > 0.0) {
         fputs("hint: end the run earlier with --until: in a chaotic motion every error grows\n",
               out);
@@ -484,15 +484,15 @@ static void say_remedy(FILE *out, const run_checks *v) {
 void findings_say(FILE *out, const run_checks *v, bool fails) {
     for (int id = 0; id < FINDINGS; id++) {
         const bool is_error = fails && id == FINDING_ENERGY;
-        const bool is_warning = (v->against & FINDING_BIT(id)) != 0;
+        const bool is_warning = (v->warned & FINDING_BIT(id)) != 0;
         const bool is_elsewhere = id == FINDING_APART || id == FINDING_DIGITS;
-        if (is_error || (is_told(v, (finding_id)id) && !is_elsewhere)) {
+        if (is_error || (is_reported(v, (finding_id)id) && !is_elsewhere)) {
             fprintf(out, "whirl run: %s: ", is_error ? "error" : is_warning ? "warning" : "note");
             say[id](out, v);
             fprintf(out, " [%s]\n", finding_rows[id].word);
         }
     }
-    if ((fails || (v->against & ~FINDING_OF_SCENE) != 0 || is_told(v, FINDING_MASS)) &&
+    if ((fails || (v->warned & ~FINDING_OF_SCENE) != 0 || is_reported(v, FINDING_MASS)) &&
         !say_cause(out, v)) {
         say_remedy(out, v);
     }

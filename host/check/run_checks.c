@@ -19,20 +19,21 @@ run_checks *run_checks_open(const image *im, const image *plain, const engine_ki
     v->budget = of != NULL ? of : &v->own;
     v->books = books_open(im);
     v->jumped = pole_crossing_open(im);
-    const step_doubling_wish wish = {.image = im,
-                                     .kind = kind,
-                                     .plain = plain != NULL ? plain : im,
-                                     .watched = true,
-                                     .jumped = v->jumped};
-    if (im->steps > 0 && step_doubling_finer_operations(im, wish.plain) <= budget_left(v->budget)) {
-        v->twins = step_doubling_open(&wish, run);
+    const step_doubling_request request = {.image = im,
+                                           .kind = kind,
+                                           .plain = plain != NULL ? plain : im,
+                                           .watched = true,
+                                           .jumped = v->jumped};
+    if (im->steps > 0 &&
+        step_doubling_finer_operations(im, request.plain) <= budget_left(v->budget)) {
+        v->doubling = step_doubling_open(&request, run);
     }
     return v;
 }
 
 void run_checks_close(run_checks *v) {
     if (v != NULL) {
-        step_doubling_free(v->twins);
+        step_doubling_free(v->doubling);
         pole_crossing_close(v->jumped);
         books_close(v->books);
         free(v);
@@ -85,12 +86,12 @@ void run_checks_enter(run_checks *v) {
         pole_crossing_pass(v->jumped);
     }
     if (part_left(v) < BEHIND) {
-        step_doubling_free(v->twins);
-        v->twins = NULL;
+        step_doubling_free(v->doubling);
+        v->doubling = NULL;
     }
-    if (v->twins != NULL) {
-        v->twins->jumps = jumps;
-        step_doubling_enter(v->twins);
+    if (v->doubling != NULL) {
+        v->doubling->jumps = jumps;
+        step_doubling_enter(v->doubling);
     }
     budget_end(v->budget);
 }
@@ -102,7 +103,7 @@ static void tell(run_checks *v, finding_id id, double value, double at_s, int of
     const bool is_note = finding_rows[id].severity == FINDING_NOTE ||
                          (id == FINDING_MASS && value <= HORIZON_TOLERANCE);
     v->found[id] = (finding){true, value, at_s, of};
-    v->against |= is_note ? 0U : FINDING_BIT(id);
+    v->warned |= is_note ? 0U : FINDING_BIT(id);
 }
 
 static double end_s(const run_checks *v) {
@@ -111,10 +112,10 @@ static double end_s(const run_checks *v) {
 
 /* Is the run accurate to its end, according to the finer run? */
 static bool is_right(const run_checks *v) {
-    if (v->twins == NULL) {
+    if (v->doubling == NULL) {
         return false;
     }
-    horizon h = horizon_of(v->twins, HORIZON_TOLERANCE);
+    horizon h = horizon_of(v->doubling, HORIZON_TOLERANCE);
     const bool right = h.to_the_end;
     horizon_free(&h);
     return right;
@@ -135,8 +136,8 @@ static void judge_energy(run_checks *v) {
                           number_most(fabs(b->left_J), way_J) <= v->books->rule_J;
     const bool by_the_rule = v->image->contacts == 0 && in_doubt && is_right(v);
     const bool is_lost = energy_residual_lost(b, finding_rows[FINDING_ENERGY].limit);
-    const bool is_told = (is_lost || on_the_way) && !by_the_rule;
-    if (is_told) {
+    const bool is_reported = (is_lost || on_the_way) && !by_the_rule;
+    if (is_reported) {
         tell(v, FINDING_ENERGY, number_most(b->ratio, on_the_way ? way_J / b->largest_J : 0.0),
              b->jump_s, -1);
     }
@@ -146,7 +147,7 @@ static void judge_energy(run_checks *v) {
 #define FAINT 0x1p-48
 
 static bool is_faint(const run_checks *v, int unknown) {
-    const step_doubling *t = v->twins;
+    const step_doubling *t = v->doubling;
     const int rate = image_find_component(v->image, unknown, 1);
     if (v->books == NULL || v->kind != &engine_float || rate < 0) {
         return false;
@@ -168,16 +169,16 @@ static bool is_faint(const run_checks *v, int unknown) {
 /* Is the error of the column at most two units of a float turn angle? Turn angles move by whole units, so this error is
  * always possible. */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
-    const step_doubling_column *t = &v->twins->column[k];
-    const int own = image_find_component(v->image, v->twins->shape->column[k].unknown, 0);
-    return v->kind == &engine_float && v->twins->shape->column[k].primes == 0 && own >= 0 &&
+    const step_doubling_column *t = &v->doubling->column[k];
+    const int own = image_find_component(v->image, v->doubling->shape->column[k].unknown, 0);
+    return v->kind == &engine_float && v->doubling->shape->column[k].primes == 0 && own >= 0 &&
            own < v->image->angles && c->off <= SLOW_LEAST_RAD * t->one;
 }
 
 /* Rates jump at contacts. Two runs may have the jump in different steps, and then their rates differ at that time. */
 static bool is_asked(const run_checks *v, int k) {
-    const record_column *c = &v->twins->shape->column[k];
-    return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->twins, k) &&
+    const record_column *c = &v->doubling->shape->column[k];
+    return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->doubling, k) &&
            !is_faint(v, c->unknown);
 }
 
@@ -190,14 +191,15 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
  * is near the run's begin, or if the error grew slowly. It grows faster in a chaotic motion, which no finer step cures. */
 static bool is_off(const run_checks *v, int k, double until_s, double early_s) {
     (void)k;
-    return early_s <= RUN_CHECKS_BEGIN * v->twins->end_s || until_s >= RUN_CHECKS_GROWS * early_s;
+    return early_s <= RUN_CHECKS_BEGIN * v->doubling->end_s ||
+           until_s >= RUN_CHECKS_GROWS * early_s;
 }
 
 /* Did the error of a position grow within a few steps? Such steps do not resolve some part of the motion, such as the
  * neighbourhood of a singularity of the coordinates. In a resolved chaotic motion errors grow more slowly. */
 static bool is_sudden(const run_checks *v, int k, double until_s, double early_s) {
     const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;
-    return v->image->contacts == 0 && v->twins->shape->column[k].primes == 0 &&
+    return v->image->contacts == 0 && v->doubling->shape->column[k].primes == 0 &&
            early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
 }
 
@@ -206,9 +208,9 @@ static int first_with(const run_checks *v, double tolerance, double early_tolera
                       bool (*is)(const run_checks *v, int k, double until_s, double early_s),
                       double *until_s) {
     int found = -1;
-    horizon h = horizon_of(v->twins, tolerance);
-    horizon early = horizon_of(v->twins, early_tolerance);
-    for (int k = 1; k < v->twins->columns; k++) {
+    horizon h = horizon_of(v->doubling, tolerance);
+    horizon early = horizon_of(v->doubling, early_tolerance);
+    for (int k = 1; k < v->doubling->columns; k++) {
         const horizon_column *c = &h.column[k];
         if (c->verdict == HORIZON_UNTIL && is_asked(v, k) && !is_of_units(v, k, c) &&
             is(v, k, c->until_s, early.column[k].until_s) &&
@@ -224,7 +226,7 @@ static int first_with(const run_checks *v, double tolerance, double early_tolera
 
 /* Errors after an early end of the comparison, as after too many events, are not reported: other findings report the end. */
 static void judge_accuracy(run_checks *v) {
-    const step_doubling *t = v->twins;
+    const step_doubling *t = v->doubling;
     double until_s = 0.0;
     if (t->aliased.column > 0) {
         return;
@@ -252,7 +254,7 @@ static void judge_jumps(run_checks *v) {
 }
 
 static void judge_aliasing(run_checks *v) {
-    const step_doubling_aliased *found = &v->twins->aliased;
+    const step_doubling_aliased *found = &v->doubling->aliased;
     if (found->column > 0) {
         tell(v, FINDING_ALIASED, found->part, found->at_s, found->column);
     }
@@ -275,7 +277,7 @@ static void judge(run_checks *v) {
         tell(v, FINDING_CONSTANTS, 1.0, -1.0, -1);
     }
     judge_energy(v);
-    if (v->twins != NULL && v->kind->steps(v->run) > 0) {
+    if (v->doubling != NULL && v->kind->steps(v->run) > 0) {
         judge_accuracy(v);
         judge_aliasing(v);
     }
@@ -293,9 +295,9 @@ static void judge(run_checks *v) {
 
 void run_checks_end(run_checks *v, wh_status status) {
     budget_begin(v->budget);
-    if (v->twins != NULL) {
-        step_doubling_end(v->twins, status);
-        aliasing_find(v->twins, v->budget);
+    if (v->doubling != NULL) {
+        step_doubling_end(v->doubling, status);
+        aliasing_find(v->doubling, v->budget);
     }
     v->balance = energy_residual_of(v->books, v->kind, v->run);
     if (status == WH_OK) {
@@ -306,18 +308,18 @@ void run_checks_end(run_checks *v, wh_status status) {
 
 unsigned run_checks_fails(const run_checks *v, double strict) {
     const unsigned energy = FINDING_BIT(FINDING_ENERGY);
-    return strict == STRICT_FINDINGS ? v->against
+    return strict == STRICT_FINDINGS ? v->warned
            : strict < 0.0
                ? 0U
-               : (v->against & ~energy) | (energy_residual_lost(&v->balance, strict) ? energy : 0U);
+               : (v->warned & ~energy) | (energy_residual_lost(&v->balance, strict) ? energy : 0U);
 }
 
 unsigned run_checks_unlooked(const run_checks *v) {
     const unsigned jumps = FINDING_BIT(FINDING_POLE) | FINDING_BIT(FINDING_MISSED);
     const unsigned finer = FINDING_BIT(FINDING_ACCURACY);
-    const bool unaliased = v->twins == NULL || v->twins->unaliased;
+    const bool unaliased = v->doubling == NULL || v->doubling->unaliased;
     return v->image->steps == 0 ? 0U
                                 : (pole_crossing_unseen(v->jumped) > 0 ? jumps : 0U) |
-                                      (v->twins == NULL ? finer : 0U) |
+                                      (v->doubling == NULL ? finer : 0U) |
                                       (unaliased ? FINDING_BIT(FINDING_ALIASED) : 0U);
 }

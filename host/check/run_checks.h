@@ -12,8 +12,8 @@
 #include "host/check/horizon.h"
 
 typedef struct finding {
-    bool told;    /* the finding is reported */
-    double value; /* measured, in the row's unit */
+    bool reported; /* the finding is reported */
+    double value;  /* measured, in the row's unit */
     /* time from which on the finding is true, or the time of one event; below 0: the whole run */
     double at_s;
     int component; /* the component or contact concerned, or -1 */
@@ -29,15 +29,15 @@ typedef struct run_checks {
     books *books;          /* NULL for a system given by its equations */
     pole_crossing *jumped; /* search for poles; NULL: the scene needs none */
     /* the comparison with a finer run; NULL: it would take too long */
-    step_doubling *twins;
+    step_doubling *doubling;
     uint64_t overruns;                       /* steps with too many events */
     double overran_s;                        /* begin of the first step with too many events */
     uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in such steps */
     double taken_J;  /* sum of the sizes of the energy changes in steps with too many events */
     double energy_J; /* the energy after the last step */
-    energy_residual balance; /* set by run_checks_end(), like `found` and `against` */
+    energy_residual balance; /* set by run_checks_end(), like `found` and `warned` */
     finding found[FINDINGS];
-    unsigned against; /* the warnings, as bits */
+    unsigned warned; /* the warnings, as bits */
 } run_checks;
 
 /* `plain`: the finer run's image (step_doubling_plain()); NULL: `im`. `of`: the budget; NULL: the checks use their own, which the

@@ -66,7 +66,7 @@ static void put_findings(json *j, const run_checks *v) {
     json_open(j, "findings", '[');
     for (int id = 0; id < FINDINGS; id++) {
         const finding *f = &v->found[id];
-        if (!f->told) {
+        if (!f->reported) {
             continue;
         }
         char where[FINDINGS_NAME];
@@ -77,7 +77,7 @@ static void put_findings(json *j, const run_checks *v) {
         alloc_text_end(text);
         json_open(j, NULL, '{');
         json_text(j, "id", finding_rows[id].word);
-        json_text(j, "severity", (v->against & FINDING_BIT(id)) != 0 ? "warning" : "note");
+        json_text(j, "severity", (v->warned & FINDING_BIT(id)) != 0 ? "warning" : "note");
         if (findings_where(v, (finding_id)id, where)) {
             json_text(j, "where", where);
         } else {
@@ -132,7 +132,7 @@ static void put_files(json *j, const char *const files[RUN_JSON_FILES]) {
     json_close(j, ']');
 }
 
-void run_json(FILE *out, const run_json_wish *w) {
+void run_json(FILE *out, const run_json_request *w) {
     const run_checks *v = w->verdict;
     const image *im = v->image;
     json j = {.out = out};

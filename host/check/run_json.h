@@ -8,7 +8,7 @@
 
 enum { RUN_JSON_FILES = 4 };
 
-typedef struct run_json_wish {
+typedef struct run_json_request {
     const struct run_checks *verdict;
     const records *records; /* records, whose current row is the last state */
     const char *said;       /* text of the findings, or of the failure, with hints; or NULL */
@@ -16,9 +16,9 @@ typedef struct run_json_wish {
     bool failed;
     int status;                       /* exit status */
     const char *file[RUN_JSON_FILES]; /* the requested files; or NULL */
-} run_json_wish;
+} run_json_request;
 
-void run_json(FILE *out, const run_json_wish *w);
+void run_json(FILE *out, const run_json_request *w);
 void horizon_json(FILE *out, const horizon *h, int status);
 
 /* The first keys of every command's object. `kind` is NULL for commands that compare number types and methods. */

@@ -388,7 +388,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     }
     if (s->chosen != NULL) {
         fprintf(out, "%s%s\n", s->chosen,
-                (sim->verdict->against & ~FINDING_OF_SCENE) != 0
+                (sim->verdict->warned & ~FINDING_OF_SCENE) != 0
                     ? "; this choice considers only this error, but the warning concerns the "
                       "whole motion"
                     : "");
@@ -402,7 +402,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
         fprintf(out, "  changed: %s\n", s->changes);
     }
     if (result == SIMULATION_DONE && h != NULL) {
-        horizon_print_line(out, h, (sim->verdict->against & ~FINDING_OF_SCENE) != 0);
+        horizon_print_line(out, h, (sim->verdict->warned & ~FINDING_OF_SCENE) != 0);
     } else if (result == SIMULATION_DONE && sim->steps > 0) {
         fputs("trusted            not computed, because that takes more than a second: run `whirl "
               "trust`\n",
@@ -425,11 +425,11 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
 /* Fills in *to, from the horizon if there is one (`h` may be NULL). */
 static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     const run_checks *v = sim->verdict;
-    *h = horizon_of(v->twins, HORIZON_TOLERANCE);
+    *h = horizon_of(v->doubling, HORIZON_TOLERANCE);
     if (!h->to_the_end) {
         sim->trusted_s = number_most(h->until_s, sim->image->step_s);
     }
-    const bool doubted = h->to_the_end && (v->against & ~FINDING_OF_SCENE) != 0;
+    const bool doubted = h->to_the_end && (v->warned & ~FINDING_OF_SCENE) != 0;
     to->until_s = doubted ? -1.0 : horizon_trusted_s(h);
 }
 
@@ -441,8 +441,9 @@ int simulation_status(simulation_result result, const simulation_trust *trust) {
     return result == SIMULATION_DONE && trust->fails != 0 ? EXIT_RUN_FAILED : status[result];
 }
 
-simulation_result simulate(const image *im, const simulation_settings *s, simulation_trust *told) {
-    *told = (simulation_trust){.until_s = -1.0};
+simulation_result simulate(const image *im, const simulation_settings *s,
+                           simulation_trust *outcome) {
+    *outcome = (simulation_trust){.until_s = -1.0};
     simulation sim = {.image = im, .settings = s, .output = -1};
     sim.steps = im->steps;
     sim.records = records_open(NULL, im, s->kind);
@@ -462,21 +463,21 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
         const wh_status status = go(&sim, &ended);
         run_checks_end(sim.verdict, status);
         horizon h;
-        const bool known = sim.verdict->twins != NULL && status == WH_OK;
+        const bool known = sim.verdict->doubling != NULL && status == WH_OK;
         if (known) {
-            trust(&sim, &h, told);
+            trust(&sim, &h, outcome);
         }
         result = judge(&sim, status, ended);
-        told->fails = run_checks_fails(sim.verdict, s->strict);
-        told->dear = sim.verdict->twins == NULL;
-        told->left = budget_left(&sim.verdict->own);
+        outcome->fails = run_checks_fails(sim.verdict, s->strict);
+        outcome->over_budget = sim.verdict->doubling == NULL;
+        outcome->left = budget_left(&sim.verdict->own);
         traces_close(sim.traces);
         sim.course.trusted_s = sim.trusted_s;
         result = close_records(&sim, true) ? result : SIMULATION_BAD_FILE;
         if (status == WH_OK && ended) {
             say_interrupted(&sim);
         }
-        told->still = !opening_moves(&sim.opening, sim.records);
+        outcome->still = !opening_moves(&sim.opening, sim.records);
         if (!s->quiet && !s->json) {
             print_summary(&sim, status, result, known ? &h : NULL);
         }
@@ -488,13 +489,13 @@ simulation_result simulate(const image *im, const simulation_settings *s, simula
             result = SIMULATION_BAD_FILE;
         }
         if (s->json) {
-            run_json(stdout, &(run_json_wish){sim.verdict,
-                                              sim.records,
-                                              sim.said,
-                                              told->until_s,
-                                              result == SIMULATION_FAILED,
-                                              simulation_status(result, told),
-                                              {s->csv, s->columns, s->vcd, s->plot}});
+            run_json(stdout, &(run_json_request){sim.verdict,
+                                                 sim.records,
+                                                 sim.said,
+                                                 outcome->until_s,
+                                                 result == SIMULATION_FAILED,
+                                                 simulation_status(result, outcome),
+                                                 {s->csv, s->columns, s->vcd, s->plot}});
         }
         free(sim.said);
         run_checks_close(sim.verdict);

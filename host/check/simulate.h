@@ -37,8 +37,8 @@ typedef enum simulation_result {
 FILE *simulation_summary(const simulation_settings *s);
 
 typedef struct simulation_trust {
-    unsigned fails; /* the findings that fail the run, as bits (run_checks_fails()) */
-    bool dear;      /* the finer run would take too long */
+    unsigned fails;   /* the findings that fail the run, as bits (run_checks_fails()) */
+    bool over_budget; /* the finer run would take too long */
     double left;    /* remaining operations of the checks' budget; summary rows take at most half */
     bool still;     /* no coordinate moves */
     double until_s; /* the run is accurate until this time; below 0: unknown */

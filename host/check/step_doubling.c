@@ -149,7 +149,7 @@ static void fold_the_other_way(image *im) {
     }
 }
 
-static void make_finer(step_doubling *t, const step_doubling_wish *w) {
+static void make_finer(step_doubling *t, const step_doubling_request *w) {
     const image *im = w->image;
     t->finer = *w->plain;
     t->finer.fixed = NULL;
@@ -345,7 +345,7 @@ static void take_places(step_doubling *t) {
 
 typedef struct pair {
     step_doubling *to;
-    step_doubling_wish wish;
+    step_doubling_request request;
     records *finers;
     void *finer;
     pole_crossing *our_jumps;
@@ -362,7 +362,7 @@ typedef struct pair {
  * have the same event within the step. A run of one step has only one comparison, which counts. */
 static void look(pair *p, double time_s) {
     step_doubling *t = p->to;
-    const bool events = p->wish.image->contacts > 0 && p->wish.image->steps > 1U;
+    const bool events = p->request.image->contacts > 0 && p->request.image->steps > 1U;
     records_read(t->shape, t->run, time_s);
     records_read(p->finers, p->finer, time_s);
     for (int k = 1; k < t->columns; k++) {
@@ -411,7 +411,7 @@ static bool is_unwrapped(const pair *p) {
     double real[2 * IMAGE_COMPONENTS_MAX];
     bool found = false;
     engine_double.state(p->finer, angle_rad, real);
-    for (int i = 0; i < p->to->finer.angles && p->wish.kind == &engine_float; i++) {
+    for (int i = 0; i < p->to->finer.angles && p->request.kind == &engine_float; i++) {
         found = found || fabs(angle_rad[i]) > UNWRAPPED * ANGLE_SINE_MOST_RAD;
     }
     return found;
@@ -430,7 +430,7 @@ static void end_passages(step_doubling *t, double time_s) {
 static bool has_overrun(const pair *p) {
     uint64_t ours = 0;
     uint64_t finers = 0;
-    p->wish.kind->events(p->to->run, &ours);
+    p->request.kind->events(p->to->run, &ours);
     engine_double.events(p->finer, &finers);
     return ours > 0 || finers > 0;
 }
@@ -448,7 +448,7 @@ static void follow(pair *p, uint64_t begin) {
     if (!failed && !overran && !leapt) {
         return;
     }
-    const double begin_s = ratio_times(begin, p->wish.image->step);
+    const double begin_s = ratio_times(begin, p->request.image->step);
     end_passages(t, p->look_s);
     if (failed) {
         t->finer_failed_s = begin_s;
@@ -465,13 +465,13 @@ static void follow(pair *p, uint64_t begin) {
 
 void step_doubling_enter(step_doubling *t) {
     pair *p = t->pair;
-    const image *im = p->wish.image;
-    const uint64_t step = p->wish.kind->steps(t->run);
+    const image *im = p->request.image;
+    const uint64_t step = p->request.kind->steps(t->run);
     if (p->owns) {
-        pole_crossing_enter(p->our_jumps, p->wish.kind, t->run);
+        pole_crossing_enter(p->our_jumps, p->request.kind, t->run);
     }
     if (t->books != NULL) {
-        books_enter(t->books, p->wish.kind, t->run);
+        books_enter(t->books, p->request.kind, t->run);
     }
     if (step == 0) {
         pole_crossing_enter(p->finer_jumps, &engine_double, p->finer);
@@ -483,7 +483,7 @@ void step_doubling_enter(step_doubling *t) {
     }
 }
 
-step_doubling *step_doubling_open(const step_doubling_wish *w, void *run) {
+step_doubling *step_doubling_open(const step_doubling_request *w, void *run) {
     step_doubling *t = alloc(1, sizeof *t);
     pair *p = alloc(1, sizeof *p);
     make_finer(t, w);
@@ -500,7 +500,7 @@ step_doubling *step_doubling_open(const step_doubling_wish *w, void *run) {
     t->pair = p;
     t->books = w->books ? books_open(w->image) : NULL;
     *p = (pair){.to = t,
-                .wish = *w,
+                .request = *w,
                 .finers = records_open(NULL, &t->finer, &engine_double),
                 .finer = engine_double.start(&t->finer),
                 .owns = !w->watched,
@@ -514,7 +514,7 @@ step_doubling *step_doubling_open(const step_doubling_wish *w, void *run) {
 void step_doubling_end(step_doubling *t, wh_status status) {
     pair *p = t->pair;
     t->status = status;
-    t->end_s = ratio_times(p->wish.kind->steps(t->run), p->wish.image->step);
+    t->end_s = ratio_times(p->request.kind->steps(t->run), p->request.image->step);
     take_rounding(t, &p->rounded);
     take_places(t);
     t->finer_end = p->finers->row;
@@ -533,15 +533,15 @@ static void pair_free(pair *p) {
 
 static bool see(void *of, uint64_t step) {
     step_doubling *t = of;
-    const step_doubling_wish *w = &t->pair->wish;
+    const step_doubling_request *w = &t->pair->request;
     step_doubling_enter(t);
     if ((step & 255U) == 0 && w->progress != NULL) {
-        w->progress((double)step / (double)(w->image->steps + (w->image->steps == 0)), w->told);
+        w->progress((double)step / (double)(w->image->steps + (w->image->steps == 0)), w->context);
     }
     return true;
 }
 
-step_doubling *step_doubling_run(const step_doubling_wish *w) {
+step_doubling *step_doubling_run(const step_doubling_request *w) {
     step_doubling *t = step_doubling_open(w, w->kind->start(w->image));
     const loop l = {.kind = w->kind,
                     .run = t->run,

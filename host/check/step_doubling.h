@@ -15,16 +15,16 @@
 /* Most comparisons of the two runs. They are made at ends of steps, at equal intervals. */
 enum { STEP_DOUBLING_LOOKS = 20000 };
 
-typedef struct step_doubling_wish {
+typedef struct step_doubling_request {
     const image *image;
     const engine_kind *kind;
     const image *plain;    /* from step_doubling_plain(); the image itself if that returns false */
     bool books;            /* keep the run's balance, and report its residual */
     bool watched;          /* the caller owns the run and its pole search `jumped` */
     pole_crossing *jumped; /* NULL: the scene needs no search */
-    void (*progress)(double share, void *told); /* called from time to time; or NULL */
-    void *told;
-} step_doubling_wish;
+    void (*progress)(double share, void *context); /* called from time to time; or NULL */
+    void *context;
+} step_doubling_request;
 
 /* After `time_s` the difference was `size` or more for the first time. */
 typedef struct passage {
@@ -112,10 +112,10 @@ wh_method step_doubling_method(const image *im);
 int step_doubling_order(const image *im);
 
 /* Runs both from the start to the end, or until one fails. The images must outlive the result. */
-step_doubling *step_doubling_run(const step_doubling_wish *w);
+step_doubling *step_doubling_run(const step_doubling_request *w);
 /* As above, for a run that the caller steps: call step_doubling_enter() at its start and after each step. `w` is
  * copied. */
-step_doubling *step_doubling_open(const step_doubling_wish *w, void *run);
+step_doubling *step_doubling_open(const step_doubling_request *w, void *run);
 void step_doubling_enter(step_doubling *t);
 /* The run has ended; `status` is that of its last step. */
 void step_doubling_end(step_doubling *t, wh_status status);

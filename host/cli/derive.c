@@ -202,13 +202,13 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         taken.tables = TABLES_NONE;
         taken.cells = 0;
     }
-    const load_wish wish = {.settings = taken,
-                            .use = IMAGE_TO_WRITE,
-                            .keep = from_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
-                            .conserve = runs || settings->matrix != MATRIX_NONE,
-                            .comment = as == &forms[OCTAVE] ? EMIT_OCTAVE_COMMENT : NULL};
+    const load_request request = {.settings = taken,
+                                  .use = IMAGE_TO_WRITE,
+                                  .keep = from_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
+                                  .conserve = runs || settings->matrix != MATRIX_NONE,
+                                  .comment = as == &forms[OCTAVE] ? EMIT_OCTAVE_COMMENT : NULL};
     loaded made;
-    int code = load(&made, from, of, in, changes, &wish);
+    int code = load(&made, from, of, in, changes, &request);
     if (!from_equations) {
         source_forget(from);
     }

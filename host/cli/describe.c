@@ -113,8 +113,8 @@ static int accel_work(void *all) {
         const overrides changes = {.values = (const char *const *)(words->word + 1),
                                    .value_count = words->count - 1};
         loaded made;
-        const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_RUN};
-        code = load(&made, &from, of, in, &changes, &wish);
+        const load_request request = {.settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_RUN};
+        code = load(&made, &from, of, in, &changes, &request);
         source_forget(&from);
         if (code == EXIT_DONE) {
             code = print_image(made.image, from.file);
@@ -143,14 +143,14 @@ static const command_usage check_usage = {
             "a file has an error, or cannot be read"}};
 
 static int derive_all(source_model *from) {
-    const load_wish wish = {.use = IMAGE_TO_RUN};
+    const load_request request = {.use = IMAGE_TO_RUN};
     const whirl_model *m = from->model;
     int code = EXIT_DONE;
     for (int i = 0; i < m->mechanism_count + m->scene_count; i++) {
         const scene *in = i < m->mechanism_count ? NULL : m->scenes[i - m->mechanism_count];
         const mechanism *of = in == NULL ? m->mechanisms[i] : in->mechanism;
         loaded made;
-        const int one = load(&made, from, of, in, NULL, &wish);
+        const int one = load(&made, from, of, in, NULL, &request);
         code = one > code ? one : code;
         if (one == EXIT_DONE && in == NULL) {
             say_hints(&made);
@@ -220,8 +220,8 @@ typedef struct describe_options {
 static int describe_source(source_model *from, void *options) {
     const describe_options *o = options;
     loaded made;
-    const int code =
-        target_load(&made, from, &o->common, (load_wish){.use = IMAGE_TO_WRITE, .conserve = true});
+    const int code = target_load(&made, from, &o->common,
+                                 (load_request){.use = IMAGE_TO_WRITE, .conserve = true});
     source_forget(from);
     if (code == EXIT_DONE && o->as_json) {
         describe_json(stdout, made.image, from->file);

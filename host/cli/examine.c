@@ -297,7 +297,7 @@ static int examine_source(source_model *from, void *options) {
     }
     loaded made;
     int code = target_load(&made, from, &o->common,
-                           (load_wish){.use = IMAGE_TO_RUN, .keep = KEEP_EQUATIONS});
+                           (load_request){.use = IMAGE_TO_RUN, .keep = KEEP_EQUATIONS});
     if (code == EXIT_DONE && made.equations->kinetic == NULL) {
         const mechanism *of = made.equations->instance->mechanism;
         fprintf(stderr,

@@ -50,17 +50,17 @@ static int light_field(const char *name, const char *more) {
 
 /* Runs the scene in float, because the boards must compute the same bits. */
 static int run_scene(const char *name, light_expected *e) {
-    static const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT,
-                                   .use = IMAGE_TO_WRITE,
-                                   .keep = KEEP_IMAGE,
-                                   .conserve = true};
+    static const load_request request = {.settings = IMAGE_SETTINGS_DEFAULT,
+                                         .use = IMAGE_TO_WRITE,
+                                         .keep = KEEP_IMAGE,
+                                         .conserve = true};
     source_model from;
     const mechanism *of = NULL;
     const scene *in = NULL;
     loaded made = {.image = NULL};
     int code = source_open(&from, name);
     code = code == EXIT_DONE ? source_pick(&from, true, &of, &in) : code;
-    code = code == EXIT_DONE ? load(&made, &from, of, in, NULL, &wish) : code;
+    code = code == EXIT_DONE ? load(&made, &from, of, in, NULL, &request) : code;
     if (code == EXIT_DONE) {
         void *run = engine_float.start(made.image);
         const wh_status status = loop_steps(&engine_float, run, made.image->steps);

@@ -430,9 +430,9 @@ static char *contacts_of(const equations *e, const char *comment) {
 }
 
 int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
-         const overrides *changes, const load_wish *wish) {
+         const overrides *changes, const load_request *request) {
     *made = (loaded){0};
-    if (wish->settings.cells != 0 && wish->settings.tables == TABLES_NONE) {
+    if (request->settings.cells != 0 && request->settings.tables == TABLES_NONE) {
         fputs("whirl: error: --cells sets the size of tables, so it needs --tables\nhint: "
               "--tables linear or --tables cubic\n",
               stderr);
@@ -443,19 +443,20 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
         made->equations = equations_derive(made->instance, s->errors);
     }
     if (made->equations != NULL) {
-        const bool *conserve = wish->conserve ? made->equations->instance->conserve : NULL;
-        made->image = image_make(made->equations, conserve, &wish->settings, wish->use, s->errors);
+        const bool *conserve = request->conserve ? made->equations->instance->conserve : NULL;
+        made->image =
+            image_make(made->equations, conserve, &request->settings, request->use, s->errors);
     }
     diags_flush(s->errors, stderr);
     if (made->equations != NULL && made->image != NULL) {
         made->hint = hint_for(made->equations->instance);
-        made->contacts = contacts_of(made->equations, wish->comment);
+        made->contacts = contacts_of(made->equations, request->comment);
     }
-    if (wish->keep < KEEP_EQUATIONS) {
+    if (request->keep < KEEP_EQUATIONS) {
         equations_free(made->equations);
         made->equations = NULL;
     }
-    if (wish->keep < KEEP_INSTANCE) {
+    if (request->keep < KEEP_INSTANCE) {
         instance_free(made->instance);
         made->instance = NULL;
     }

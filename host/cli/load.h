@@ -60,13 +60,13 @@ int source_pick(source_model *source, bool prefer_scene, const mechanism **of, c
  * like the first. */
 typedef enum load_keep { KEEP_IMAGE, KEEP_INSTANCE, KEEP_EQUATIONS } load_keep;
 
-typedef struct load_wish {
+typedef struct load_request {
     image_settings settings;
     image_use use;
     load_keep keep;
     bool conserve;       /* recover the coordinates that the scene names from their momentum */
     const char *comment; /* begins each line about contacts in `contacts`; NULL: no such lines */
-} load_wish;
+} load_request;
 
 typedef struct loaded {
     image *image;
@@ -79,7 +79,7 @@ typedef struct loaded {
 /* Derive one instance to its image; errors are printed. Other data is freed; call source_forget() when the model is no
  * longer needed. Returns an exit status; call unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
-         const overrides *changes, const load_wish *wish);
+         const overrides *changes, const load_request *request);
 /* Print the hint on standard error. */
 void say_hints(const loaded *made);
 /* Warn of values that float cannot represent. */

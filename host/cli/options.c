@@ -572,12 +572,13 @@ int target_command(const target_reader *r, int count, char **words, common_optio
     return code;
 }
 
-int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish) {
+int target_load(loaded *made, source_model *from, const common_options *common,
+                load_request request) {
     const mechanism *of;
     const scene *in;
     const overrides changes = options_overrides(&common->change);
     *made = (loaded){0};
-    wish.settings = common->integration;
+    request.settings = common->integration;
     const int code = source_pick(from, from->model->scene_count == 1, &of, &in);
-    return code == EXIT_DONE ? load(made, from, of, in, &changes, &wish) : code;
+    return code == EXIT_DONE ? load(made, from, of, in, &changes, &request) : code;
 }

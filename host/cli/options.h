@@ -204,7 +204,8 @@ bool target_read(const target_reader *reader, int count, char **words, common_op
                  const char **target);
 
 /* load() of the named scene, or of the file's only scene, with the common options. */
-int target_load(loaded *made, source_model *from, const common_options *common, load_wish wish);
+int target_load(loaded *made, source_model *from, const common_options *common,
+                load_request request);
 
 /* A whole command: prints the help text, or takes the words and does the work; the options are then forgotten. Returns an exit
  * status. */

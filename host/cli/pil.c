@@ -210,16 +210,16 @@ static bool read_time(const char *option, const char *text, const mechanism *of,
     return good;
 }
 
-static lockstep_wish wish_of(const pil_options *o) {
-    return (lockstep_wish){.guest = {.image = o->firmware,
-                                     .board = o->machine[0] != '\0' ? o->machine
-                                              : o->board != NULL    ? o->board
-                                                                    : "mps2-an386",
-                                     .patience_s = o->patience_s},
-                           .plant = {.seed = (uint32_t)o->seed},
-                           .renames = o->bind,
-                           .until_s = LONGEST_S,
-                           .instruction_s = o->cycles / o->clock_Hz};
+static lockstep_request wish_of(const pil_options *o) {
+    return (lockstep_request){.guest = {.image = o->firmware,
+                                        .board = o->machine[0] != '\0' ? o->machine
+                                                 : o->board != NULL    ? o->board
+                                                                       : "mps2-an386",
+                                        .patience_s = o->patience_s},
+                              .plant = {.seed = (uint32_t)o->seed},
+                              .renames = o->bind,
+                              .until_s = LONGEST_S,
+                              .instruction_s = o->cycles / o->clock_Hz};
 }
 
 static int code_of(const lockstep_report *r) {
@@ -234,7 +234,7 @@ static int code_of(const lockstep_report *r) {
     return EXIT_RUN_FAILED;
 }
 
-static int tell(const pil_options *o, const lockstep_wish *wish, const image *im,
+static int tell(const pil_options *o, const lockstep_request *request, const image *im,
                 const lockstep_report *r) {
     if (r->end == LOCKSTEP_DONE && r->status.status != 0) {
         fprintf(stderr, "whirl pil: the firmware ended with status %d\n", r->status.status);
@@ -243,13 +243,13 @@ static int tell(const pil_options *o, const lockstep_wish *wish, const image *im
         fprintf(stderr, "whirl pil: interrupted after %" PRIu64 " exchanges\n", r->exchanges);
     }
     if (!o->quiet && r->end != LOCKSTEP_BAD) {
-        pil_print(options_is_standard(o->csv) ? stderr : stdout, wish, im, r);
+        pil_print(options_is_standard(o->csv) ? stderr : stdout, request, im, r);
     }
     return code_of(r);
 }
 
 /* The line to a board, if the firmware is there. */
-static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
+static bool open_line(const pil_options *o, lockstep_request *request, port *line) {
     if (o->port == NULL) {
         return true;
     }
@@ -262,9 +262,9 @@ static bool open_line(const pil_options *o, lockstep_wish *wish, port *line) {
         port_close(line);
         return false;
     }
-    wish->guest.by_line = true;
-    wish->guest.line = line->file;
-    wish->guest.image = o->port;
+    request->guest.by_line = true;
+    request->guest.line = line->file;
+    request->guest.image = o->port;
     return true;
 }
 
@@ -302,7 +302,7 @@ static bool open_tape(const pil_options *o, const source_model *from, FILE **fil
 }
 
 static int run_image(const pil_options *o, const source_model *from, const image *im,
-                     lockstep_wish *wish, double every_s) {
+                     lockstep_request *request, double every_s) {
     lockstep_report report;
     recorded rows;
     if (!start_has_method(im, im->settings.method, from->errors) ||
@@ -310,34 +310,34 @@ static int run_image(const pil_options *o, const source_model *from, const image
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    if (would_be_lost(o, from, "--csv", o->csv) || !open_tape(o, from, &wish->tape) ||
+    if (would_be_lost(o, from, "--csv", o->csv) || !open_tape(o, from, &request->tape) ||
         !recorded_open(&rows, o->csv, im, o->every != NULL ? every_s : -1.0)) {
         return EXIT_BAD_INPUT;
     }
-    wish->plant.rows = &rows;
+    request->plant.rows = &rows;
     if (o->common.change.until != NULL) {
-        wish->until_s = im->until_s;
+        request->until_s = im->until_s;
     }
     port line;
-    const bool open = open_line(o, wish, &line);
+    const bool open = open_line(o, request, &line);
     if (open) {
         interrupts_catch_waiting();
-        lockstep_run(wish, im, &report);
+        lockstep_run(request, im, &report);
         close_line(o, &line);
     }
     const bool written = recorded_close(&rows);
-    wish->plant.rows = NULL;
+    request->plant.rows = NULL;
     if (!open) {
         return EXIT_BAD_INPUT;
     }
     if (!written) {
         report.end = LOCKSTEP_FAILED;
     }
-    if (wish->tape != NULL && fclose(wish->tape) != 0 && report.end != LOCKSTEP_BAD) {
+    if (request->tape != NULL && fclose(request->tape) != 0 && report.end != LOCKSTEP_BAD) {
         write_error_say(o->tape);
         report.end = LOCKSTEP_FAILED;
     }
-    return tell(o, wish, im, &report);
+    return tell(o, request, im, &report);
 }
 
 /* Faults that change parameters come last. */
@@ -358,7 +358,7 @@ static int load_plant(const pil_options *o, source_model *from, const mechanism 
     }
     changes.sets = sets;
     changes.step = changes.step != NULL ? changes.step : FINE_STEP;
-    const load_wish what = {
+    const load_request what = {
         .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
     const int code = load(made, from, of, in, &changes, &what);
     while (count > 0) {
@@ -371,43 +371,44 @@ static int load_plant(const pil_options *o, source_model *from, const mechanism 
 static int run_source(pil_options *o, source_model *from) {
     const mechanism *of;
     const scene *in;
-    lockstep_wish wish = wish_of(o);
+    lockstep_request request = wish_of(o);
     double every_s;
     int code = source_open(from, o->target);
     code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
     if (code != EXIT_DONE) {
         return code;
     }
-    if (!read_time("jitter", o->jitter, of, &wish.plant.jitter_s) ||
-        !read_time("delay", o->delay, of, &wish.plant.delay_s) ||
-        !read_time("every", o->every, of, &every_s) || !plant_read_places(o->place, &wish.plant)) {
+    if (!read_time("jitter", o->jitter, of, &request.plant.jitter_s) ||
+        !read_time("delay", o->delay, of, &request.plant.delay_s) ||
+        !read_time("every", o->every, of, &every_s) ||
+        !plant_read_places(o->place, &request.plant)) {
         return EXIT_BAD_INPUT;
     }
     loaded made;
     o->faults.seed = (uint32_t)o->seed;
     const tap faults = fault_tap(&o->faults);
-    wish.taps = &faults;
-    wish.tap_count = 1;
+    request.taps = &faults;
+    request.tap_count = 1;
     code = load_plant(o, from, of, in, &made);
     source_forget(from);
     if (code == EXIT_DONE) {
-        code = run_image(o, from, made.image, &wish, every_s);
+        code = run_image(o, from, made.image, &request, every_s);
     }
     unload(&made);
     return code;
 }
 
 static int replay(const pil_options *o) {
-    lockstep_wish wish = wish_of(o);
+    lockstep_request request = wish_of(o);
     lockstep_report report;
     port line;
-    if (!open_line(o, &wish, &line)) {
+    if (!open_line(o, &request, &line)) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch_waiting();
-    lockstep_replay(&wish, o->replay, &report);
+    lockstep_replay(&request, o->replay, &report);
     close_line(o, &line);
-    return tell(o, &wish, NULL, &report);
+    return tell(o, &request, NULL, &report);
 }
 
 static int pil_work(void *options) {

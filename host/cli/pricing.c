@@ -225,13 +225,13 @@ static void show_progress(void *context, int done, int of) {
 }
 
 /* The table that the options ask for. All processors compute it, and a terminal shows the progress. */
-static table_wish wish_of(const pricing *p) {
+static table_request wish_of(const pricing *p) {
     const bool shows = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
-    return (table_wish){.operations = p->effort,
-                        .method = p->options->value[PRICING_METHOD] != NULL ? p->method : NULL,
-                        .periods = 1,
-                        .workers = jobs_workers(),
-                        .progress = shows ? show_progress : NULL};
+    return (table_request){.operations = p->effort,
+                           .method = p->options->value[PRICING_METHOD] != NULL ? p->method : NULL,
+                           .periods = 1,
+                           .workers = jobs_workers(),
+                           .progress = shows ? show_progress : NULL};
 }
 
 static bool read_ranges(pricing *p) {
@@ -373,13 +373,13 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
                 p->options->command, p->until_s);
         return EXIT_BAD_INPUT;
     }
-    const trial_wish wish = {.source = &p->scene->source,
-                             .board = p->board,
-                             .of = p->quantity,
-                             .spacing = spacing,
-                             .records = (int)wanted};
+    const trial_request request = {.source = &p->scene->source,
+                                   .board = p->board,
+                                   .of = p->quantity,
+                                   .spacing = spacing,
+                                   .records = (int)wanted};
     p->has_trial = true;
-    return trial_begin(&p->trial, &wish) ? EXIT_DONE : EXIT_BAD_INPUT;
+    return trial_begin(&p->trial, &request) ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
 /* === price ==================================================================================== */
@@ -442,7 +442,7 @@ static int show(pricing *p, const table *made) {
     return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
 }
 
-static int count_front(pricing *p, table *made, const table_wish *w) {
+static int count_front(pricing *p, table *made, const table_request *w) {
     const table_words words = {p->target, p->words, false, p->effort};
     const measured_end end = measured_front(&p->trial, made, &words, w);
     if (end == MEASURED_MISSING) {
@@ -464,7 +464,7 @@ static bool can_measure(const pricing *p) {
 static int price_scene(pricing *p) {
     const char *csv = p->options->value[PRICING_CSV];
     const bool measure = p->options->value[PRICING_MEASURE] != NULL;
-    const table_wish wish = wish_of(p);
+    const table_request request = wish_of(p);
     if (p->options->value[PRICING_JSON] != NULL && options_is_standard(csv)) {
         fputs("whirl price: error: --json and rows cannot share standard output\n"
               "hint: --csv rows.csv\n",
@@ -476,16 +476,16 @@ static int price_scene(pricing *p) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();
-    if (wish.progress != NULL) {
+    if (request.progress != NULL) {
         fputs("\rthe reference   ", stderr);
     }
     int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
     table *made = NULL;
     if (code == EXIT_DONE && p->trial.reliable && !p->trial.stopped) {
-        made = table_new(&p->trial, &wish);
-        code = measure && !p->trial.stopped ? count_front(p, made, &wish) : code;
+        made = table_new(&p->trial, &request);
+        code = measure && !p->trial.stopped ? count_front(p, made, &request) : code;
     }
-    if (wish.progress != NULL) {
+    if (request.progress != NULL) {
         fputs("\r                    \r", stderr);
     }
     if (code == EXIT_DONE && p->trial.stopped) {
@@ -562,7 +562,7 @@ static bool read_bytes(const char *option, const char *text, double *bytes) {
     return false;
 }
 
-static bool read_limits(const pricing *p, choice_wish *w) {
+static bool read_limits(const pricing *p, choice_request *w) {
     const dimension per_s = dim_of(0, 0, -1, 0, 0);
     const char *const *v = p->options->value;
     w->clock_Hz = p->board->clock_Hz;
@@ -579,7 +579,7 @@ static bool read_limits(const pricing *p, choice_wish *w) {
 
 /* Spaces the records by 1, 2, 5, 10, ... periods of --rate, so that they are not too many. Returns false, and reports
  * the reason, if the horizon is shorter than a period or the rate is too high. */
-static bool space_records(const pricing *p, choice_wish *w, whole_ratio *spacing) {
+static bool space_records(const pricing *p, choice_request *w, whole_ratio *spacing) {
     w->table.periods = 1;
     if (!(w->table.rate_Hz > 0.0)) {
         *spacing = pricing_spacing(p->until_s, PRICING_RECORDS);
@@ -629,7 +629,7 @@ static int says_contacts(const pricing *p, const char *missing) {
     return EXIT_RUN_FAILED;
 }
 
-static int choose_from(pricing *p, choice_wish *w, bool counts) {
+static int choose_from(pricing *p, choice_request *w, bool counts) {
     const table_words words = {p->target, p->words, false, p->effort};
     w->table.error = p->error_si / trial_error_si(&p->trial, 1.0); /* in the trial's unit */
     w->counts = counts;
@@ -675,7 +675,7 @@ static int choose_from(pricing *p, choice_wish *w, bool counts) {
     return code;
 }
 
-static int choose_begun(pricing *p, choice_wish *w) {
+static int choose_begun(pricing *p, choice_request *w) {
     const bool predicts = p->options->value[PRICING_PREDICT] != NULL;
     char text[MEASURED_TEXT];
     if (p->trial.stopped) {
@@ -709,7 +709,7 @@ static int choose_begun(pricing *p, choice_wish *w) {
 }
 
 static int choose_scene(pricing *p) {
-    choice_wish w = {.table = wish_of(p)};
+    choice_request w = {.table = wish_of(p)};
     whole_ratio spacing;
     if (!fits(p) || !read_limits(p, &w) || !space_records(p, &w, &spacing) ||
         (p->options->value[PRICING_MEASURE] != NULL && !can_measure(p))) {

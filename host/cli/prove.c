@@ -105,12 +105,12 @@ static void show_progress(double share) { fprintf(stderr, "\r%5.1f %%", 100.0 * 
 
 typedef struct rows {
     FILE *file; /* NULL: no rows */
-    const containment_wish *wish;
+    const containment_request *request;
 } rows;
 
-static void write_row(void *told, uint64_t step, const enclosure *exact, const double *run) {
-    const rows *r = told;
-    containment_row(r->file, r->wish, step, exact, run);
+static void write_row(void *context, uint64_t step, const enclosure *exact, const double *run) {
+    const rows *r = context;
+    containment_row(r->file, r->request, step, exact, run);
 }
 
 /* The reason why the tube ended early. */
@@ -155,7 +155,7 @@ static int status_of(const containment_found *h, const image *im) {
                                          : EXIT_RUN_FAILED;
 }
 
-static int held_out(const prove_options *o, const containment_wish *w, const rows *r) {
+static int held_out(const prove_options *o, const containment_request *w, const rows *r) {
     containment_found h = containment_run(w);
     if (w->progress != NULL) {
         fprintf(stderr, "\r        \r");
@@ -176,22 +176,22 @@ static int answer(const prove_options *o, const image *im, const exact_motion *m
     if (o->csv != NULL && r.file == NULL) {
         return EXIT_BAD_INPUT;
     }
-    const containment_wish wish = {.motion = m,
-                                   .image = im,
-                                   .kind = o->common.number,
-                                   .tolerance = o->tolerance,
-                                   .within = within,
-                                   .products_most = o->effort / BUDGET_LEAST * PRODUCTS_1S,
-                                   .see = r.file != NULL ? write_row : NULL,
-                                   .told = &r,
-                                   .progress =
-                                       !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
-    r.wish = &wish;
+    const containment_request request = {
+        .motion = m,
+        .image = im,
+        .kind = o->common.number,
+        .tolerance = o->tolerance,
+        .within = within,
+        .products_most = o->effort / BUDGET_LEAST * PRODUCTS_1S,
+        .see = r.file != NULL ? write_row : NULL,
+        .context = &r,
+        .progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
+    r.request = &request;
     if (r.file != NULL) {
-        containment_rows_head(r.file, &wish);
+        containment_rows_head(r.file, &request);
     }
     interrupts_catch();
-    return held_out(o, &wish, &r);
+    return held_out(o, &request, &r);
 }
 
 static int prove_loaded(const prove_options *o, const loaded *made, const mechanism *of,
@@ -220,12 +220,12 @@ static int prove_source(source_model *from, void *options) {
         return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
     }
     const overrides changes = options_overrides(&o->common.change);
-    const load_wish wish = {.settings = o->common.integration,
-                            .use = IMAGE_TO_RUN,
-                            .keep = KEEP_INSTANCE,
-                            .conserve = true};
+    const load_request request = {.settings = o->common.integration,
+                                  .use = IMAGE_TO_RUN,
+                                  .keep = KEEP_INSTANCE,
+                                  .conserve = true};
     loaded made;
-    code = load(&made, from, of, in, &changes, &wish);
+    code = load(&made, from, of, in, &changes, &request);
     code = code == EXIT_DONE ? prove_loaded(o, &made, of, from->errors) : code;
     unload(&made);
     return code;

@@ -14,13 +14,13 @@
 /* --- the rows --------------------------------------------------------------------------------------*/
 
 /* The number type: that of the command line or, without one, that of the board's programs. */
-static const engine_kind *number_of(const rating_wish *w) {
+static const engine_kind *number_of(const rating_request *w) {
     const bool pc = strcmp(w->board->name, "host") == 0;
     return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
 }
 
 /* Prints why there are no rows, and the command that shows them, if there is one. */
-static void say_none(FILE *out, const rating_wish *w, const char *why, const char *command) {
+static void say_none(FILE *out, const rating_request *w, const char *why, const char *command) {
     fprintf(out, "accuracy and cost  not shown: %s", why);
     if (command != NULL) {
         char *target = pricing_quoted(w->target);
@@ -38,7 +38,7 @@ static void say_none(FILE *out, const rating_wish *w, const char *why, const cha
 }
 
 /* The reason why a scene has no rows, independent of its run; NULL: it may have rows. */
-static const char *refused(const rating_wish *w) {
+static const char *refused(const rating_request *w) {
     diags *unsaid = diags_new();
     const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);
     diags_free(unsaid);
@@ -47,7 +47,7 @@ static const char *refused(const rating_wish *w) {
                                    : NULL;
 }
 
-static void say_rows(FILE *out, const rating_wish *w, const simulation_trust *trust) {
+static void say_rows(FILE *out, const rating_request *w, const simulation_trust *trust) {
     const grid none = {0};
     pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
     const double end_s = ratio_times(w->image->steps, w->image->step);
@@ -55,24 +55,24 @@ static void say_rows(FILE *out, const rating_wish *w, const simulation_trust *tr
     step_doubling_plain(w->settings, &plain);
     pricing_scene_lend(p, w->settings, w->image);
     pricing_scene_lend(p, &plain, w->plain);
-    three_rows_wish wish = {.source = &p->source,
-                            .board = w->board,
-                            .setting = {*w->settings, number_of(w)},
-                            .plain = plain,
-                            .method = step_doubling_method(w->image),
-                            .order = step_doubling_order(w->image),
-                            .limit = HORIZON_TOLERANCE,
-                            .step = w->image->step,
-                            .priced_step = pricing_spacing(end_s, PRICING_RECORDS)};
+    three_rows_request request = {.source = &p->source,
+                                  .board = w->board,
+                                  .setting = {*w->settings, number_of(w)},
+                                  .plain = plain,
+                                  .method = step_doubling_method(w->image),
+                                  .order = step_doubling_order(w->image),
+                                  .limit = HORIZON_TOLERANCE,
+                                  .step = w->image->step,
+                                  .priced_step = pricing_spacing(end_s, PRICING_RECORDS)};
     const double steps = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
-    wish.steps = (uint64_t)number_least(steps, (double)w->image->steps);
-    if (wish.steps < 2) {
+    request.steps = (uint64_t)number_least(steps, (double)w->image->steps);
+    if (request.steps < 2) {
         say_none(out, w, "the run is trusted for fewer than two steps", "price");
-    } else if (three_rows_operations(&wish, w->image) > 0.5 * trust->left) {
+    } else if (three_rows_operations(&request, w->image) > 0.5 * trust->left) {
         say_none(out, w, "the rows take more than a second", "price");
     } else {
         three_rows rows;
-        three_rows_make(&rows, &wish);
+        three_rows_make(&rows, &request);
         if (rows.trial.stopped) {
             say_none(out, w, "interrupted", "price");
         } else if (!rows.trial.reliable) {
@@ -85,7 +85,7 @@ static void say_rows(FILE *out, const rating_wish *w, const simulation_trust *tr
     pricing_scene_free(p);
 }
 
-void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) {
+void rating_say(FILE *out, const rating_request *w, const simulation_trust *trust) {
     if (w->image->steps == 0) {
         return;
     }
@@ -98,7 +98,7 @@ void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust) 
                  on_board ? "choose --error 1e-3" : "price");
     } else if (why != NULL) {
         say_none(out, w, why, NULL);
-    } else if (trust->dear) {
+    } else if (trust->over_budget) {
         say_none(out, w, "the rows take more than a second", "price");
     } else if (trust->until_s < 0.0) {
         say_none(out, w, "the trusted time of the run is unknown", "price");
@@ -208,7 +208,7 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
 
 /* Would `whirl run` print a warning for the whole run at this pace? */
 static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace) {
-    const trial_source *from = t->wish.source;
+    const trial_source *from = t->request.source;
     char text[TRIAL_TIME];
     setting finer = *s;
     const bool other = step_doubling_plain(&s->image, &finer.image);

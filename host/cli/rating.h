@@ -9,7 +9,7 @@
 #include "options.h"
 #include "pricing_scene.h"
 
-typedef struct rating_wish {
+typedef struct rating_request {
     const char *target;
     const cost_board *board;
     const char *board_word;    /* NULL: the default board */
@@ -21,10 +21,10 @@ typedef struct rating_wish {
     diags *errors;
     const image *image; /* image of the run */
     const image *plain; /* trusting_plain() */
-} rating_wish;
+} rating_request;
 
 /* Prints the rows, or a line with the reason for their absence. */
-void rating_say(FILE *out, const rating_wish *w, const simulation_trust *trust);
+void rating_say(FILE *out, const rating_request *w, const simulation_trust *trust);
 
 /* The largest step of a run that satisfies `--error X=0.1mm`: *step, and *chosen, its description; both to be freed.
  * Opens the target, as source_open() does. Returns an exit status. */

@@ -193,7 +193,7 @@ static bool shows_progress(const simulation_settings *s) {
 #define STEPS_MANY 100000000U
 
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
-                     double every_s, rating_wish *rated) {
+                     double every_s, rating_request *rated) {
     if (!count_every(o, every_s, im, &o->settings.every)) {
         return EXIT_BAD_INPUT;
     }
@@ -256,11 +256,11 @@ static int run_target(run_options *o) {
         overrides changes = options_overrides(&o->common.change);
         changes.balance = true;
         const double every_s = read_every_s(o, of);
-        const load_wish wish = {.settings = o->common.integration,
-                                .use = IMAGE_TO_RUN,
-                                .keep = trusting_keep(&o->common.integration),
-                                .conserve = true};
-        code = load(&made, &from, of, in, &changes, &wish);
+        const load_request request = {.settings = o->common.integration,
+                                      .use = IMAGE_TO_RUN,
+                                      .keep = trusting_keep(&o->common.integration),
+                                      .conserve = true};
+        code = load(&made, &from, of, in, &changes, &request);
         image *plain = trusting_plain(&made);
         if (o->settings.quiet) {
             source_forget(&from);
@@ -280,15 +280,15 @@ static int run_target(run_options *o) {
             }
         }
         if (code == EXIT_DONE) {
-            rating_wish rated = {.target = o->target,
-                                 .board = o->board,
-                                 .board_word = o->board_word,
-                                 .number = o->number,
-                                 .settings = &o->common.integration,
-                                 .changes = &changes,
-                                 .of = of,
-                                 .in = in,
-                                 .errors = from.errors};
+            rating_request rated = {.target = o->target,
+                                    .board = o->board,
+                                    .board_word = o->board_word,
+                                    .number = o->number,
+                                    .settings = &o->common.integration,
+                                    .changes = &changes,
+                                    .of = of,
+                                    .in = in,
+                                    .errors = from.errors};
             code = run_image(o, &from, made.image, plain, every_s, &rated);
         }
         fixed_plan_free(plan);

@@ -18,16 +18,16 @@ typedef int scene_visitor(void *context, const char *file, const loaded *made);
 
 /* Visits every scene of an opened source, also after a refused one. Returns an exit status. */
 static int each_scene_of(source_model *from, scene_visitor *visit, void *context) {
-    static const load_wish wish = {.settings = IMAGE_SETTINGS_DEFAULT,
-                                   .use = IMAGE_TO_WRITE,
-                                   .keep = KEEP_EQUATIONS,
-                                   .conserve = true,
-                                   .comment = EMIT_OCTAVE_COMMENT};
+    static const load_request request = {.settings = IMAGE_SETTINGS_DEFAULT,
+                                         .use = IMAGE_TO_WRITE,
+                                         .keep = KEEP_EQUATIONS,
+                                         .conserve = true,
+                                         .comment = EMIT_OCTAVE_COMMENT};
     int code = EXIT_DONE;
     for (int k = 0; k < from->model->scene_count; k++) {
         const scene *in = from->model->scenes[k];
         loaded made;
-        int one = load(&made, from, in->mechanism, in, NULL, &wish);
+        int one = load(&made, from, in->mechanism, in, NULL, &request);
         one = one == EXIT_DONE ? visit(context, from->file, &made) : one;
         unload(&made);
         code = one > code ? one : code;

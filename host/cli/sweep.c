@@ -198,11 +198,11 @@ static bool is_whole_map(sweep_options *o) {
 /* --- common beginning ----------------------------------------------------------------------------*/
 
 static int load_base(const sweep_options *o, source_model *from, const sweep *s, loaded *base) {
-    const load_wish wish = {.settings = o->common.integration,
-                            .use = IMAGE_TO_RUN,
-                            .keep = KEEP_INSTANCE,
-                            .conserve = true};
-    return load(base, from, s->mechanism, s->scene, s->changes, &wish);
+    const load_request request = {.settings = o->common.integration,
+                                  .use = IMAGE_TO_RUN,
+                                  .keep = KEEP_INSTANCE,
+                                  .conserve = true};
+    return load(base, from, s->mechanism, s->scene, s->changes, &request);
 }
 
 /* Reports errors that all points have in common, once for the scene without changes; returns false after one. */
@@ -333,8 +333,8 @@ static int show_map(const sweep_options *o, const stability_map *m, const char *
     return code;
 }
 
-static void show_progress(double runs, void *told) {
-    const grid *g = told;
+static void show_progress(double runs, void *context) {
+    const grid *g = context;
     fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
 }
 
@@ -377,21 +377,22 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
     if (!is_affordable(o, s->grid, base)) {
         return EXIT_BAD_INPUT;
     }
-    const map_wish wish = {.of = *s,
-                           .tolerance = o->tolerance,
-                           .told = (void *)(uintptr_t)s->grid,
-                           .progress = !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
+    const map_request request = {.of = *s,
+                                 .tolerance = o->tolerance,
+                                 .context = (void *)(uintptr_t)s->grid,
+                                 .progress =
+                                     !o->quiet && isatty(STDERR_FILENO) ? show_progress : NULL};
     char *words =
         alloc_words("%s: %s%s, %s, tolerance %g", base->title[0] != '\0' ? base->title : base->name,
                     image_stepper(base), image_sums(base), s->kind->name, o->tolerance);
     interrupts_catch();
-    stability_map m = map_make(&wish);
-    if (wish.progress != NULL) {
+    stability_map m = map_make(&request);
+    if (request.progress != NULL) {
         fputs("\r                                        \r", stderr);
     }
     const int code = show_map(o, &m, words, base->name);
     if (o->json) {
-        map_json(stdout, &m, base, &wish, code);
+        map_json(stdout, &m, base, &request, code);
     }
     map_free(&m);
     free(words);

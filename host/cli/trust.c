@@ -62,8 +62,8 @@ typedef struct trust_options {
 
 static bool shows_progress(const trust_options *o) { return !o->quiet && isatty(STDERR_FILENO); }
 
-static void show_progress(double share, void *told) {
-    (void)told;
+static void show_progress(double share, void *context) {
+    (void)context;
     fprintf(stderr, "\r%5.1f %%", 100.0 * share);
 }
 
@@ -106,16 +106,16 @@ static int write_rows(const trust_options *o, const horizon *h) {
 
 static int answer(const trust_options *o, const image *im, const image *plain) {
     const engine_kind *kind = o->common.number;
-    const step_doubling_wish wish = {.image = im,
-                                     .kind = kind,
-                                     .plain = plain,
-                                     .books = true,
-                                     .progress = shows_progress(o) ? show_progress : NULL};
+    const step_doubling_request request = {.image = im,
+                                           .kind = kind,
+                                           .plain = plain,
+                                           .books = true,
+                                           .progress = shows_progress(o) ? show_progress : NULL};
     if (!atomic_file_can(o->csv)) { /* checked before the run, which may take long */
         return EXIT_BAD_INPUT;
     }
-    step_doubling *t = step_doubling_run(&wish);
-    if (wish.progress != NULL) {
+    step_doubling *t = step_doubling_run(&request);
+    if (request.progress != NULL) {
         fprintf(stderr, "\r        \r");
     }
     int code = EXIT_INTERRUPTED;
@@ -182,12 +182,12 @@ static int trust_source(const trust_options *o, source_model *from) {
     }
     overrides changes = options_overrides(&o->common.change);
     changes.balance = true;
-    const load_wish wish = {.settings = o->common.integration,
-                            .use = IMAGE_TO_RUN,
-                            .keep = trusting_keep(&o->common.integration),
-                            .conserve = true};
+    const load_request request = {.settings = o->common.integration,
+                                  .use = IMAGE_TO_RUN,
+                                  .keep = trusting_keep(&o->common.integration),
+                                  .conserve = true};
     loaded made;
-    code = load(&made, from, of, in, &changes, &wish);
+    code = load(&made, from, of, in, &changes, &request);
     image *plain = code == EXIT_DONE ? trusting_plain(&made) : NULL;
     source_forget(from);
     if (code == EXIT_DONE && o->common.number == &engine_float) {

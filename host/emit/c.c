@@ -431,8 +431,8 @@ static void write_starts(FILE *out, const image *im) {
     fprintf(out, "\n");
 }
 
-/* Can the scene use wh_advance_ahead()? It does not update the data of contacts, ledgers and inputs with a rate. */
-static bool has_ahead(const image *im) {
+/* Can the scene use wh_advance_multi_step()? It does not update the data of contacts, ledgers and inputs with a rate. */
+static bool has_multi_step(const image *im) {
     return im->contacts == 0 && !im->ledger.kept && im->drives == 0;
 }
 
@@ -466,7 +466,9 @@ static void write_scene(FILE *out, const image *im) {
     fprintf(out, "    .model = NULL,\n    .model_hash = UINT64_C(0x%016" PRIx64 "),\n", im->hash);
     fprintf(out,
             "    .advance = advance,\n%s    .observe = %s,\n    .arithmetic = wh_arithmetic,\n};\n",
-            has_ahead(im) ? "#if defined(WH_AHEAD) && WH_AHEAD\n    .ahead = ahead,\n#endif\n" : "",
+            has_multi_step(im)
+                ? "#if defined(WH_MULTI_STEP) && WH_MULTI_STEP\n    .ahead = ahead,\n#endif\n"
+                : "",
             im->outputs > 0 ? "observe" : "NULL");
 }
 
@@ -604,11 +606,11 @@ static void write_advance(FILE *out, const image *im) {
                 "state);\n}\n\n",
                 im->drives, books, im->drives, books);
     }
-    if (has_ahead(im)) {
+    if (has_multi_step(im)) {
         fprintf(out,
-                "#if defined(WH_AHEAD) && WH_AHEAD\n"
+                "#if defined(WH_MULTI_STEP) && WH_MULTI_STEP\n"
                 "static wh_status ahead(const wh_scene *scene, wh_state *state, uint32_t steps) {\n"
-                "    return wh_steps_ahead(scene, one_step, %dU, %dU, %s, state, steps);\n"
+                "    return wh_multi_step(scene, one_step, %dU, %dU, %s, state, steps);\n"
                 "}\n#endif\n\n",
                 im->angles, im->reals, im->settings.compensated ? "true" : "false");
     }

@@ -171,7 +171,7 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
 
 /* Raises wanted[i] to the digits of operation i that its user `o` can use. A product in a sum needs no more digits after the point
  * than the sum. */
-static void wish(int *wanted, int i, const fixed_op *o) {
+static void request(int *wanted, int i, const fixed_op *o) {
     const bool adds = o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE ||
                       o->code == FIXED_LEAST || o->code == FIXED_MOST;
     const int bits = adds ? o->bits : BITS_MOST;
@@ -197,10 +197,10 @@ static void lower(fixed_list *l) {
             o->bits = least(o->bits, wanted[i]);
         }
         if (o->a.op >= 0) {
-            wish(wanted, o->a.op, o);
+            request(wanted, o->a.op, o);
         }
         if (o->b.op >= 0) {
-            wish(wanted, o->b.op, o);
+            request(wanted, o->b.op, o);
         }
     }
     free(wanted);

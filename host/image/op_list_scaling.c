@@ -579,9 +579,9 @@ double op_list_bias(const op_list *t, const op_list *like) {
             results_at(like, state, size_of_rates[s], false, v, meant);
             for (int i = 0; i < n; i++) {
                 /* only states with a finite result count; a root of a negative number is not finite */
-                const bool told = isfinite(now[i]) && isfinite(meant[i]);
-                off[i] += told ? fabs(now[i] - meant[i]) : 0.0;
-                size[i] += told ? fabs(meant[i]) : 0.0;
+                const bool known = isfinite(now[i]) && isfinite(meant[i]);
+                off[i] += known ? fabs(now[i] - meant[i]) : 0.0;
+                size[i] += known ? fabs(meant[i]) : 0.0;
             }
         }
         for (int i = 0; i < n; i++) {

@@ -17,7 +17,7 @@
 /* Exit status of a program that cannot be run, as in shells. */
 #define GUEST_NOT_RUN 127
 
-typedef struct guest_wish {
+typedef struct guest_request {
     /* there is no process: the firmware is at the other end of the caller's line `line` */
     bool by_line;
     int line;
@@ -25,10 +25,10 @@ typedef struct guest_wish {
     const char *board; /* QEMU's machine */
     bool mute;         /* hide the guest's console */
     double patience_s; /* longest silence, and longest time that the guest may take to exit, s */
-} guest_wish;
+} guest_request;
 
 typedef struct guest {
-    guest_wish wish;
+    guest_request request;
     bool emulated;
     pid_t pid; /* 0: no process */
     int up;    /* -1: closed */
@@ -54,7 +54,7 @@ bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]);
 
 /* Starts the guest. Returns false, and reports the reason, if the image cannot be run. Call guest_end() in any
  * case. */
-bool guest_start(guest *g, const guest_wish *wish);
+bool guest_start(guest *g, const guest_request *request);
 
 guest_heard guest_receive(guest *g, wh_frame *frame);
 /* Sends bytes. Returns GUEST_FRAME on success. */

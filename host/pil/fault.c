@@ -315,14 +315,14 @@ static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken)
 static void set_sensors(const fault_plan *plan, const fault_case *f, bool broken) {
     plant *p = plan->plant;
     if (f->kind == FAULT_EDGE_JITTER) {
-        p->wish.jitter_s += (broken ? 1.0 : -1.0) * f->size * plan->ticks_per_s;
+        p->request.jitter_s += (broken ? 1.0 : -1.0) * f->size * plan->ticks_per_s;
         return;
     }
     for (unsigned i = 0; i < p->binding->count; i++) {
         const bound *b = &p->binding->bound[i];
         if (b->signal.kind == WH_SIGNAL_EDGE && (f->channel < 0 || f->channel == (int)b->channel)) {
             const double off = b->turns ? f->size * 0.017453292519943295 : f->size;
-            p->wish.place[b->channel] += broken ? off : -off;
+            p->request.place[b->channel] += broken ? off : -off;
         }
     }
 }

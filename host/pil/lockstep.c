@@ -35,11 +35,11 @@ static void say_silent(const talk *t) {
     fprintf(stderr,
             "whirl pil: error: the firmware has sent no message for %g s\nhint: %s; --patience S "
             "waits longer\n",
-            t->guest.wish.patience_s,
-            t->wish->guest.by_line ? "reset the board, because the firmware does not repeat a "
-                                     "damaged message"
-                                   : "look for an endless loop in the firmware, or for a wait "
-                                     "without end");
+            t->guest.request.patience_s,
+            t->request->guest.by_line ? "reset the board, because the firmware does not repeat a "
+                                        "damaged message"
+                                      : "look for an endless loop in the firmware, or for a wait "
+                                        "without end");
 }
 
 /* If the user interrupts, the firmware may end before Whirl notices the interrupt. */
@@ -117,7 +117,7 @@ static bool hear_past_remembered(talk *t, wh_frame *frame) {
         if (frame->kind == WH_FRAME_END) {
             return take_end(t, frame);
         }
-        if (frame->kind == WH_FRAME_HELLO && t->wish->guest.by_line && t->sequence == 0) {
+        if (frame->kind == WH_FRAME_HELLO && t->request->guest.by_line && t->sequence == 0) {
             continue;
         }
         if (frame->kind != WH_FRAME_REMEMBER) {
@@ -189,7 +189,7 @@ static void say_no_hello(talk *t) {
             stderr,
             "%s: error: this program ended without its first message (hello)\nhint: use an image "
             "made for `whirl pil`, such as build/pil_rig or build/BOARD/pil_rig.elf\n",
-            t->guest.wish.image);
+            t->guest.request.image);
     }
 }
 
@@ -221,16 +221,16 @@ static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *wor
 /* On a serial line: a firmware that waits for a plant's first message sends its hello again. Other frames are from an
  * earlier run. */
 static bool ask_for_hello(talk *t) {
-    const double patience_s = t->guest.wish.patience_s;
+    const double patience_s = t->guest.request.patience_s;
     wh_frame frame;
     guest_heard heard = GUEST_SILENT;
-    t->guest.wish.patience_s = ASK_S;
+    t->guest.request.patience_s = ASK_S;
     for (unsigned asked = 0; asked * ASK_S < patience_s && heard == GUEST_SILENT; asked++) {
         heard = ask(t);
         while (heard == GUEST_FRAME) {
             heard = guest_receive(&t->guest, &frame);
             if (heard == GUEST_FRAME && frame.kind == WH_FRAME_HELLO) {
-                t->guest.wish.patience_s = patience_s;
+                t->guest.request.patience_s = patience_s;
                 return take_hello_frame(t, &frame, &t->hello, t->signal, t->words, sizeof t->words);
             }
         }
@@ -248,7 +248,7 @@ static bool ask_for_hello(talk *t) {
 }
 
 static bool hear_hello(talk *t) {
-    if (t->wish->guest.by_line) {
+    if (t->request->guest.by_line) {
         if (!ask_for_hello(t)) {
             return false;
         }
@@ -284,10 +284,10 @@ bool talk_is_same_hello(const wh_hello *one, const wh_hello *other) {
     return same;
 }
 
-bool talk_start(talk *t, const lockstep_wish *wish, lockstep_report *report, FILE *onto) {
-    *t = (talk){.wish = wish, .report = report, .tape = onto};
+bool talk_start(talk *t, const lockstep_request *request, lockstep_report *report, FILE *onto) {
+    *t = (talk){.request = request, .report = report, .tape = onto};
     report->hash = WH_HASH_START;
-    if (!guest_start(&t->guest, &wish->guest)) {
+    if (!guest_start(&t->guest, &request->guest)) {
         report->end = LOCKSTEP_BAD;
         return false;
     }
@@ -304,11 +304,11 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
                             .ticks = ticks,
                             .payload = payload,
                             .length = wh_reset_put(reset, payload, sizeof payload)};
-    if (t->wish->guest.by_line) {
+    if (t->request->guest.by_line) {
         return fail(t, "a reset, which is not possible over a serial line");
     }
     (void)guest_end(&t->guest);
-    if (!guest_start(&t->guest, &t->wish->guest)) {
+    if (!guest_start(&t->guest, &t->request->guest)) {
         return ends(t->report, LOCKSTEP_FAILED);
     }
     t->sequence = 0;
@@ -332,7 +332,7 @@ void talk_end(talk *t) {
     if (!failed_alone) {
         return;
     }
-    if (t->wish->guest.by_line) {
+    if (t->request->guest.by_line) {
         t->report->status.status = t->end_status;
         if (!t->said_end) {
             fprintf(stderr, "whirl pil: error: the serial line is disconnected\n");
@@ -379,9 +379,9 @@ typedef struct loop {
 static double plant_s(const loop *l) { return plant_now(&l->plant) / l->ticks_per_s; }
 
 static bool start_taps(loop *l) {
-    const lockstep_wish *wish = l->talk.wish;
-    for (int i = 0; i < wish->tap_count; i++) {
-        const tap *t = &wish->taps[i];
+    const lockstep_request *request = l->talk.request;
+    for (int i = 0; i < request->tap_count; i++) {
+        const tap *t = &request->taps[i];
         if (t->start != NULL && !t->start(t->of, &l->talk.hello, &l->plant)) {
             return false;
         }
@@ -391,28 +391,28 @@ static bool start_taps(loop *l) {
 }
 
 static void tell_taps_orders(const loop *l, wh_orders *orders, double *late_s) {
-    const lockstep_wish *wish = l->talk.wish;
-    for (int i = 0; i < wish->tap_count; i++) {
-        if (wish->taps[i].orders != NULL) {
-            wish->taps[i].orders(wish->taps[i].of, plant_s(l), orders, late_s);
+    const lockstep_request *request = l->talk.request;
+    for (int i = 0; i < request->tap_count; i++) {
+        if (request->taps[i].orders != NULL) {
+            request->taps[i].orders(request->taps[i].of, plant_s(l), orders, late_s);
         }
     }
 }
 
 static void tell_taps_readings(const loop *l, wh_readings *readings) {
-    const lockstep_wish *wish = l->talk.wish;
-    for (int i = 0; i < wish->tap_count; i++) {
-        if (wish->taps[i].readings != NULL) {
-            wish->taps[i].readings(wish->taps[i].of, plant_s(l), readings);
+    const lockstep_request *request = l->talk.request;
+    for (int i = 0; i < request->tap_count; i++) {
+        if (request->taps[i].readings != NULL) {
+            request->taps[i].readings(request->taps[i].of, plant_s(l), readings);
         }
     }
 }
 
 static void let_taps_watch(const loop *l) {
-    const lockstep_wish *wish = l->talk.wish;
-    for (int i = 0; i < wish->tap_count; i++) {
-        if (wish->taps[i].watch != NULL) {
-            wish->taps[i].watch(wish->taps[i].of, plant_s(l), &l->plant);
+    const lockstep_request *request = l->talk.request;
+    for (int i = 0; i < request->tap_count; i++) {
+        if (request->taps[i].watch != NULL) {
+            request->taps[i].watch(request->taps[i].of, plant_s(l), &l->plant);
         }
     }
 }
@@ -434,7 +434,7 @@ static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
 /* Advances the plant, at most to the run's end. It does so in pieces, so that an interrupt is noticed soon. Returns
  * false, and reports it, if the plant diverged. */
 static bool advance(loop *l, double until_ticks) {
-    const double end = number_least(until_ticks, l->talk.wish->until_s * l->ticks_per_s);
+    const double end = number_least(until_ticks, l->talk.request->until_s * l->ticks_per_s);
     const double piece = number_least((l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s,
                                       PIECE_STEPS * l->plant.step_ticks);
     const unsigned resets = l->plant.reset.count;
@@ -456,7 +456,7 @@ static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     lockstep_report *r = l->report;
     const double acted = (double)orders->acted_timer * l->per_count;
     const double busy = (double)orders->busy_timer * l->per_count;
-    const double ticks = l->talk.wish->instruction_s * l->ticks_per_s; /* per instruction */
+    const double ticks = l->talk.request->instruction_s * l->ticks_per_s; /* per instruction */
     note_most(&r->acted, acted, plant_s(l));
     note_most(&r->busy, busy, plant_s(l));
     const double late = late_s * l->ticks_per_s;
@@ -502,7 +502,7 @@ static bool time_goes_on(loop *l, double before_ticks) {
 }
 
 static bool is_over(loop *l) {
-    const bool over = plant_s(l) >= l->talk.wish->until_s;
+    const bool over = plant_s(l) >= l->talk.request->until_s;
     l->report->end = over ? LOCKSTEP_LET_GO : l->report->end;
     return over;
 }
@@ -547,7 +547,7 @@ static void run_bound(loop *l, const image *im) {
     l->ticks_per_s = (double)hello->ticks_per_s;
     l->per_count = l->talk.guest.emulated ? talk_instructions_per_count(hello) : 0.0;
     l->report->counted = l->per_count > 0.0;
-    plant_start(&l->plant, im, &l->binding, hello, &l->talk.wish->plant);
+    plant_start(&l->plant, im, &l->binding, hello, &l->talk.request->plant);
     const double begun_s = system_now_s();
     if (start_taps(l)) {
         take_turns(l);
@@ -596,12 +596,12 @@ static bool has_room(const loop *l, double delay_s) {
     return has;
 }
 
-void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report) {
+void lockstep_run(const lockstep_request *request, const image *im, lockstep_report *report) {
     loop l = {.report = report};
     *report = (lockstep_report){.end = LOCKSTEP_DONE};
-    if (talk_start(&l.talk, wish, report, wish->tape)) {
-        if (bind_signals(&l.binding, &l.talk.hello, im, wish->renames) &&
-            has_places(&l, wish->plant.places) && has_room(&l, wish->plant.delay_s)) {
+    if (talk_start(&l.talk, request, report, request->tape)) {
+        if (bind_signals(&l.binding, &l.talk.hello, im, request->renames) &&
+            has_places(&l, request->plant.places) && has_room(&l, request->plant.delay_s)) {
             run_bound(&l, im);
         } else {
             report->end = LOCKSTEP_BAD;
@@ -612,16 +612,16 @@ void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *r
 
 /* === the report of `whirl pil` ================================================================ */
 
-static void print_computing(FILE *out, const lockstep_wish *wish, const lockstep_report *r) {
+static void print_computing(FILE *out, const lockstep_request *request, const lockstep_report *r) {
     if (!r->counted) {
         fputs("computing          not counted, because the firmware does not run in an emulator\n",
               out);
         return;
     }
     fprintf(out, "until outputs set  %.0f instructions at most, %.4g ms, at t = %.6g s\n",
-            r->acted.value, 1e3 * r->acted.value * wish->instruction_s, r->acted.at_s);
+            r->acted.value, 1e3 * r->acted.value * request->instruction_s, r->acted.at_s);
     fprintf(out, "until it waits     %.0f instructions at most, %.4g ms, at t = %.6g s\n",
-            r->busy.value, 1e3 * r->busy.value * wish->instruction_s, r->busy.at_s);
+            r->busy.value, 1e3 * r->busy.value * request->instruction_s, r->busy.at_s);
     fprintf(out, "overruns           %" PRIu64, r->overruns);
     if (r->overruns > 0) {
         fprintf(out, ", the longest by %.4g ms after t = %.6g s", 1e3 * r->late_s.value,
@@ -668,12 +668,13 @@ static const char *as_on_tape(lockstep_end end) {
     return ", as on the tape so far; the remainder was not replayed";
 }
 
-void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r) {
+void pil_print(FILE *out, const lockstep_request *request, const image *im,
+               const lockstep_report *r) {
     fprintf(out, "\nfirmware           %s on board %s, %s\n", r->program, r->board,
-            wish->guest.image);
+            request->guest.image);
     if (im != NULL) {
         print_plant(out, im, r);
-        print_computing(out, wish, r);
+        print_computing(out, request, r);
     }
     if (r->resets > 0) {
         fprintf(out, "resets             %u, the last at t = %.6g s\n", r->resets, r->reset_s);

@@ -21,16 +21,16 @@ typedef struct tap {
                   const plant *plant); /* called at least every millisecond of plant time */
 } tap;
 
-typedef struct lockstep_wish {
-    guest_wish guest;
-    plant_wish plant;
+typedef struct lockstep_request {
+    guest_request guest;
+    plant_request plant;
     const char *renames;  /* see bind_signals() */
     double until_s;       /* the end of the run, if the firmware has not ended */
     double instruction_s; /* time for one instruction */
     FILE *tape;           /* NULL: no tape */
     const tap *taps;      /* [tap_count] */
     int tap_count;
-} lockstep_wish;
+} lockstep_request;
 
 typedef enum lockstep_end {
     LOCKSTEP_DONE,      /* the firmware ended, with `status` */
@@ -85,7 +85,7 @@ typedef struct lockstep_report {
 /* The common part of a run in the loop and the replay of a tape: receiving the firmware's messages, and recording them. */
 
 typedef struct talk {
-    const lockstep_wish *wish;
+    const lockstep_request *request;
     lockstep_report *report;
     guest guest;
     wh_hello hello;
@@ -100,7 +100,7 @@ typedef struct talk {
 } talk;
 
 /* Start the guest and receive its hello. False, reported: report->end has the reason. */
-bool talk_start(talk *t, const lockstep_wish *wish, lockstep_report *report, FILE *onto);
+bool talk_start(talk *t, const lockstep_request *request, lockstep_report *report, FILE *onto);
 
 /* Restart the processor after a reset: a new guest, which knows only the data of the reset; `ticks` goes on the tape.
  * Returns false, and reports the reason, if it does not start, sends another hello, or the user interrupts. */
@@ -128,13 +128,14 @@ bool talk_is_same_hello(const wh_hello *one, const wh_hello *other);
 double talk_instructions_per_count(const wh_hello *hello);
 
 /* Run firmware and plant; the firmware's process is gone on return. */
-void lockstep_run(const lockstep_wish *wish, const image *im, lockstep_report *report);
+void lockstep_run(const lockstep_request *request, const image *im, lockstep_report *report);
 
 /* Run the firmware again on the readings of a tape. Each of its orders must equal the tape's, except for instruction counts. */
-void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_report *report);
+void lockstep_replay(const lockstep_request *request, const char *file, lockstep_report *report);
 
 /* The report. `im` is the plant's; NULL for a tape. */
-void pil_print(FILE *out, const lockstep_wish *wish, const image *im, const lockstep_report *r);
+void pil_print(FILE *out, const lockstep_request *request, const image *im,
+               const lockstep_report *r);
 
 /* Prints a tape as a table: a row for each input and output of the firmware. Its columns:
  *

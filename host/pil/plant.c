@@ -265,7 +265,7 @@ bool recorded_close(recorded *r) {
 
 static int components(const plant *p) { return p->image->angles + p->image->reals; }
 
-bool plant_read_places(const char *text, plant_wish *to) {
+bool plant_read_places(const char *text, plant_request *to) {
     unsigned count = 0;
     for (const char *at = text; at != NULL;) {
         const char *end = at;
@@ -287,8 +287,8 @@ bool plant_read_places(const char *text, plant_wish *to) {
 }
 
 static void record(const plant *p) {
-    if (p->wish.rows != NULL) {
-        recorded_enter(p->wish.rows, p->run, p->steps);
+    if (p->request.rows != NULL) {
+        recorded_enter(p->request.rows, p->run, p->steps);
     }
 }
 
@@ -300,17 +300,17 @@ static void look(const plant *p, double *state, double *output) {
 }
 
 void plant_start(plant *p, const image *im, const binding *b, const wh_hello *hello,
-                 const plant_wish *wish) {
+                 const plant_request *request) {
     *p = (plant){.image = im,
                  .binding = b,
-                 .wish = *wish,
+                 .request = *request,
                  .run = engine_double.start(im),
                  .step_ticks = im->step_s * (double)hello->ticks_per_s,
                  .start_ticks = hello->start_ticks,
                  .timer_ticks = hello->start_ticks,
                  .reset = {.at_ticks = (double)INFINITY}};
-    p->wish.jitter_s *= (double)hello->ticks_per_s;
-    p->wish.delay_s *= (double)hello->ticks_per_s;
+    p->request.jitter_s *= (double)hello->ticks_per_s;
+    p->request.delay_s *= (double)hello->ticks_per_s;
     p->before = alloc(components(p), sizeof *p->before);
     p->after = alloc(components(p), sizeof *p->after);
     p->output = alloc(im->outputs, sizeof *p->output);
@@ -320,7 +320,7 @@ void plant_start(plant *p, const image *im, const binding *b, const wh_hello *he
         p->sees_outputs =
             p->sees_outputs || (one->signal.kind == WH_SIGNAL_EDGE && one->place == BOUND_OUTPUT);
         if (one->signal.kind == WH_SIGNAL_EDGE && one->turns) {
-            p->wish.place[one->channel] *= TURN_RAD / TURN_DEG;
+            p->request.place[one->channel] *= TURN_RAD / TURN_DEG;
         }
         if (one->signal.kind == WH_SIGNAL_SAMPLE) {
             p->period[one->channel] = one->signal.period_ticks;
@@ -510,11 +510,11 @@ static void see_edges(plant *p) {
         }
         const span_of_step s = span_of(p, b);
         double level;
-        if (enters(&s, b, p->wish.place[b->channel], &level)) {
+        if (enters(&s, b, p->request.place[b->channel], &level)) {
             double ticks = ((double)p->steps + part_at(&s, level)) * p->step_ticks;
-            if (p->wish.jitter_s > 0.0) {
-                ticks +=
-                    p->wish.jitter_s * (double)wh_noise(p->wish.seed + b->channel, p->edges_made);
+            if (p->request.jitter_s > 0.0) {
+                ticks += p->request.jitter_s *
+                         (double)wh_noise(p->request.seed + b->channel, p->edges_made);
                 ticks = ticks > 0.0 ? ticks : 0.0;
             }
             p->edges_made++;
@@ -556,7 +556,7 @@ static void take_samples(plant *p) {
         }
         plant_event e =
             convert(b, b->place == BOUND_OUTPUT ? p->output_after[b->index] : p->after[b->index]);
-        e.at_ticks = plant_now(p) + p->wish.delay_s;
+        e.at_ticks = plant_now(p) + p->request.delay_s;
         e.ticks = shown(p, e.at_ticks);
         enqueue(p, &p->samples, e);
         while ((double)p->due[b->channel] <= plant_now(p) + NEARLY) {

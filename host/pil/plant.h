@@ -62,7 +62,7 @@ bool recorded_close(recorded *r);
 #define PLANT_PENDING 64
 
 /* Settings outside the scene: positions, noise and delay of the sensors. */
-typedef struct plant_wish {
+typedef struct plant_request {
     double place[WH_SIGNALS_MAX]; /* position error of each edge's sensor; degrees for an angle,
                                    * else SI */
     unsigned places;              /* number of given positions */
@@ -70,7 +70,7 @@ typedef struct plant_wish {
     double delay_s;               /* delay of every sample */
     uint32_t seed;                /* seed of the jitter */
     recorded *rows;               /* recording of the plant, or NULL */
-} plant_wish;
+} plant_request;
 
 typedef struct plant_event {
     double at_ticks; /* time of its arrival */
@@ -102,7 +102,7 @@ typedef struct plant_resets {
 typedef struct plant {
     const image *image;
     const binding *binding;
-    plant_wish wish;
+    plant_request request;
     void *run; /* a run of engine_double */
     wh_status status;
     uint64_t steps;
@@ -134,11 +134,11 @@ typedef struct plant {
 } plant;
 
 /* --place: one number for each edge, separated by commas. Returns false, and reports the reason, for any other text. */
-bool plant_read_places(const char *text, plant_wish *to);
+bool plant_read_places(const char *text, plant_request *to);
 
 /* The image must outlive the plant. */
 void plant_start(plant *p, const image *im, const binding *b, const wh_hello *hello,
-                 const plant_wish *wish);
+                 const plant_request *request);
 void plant_stop(plant *p);
 
 /* The present time, in ticks since the start and as the controller's timer shows it. */

@@ -201,7 +201,7 @@ typedef struct rows {
     uint32_t ticks;
     uint64_t heard;              /* time of the present message: ticks since the plant's time 0 */
     bool cut;                    /* a row has reported the cut */
-    bool told;                   /* outputs and notes have rows, with the values in value[] */
+    bool has_rows;               /* outputs and notes have rows, with the values in value[] */
     float value[WH_SIGNALS_MAX]; /* values by channel, the notes after the outputs */
 } rows;
 
@@ -281,7 +281,7 @@ static void print_orders(rows *r, const wh_orders *orders) {
         const unsigned channel = is_note ? i - outputs : i;
         const wh_signal *s =
             signal_of(r->tape, is_note ? WH_SIGNAL_NOTE : WH_SIGNAL_OUTPUT, channel);
-        if (r->told && memcmp(&r->value[i], &orders->output[i], sizeof r->value[i]) == 0) {
+        if (r->has_rows && memcmp(&r->value[i], &orders->output[i], sizeof r->value[i]) == 0) {
             continue;
         }
         r->value[i] = orders->output[i];
@@ -291,7 +291,7 @@ static void print_orders(rows *r, const wh_orders *orders) {
         print_word(r->out, s->unit);
         fputc('\n', r->out);
     }
-    r->told = true;
+    r->has_rows = true;
 }
 
 /* The firmware has lost all earlier data, and its timer restarts. */
@@ -300,7 +300,7 @@ static void print_reset(rows *r, const wh_reset *reset) {
     fprintf(r->out, ",,,,%s\n", reset->cause == WH_RESET_WATCHDOG ? "watchdog" : "other");
     r->ticks = r->tape->hello.start_ticks;
     r->cut = false;
-    r->told = false;
+    r->has_rows = false;
 }
 
 static void print_rows(taped *t, FILE *out) {
@@ -397,7 +397,7 @@ static bool play(taped *from, talk *t) {
     return true;
 }
 
-void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_report *report) {
+void lockstep_replay(const lockstep_request *request, const char *file, lockstep_report *report) {
     taped *from = alloc(1, sizeof *from);
     talk *t = alloc(1, sizeof *t);
     *report = (lockstep_report){.end = LOCKSTEP_DONE, .op_list_hash = WH_HASH_START};
@@ -406,7 +406,7 @@ void lockstep_replay(const lockstep_wish *wish, const char *file, lockstep_repor
     t->report = report;
     if (!taped_open(from, file)) {
         report->end = LOCKSTEP_BAD;
-    } else if (talk_start(t, wish, report, NULL)) {
+    } else if (talk_start(t, request, report, NULL)) {
         if (!talk_is_same_hello(&from->hello, &t->hello)) {
             fprintf(stderr,
                     "%s: error: the signals of the firmware '%s' on this tape differ from those of "

@@ -16,13 +16,13 @@
 /* --- states of the run, SI, in the order of the motion -----------------------------------------------*/
 
 typedef struct reading {
-    const containment_wish *wish;
+    const containment_request *request;
     double *output;
     double *value; /* [states] */
 } reading;
 
 static void put(const reading *r, int unknown, int primes, double value) {
-    const exact_motion *m = r->wish->motion;
+    const exact_motion *m = r->request->motion;
     for (int i = 0; i < m->states; i++) {
         if (m->state[i].unknown == unknown && m->state[i].primes == primes) {
             r->value[i] = value;
@@ -31,10 +31,10 @@ static void put(const reading *r, int unknown, int primes, double value) {
 }
 
 static void read_run(const reading *r, void *run) {
-    const image *im = r->wish->image;
+    const image *im = r->request->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
-    r->wish->kind->state(run, angle_rad, real);
+    r->request->kind->state(run, angle_rad, real);
     for (int i = 0; i < im->angles; i++) {
         put(r, im->angle[i].unknown, im->angle[i].primes, angle_rad[i]);
     }
@@ -42,7 +42,7 @@ static void read_run(const reading *r, void *run) {
         put(r, im->real[i].unknown, im->real[i].primes, real[i]);
     }
     if (im->recovered > 0) {
-        r->wish->kind->outputs(run, r->output);
+        r->request->kind->outputs(run, r->output);
         for (int k = 0; k < im->recovered; k++) {
             const int at = im->own_outputs + 2 * k;
             put(r, im->from_momentum[k], 0, r->output[at]);
@@ -58,12 +58,12 @@ static void read_run(const reading *r, void *run) {
 /* Replaces the range, SI, if no state with this unit moves, because the tube has a width in this case, too. */
 #define STILL 1e-9
 
-static const char *unit_of(const containment_wish *w, int i) {
+static const char *unit_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];
     return w->image->unknown[s.unknown].unit[s.primes].si;
 }
 
-static void set_within(const containment_wish *w, containment_found *h) {
+static void set_within(const containment_request *w, containment_found *h) {
     for (int i = 0; i < h->states; i++) {
         double most = h->state[i].range;
         for (int j = 0; j < h->states; j++) {
@@ -95,7 +95,7 @@ static bool see(void *of, uint64_t step) {
     return true;
 }
 
-static void find_ranges(const containment_wish *w, const reading *r, containment_found *h) {
+static void find_ranges(const containment_request *w, const reading *r, containment_found *h) {
     void *run = w->kind->start(w->image);
     const int n = h->states;
     double *low = alloc(n, sizeof *low);
@@ -149,7 +149,7 @@ static void look(containment_found *h, const double *value, const enclosure *exa
 }
 
 typedef struct going {
-    const containment_wish *wish;
+    const containment_request *request;
     const reading *reading;
     containment_found *held;
     flowpipe *tube;
@@ -161,11 +161,11 @@ typedef struct going {
 } going;
 
 static void look_now(going *g) {
-    const containment_wish *w = g->wish;
+    const containment_request *w = g->request;
     read_run(g->reading, g->run);
     look(g->held, g->reading->value, g->exact, ratio_times(g->done, w->image->step));
     if (w->see != NULL) {
-        w->see(w->told, g->done, g->exact, g->reading->value);
+        w->see(w->context, g->done, g->exact, g->reading->value);
     }
 }
 
@@ -174,7 +174,7 @@ static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     uint64_t count = 0;
     while (g->done < g->held->run_steps && !all_closed(g->held)) {
         const enclosure tau = enclosure_add(g->next_s, enclosure_times(g->step_s, (double)count));
-        if (!(tau.high <= h_s) || loop_steps(g->wish->kind, g->run, 1) != WH_OK) {
+        if (!(tau.high <= h_s) || loop_steps(g->request->kind, g->run, 1) != WH_OK) {
             break;
         }
         g->done++;
@@ -188,7 +188,7 @@ static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
 
 /* Makes one step of the tube, and the run's steps that end in it. Returns false if the tube ends. */
 static bool go_on(going *g) {
-    const image *im = g->wish->image;
+    const image *im = g->request->image;
     const double left_s = 1.001 * ratio_times(g->held->run_steps - g->done, im->step);
     const double h_s = flowpipe_open(g->tube, left_s);
     if (!(h_s > 0.0)) {
@@ -209,7 +209,7 @@ static bool go_on(going *g) {
 
 /* Returns the reason to end now, or CONTAINMENT_AT_END if there is none. `on`: the result of go_on(). */
 static containment_end ended(const going *g, bool on) {
-    const containment_wish *w = g->wish;
+    const containment_request *w = g->request;
     const bool spent = w->products_most > 0.0 && flowpipe_products(g->tube) > w->products_most;
     return interrupted ? CONTAINMENT_STOPPED
            : !on       ? CONTAINMENT_NO_STEP
@@ -220,19 +220,19 @@ static containment_end ended(const going *g, bool on) {
 static void hold(going *g) {
     containment_found *h = g->held;
     for (int i = 0; i < h->states; i++) {
-        g->exact[i] = g->wish->motion->start[i];
+        g->exact[i] = g->request->motion->start[i];
     }
     look_now(g);
     while (h->end == CONTAINMENT_AT_END && g->done < h->run_steps && !all_closed(h)) {
         h->end = ended(g, go_on(g));
-        if (g->wish->progress != NULL && (flowpipe_steps(g->tube) & 7U) == 0) {
-            g->wish->progress((double)g->done / (double)h->run_steps);
+        if (g->request->progress != NULL && (flowpipe_steps(g->tube) & 7U) == 0) {
+            g->request->progress((double)g->done / (double)h->run_steps);
         }
     }
     const bool whole = g->done == h->run_steps;
     h->end = whole ? h->status == WH_OK ? CONTAINMENT_AT_END : CONTAINMENT_RUN_ENDS : h->end;
     h->flowpipe_steps = flowpipe_steps(g->tube);
-    h->tube_s = ratio_times(g->done, g->wish->image->step);
+    h->tube_s = ratio_times(g->done, g->request->image->step);
     for (int i = 0; i < h->states; i++) {
         if (h->state[i].open) {
             h->state[i].verdict =
@@ -246,7 +246,7 @@ static enclosure counted(uint64_t count) {
     return near < 0x1p53 ? enclosure_of(near) : enclosure_about(near, 0);
 }
 
-containment_found containment_run(const containment_wish *w) {
+containment_found containment_run(const containment_request *w) {
     const image *im = w->image;
     containment_found h = {.states = w->motion->states, .end = CONTAINMENT_STOPPED};
     h.state = alloc(h.states, sizeof *h.state);
@@ -254,7 +254,7 @@ containment_found containment_run(const containment_wish *w) {
     find_ranges(w, &r, &h);
     if (h.ranged) {
         h.end = CONTAINMENT_AT_END;
-        going g = {.wish = w,
+        going g = {.request = w,
                    .reading = &r,
                    .held = &h,
                    .tube = flowpipe_new(w->motion, FLOWPIPE_ORDER),
@@ -278,19 +278,19 @@ void containment_free(containment_found *h) { free(h->state); }
 
 enum { NAME_WIDTH = 16, NAME_SIZE = 160 };
 
-static const char *name_of(const containment_wish *w, int i, char text[NAME_SIZE]) {
+static const char *name_of(const containment_request *w, int i, char text[NAME_SIZE]) {
     const exact_state s = w->motion->state[i];
     snprintf(text, NAME_SIZE, "%.120s%.*s", w->image->unknown[s.unknown].name, s.primes,
              "''''''''''''''''");
     return text;
 }
 
-static const image_unit *unit_text_of(const containment_wish *w, int i) {
+static const image_unit *unit_text_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];
     return &w->image->unknown[s.unknown].unit[s.primes];
 }
 
-static void print_head(FILE *out, const containment_found *h, const containment_wish *w) {
+static void print_head(FILE *out, const containment_found *h, const containment_request *w) {
     const image *im = w->image;
     fprintf(out, "%s%s%s\n", im->name, im->title[0] != '\0' ? ": " : "", im->title);
     fprintf(out, "  %s%s, %s, step %.9g s, %" PRIu64 " steps to t = %.15g s\n", image_stepper(im),
@@ -337,7 +337,8 @@ static const char *behind(const containment_found *h, const containment_state *s
     return "";
 }
 
-static void print_state(FILE *out, const containment_found *h, const containment_wish *w, int i) {
+static void print_state(FILE *out, const containment_found *h, const containment_request *w,
+                        int i) {
     const containment_state *s = &h->state[i];
     const image_unit *unit = unit_text_of(w, i);
     const char *shown = strcmp(unit->shown, "1") == 0 ? "" : unit->shown;
@@ -376,7 +377,7 @@ static int first_of(const containment_found *h) {
     return first;
 }
 
-void containment_print(FILE *out, const containment_found *h, const containment_wish *w) {
+void containment_print(FILE *out, const containment_found *h, const containment_request *w) {
     const double end_s = ratio_times(w->image->steps, w->image->step);
     const int first = first_of(h);
     char name[NAME_SIZE];
@@ -401,7 +402,7 @@ void containment_print(FILE *out, const containment_found *h, const containment_
     }
 }
 
-void containment_rows_head(FILE *out, const containment_wish *w) {
+void containment_rows_head(FILE *out, const containment_request *w) {
     char name[NAME_SIZE];
     fputs("time [s]", out);
     for (int i = 0; i < w->motion->states; i++) {
@@ -412,7 +413,7 @@ void containment_rows_head(FILE *out, const containment_wish *w) {
     fputs("\r\n", out);
 }
 
-void containment_row(FILE *out, const containment_wish *w, uint64_t step, const enclosure *exact,
+void containment_row(FILE *out, const containment_request *w, uint64_t step, const enclosure *exact,
                      const double *run) {
     fprintf(out, "%.15g", ratio_times(step, w->image->step));
     for (int i = 0; i < w->motion->states; i++) {

@@ -10,7 +10,7 @@
 
 #define CONTAINMENT_TOLERANCE 1e-3 /* relative to a coordinate's range in the run */
 
-typedef struct containment_wish {
+typedef struct containment_request {
     const exact_motion *motion;
     const image *image;
     const engine_kind *kind;
@@ -19,10 +19,10 @@ typedef struct containment_wish {
     double products_most; /* limit on products of enclosures; 0: no limit */
     /* Called at the start and at the end of each step that the tube reaches, with the enclosure of the exact motion,
      * exact[states], and the run, SI. May be NULL. */
-    void (*see)(void *told, uint64_t step, const enclosure *exact, const double *run);
-    void *told;
+    void (*see)(void *context, uint64_t step, const enclosure *exact, const double *run);
+    void *context;
     void (*progress)(double share); /* may be NULL */
-} containment_wish;
+} containment_request;
 
 typedef enum containment_verdict {
     CONTAINMENT_TO_THE_END, /* proved within the tolerance at every step's end */
@@ -65,17 +65,17 @@ typedef struct containment_found {
     bool ranged; /* the run is complete, so the tolerances are known */
 } containment_found;
 
-containment_found containment_run(const containment_wish *w);
+containment_found containment_run(const containment_request *w);
 void containment_free(containment_found *h);
 
 /* === results in words ========================================================================= */
 
-void containment_print(FILE *out, const containment_found *h, const containment_wish *w);
+void containment_print(FILE *out, const containment_found *h, const containment_request *w);
 
 /* Write rows of comma-separated values, in SI, with all digits: the time, and for each state the least and greatest
  * value of the exact motion, and the run's value. */
-void containment_rows_head(FILE *out, const containment_wish *w);
-void containment_row(FILE *out, const containment_wish *w, uint64_t step, const enclosure *exact,
+void containment_rows_head(FILE *out, const containment_request *w);
+void containment_row(FILE *out, const containment_request *w, uint64_t step, const enclosure *exact,
                      const double *run);
 
 #endif

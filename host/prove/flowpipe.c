@@ -464,10 +464,10 @@ static bool stays(flowpipe *t, double h_s, double *excess) {
     for (int i = 0; i < t->states; i++) {
         const enclosure rest = remainder_of(t, i, span);
         const enclosure to = enclosure_add(polynomial_over(t, i, span), rest);
-        const double wish =
+        const double request =
             REMAINDER * enclosure_larger(t->largest[i], enclosure_size(t->stay[i])) + 1e-300;
         good = good && enclosure_inside(to, t->stay[i]);
-        most = enclosure_larger(most, enclosure_size(rest) / wish);
+        most = enclosure_larger(most, enclosure_size(rest) / request);
     }
     *excess = most;
     return good;

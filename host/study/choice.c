@@ -24,7 +24,7 @@ static const cost_figure *worst_of(const cost *c) {
  * decides. Otherwise its upper bound does. */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
-static choice_row judged(const trials *t, const choice_wish *w, const table *made, int i) {
+static choice_row judged(const trials *t, const choice_request *w, const table *made, int i) {
     const table_row *of = &made->row[i];
     const cost *c = &of->cost;
     const bool hopeful = w->counts && !of->counted;
@@ -95,7 +95,7 @@ static void enter(choice *c, const table *made, const choice_row *row) {
     }
 }
 
-choice choice_make(const trials *t, const table *made, const choice_wish *w) {
+choice choice_make(const trials *t, const table *made, const choice_request *w) {
     const choice_row none = {.row = -1};
     choice c = {none, none, none, none, none, none};
     for (int i = 0; i < made->count; i++) {
@@ -120,7 +120,7 @@ static void expect(const trials *t, table *made, const table_row *last,
         each[setting_number(&last->setting)] =
             worst_of(&last->cost)->value / last->result.evaluations_most;
     }
-    const bool cycles = t->wish.board->cycles != COST_RANGE;
+    const bool cycles = t->request.board->cycles != COST_RANGE;
     for (int i = 0; i < made->count; i++) {
         table_row *row = &made->row[i];
         const double known = each[setting_number(&row->setting)];
@@ -163,8 +163,8 @@ static int uncounted(const table *made, const choice *c) {
     return -1;
 }
 
-measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
-                            choice *c) {
+measured_end choice_counted(trials *t, table *made, const choice_request *w,
+                            const table_words *words, choice *c) {
     const bool runs = t->image[0]->contacts > 0;
     double each[SETTING_NUMBERS] = {0};
     if (runs) {
@@ -233,7 +233,7 @@ static double declared_of(const table_row *row) {
     return has_cycles(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
 }
 
-static void print_load(FILE *out, const choice_wish *w, const table_row *row,
+static void print_load(FILE *out, const choice_request *w, const table_row *row,
                        const choice_row *by) {
     const cost_figure *f = &row->cost.cycles_worst;
     if (!(w->clock_Hz > 0.0) || by->unknown[CHOICE_LOAD]) {
@@ -287,7 +287,7 @@ static void print_run(FILE *out, const table_row *row) {
     }
 }
 
-static void print_answer(FILE *out, const trials *t, const choice_wish *w, const table_row *row,
+static void print_answer(FILE *out, const trials *t, const choice_request *w, const table_row *row,
                          const choice_row *by) {
     char text[AMOUNT];
     char name[TRIAL_NAME];
@@ -354,7 +354,7 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
-static void print_clock(FILE *out, const choice_wish *w, const choice_row *row) {
+static void print_clock(FILE *out, const choice_request *w, const choice_row *row) {
     if (row->fails[CHOICE_LOAD]) {
         fprintf(out, "  a clock of %.3g MHz: ", no_less(1e-6 * w->clock_Hz * row->load_most));
     }
@@ -368,7 +368,7 @@ static void print_bytes(FILE *out, const table *made, const choice_row *row) {
 }
 
 /* Prints the limits that could be relaxed, each with the row that would then fit. */
-static void print_remedies(FILE *out, const trials *t, const table *made, const choice_wish *w,
+static void print_remedies(FILE *out, const trials *t, const table *made, const choice_request *w,
                            const choice *c) {
     char text[AMOUNT];
     const bool larger =
@@ -397,10 +397,11 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
     }
 }
 
-void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
+void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
                   const choice *c, const table_words *words) {
     const bool found = c->fastest.row >= 0;
-    fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->wish.board->name, t->wish.board->core);
+    fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->request.board->name,
+            t->request.board->core);
     figure_reference(out, t);
     fprintf(out, "  prices      %s\n\n", w->prices);
     if (found) {
@@ -431,7 +432,7 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_wi
     table_print_left(out, made, w->table.operations);
 }
 
-void choice_json(FILE *out, const trials *t, const table *made, const choice_wish *w,
+void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
                  const choice *c, const table_words *words, int status) {
     const choice_row *const of[] = {&c->fastest, &c->smallest};
     json j = {.out = out};

@@ -15,16 +15,16 @@ typedef enum choice_limit {
     CHOICE_LIMITS
 } choice_limit;
 
-typedef struct choice_wish {
-    table_wish table;   /* includes the error, in the unit of the trial's errors, and the rate */
-    double clock_Hz;    /* 0: not known, and no limit */
-    double flash_bytes; /* 0: no limit */
-    double ram_bytes;   /* limit of the RAM with the stack; 0: no limit */
+typedef struct choice_request {
+    table_request table; /* includes the error, in the unit of the trial's errors, and the rate */
+    double clock_Hz;     /* 0: not known, and no limit */
+    double flash_bytes;  /* 0: no limit */
+    double ram_bytes;    /* limit of the RAM with the stack; 0: no limit */
     bool
         counts; /* chosen rows will be counted, so a prediction may exceed a limit by the prediction's own error */
     const char *prices;                           /* the source of the prices, in words */
     void (*counting)(void *context, int counted); /* may be NULL */
-} choice_wish;
+} choice_request;
 
 /* A row compared with the limits. A load is the time of the longest steps in a period, as a part of the period. Without a
  * rate the period is a second. */
@@ -48,19 +48,19 @@ typedef struct choice {
     choice_row any;    /* the least load within the error */
 } choice;
 
-choice choice_make(const trials *t, const table *made, const choice_wish *w);
+choice choice_make(const trials *t, const table *made, const choice_request *w);
 
 /* Does the same as choice_make(), but counts rows until no row of the choice is a prediction. With contacts, a row that was not counted
  * is expected to take as many cycles per evaluation as the last counted row with the same number type. */
-measured_end choice_counted(trials *t, table *made, const choice_wish *w, const table_words *words,
-                            choice *c);
+measured_end choice_counted(trials *t, table *made, const choice_request *w,
+                            const table_words *words, choice *c);
 
 /* Prints both answers. If no row is within the limits, says so, and prints limits that a row would keep. */
-void choice_print(FILE *out, const trials *t, const table *made, const choice_wish *w,
+void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
                   const choice *c, const table_words *words);
 /* The same as one JSON object (docs/warnings.md has the schema), without the hint of limits that would fit;
  * `status`: exit status. */
-void choice_json(FILE *out, const trials *t, const table *made, const choice_wish *w,
+void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
                  const choice *c, const table_words *words, int status);
 
 #endif

@@ -467,7 +467,7 @@ bool cost_cut(char *row, char **column, int columns) {
     return count == columns;
 }
 
-static cost_figure told(const char *text, cost_basis basis) {
+static cost_figure measured(const char *text, cost_basis basis) {
     return text[0] == '\0' ? (cost_figure){0} : cost_known(strtod(text, NULL), basis);
 }
 
@@ -482,14 +482,14 @@ bool cost_measured(const char *row, const cost_board *board, cost *c) {
         return false;
     }
     c->why = "";
-    c->instructions = told(column[7], COST_MEASURED);
-    c->instructions_worst = told(column[8], COST_MEASURED);
+    c->instructions = measured(column[7], COST_MEASURED);
+    c->instructions_worst = measured(column[8], COST_MEASURED);
     if (!cost_ranges(board, c)) {
-        c->cycles = told(column[9], board->cycles);
-        c->cycles_worst = told(column[10], board->cycles);
+        c->cycles = measured(column[9], board->cycles);
+        c->cycles_worst = measured(column[10], board->cycles);
     }
-    c->flash_bytes = told(column[12], COST_MEASURED);
-    c->ram_bytes = told(column[13], COST_MEASURED);
-    c->stack_bytes = told(column[14], COST_MEASURED);
+    c->flash_bytes = measured(column[12], COST_MEASURED);
+    c->ram_bytes = measured(column[13], COST_MEASURED);
+    c->stack_bytes = measured(column[14], COST_MEASURED);
     return c->instructions.basis == COST_MEASURED;
 }

@@ -478,9 +478,9 @@ static bool read_measures(const meter *m, double *value, point_notes *notes) {
     run_checks_end(m->verdict, WH_OK);
     value[w->count] = m->verdict->balance.known ? m->verdict->balance.ratio : (double)NAN;
     for (int id = 0; id < FINDINGS; id++) {
-        notes->found |= m->verdict->found[id].told ? FINDING_BIT(id) : 0U;
+        notes->found |= m->verdict->found[id].reported ? FINDING_BIT(id) : 0U;
     }
-    notes->against = m->verdict->against;
+    notes->warned = m->verdict->warned;
     notes->fails = run_checks_fails(m->verdict, w->strict);
     notes->unlooked = run_checks_unlooked(m->verdict);
     return true;

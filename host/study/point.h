@@ -102,7 +102,7 @@ typedef struct measuring {
 /* The findings at a point that did not fail. */
 typedef struct point_notes {
     unsigned found;    /* findings, as bits (host/check/finding.h) */
-    unsigned against;  /* warnings, as bits */
+    unsigned warned;   /* warnings, as bits */
     unsigned fails;    /* findings that make the exit status 1, as bits */
     unsigned unlooked; /* run_checks_unlooked() */
     double end_s;      /* end of the run */

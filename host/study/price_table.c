@@ -25,7 +25,7 @@ const char *const table_unit_words[] = {[PRICE_CYCLES] = "cycles",
                                         [PRICE_INSTRUCTIONS] = "instructions",
                                         [PRICE_EVALUATIONS] = "evaluations"};
 
-bool table_pace(const table_wish *w, int rung, deviation_pace *pace) {
+bool table_pace(const table_request *w, int rung, deviation_pace *pace) {
     static const uint64_t tens[] = {12, 15, 20, 25, 30, 40, 50, 60, 80};
     static const uint64_t mantissa[] = {1, 2, 5};
     const bool rated = w->rate_Hz > 0.0;
@@ -40,7 +40,7 @@ bool table_pace(const table_wish *w, int rung, deviation_pace *pace) {
     return rung < (rated ? SUBSTEPS : LADDER);
 }
 
-uint64_t table_substeps(const table_wish *w, const table_row *row) {
+uint64_t table_substeps(const table_request *w, const table_row *row) {
     return w->rate_Hz > 0.0 ? row->pace.steps / w->periods : 0;
 }
 
@@ -72,7 +72,7 @@ static void price_by_evaluations(table_row *row) {
 
 /* Tries ever finer steps of a setting, with up to `each` operations in one trial. Only with a matrix and in fixed point does
  * the price of a step depend on its length. */
-static void climb(trials *t, const table_wish *w, const setting *s, double each, climbed *c) {
+static void climb(trials *t, const table_request *w, const setting *s, double each, climbed *c) {
     const bool contacts = t->image[0]->contacts > 0;
     deviation_pace first;
     bool own;
@@ -121,7 +121,7 @@ static void climb(trials *t, const table_wish *w, const setting *s, double each,
 
 typedef struct table_work {
     trials *trials;
-    const table_wish *wish;
+    const table_request *request;
     table *made;
     setting *setting; /* [count] */
     int count;
@@ -133,7 +133,7 @@ static bool work(void *context, uint64_t point, FILE *out, FILE *reason) {
     climbed *c = alloc(1, sizeof *c);
     (void)reason;
     const double before = w->trials->operations;
-    climb(w->trials, w->wish, &w->setting[point], w->wish->operations / w->count, c);
+    climb(w->trials, w->request, &w->setting[point], w->request->operations / w->count, c);
     c->operations = w->trials->operations - before;
     const size_t size = offsetof(climbed, row) + (size_t)c->count * sizeof c->row[0];
     const bool good = fwrite(c, 1, size, out) == size;
@@ -163,13 +163,13 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
 
 static bool tell_progress(void *context, uint64_t next) {
     const table_work *w = context;
-    if (w->wish->progress != NULL) {
-        w->wish->progress(w->wish->context, (int)next, w->count);
+    if (w->request->progress != NULL) {
+        w->request->progress(w->request->context, (int)next, w->count);
     }
     return true;
 }
 
-table *table_new(trials *t, const table_wish *w) {
+table *table_new(trials *t, const table_request *w) {
     table *made = alloc(1, sizeof *made);
     table_work all = {t, w, made, alloc(setting_count(), sizeof(setting)), 0};
     made->why = "";
@@ -232,7 +232,7 @@ enum { RECORDS_MOST = 20000, SPACING = 2 };
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
-double three_rows_operations(const three_rows_wish *w, const image *im) {
+double three_rows_operations(const three_rows_request *w, const image *im) {
     const double runs =
         setting_is_fixed(&w->setting) ? 2.0 : 1.0; /* in fixed point a first run finds the ranges */
     const double each = ROWS_STEPS * runs * wh_methods[w->setting.image.method].stages +
@@ -240,11 +240,11 @@ double three_rows_operations(const three_rows_wish *w, const image *im) {
     return (double)w->steps * each * (double)engine_evaluation(im);
 }
 
-void three_rows_make(three_rows *t, const three_rows_wish *w) {
+void three_rows_make(three_rows *t, const three_rows_request *w) {
     const uint64_t pairs = w->steps / SPACING;
     const uint64_t many = 1 + (pairs - 1) / RECORDS_MOST;
     *t = (three_rows){.setting = w->setting};
-    const trial_wish wish = {
+    const trial_request request = {
         .source = w->source,
         .board = w->board,
         .spacing = ratio_of(ratio_times(SPACING * many, w->step)),
@@ -252,7 +252,7 @@ void three_rows_make(three_rows *t, const three_rows_wish *w) {
         .by = {.steps = 8 * many, .method = w->method, .order = w->order, .limit = w->limit},
         .plain = &w->plain,
         .priced_step = w->priced_step};
-    t->trial.reliable = trial_begin(&t->trial, &wish) && t->trial.reliable;
+    t->trial.reliable = trial_begin(&t->trial, &request) && t->trial.reliable;
     for (int i = 0; i < THREE_ROWS && t->trial.reliable && !t->trial.stopped; i++) {
         bool own;
         t->pace[i] = (deviation_pace){many << i, 1};
@@ -294,7 +294,7 @@ static void print_short_row(FILE *out, const three_rows *t, int i) {
 }
 
 void three_rows_print(FILE *out, const three_rows *t) {
-    const cost_board *board = t->trial.wish.board;
+    const cost_board *board = t->trial.request.board;
     bool known;
     const table_price price = table_price_of(&t->cost[0], 1.0, &known);
     fprintf(out, "accuracy and cost  in %s on %s (%s), until t = %.6g s; costs are %s\n",
@@ -398,8 +398,9 @@ void figure_reference(FILE *out, const trials *t) {
             "value\n",
             reference_agreement(r));
     fprintf(out, "  horizon     %.9g s", trial_horizon_s(t));
-    if (t->records < t->wish.records) {
-        fprintf(out, " of %.9g s: %s\n", ratio_times((uint64_t)t->wish.records, t->wish.spacing),
+    if (t->records < t->request.records) {
+        fprintf(out, " of %.9g s: %s\n",
+                ratio_times((uint64_t)t->request.records, t->request.spacing),
                 r->why != NULL ? r->why : "the reference ends");
     } else {
         fprintf(out, ", %d records\n", t->records);
@@ -446,7 +447,7 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     /* the ranges for fixed point come from the run to the end */
     const bool ranged = runs || setting_is_fixed(s);
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
-                       runs ? " --whole-run" : "", t->wish.board->name, s->number->name,
+                       runs ? " --whole-run" : "", t->request.board->name, s->number->name,
                        words->target, words->changes, trial_place(t, point),
                        setting_options(s, false, options), trial_time(trial_step(t, pace), step),
                        ranged ? " --until " : "", ranged ? trial_until(t, until) : "");
@@ -544,7 +545,7 @@ static void print_letters(FILE *out, const table_row *first) {
 
 /* Prints the command that fills the empty columns. */
 static void say_contacts(FILE *out, const trials *t, const table_words *words) {
-    const char *board = t->wish.board->name;
+    const char *board = t->request.board->name;
     if (strcmp(board, "host") != 0) {
         fprintf(
             out,
@@ -582,7 +583,7 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
 void table_print(FILE *out, const trials *t, const table *made, const table_words *words) {
     const image *im = t->image[0];
     char name[TRIAL_NAME];
-    fprintf(out, "%s on %s (%s)\n", im->name, t->wish.board->name, t->wish.board->core);
+    fprintf(out, "%s on %s (%s)\n", im->name, t->request.board->name, t->request.board->core);
     if (t->what.column < 0) {
         fputs(
             "  error       measured: the largest deviation from the reference, divided by the "
@@ -697,7 +698,7 @@ void table_csv(FILE *out, const trials *t, const table *made, const table_words 
 void table_json_begin(json *j, const char *command, const trials *t) {
     const image *im = t->image[0];
     json_begin(j, command, im->name, im->title, NULL, im->settings.method);
-    json_text(j, "board", t->wish.board->name);
+    json_text(j, "board", t->request.board->name);
     json_text(j, "reference", t->reference[t->worst]->how);
     json_number(j, "horizon_s", t->reliable ? trial_horizon_s(t) : (double)NAN);
     json_whole(j, "places", t->points);
@@ -855,7 +856,7 @@ static int count_runs(const trials *t, const table_words *words, table_row *row)
         row->run.instructions_bound = 0.0;
         status = count_line(table_measure_line(t, &row->setting, row->pace, p, words), line,
                             sizeof line);
-        status = status == 0 && !enter_run(t->wish.board, line, row) ? 1 : status;
+        status = status == 0 && !enter_run(t->request.board, line, row) ? 1 : status;
         bounded = bounded && row->run.instructions_bound > 0.0;
         row->run.instructions_bound = number_most(before, row->run.instructions_bound);
     }
@@ -870,7 +871,7 @@ static int count_step(const trials *t, const table_words *words, table_row *row)
     const int status =
         count_line(table_measure_line(t, &row->setting, row->pace, row->result.point, words), line,
                    sizeof line);
-    return status == 0 && !cost_measured(line, t->wish.board, &row->cost) ? 1 : status;
+    return status == 0 && !cost_measured(line, t->request.board, &row->cost) ? 1 : status;
 }
 
 /* Do the counted figures of one row also apply to the other? `by_pace`: only if their steps have the same length. */
@@ -920,7 +921,7 @@ static int uncounted(const table *made) {
 }
 
 measured_end measured_front(const trials *t, table *made, const table_words *words,
-                            const table_wish *w) {
+                            const table_request *w) {
     int i = t->image[0]->contacts > 0 ? made->count : uncounted(made);
     while (i < made->count && !interrupted) {
         if (w->progress != NULL) {

@@ -54,7 +54,7 @@ typedef struct table {
 /* A chosen row's error may be at most the requested error divided by this. */
 #define TABLE_MARGIN 2.0
 
-typedef struct table_wish {
+typedef struct table_request {
     double operations;  /* limit on the operations of all trials */
     const bool *method; /* [WH_METHODS]; NULL: the default ones */
     double error;     /* steps get finer until half this error; 0: until round-off stops the gain */
@@ -63,17 +63,17 @@ typedef struct table_wish {
     int workers;
     void (*progress)(void *context, int done, int of); /* may be NULL */
     void *context;
-} table_wish;
+} table_request;
 
 /* *pace: the pace of trial number `rung`, from 0 on. Each is finer than the one before by a factor of 2 to 2.5. With a rate
  * they are 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
-bool table_pace(const table_wish *w, int rung, deviation_pace *pace);
+bool table_pace(const table_request *w, int rung, deviation_pace *pace);
 /* Returns the number of steps in a period of the calls; 0 if no rate of calls is given. */
-uint64_t table_substeps(const table_wish *w, const table_row *row);
+uint64_t table_substeps(const table_request *w, const table_row *row);
 
 /* Tries the settings in several worker processes. Each setting has its own share of the allowed operations, so the rows
  * do not depend on the number of workers. Check t->stopped. */
-table *table_new(trials *t, const table_wish *w);
+table *table_new(trials *t, const table_request *w);
 void table_free(table *made);
 /* Sorts the rows by price, and marks the front. */
 void table_sort(table *made);
@@ -86,7 +86,7 @@ table_price table_price_of(const cost *c, double step_s, bool *known);
 
 enum { THREE_ROWS = 3 };
 
-typedef struct three_rows_wish {
+typedef struct three_rows_request {
     const trial_source *source; /* has one point */
     const cost_board *board;
     setting setting;         /* the setting of the run, in the number type of the rows */
@@ -95,9 +95,9 @@ typedef struct three_rows_wish {
     int order;               /* the order by which the reference's error falls */
     double limit;            /* `limit` of reference_steps */
     whole_ratio step;        /* step of the run, s */
-    whole_ratio priced_step; /* `priced_step` of trial_wish */
+    whole_ratio priced_step; /* `priced_step` of trial_request */
     uint64_t steps;          /* number of steps of the run */
-} three_rows_wish;
+} three_rows_request;
 
 typedef struct three_rows {
     trials trial;
@@ -108,9 +108,9 @@ typedef struct three_rows {
 } three_rows;
 
 /* Estimated operations of all rows. */
-double three_rows_operations(const three_rows_wish *w, const image *im);
+double three_rows_operations(const three_rows_request *w, const image *im);
 /* Check trial.stopped, then trial.reliable. At least two steps; three_rows_end() in any case. */
-void three_rows_make(three_rows *t, const three_rows_wish *w);
+void three_rows_make(three_rows *t, const three_rows_request *w);
 void three_rows_print(FILE *out, const three_rows *t);
 void three_rows_end(three_rows *t);
 
@@ -173,6 +173,6 @@ const char *measured_missing(const trials *t, const cost_board *board, char text
 measured_end measured_count(const trials *t, table *made, int row, const table_words *words);
 /* Counts the rows of the front until all of them are counted. */
 measured_end measured_front(const trials *t, table *made, const table_words *words,
-                            const table_wish *w);
+                            const table_request *w);
 
 #endif

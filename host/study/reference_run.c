@@ -112,7 +112,7 @@ typedef struct computed {
     int records; /* number of records after the start */
 } computed;
 
-static computed compute(const reference_wish *w, uint64_t steps) {
+static computed compute(const reference_request *w, uint64_t steps) {
     image copy = *w->image;
     copy.settings = (image_settings)IMAGE_SETTINGS_DEFAULT;
     copy.settings.compensated = true;
@@ -213,7 +213,7 @@ static bool knows(const reference *r) {
 
 /* An even number of steps in a record's spacing that are at least `finer` times shorter than the scene's, if the limit of
  * operations allows it. */
-static uint64_t steps_of(const reference_wish *w, double finer) {
+static uint64_t steps_of(const reference_request *w, double finer) {
     const image *im = w->image;
     const double each =
         wh_methods[METHOD].stages * (im->contacts > 0 ? EVENTS : 1.0) * im->list[IMAGE_STEP]->count;
@@ -222,11 +222,11 @@ static uint64_t steps_of(const reference_wish *w, double finer) {
     return 2U * (uint64_t)number_most(1.0, number_least(wanted, affordable));
 }
 
-static double time_of(const reference_wish *w, int record) {
+static double time_of(const reference_request *w, int record) {
     return ratio_times((uint64_t)(record < 0 ? 0 : record), w->spacing);
 }
 
-static void say(const reference_wish *w, reference *r, uint64_t steps, int reached) {
+static void say(const reference_request *w, reference *r, uint64_t steps, int reached) {
     r->how = alloc_words(
         "%s in double with compensated sums by steps of %.6g s; compared with twice that step; both use the run's sines and events",
         wh_methods[w->by.steps > 0 ? w->by.method : METHOD].word, time_of(w, 1) / (double)steps);
@@ -248,7 +248,7 @@ static void say(const reference_wish *w, reference *r, uint64_t steps, int reach
     }
 }
 
-reference *reference_new(const reference_wish *w) {
+reference *reference_new(const reference_request *w) {
     const bool fixed = w->by.steps > 0;
     const uint64_t most = fixed ? w->by.steps : steps_of(w, FINEST);
     uint64_t steps = fixed ? w->by.steps : steps_of(w, FINER);

@@ -17,13 +17,13 @@ typedef struct reference_steps {
     double limit; /* trusted while both runs differ by less than this part of the largest value */
 } reference_steps;
 
-typedef struct reference_wish {
+typedef struct reference_request {
     const image *image;  /* the scene; its end is not used */
     whole_ratio spacing; /* interval of the records, s */
     int records;         /* number of records after the start */
     double operations;   /* limit on the operations of the run with the shortest steps */
     reference_steps by;
-} reference_wish;
+} reference_request;
 
 /* The size of a column's values. */
 typedef struct reference_column {
@@ -50,7 +50,7 @@ typedef struct reference {
 } reference;
 
 /* Always succeeds; check `reliable` and `stopped`. The image must outlive it. */
-reference *reference_new(const reference_wish *w);
+reference *reference_new(const reference_request *w);
 /* From now on use at most this many records after the start. */
 void reference_cut(reference *r, int until);
 /* The largest difference of the two runs in columns that count, as a part of the column's largest value. */

@@ -339,7 +339,7 @@ static void put_point(json *j, const char *row, const char *error, const point_n
         if ((notes->found & FINDING_BIT(id)) != 0) {
             json_open(j, NULL, '{');
             json_text(j, "id", finding_rows[id].word);
-            json_text(j, "severity", (notes->against & FINDING_BIT(id)) != 0 ? "warning" : "note");
+            json_text(j, "severity", (notes->warned & FINDING_BIT(id)) != 0 ? "warning" : "note");
             json_close(j, '}');
         }
     }
@@ -472,17 +472,17 @@ typedef struct sitting {
     progress progress;
     uint64_t first; /* point of the sheet's first row */
     uint64_t failed;
-    int told;                 /* number of failures that were described */
+    int described;            /* number of failures that were described */
     uint64_t ran;             /* number of points that ran in this session */
     uint64_t found[FINDINGS]; /* number of points with this finding, and the first one */
     uint64_t found_first[FINDINGS];
     uint64_t unlooked_points; /* points that were not checked for some finding */
     unsigned unlooked;        /* bits: findings that were not checked */
-    unsigned against;
+    unsigned warned;
     unsigned fails; /* bits: findings after which the exit status is 1 */
 } sitting;
 
-enum { TOLD_MAX = 20 };
+enum { DESCRIBED_MAX = 20 };
 
 /* Runs a point in a worker. If it does not fail, `reason` gets its notes. */
 static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
@@ -490,7 +490,7 @@ static bool work(void *context, uint64_t point, FILE *row, FILE *reason) {
     point_notes notes;
     const bool good = sweep_point(s->sweep, point, row, reason, &notes);
     if (good && (notes.found | notes.fails | notes.unlooked) != 0) {
-        fprintf(reason, "%u %u %u %u", notes.found, notes.against, notes.fails, notes.unlooked);
+        fprintf(reason, "%u %u %u %u", notes.found, notes.warned, notes.fails, notes.unlooked);
     }
     return good;
 }
@@ -502,12 +502,12 @@ static point_notes notes_of(const char *text) {
         bits[i] = (unsigned)strtoul(rest, &rest, 10);
     }
     return (point_notes){
-        .found = bits[0], .against = bits[1], .fails = bits[2], .unlooked = bits[3]};
+        .found = bits[0], .warned = bits[1], .fails = bits[2], .unlooked = bits[3]};
 }
 
 static bool count_notes(sitting *s, uint64_t point, const point_notes *notes) {
     bool good = true;
-    s->against |= notes->against;
+    s->warned |= notes->warned;
     s->fails |= notes->fails;
     s->unlooked |= notes->unlooked;
     s->unlooked_points += notes->unlooked != 0 ? 1U : 0U;
@@ -516,7 +516,7 @@ static bool count_notes(sitting *s, uint64_t point, const point_notes *notes) {
             s->found_first[id] = s->found[id] == 0 ? point : s->found_first[id];
             s->found[id]++;
         }
-        if (((notes->against | notes->fails) & FINDING_BIT(id)) != 0) {
+        if (((notes->warned | notes->fails) & FINDING_BIT(id)) != 0) {
             good = resumable_csv_note(&s->sheet, finding_rows[id].word) && good;
         }
     }
@@ -555,15 +555,15 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
     s->ran++;
     if (!good) {
         s->failed++;
-        if (s->told < TOLD_MAX) {
+        if (s->described < DESCRIBED_MAX) {
             progress_clear(&s->progress);
             fputs("whirl sweep: error: ", stderr);
             name_point(s->sweep, point);
             fprintf(stderr, ": %s\n", reason);
-        } else if (s->told == TOLD_MAX) {
+        } else if (s->described == DESCRIBED_MAX) {
             fprintf(stderr, "further failures are not listed: their measures are empty\n");
         }
-        s->told += s->told <= TOLD_MAX ? 1 : 0;
+        s->described += s->described <= DESCRIBED_MAX ? 1 : 0;
     } else if (!count_notes(s, point, &notes)) {
         return false;
     }
@@ -590,7 +590,7 @@ static void say_found(const sitting *s) {
         if (s->found[id] > 0) {
             const finding_row *row = &finding_rows[id];
             fprintf(stderr, "whirl sweep: %s: %llu of %llu points %s [%s]; first: ",
-                    (s->against & FINDING_BIT(id)) == 0 ? "note" : "warning",
+                    (s->warned & FINDING_BIT(id)) == 0 ? "note" : "warning",
                     (unsigned long long)s->found[id], (unsigned long long)s->ran, row->points,
                     row->word);
             name_point(s->sweep, s->found_first[id]);

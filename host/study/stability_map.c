@@ -45,7 +45,7 @@ double map_row(const stability_map *m, uint64_t row) {
 /* The runs of a row of the map. Their errors are compared with the range of each column in the first run, which has the
  * shortest step. A coarse run has few samples, and its finer run may diverge, too, so neither has a useful range. */
 typedef struct row_runs {
-    const map_wish *wish;
+    const map_request *request;
     stability_map *map;
     double *range; /* [columns], in the columns' units; NULL: not known yet */
 } row_runs;
@@ -80,7 +80,7 @@ static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
 }
 
 static map_cell cell_of(row_runs *p, const step_doubling *t) {
-    const map_wish *w = p->wish;
+    const map_request *w = p->request;
     horizon h = horizon_of(t, w->tolerance);
     map_cell cell = {
         .verdict = MAP_OFF, .end_s = t->end_s, .until_s = h.until_s, .left_over = (double)NAN};
@@ -102,28 +102,28 @@ static map_cell cell_of(row_runs *p, const step_doubling *t) {
     return cell;
 }
 
-static void show_share(double share, void *told) {
-    const row_runs *p = told;
-    p->wish->progress((double)p->map->done + share, p->wish->told);
+static void show_share(double share, void *context) {
+    const row_runs *p = context;
+    p->request->progress((double)p->map->done + share, p->request->context);
 }
 
 /* Sets the verdict of a point. A refused image is a verdict, too; `whirl run` gives the reason. After an interrupt the
  * verdict is unknown. */
 static void try_point(row_runs *p, uint64_t point) {
-    const map_wish *w = p->wish;
+    const map_request *w = p->request;
     diags *unsaid = diags_new();
     image *plain = NULL;
     image *im = sweep_image(&w->of, point, &plain, unsaid);
     map_cell cell = {.verdict = MAP_NONE, .left_over = (double)NAN};
     bool whole = true;
     if (im != NULL) {
-        const step_doubling_wish wish = {.image = im,
-                                         .kind = w->of.kind,
-                                         .plain = plain != NULL ? plain : im,
-                                         .books = true,
-                                         .progress = w->progress != NULL ? show_share : NULL,
-                                         .told = p};
-        step_doubling *t = step_doubling_run(&wish);
+        const step_doubling_request request = {.image = im,
+                                               .kind = w->of.kind,
+                                               .plain = plain != NULL ? plain : im,
+                                               .books = true,
+                                               .progress = w->progress != NULL ? show_share : NULL,
+                                               .context = p};
+        step_doubling *t = step_doubling_run(&request);
         whole = !t->stopped;
         if (whole) {
             aliasing_find(t, &t->looks);
@@ -141,8 +141,8 @@ static void try_point(row_runs *p, uint64_t point) {
     }
 }
 
-static void try_row(const map_wish *w, stability_map *m, uint64_t row) {
-    row_runs p = {.wish = w, .map = m};
+static void try_row(const map_request *w, stability_map *m, uint64_t row) {
+    row_runs p = {.request = w, .map = m};
     for (uint64_t i = 0; i < w->of.grid->axes[m->along].count && !interrupted; i++) {
         const uint64_t point = map_point(m, row, i);
         if (!m->by_step) { /* the next point is another scene, so its ranges differ */
@@ -159,7 +159,7 @@ static void try_row(const map_wish *w, stability_map *m, uint64_t row) {
 
 /* --- the map ---------------------------------------------------------------------------------------------*/
 
-stability_map map_make(const map_wish *w) {
+stability_map map_make(const map_request *w) {
     const grid *g = w->of.grid;
     stability_map m = {.grid = g,
                        .along = g->axes[0].symbol == NULL ? 0 : 1,
@@ -283,7 +283,8 @@ static void put_pair(json *j, const stability_map *m, uint64_t point) {
     json_close(j, '}');
 }
 
-void map_json(FILE *out, const stability_map *m, const image *of, const map_wish *w, int status) {
+void map_json(FILE *out, const stability_map *m, const image *of, const map_request *w,
+              int status) {
     json j = {.out = out};
     json_begin(&j, "map", of->name, of->title, w->of.kind, w->of.engine.method);
     json_number(&j, "tolerance", w->tolerance);

@@ -40,12 +40,13 @@ typedef struct map_cell {
     double left_over;    /* energy residual as a part of the largest entry; NAN: unknown */
 } map_cell;
 
-typedef struct map_wish {
+typedef struct map_request {
     sweep of; /* the sweep with two axes, in float or double */
     double tolerance;
-    void (*progress)(double runs, void *told); /* `runs`: number of completed runs; may be NULL */
-    void *told;
-} map_wish;
+    void (*progress)(double runs,
+                     void *context); /* `runs`: number of completed runs; may be NULL */
+    void *context;
+} map_request;
 
 typedef struct stability_map {
     const grid *grid;
@@ -58,7 +59,7 @@ typedef struct stability_map {
 } stability_map;
 
 /* Runs the map row by row, each from its shortest step on. */
-stability_map map_make(const map_wish *w);
+stability_map map_make(const map_request *w);
 void map_free(stability_map *m);
 
 /* How many cells have this verdict. */
@@ -74,7 +75,7 @@ void map_print(FILE *out, const stability_map *m, const char *words);
 /* A row for each completed pair: both values, verdict, times, energy residual. */
 void map_csv(FILE *out, const stability_map *m);
 /* The same as one JSON object (docs/warnings.md has the schema). `status`: exit status. */
-void map_json(FILE *out, const stability_map *m, const image *of, const map_wish *w, int status);
+void map_json(FILE *out, const stability_map *m, const image *of, const map_request *w, int status);
 /* A rectangle for each pair, to .svg or .png, drawn by gnuplot, with `words` as the title. False: reported on standard error. */
 bool map_plot(const char *file, const stability_map *m, const char *words);
 

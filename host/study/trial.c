@@ -236,7 +236,7 @@ const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
 }
 
 whole_ratio trial_step(const trials *t, deviation_pace pace) {
-    whole_ratio s = t->wish.spacing;
+    whole_ratio s = t->request.spacing;
     const uint64_t over = ratio_divisor(s.numerator, pace.steps);
     const uint64_t under = ratio_divisor(pace.records, s.denominator);
     if (s.denominator / under > UINT64_MAX / (pace.steps / over) ||
@@ -249,11 +249,11 @@ whole_ratio trial_step(const trials *t, deviation_pace pace) {
 }
 
 const char *trial_place(const trials *t, int point) {
-    return t->wish.source->name(t->wish.source->context, t->place[point]);
+    return t->request.source->name(t->request.source->context, t->place[point]);
 }
 
 double trial_horizon_s(const trials *t) {
-    return ratio_times((uint64_t)t->records, t->wish.spacing);
+    return ratio_times((uint64_t)t->records, t->request.spacing);
 }
 
 const char *trial_unit(const trials *t) {
@@ -278,7 +278,7 @@ const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]) {
 
 static void say_no_column(const trials *t) {
     const records *shape = t->reference[0]->shape;
-    const char *of = t->wish.of;
+    const char *of = t->request.of;
     nearest search = nearest_start(of, strlen(of));
     fprintf(stderr, "whirl: error: %s is no output, coordinate or rate of '%s'\n", of,
             shape->image->name);
@@ -297,10 +297,10 @@ static bool find_column(trials *t) {
     bool noisy;
     t->what.column = -1;
     t->what.give_up = USABLE;
-    if (t->wish.of == NULL) {
+    if (t->request.of == NULL) {
         return true;
     }
-    t->what.column = reference_find(t->reference[0], t->wish.of, &noisy);
+    t->what.column = reference_find(t->reference[0], t->request.of, &noisy);
     if (t->what.column < 0) {
         say_no_column(t);
         return false;
@@ -310,7 +310,7 @@ static bool find_column(trials *t) {
             stderr,
             "whirl: error: %s has noise, so its error is not that of the step\n"
             "hint: choose a quantity without noise, or leave out the effect that adds it with --without EFFECT\n",
-            t->wish.of);
+            t->request.of);
         return false;
     }
     return true;
@@ -318,7 +318,7 @@ static bool find_column(trials *t) {
 
 /* Limits all points to their common trusted horizon. */
 static void cut(trials *t) {
-    t->records = t->wish.records;
+    t->records = t->request.records;
     t->reliable = true;
     double least = 0.0;
     for (int p = 0; p < t->points; p++) {
@@ -370,11 +370,11 @@ static void drop_still(trials *t) {
     alloc_text_end(out);
 }
 
-bool trial_begin(trials *t, const trial_wish *w) {
+bool trial_begin(trials *t, const trial_request *w) {
     const int points = w->source->points;
     const image_settings standard = IMAGE_SETTINGS_DEFAULT;
     const setting plain = {w->plain != NULL ? *w->plain : standard, &engine_double};
-    *t = (trials){.wish = *w,
+    *t = (trials){.request = *w,
                   .place = alloc(points, sizeof *t->place),
                   .image = alloc(points, sizeof(image *)),
                   .reference = alloc(points, sizeof(reference *)),
@@ -384,12 +384,12 @@ bool trial_begin(trials *t, const trial_wish *w) {
         if (t->image[p] == NULL) {
             return false;
         }
-        const reference_wish wish = {.image = t->image[p],
-                                     .spacing = w->spacing,
-                                     .records = w->records,
-                                     .operations = REFERENCE_OPERATIONS / points,
-                                     .by = w->by};
-        t->reference[p] = reference_new(&wish);
+        const reference_request request = {.image = t->image[p],
+                                           .spacing = w->spacing,
+                                           .records = w->records,
+                                           .operations = REFERENCE_OPERATIONS / points,
+                                           .by = w->by};
+        t->reference[p] = reference_new(&request);
         t->place[p] = p;
         t->points++;
         t->stopped = t->stopped || t->reference[p]->stopped;
@@ -447,7 +447,7 @@ static void keep(trials *t, int point, deviation_pace pace, image *im) {
 
 static image *make_at(const trials *t, int point, const setting *s, const char *step,
                       const char *until) {
-    return t->wish.source->make(t->wish.source->context, t->place[point], s, step, until);
+    return t->request.source->make(t->request.source->context, t->place[point], s, step, until);
 }
 
 static image *image_of(trials *t, int point, const setting *s, deviation_pace pace) {
@@ -455,8 +455,8 @@ static image *image_of(trials *t, int point, const setting *s, deviation_pace pa
     char until[TRIAL_TIME];
     trial_time(trial_step(t, pace), step);
     if (!setting_is_fixed(s)) {
-        const whole_ratio spacing = t->wish.spacing;
-        snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)t->wish.records, spacing));
+        const whole_ratio spacing = t->request.spacing;
+        snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)t->request.records, spacing));
         return make_at(t, point, s, step, until);
     }
     image *im = kept(t, point, pace);
@@ -535,12 +535,12 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace) 
 static cost price_of(const trials *t, const setting *s, const image *im) {
     image priced = *im;
     priced.contacts = t->without_events ? 0 : im->contacts;
-    return cost_of(&priced, t->wish.board, setting_cost_number(s));
+    return cost_of(&priced, t->request.board, setting_cost_number(s));
 }
 
 static image *priced_image(trials *t, int point, const setting *s, deviation_pace pace) {
     char step[TRIAL_TIME];
-    const trial_wish *w = &t->wish;
+    const trial_request *w = &t->request;
     return w->priced_step.numerator == 0 || setting_price_varies(s)
                ? image_of(t, point, s, pace)
                : make_at(t, point, s, trial_time(w->priced_step, step), NULL);

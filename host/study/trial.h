@@ -74,7 +74,7 @@ typedef struct trial_source {
     const char *(*name)(void *context, int point);
 } trial_source;
 
-typedef struct trial_wish {
+typedef struct trial_request {
     const trial_source *source;
     const cost_board *board;
     const char *of;      /* the compared output, coordinate or rate; NULL: the worst component */
@@ -84,7 +84,7 @@ typedef struct trial_wish {
     const image_settings *plain; /* settings of the references' images; NULL: the default ones */
     /* if possible, only this step is priced, and its price is used for all steps; 0: each step is priced */
     whole_ratio priced_step;
-} trial_wish;
+} trial_request;
 
 typedef struct trial_planned {
     image *image;
@@ -92,7 +92,7 @@ typedef struct trial_planned {
 } trial_planned;
 
 typedef struct trials {
-    trial_wish wish;
+    trial_request request;
     int points;    /* number of the source's points with motion; all points if there is no motion */
     int *place;    /* [points] their numbers in the source */
     char *still;   /* the options of the omitted points: " --set M=0,"; or NULL */
@@ -126,7 +126,7 @@ typedef struct trial_result {
 } trial_result;
 
 /* Computes the references. False, reported on standard error, if `of` is unknown to the scene, or an image is missing. */
-bool trial_begin(trials *t, const trial_wish *w);
+bool trial_begin(trials *t, const trial_request *w);
 void trial_end(trials *t);
 
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);

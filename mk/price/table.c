@@ -56,11 +56,11 @@ static bool count_row(row *r, char *const column[COST_COLUMNS]) {
     }
     bool good = false;
     if (!bad && source_open(&from, column[4]) == EXIT_DONE) {
-        const load_wish wish = {
+        const load_request request = {
             .settings = options.integration, .use = IMAGE_TO_WRITE, .conserve = true};
         const overrides changes = options_overrides(&options.change);
         if (source_pick(&from, true, &of, &in) == EXIT_DONE &&
-            load(&made, &from, of, in, &changes, &wish) == EXIT_DONE) {
+            load(&made, &from, of, in, &changes, &request) == EXIT_DONE) {
             image *im = made.image;
             fixed_plan *plan =
                 r->number == COST_FIXED ? fixed_plan_make(im, false, from.errors) : NULL;

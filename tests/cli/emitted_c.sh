@@ -365,7 +365,7 @@ int main(void) {
         wh_state state;
         wh_status status = wh_scene_start(all[i].scene, &state, memory, sizeof memory);
         while (status == WH_OK && state.steps < all[i].scene->steps) {
-#if WH_AHEAD /* many a call, of every number */
+#if WH_MULTI_STEP /* many a call, of every number */
             const uint64_t left = all[i].scene->steps - state.steps;
             static uint32_t many;
             many = many % 97U + 1U;
@@ -393,9 +393,9 @@ while read -r number; do
     echo "$number" >>"$scratch/numbers.$(part_of "$number")"
 done <"$scratch/numbers"
 
-build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_AHEAD NUMBERS
+build() { # build COMPILER OPTIMISATION REAL WH_DOUBLE WH_MULTI_STEP NUMBERS
     program_of "$6" >"$scratch/main.c"
-    $1 $warnings $2 -DWH_DOUBLE="$4" -DWH_AHEAD="$5" -o "$scratch/$1_$3" $(sed "s|.*|$scratch/scene_&.c|" "$6") "$scratch/main.c" \
+    $1 $warnings $2 -DWH_DOUBLE="$4" -DWH_MULTI_STEP="$5" -o "$scratch/$1_$3" $(sed "s|.*|$scratch/scene_&.c|" "$6") "$scratch/main.c" \
         core/*.c >"$scratch/$1_$3.log" 2>&1
     status=$?
     verdict $status "$1 $2 compiles $(wc -l <"$6") emitted scenes in $3 without a warning"

@@ -48,13 +48,13 @@ static wh_status no_steps(const wh_scene *scene, wh_state *of, uint32_t steps) {
 
 /* Checks a state that was not started: every function that takes one refuses it and leaves it unchanged. */
 static void must_not_run(const wh_scene *scene) {
-    wh_scene with_ahead = *scene;
+    wh_scene with_multi_step = *scene;
     const wh_state before = state;
-    with_ahead.ahead = no_steps;
+    with_multi_step.ahead = no_steps;
     TEST_ASSERT_TRUE(wh_scene_step(scene, &state) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, 2) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_steps(scene, &state, 0) == WH_E_ARGUMENT);
-    TEST_ASSERT_TRUE(wh_scene_steps(&with_ahead, &state, 2) == WH_E_ARGUMENT);
+    TEST_ASSERT_TRUE(wh_scene_steps(&with_multi_step, &state, 2) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_set_real(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_set_angle(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);
     TEST_ASSERT_TRUE(wh_scene_move_angle(scene, &state, 0, WH_R(1.0)) == WH_E_ARGUMENT);

@@ -68,10 +68,10 @@ static int halves_since(const wh_lockin *before) {
 TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
     static wh_lockin before;
     unsigned times[5] = {0};
-    for (unsigned fed = 0; fed < 2U; fed++) {
-        seed = 1U + fed;
+    for (unsigned compensated = 0; compensated < 2U; compensated++) {
+        seed = 1U + compensated;
         arm(true);
-        even.config.feeds = fed == 1U ? WH_COMPENSATION_ALWAYS : WH_COMPENSATION_NEVER;
+        even.config.feeds = compensated == 1U ? WH_COMPENSATION_ALWAYS : WH_COMPENSATION_NEVER;
         even.config.measure.record_s = WH_R(8.0);
         even_obeys(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM);
         even_go_on_until(&even, WH_PHASE_RECORD);
@@ -95,10 +95,10 @@ TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
             const uint32_t ever = even.rig.pulses_ever;
             const bool waited = even.rig.pulses.waits;
             even_step(&even);
-            const bool two =
-                even.rig.fed && even.rig.observer.ticks - observed > even.rig.observer.step_ticks;
+            const bool two = even.rig.compensated &&
+                             even.rig.observer.ticks - observed > even.rig.observer.step_ticks;
             const unsigned work = samples + (two ? 1U : 0U);
-            const bool unsure = even.rig.fed && even.rig.pulses.waits;
+            const bool unsure = even.rig.compensated && even.rig.pulses.waits;
             const int most = work == 0 ? 4 : work > 1U ? 1 : unsure ? 2 : 3;
             const int done = halves_since(&before);
             if (done >= 0) {

@@ -1,5 +1,6 @@
 /* test_rig_gravity.c: gravity compensation: its voltage, when the voltage is zero, and its effect on the ripple of a
- * rotor in closed loop (fed_rotor.c), also with wrong settings. */
+ * rotor in closed loop (compensated_rotor.c), also with wrong settings. */
+#include "compensated_rotor.h"
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/lockin.h"
@@ -7,7 +8,6 @@
 #include "core/rig/rig.h"
 #include "core/root.h"
 #include "draw.h"
-#include "fed_rotor.h"
 
 #include "tests/suites.h"
 
@@ -15,7 +15,7 @@
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
 #define JITTER_S WH_R(104e-6) /* uniform: a standard deviation of 60 us */
 
-static fed_rotor fed;
+static compensated_rotor compensated;
 
 static void check_between(wh_real least, wh_real most, wh_real value) {
     TEST_ASSERT_TRUE(value > least && value < most);
@@ -28,20 +28,20 @@ static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 TEST(rig_gravity, it_says_gravitys_voltage) {
     static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
     for (unsigned i = 0; i < 6; i++) {
-        fed_rotor_standard(&fed, 1);
-        TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
-        fed_rotor_run(&fed, WH_R(330.0), WH_R(3.0));
+        compensated_rotor_standard(&compensated, 1);
+        TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, WH_R(330.0)) == WH_OK);
+        compensated_rotor_run(&compensated, WH_R(330.0), WH_R(3.0));
         wh_compensation_config config = wh_compensation_standard;
         config.gravity_rad = gravity_rad[i % 3U];
         config.weight_Nm *= i < 3U ? WH_R(1.0) : WH_R(10.0);
         wh_compensation feed = {WH_R(0.0)};
         for (unsigned k = 1; k <= 300; k++) {
-            fed_rotor_run(&fed, WH_R(330.0), FED_STEP_S);
-            const wh_real said =
-                wh_compensation_step(&config, &feed, &fed.observer, fed.rotor.ticks, FED_STEP_S);
+            compensated_rotor_run(&compensated, WH_R(330.0), FED_STEP_S);
+            const wh_real said = wh_compensation_step(&config, &feed, &compensated.observer,
+                                                      compensated.rotor.ticks, FED_STEP_S);
             const wh_real part = k < 250U ? (wh_real)k / WH_R(250.0) : WH_R(1.0);
-            const wh_real at =
-                fed.rotor.angle_rad + WH_R(0.003) * fed.rotor.speed_radps - config.gravity_rad;
+            const wh_real at = compensated.rotor.angle_rad +
+                               WH_R(0.003) * compensated.rotor.speed_radps - config.gravity_rad;
             const wh_real all = part * config.weight_Nm / WH_R(1.5) * sine_of(at);
             const wh_real most = WH_R(0.3);
             const wh_real wanted = all > most ? most : all < -most ? -most : all;
@@ -54,50 +54,52 @@ TEST(rig_gravity, it_says_gravitys_voltage) {
 /* If the observer is invalid, the voltage is zero at once; afterwards it fades in again. It is never NaN. */
 TEST(rig_gravity, it_says_nothing_without_an_angle) {
     const wh_real nan = (wh_real)__builtin_nanf("");
-    fed_rotor_standard(&fed, 1);
-    TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
-    fed_rotor_run(&fed, WH_R(330.0), WH_R(3.0));
-    TEST_ASSERT_TRUE(fed.observer.valid && fed.compensation.part >= WH_R(1.0));
-    fed.observer.valid = false;
-    const uint32_t now = fed.rotor.ticks;
-    TEST_ASSERT_TRUE(wh_compensation_step(&fed.feeding, &fed.compensation, &fed.observer, now,
-                                          FED_STEP_S) == WH_R(0.0));
-    TEST_ASSERT_TRUE(fed.compensation.part == WH_R(0.0));
-    fed.observer.valid = true;
-    TEST_ASSERT_TRUE(WH_ABS(wh_compensation_step(&fed.feeding, &fed.compensation, &fed.observer,
-                                                 now, FED_STEP_S)) < WH_R(0.001));
-    CHECK_NEAR(1e-6f, 0.004f, fed.compensation.part);
-    fed.feeding.fade_s = WH_R(0.0);
-    wh_compensation_step(&fed.feeding, &fed.compensation, &fed.observer, now, FED_STEP_S);
-    TEST_ASSERT_TRUE(fed.compensation.part == WH_R(1.0));
+    compensated_rotor_standard(&compensated, 1);
+    TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, WH_R(330.0)) == WH_OK);
+    compensated_rotor_run(&compensated, WH_R(330.0), WH_R(3.0));
+    TEST_ASSERT_TRUE(compensated.observer.valid && compensated.compensation.part >= WH_R(1.0));
+    compensated.observer.valid = false;
+    const uint32_t now = compensated.rotor.ticks;
+    TEST_ASSERT_TRUE(wh_compensation_step(&compensated.feeding, &compensated.compensation,
+                                          &compensated.observer, now, FED_STEP_S) == WH_R(0.0));
+    TEST_ASSERT_TRUE(compensated.compensation.part == WH_R(0.0));
+    compensated.observer.valid = true;
+    TEST_ASSERT_TRUE(WH_ABS(wh_compensation_step(&compensated.feeding, &compensated.compensation,
+                                                 &compensated.observer, now, FED_STEP_S)) <
+                     WH_R(0.001));
+    CHECK_NEAR(1e-6f, 0.004f, compensated.compensation.part);
+    compensated.feeding.fade_s = WH_R(0.0);
+    wh_compensation_step(&compensated.feeding, &compensated.compensation, &compensated.observer,
+                         now, FED_STEP_S);
+    TEST_ASSERT_TRUE(compensated.compensation.part == WH_R(1.0));
     for (unsigned i = 0; i < 4; i++) {
         wh_compensation_config config = wh_compensation_standard;
         wh_real *const numbers[] = {&config.weight_Nm, &config.gravity_rad, &config.stall_Nm,
                                     &config.fade_s};
         *numbers[i] = nan;
-        const wh_real said =
-            wh_compensation_step(&config, &fed.compensation, &fed.observer, now, FED_STEP_S);
+        const wh_real said = wh_compensation_step(&config, &compensated.compensation,
+                                                  &compensated.observer, now, FED_STEP_S);
         TEST_ASSERT_TRUE(WH_ABS(said) <= config.most);
     }
 }
 
 /* Starts at 200 rpm, changes to this speed and keeps it, with jitter and a friction of 0.02 N m. */
 static void run_at(wh_real rpm) {
-    fed.kind.jitter_s = JITTER_S;
-    fed.kind.friction_Nm += WH_R(0.02);
-    TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(200.0)) == WH_OK);
-    fed_rotor_run(&fed, WH_R(200.0), WH_R(3.0));
-    fed_rotor_run(&fed, rpm, WH_R(6.0));
-    fed_rotor_count(&fed);
-    fed_rotor_run(&fed, rpm, WH_R(3.0));
-    TEST_ASSERT_FALSE(fed.stood);
+    compensated.kind.jitter_s = JITTER_S;
+    compensated.kind.friction_Nm += WH_R(0.02);
+    TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, WH_R(200.0)) == WH_OK);
+    compensated_rotor_run(&compensated, WH_R(200.0), WH_R(3.0));
+    compensated_rotor_run(&compensated, rpm, WH_R(6.0));
+    compensated_rotor_count(&compensated);
+    compensated_rotor_run(&compensated, rpm, WH_R(3.0));
+    TEST_ASSERT_FALSE(compensated.stood);
     /* the last, incomplete turn adds some ripple to the mean */
-    CHECK_NEAR(2.5f, rpm, fed_rotor_mean_rpm(&fed));
+    CHECK_NEAR(2.5f, rpm, fed_rotor_mean_rpm(&compensated));
 }
 
 static void begin(fed_by by) {
-    fed_rotor_standard(&fed, 17);
-    fed.by = by;
+    compensated_rotor_standard(&compensated, 17);
+    compensated.by = by;
 }
 
 /* At 330 rpm gravity compensation reduces the ripple from 5 % to a hundredth of that; at 170 rpm, from 18 %. At 100 rpm
@@ -106,44 +108,45 @@ static void begin(fed_by by) {
 TEST(rig_gravity, the_ripple_goes) {
     begin(FED_BY_NOBODY);
     run_at(WH_R(330.0));
-    check_between(WH_R(0.045), WH_R(0.055), fed_rotor_ripple(&fed));
+    check_between(WH_R(0.045), WH_R(0.055), compensated_rotor_ripple(&compensated));
     begin(FED_BY_NOBODY);
     run_at(WH_R(170.0));
-    check_between(WH_R(0.17), WH_R(0.19), fed_rotor_ripple(&fed));
+    check_between(WH_R(0.17), WH_R(0.19), compensated_rotor_ripple(&compensated));
     begin(FED_BY_OBSERVER);
     run_at(WH_R(330.0));
-    check_between(WH_R(0.00005), WH_R(0.001), fed_rotor_ripple(&fed));
+    check_between(WH_R(0.00005), WH_R(0.001), compensated_rotor_ripple(&compensated));
     begin(FED_BY_OBSERVER);
     run_at(WH_R(170.0));
-    check_between(WH_R(0.00005), WH_R(0.0015), fed_rotor_ripple(&fed));
+    check_between(WH_R(0.00005), WH_R(0.0015), compensated_rotor_ripple(&compensated));
     begin(FED_BY_OBSERVER);
     run_at(WH_R(100.0));
-    check_between(WH_R(0.02), WH_R(0.05), fed_rotor_ripple(&fed));
+    check_between(WH_R(0.02), WH_R(0.05), compensated_rotor_ripple(&compensated));
     begin(FED_BY_OBSERVER);
-    fed.kind.friction_Nm = WH_R(0.1);
+    compensated.kind.friction_Nm = WH_R(0.1);
     run_at(WH_R(100.0));
-    check_between(WH_R(0.0005), WH_R(0.02), fed_rotor_ripple(&fed));
-    TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
+    check_between(WH_R(0.0005), WH_R(0.02), compensated_rotor_ripple(&compensated));
+    TEST_ASSERT_EQUAL_UINT32(compensated.steps, compensated.valid);
 }
 
 /* The lead compensates the delay of the voltage. Without it, or with twice the lead, a tenth of the ripple remains. */
 TEST(rig_gravity, the_lead_is_right) {
     for (uint32_t lead = 0; lead <= 6000U; lead += 6000U) {
         begin(FED_BY_OBSERVER);
-        fed.feeding.lead_ticks = lead;
+        compensated.feeding.lead_ticks = lead;
         run_at(WH_R(330.0));
-        check_between(WH_R(0.004), WH_R(0.007), fed_rotor_ripple(&fed));
+        check_between(WH_R(0.004), WH_R(0.007), compensated_rotor_ripple(&compensated));
     }
 }
 
 TEST(rig_gravity, another_weight_leaves_its_part) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
-        fed.kind.weight_Nm *= i % 2U == 0 ? WH_R(1.3) : WH_R(0.7);
+        compensated.kind.weight_Nm *= i % 2U == 0 ? WH_R(1.3) : WH_R(0.7);
         run_at(i < 2U ? WH_R(330.0) : WH_R(170.0));
         const wh_real whole = i < 2U ? WH_R(0.05) : WH_R(0.18);
-        check_between(WH_R(0.25) * whole, WH_R(0.35) * whole, fed_rotor_ripple(&fed));
-        TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
+        check_between(WH_R(0.25) * whole, WH_R(0.35) * whole,
+                      compensated_rotor_ripple(&compensated));
+        TEST_ASSERT_EQUAL_UINT32(compensated.steps, compensated.valid);
     }
 }
 
@@ -152,12 +155,13 @@ TEST(rig_gravity, another_weight_leaves_its_part) {
 TEST(rig_gravity, sensors_may_stand_wrong) {
     for (unsigned i = 0; i < 8; i++) {
         begin(FED_BY_OBSERVER);
-        fed.kind.pulse_rad[0] += (i % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
-        fed.kind.pulse_rad[1] += (i / 2U % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
+        compensated.kind.pulse_rad[0] += (i % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
+        compensated.kind.pulse_rad[1] += (i / 2U % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;
         run_at(i < 4U ? WH_R(330.0) : WH_R(170.0));
         const wh_real whole = i < 4U ? WH_R(0.05) : WH_R(0.18);
-        check_between(WH_R(0.002) * whole, WH_R(0.07) * whole, fed_rotor_ripple(&fed));
-        TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
+        check_between(WH_R(0.002) * whole, WH_R(0.07) * whole,
+                      compensated_rotor_ripple(&compensated));
+        TEST_ASSERT_EQUAL_UINT32(compensated.steps, compensated.valid);
     }
 }
 
@@ -166,15 +170,15 @@ TEST(rig_gravity, the_wrong_sign_is_survived) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
         if (i % 2U == 0) {
-            fed.feeding.weight_Nm = -fed.feeding.weight_Nm;
+            compensated.feeding.weight_Nm = -compensated.feeding.weight_Nm;
         } else {
-            fed.feeding.gravity_rad = WH_R(0.5) * WH_RIG_TWO_PI;
+            compensated.feeding.gravity_rad = WH_R(0.5) * WH_RIG_TWO_PI;
         }
         run_at(i < 2U ? WH_R(330.0) : WH_R(170.0));
         const wh_real whole = i < 2U ? WH_R(0.05) : WH_R(0.18);
-        check_between(WH_R(1.8) * whole, WH_R(2.2) * whole, fed_rotor_ripple(&fed));
-        TEST_ASSERT_TRUE(fed.most_radps < WH_RIG_SHAFT_LIMIT_RPM * RPM);
-        TEST_ASSERT_TRUE(fed.least_radps > WH_R(90.0) * RPM);
+        check_between(WH_R(1.8) * whole, WH_R(2.2) * whole, compensated_rotor_ripple(&compensated));
+        TEST_ASSERT_TRUE(compensated.most_radps < WH_RIG_SHAFT_LIMIT_RPM * RPM);
+        TEST_ASSERT_TRUE(compensated.least_radps > WH_R(90.0) * RPM);
     }
 }
 
@@ -183,15 +187,15 @@ TEST(rig_gravity, the_wrong_sign_is_survived) {
 TEST(rig_gravity, lost_marks_take_it_away) {
     begin(FED_BY_OBSERVER);
     run_at(WH_R(330.0));
-    fed.lose_marks = 4;
-    fed_rotor_count(&fed);
-    fed_rotor_run(&fed, WH_R(330.0), WH_R(0.6));
-    TEST_ASSERT_TRUE(fed.valid < fed.steps);
-    check_between(WH_R(0.01), WH_R(0.08), fed_rotor_ripple(&fed));
-    fed_rotor_run(&fed, WH_R(330.0), WH_R(4.0));
-    fed_rotor_count(&fed);
-    fed_rotor_run(&fed, WH_R(330.0), WH_R(1.0));
-    check_between(WH_R(0.00001), WH_R(0.001), fed_rotor_ripple(&fed));
+    compensated.lose_marks = 4;
+    compensated_rotor_count(&compensated);
+    compensated_rotor_run(&compensated, WH_R(330.0), WH_R(0.6));
+    TEST_ASSERT_TRUE(compensated.valid < compensated.steps);
+    check_between(WH_R(0.01), WH_R(0.08), compensated_rotor_ripple(&compensated));
+    compensated_rotor_run(&compensated, WH_R(330.0), WH_R(4.0));
+    compensated_rotor_count(&compensated);
+    compensated_rotor_run(&compensated, WH_R(330.0), WH_R(1.0));
+    check_between(WH_R(0.00001), WH_R(0.001), compensated_rotor_ripple(&compensated));
 }
 
 /* If the inertia is given, the remaining part of gravity, of either sign, follows from the quadrature ratio alone. When
@@ -249,7 +253,7 @@ TEST(rig_gravity, the_lockin_is_told) {
     wh_lockin_compensate(&lockin, false, WH_R(0.0625));
     TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 0);
     wh_lockin_compensate(&lockin, true, WH_R(0.0625));
-    TEST_ASSERT_TRUE(!lockin.open && lockin.skipped == 1U && lockin.angle.fed);
+    TEST_ASSERT_TRUE(!lockin.open && lockin.skipped == 1U && lockin.angle.compensated);
     wh_lockin_pulse(&lockin, 0, 2000, 4);
     wh_lockin_compensate(&lockin, true, WH_R(0.0625));
     TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 1U);

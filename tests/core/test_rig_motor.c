@@ -114,7 +114,7 @@ TEST(rig_motor, any_motor_with_its_settings) {
     seed = 61;
     unsigned good = 0;
     unsigned refused = 0;
-    unsigned fed = 0;
+    unsigned compensated = 0;
     const unsigned cases = draw_cases(120);
     for (unsigned i = 0; i < cases; i++) {
         draw_motor();
@@ -133,9 +133,9 @@ TEST(rig_motor, any_motor_with_its_settings) {
         TEST_ASSERT_TRUE(rig.result.force.quality == WH_GOOD ||
                          (held && rig.result.force.quality == WH_DOUBTFUL));
         good += rig.result.force.quality == WH_GOOD ? 1U : 0U;
-        fed += rig.fed ? 1U : 0U;
+        compensated += rig.compensated ? 1U : 0U;
     }
-    TEST_ASSERT_TRUE(good * 10U > cases * 8U && fed * 10U > cases && refused * 5U < cases);
+    TEST_ASSERT_TRUE(good * 10U > cases * 8U && compensated * 10U > cases && refused * 5U < cases);
 }
 
 /* The supply's divider, or the motor's settings, are wrong by factors of 0.7 to 1.3. The run ends with a result, or

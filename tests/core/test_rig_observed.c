@@ -124,19 +124,19 @@ TEST(rig_observed, the_reference_knows_who_is_fed) {
     even_obeys(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM);
     for (unsigned i = 0; i < 4U; i++) {
         const wh_turn_angle *angle = &even.rig.measure.lockin.angle;
-        for (unsigned k = 0; k < 6000U && !angle->fed; k++) {
+        for (unsigned k = 0; k < 6000U && !angle->compensated; k++) {
             even.rig.compensation.part =
                 WH_R(1.0); /* fully faded in, although the observer does not fit this rotor */
             even_step(&even);
         }
-        TEST_ASSERT_TRUE(angle->fed);
+        TEST_ASSERT_TRUE(angle->compensated);
         CHECK_NEAR(0.0f, even.rig.run.volts, angle->drive_V);
         even_obeys(&even, WH_EVENT_SET, (WH_R(200.0) + (wh_real)i) * EVEN_RPM);
-        TEST_ASSERT_FALSE(angle->fed);
+        TEST_ASSERT_FALSE(angle->compensated);
         TEST_ASSERT_TRUE(angle->part >= WH_R(1.0));
         CHECK_NEAR(0.0f, 0.0f, even.rig.compensation.part); /* fades in again from zero */
         even_steps(&even, 300);
-        TEST_ASSERT_FALSE(angle->fed);
+        TEST_ASSERT_FALSE(angle->compensated);
         even_obeys(&even, WH_EVENT_SET, (WH_R(120.0) + (wh_real)i) * EVEN_RPM);
     }
 }

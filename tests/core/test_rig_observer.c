@@ -1,10 +1,10 @@
 /* test_rig_observer.c: the observer gets only the pulses of a rotor (rotor.c): the nominal one, or rotors with another
  * inertia, weight, friction, drive stage or sensor position. */
 #include "build/gen/scenes.h"
+#include "compensated_rotor.h"
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "draw.h"
-#include "fed_rotor.h"
 
 #include "tests/suites.h"
 
@@ -12,11 +12,11 @@
 #define DEG (WH_R(1.0) / WH_RIG_DEG_PER_RAD)
 #define JITTER_S WH_R(104e-6) /* uniform: a standard deviation of 60 us */
 
-static fed_rotor fed;
+static compensated_rotor compensated;
 
 static void begin(uint64_t seed, wh_real speed_rpm) {
-    fed_rotor_standard(&fed, seed);
-    TEST_ASSERT_TRUE(fed_rotor_start(&fed, speed_rpm) == WH_OK);
+    compensated_rotor_standard(&compensated, seed);
+    TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, speed_rpm) == WH_OK);
 }
 
 static void check_below(wh_real bound, wh_real value) { TEST_ASSERT_TRUE(value < bound); }
@@ -51,18 +51,19 @@ TEST(rig_observer, the_rotor_is_the_scenes) {
 TEST(rig_observer, the_rotor_it_knows_is_followed) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(250.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 8; i++) {
-        fed_rotor_standard(&fed, 7);
-        fed.by = i < 4U ? FED_BY_NOBODY : FED_BY_OBSERVER;
-        fed.kind.friction_Nm = i % 2U == 0 ? WH_R(0.0) : WH_R(0.1);
-        TEST_ASSERT_TRUE(fed_rotor_start(&fed, rpm[i % 4U]) == WH_OK);
-        fed_rotor_run(&fed, rpm[i % 4U], WH_R(4.0));
-        fed_rotor_count(&fed);
-        fed_rotor_run(&fed, rpm[i % 4U], WH_R(1.0));
-        TEST_ASSERT_EQUAL_UINT32(500, fed.valid);
-        check_below(WH_R(0.02) * DEG, fed.worst_rad);
-        CHECK_NEAR(0.02f, fed.rotor.speed_radps, wh_observer_speed_radps(&fed.observer));
-        CHECK_NEAR(2e-3f, -(float)fed.kind.friction_Nm, fed.observer.torque_Nm);
-        TEST_ASSERT_TRUE(WH_ABS(fed.observer.innovation_rad) < WH_R(0.02) * DEG);
+        compensated_rotor_standard(&compensated, 7);
+        compensated.by = i < 4U ? FED_BY_NOBODY : FED_BY_OBSERVER;
+        compensated.kind.friction_Nm = i % 2U == 0 ? WH_R(0.0) : WH_R(0.1);
+        TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, rpm[i % 4U]) == WH_OK);
+        compensated_rotor_run(&compensated, rpm[i % 4U], WH_R(4.0));
+        compensated_rotor_count(&compensated);
+        compensated_rotor_run(&compensated, rpm[i % 4U], WH_R(1.0));
+        TEST_ASSERT_EQUAL_UINT32(500, compensated.valid);
+        check_below(WH_R(0.02) * DEG, compensated.worst_rad);
+        CHECK_NEAR(0.02f, compensated.rotor.speed_radps,
+                   wh_observer_speed_radps(&compensated.observer));
+        CHECK_NEAR(2e-3f, -(float)compensated.kind.friction_Nm, compensated.observer.torque_Nm);
+        TEST_ASSERT_TRUE(WH_ABS(compensated.observer.innovation_rad) < WH_R(0.02) * DEG);
     }
 }
 
@@ -70,28 +71,28 @@ TEST(rig_observer, the_rotor_it_knows_is_followed) {
 TEST(rig_observer, jitter_is_not_amplified) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 3; i++) {
-        fed_rotor_standard(&fed, 11);
-        fed.kind.jitter_s = JITTER_S;
-        TEST_ASSERT_TRUE(fed_rotor_start(&fed, rpm[i]) == WH_OK);
-        fed_rotor_run(&fed, rpm[i], WH_R(4.0));
-        fed_rotor_count(&fed);
-        fed_rotor_run(&fed, rpm[i], WH_R(8.0));
+        compensated_rotor_standard(&compensated, 11);
+        compensated.kind.jitter_s = JITTER_S;
+        TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, rpm[i]) == WH_OK);
+        compensated_rotor_run(&compensated, rpm[i], WH_R(4.0));
+        compensated_rotor_count(&compensated);
+        compensated_rotor_run(&compensated, rpm[i], WH_R(8.0));
         const wh_real marks_rad = WH_R(60e-6) * rpm[i] * RPM;
-        check_below(WH_R(2.0) * marks_rad, fed_rotor_rms_rad(&fed));
-        check_below(fed_rotor_rms_rad(&fed), WH_R(0.5) * marks_rad);
+        check_below(WH_R(2.0) * marks_rad, fed_rotor_rms_rad(&compensated));
+        check_below(fed_rotor_rms_rad(&compensated), WH_R(0.5) * marks_rad);
     }
 }
 
 TEST(rig_observer, without_corrections_it_is_lost) {
-    fed_rotor_standard(&fed, 7);
-    fed.kind.friction_Nm = WH_R(0.02);
+    compensated_rotor_standard(&compensated, 7);
+    compensated.kind.friction_Nm = WH_R(0.02);
     for (unsigned i = 0; i < 2; i++) {
-        fed.observing.angle_gain[i] = fed.observing.speed_gain[i] = WH_R(0.0);
-        fed.observing.torque_gain_kgm2[i] = WH_R(0.0);
+        compensated.observing.angle_gain[i] = compensated.observing.speed_gain[i] = WH_R(0.0);
+        compensated.observing.torque_gain_kgm2[i] = WH_R(0.0);
     }
-    TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
-    fed_rotor_run(&fed, WH_R(330.0), WH_R(5.0));
-    TEST_ASSERT_TRUE(fed.valid < fed.steps / 2U);
+    TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, WH_R(330.0)) == WH_OK);
+    compensated_rotor_run(&compensated, WH_R(330.0), WH_R(5.0));
+    TEST_ASSERT_TRUE(compensated.valid < compensated.steps / 2U);
 }
 
 /* Random rotors: half to six times the inertia, weight wrong by up to 30 %, up to 0.2 N m of friction, sensor positions
@@ -105,8 +106,8 @@ TEST(rig_observer, drawn_rotors_are_followed) {
     uint32_t valid = 0;
     const unsigned draws = draw_cases(40);
     for (unsigned i = 0; i < draws; i++) {
-        fed_rotor_standard(&fed, seed);
-        rotor_kind *kind = &fed.kind;
+        compensated_rotor_standard(&compensated, seed);
+        rotor_kind *kind = &compensated.kind;
         kind->inertia_kgm2 *= i % 2U == 0 ? draw_between(&seed, WH_R(0.5), WH_R(1.5))
                                           : draw_between(&seed, WH_R(1.5), WH_R(6.0));
         kind->weight_Nm *= draw_between(&seed, WH_R(0.7), WH_R(1.3));
@@ -116,21 +117,24 @@ TEST(rig_observer, drawn_rotors_are_followed) {
             kind->pulse_rad[k] += draw_between(&seed, WH_R(-3.0), WH_R(3.0)) * DEG;
         }
         kind->freewheels = draw_one_in(&seed, 2);
-        fed.observing.freewheels = kind->freewheels && draw_one_in(&seed, 2);
+        compensated.observing.freewheels = kind->freewheels && draw_one_in(&seed, 2);
         const wh_real rpm = draw_between(&seed, WH_R(80.0), WH_R(400.0));
         const wh_real first = rpm > WH_R(150.0) ? rpm : WH_R(150.0);
-        fed.by = rpm < WH_R(170.0) ? FED_BY_TRUTH : (fed_by)draw_one_of(&seed, 3);
-        TEST_ASSERT_TRUE(fed_rotor_start(&fed, first) == WH_OK);
-        fed_rotor_hold(&fed, first);
-        fed_rotor_run(&fed, first, WH_R(5.0));
-        fed_rotor_hold(&fed, rpm);
-        fed_rotor_run(&fed, rpm, WH_R(6.0));
-        fed_rotor_count(&fed);
-        fed_rotor_run(&fed, rpm, WH_R(4.0));
-        TEST_ASSERT_FALSE(fed.stood);
-        fine += fed.worst_rad < WH_R(0.3) && fed.valid > fed.steps / 10U * 9U ? 1U : 0U;
-        lies += fed.lies;
-        valid += fed.valid;
+        compensated.by = rpm < WH_R(170.0) ? FED_BY_TRUTH : (fed_by)draw_one_of(&seed, 3);
+        TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, first) == WH_OK);
+        compensated_rotor_hold(&compensated, first);
+        compensated_rotor_run(&compensated, first, WH_R(5.0));
+        compensated_rotor_hold(&compensated, rpm);
+        compensated_rotor_run(&compensated, rpm, WH_R(6.0));
+        compensated_rotor_count(&compensated);
+        compensated_rotor_run(&compensated, rpm, WH_R(4.0));
+        TEST_ASSERT_FALSE(compensated.stood);
+        fine +=
+            compensated.worst_rad < WH_R(0.3) && compensated.valid > compensated.steps / 10U * 9U
+                ? 1U
+                : 0U;
+        lies += compensated.lies;
+        valid += compensated.valid;
     }
     TEST_ASSERT_TRUE(fine >= draws / 10U * 9U);
     TEST_ASSERT_TRUE(lies < valid / 100U);
@@ -141,47 +145,50 @@ TEST(rig_observer, drawn_rotors_are_followed) {
 TEST(rig_observer, marks_make_it_valid) {
     begin(3, WH_R(330.0));
     unsigned marks = 0;
-    while (!fed.observer.valid && marks < 20U) {
-        fed_rotor_run(&fed, WH_R(330.0), FED_STEP_S);
-        marks += fed.rotor.marks;
-        TEST_ASSERT_TRUE(fed.observer.runs == (marks >= 2U));
+    while (!compensated.observer.valid && marks < 20U) {
+        compensated_rotor_run(&compensated, WH_R(330.0), FED_STEP_S);
+        marks += compensated.rotor.marks;
+        TEST_ASSERT_TRUE(compensated.observer.runs == (marks >= 2U));
     }
     TEST_ASSERT_EQUAL_UINT(5, marks);
-    fed_rotor_run(&fed, WH_R(330.0), WH_R(3.0));
+    compensated_rotor_run(&compensated, WH_R(330.0), WH_R(3.0));
     for (unsigned i = 0; i < 2; i++) {
-        fed.lose_marks = 1;
-        fed_rotor_count(&fed);
-        fed_rotor_run(&fed, WH_R(330.0), WH_R(0.5) + (wh_real)i * WH_R(0.05));
-        TEST_ASSERT_EQUAL_UINT(0, fed.lose_marks);
-        TEST_ASSERT_EQUAL_UINT32(fed.steps, fed.valid);
-        check_below(DEG, fed.worst_rad);
+        compensated.lose_marks = 1;
+        compensated_rotor_count(&compensated);
+        compensated_rotor_run(&compensated, WH_R(330.0), WH_R(0.5) + (wh_real)i * WH_R(0.05));
+        TEST_ASSERT_EQUAL_UINT(0, compensated.lose_marks);
+        TEST_ASSERT_EQUAL_UINT32(compensated.steps, compensated.valid);
+        check_below(DEG, compensated.worst_rad);
     }
-    fed.lose_marks = 3;
-    fed_rotor_count(&fed);
-    fed_rotor_run(&fed, WH_R(330.0), WH_R(0.7));
-    const uint32_t missing = fed.steps - fed.valid;
+    compensated.lose_marks = 3;
+    compensated_rotor_count(&compensated);
+    compensated_rotor_run(&compensated, WH_R(330.0), WH_R(0.7));
+    const uint32_t missing = compensated.steps - compensated.valid;
     TEST_ASSERT_TRUE(missing > 60U && missing < 300U); /* a turn has 91 steps */
-    TEST_ASSERT_TRUE(fed.observer.valid);
-    check_below(DEG, fed.worst_rad);
+    TEST_ASSERT_TRUE(compensated.observer.valid);
+    check_below(DEG, compensated.worst_rad);
 }
 
 /* A pulse at a wrong angle makes the observer invalid at once; within 2 s it is valid again. */
 TEST(rig_observer, a_false_mark_is_noticed) {
     begin(3, WH_R(330.0));
     for (unsigned i = 0; i < 20; i++) {
-        fed_rotor_run(&fed, WH_R(330.0), WH_R(2.0) + WH_R(0.0371) * (wh_real)i);
-        TEST_ASSERT_TRUE(fed.observer.valid);
-        const uint32_t now = fed.rotor.ticks;
+        compensated_rotor_run(&compensated, WH_R(330.0), WH_R(2.0) + WH_R(0.0371) * (wh_real)i);
+        TEST_ASSERT_TRUE(compensated.observer.valid);
+        const uint32_t now = compensated.rotor.ticks;
         const unsigned sensor = i % 2U;
-        const wh_real off = rotor_ahead_rad(&fed.rotor, fed.observing.pulse_rad[sensor]);
-        wh_observer_pulse(&fed.observing, &fed.observer, sensor, now);
-        const wh_real seen = fed.observer.innovation_rad;
+        const wh_real off =
+            rotor_ahead_rad(&compensated.rotor, compensated.observing.pulse_rad[sensor]);
+        wh_observer_pulse(&compensated.observing, &compensated.observer, sensor, now);
+        const wh_real seen = compensated.observer.innovation_rad;
         CHECK_NEAR(DEG, -(float)off, seen);
-        TEST_ASSERT_TRUE(fed.observer.valid == (WH_ABS(seen) <= fed.observing.trusted_rad));
+        TEST_ASSERT_TRUE(compensated.observer.valid ==
+                         (WH_ABS(seen) <= compensated.observing.trusted_rad));
     }
-    const wh_real before = fed.observer.innovation_rad;
-    wh_observer_pulse(&fed.observing, &fed.observer, 2, fed.rotor.ticks); /* no such sensor */
-    TEST_ASSERT_TRUE(fed.observer.innovation_rad == before);
+    const wh_real before = compensated.observer.innovation_rad;
+    wh_observer_pulse(&compensated.observing, &compensated.observer, 2,
+                      compensated.rotor.ticks); /* no such sensor */
+    TEST_ASSERT_TRUE(compensated.observer.innovation_rad == before);
 }
 
 /* The second pulse starts the observer, with the mean speed since the first. Both may come at any time within a
@@ -193,22 +200,24 @@ TEST(rig_observer, two_marks_set_it_out) {
         const unsigned second = i / 2U % 2U;
         const bool slow = i >= 4U;
         begin(3, WH_R(330.0));
-        const uint32_t from = fed.rotor.ticks;
+        const uint32_t from = compensated.rotor.ticks;
         const uint32_t took = slow ? UINT32_C(1400000) : UINT32_C(101300);
         for (uint32_t k = 2000; k <= took + 3000U; k += 2000U) {
-            wh_observer_step(&fed.observing, &fed.observer, from + k, WH_R(0.5));
+            wh_observer_step(&compensated.observing, &compensated.observer, from + k, WH_R(0.5));
             if (k == 2000U) {
-                wh_observer_pulse(&fed.observing, &fed.observer, first, from + 1300U);
+                wh_observer_pulse(&compensated.observing, &compensated.observer, first,
+                                  from + 1300U);
             }
         }
-        wh_observer_pulse(&fed.observing, &fed.observer, second, from + 1300U + took);
+        wh_observer_pulse(&compensated.observing, &compensated.observer, second,
+                          from + 1300U + took);
         /* at 43 rpm a turn takes 1.4 s; the observer does not start for slower rotors */
-        TEST_ASSERT_TRUE(fed.observer.runs == (!slow || first == second));
+        TEST_ASSERT_TRUE(compensated.observer.runs == (!slow || first == second));
         if (!slow) {
             const wh_real speed = turned[first][second] * WH_RIG_TWO_PI / WH_R(0.1013);
-            CHECK_NEAR(1e-4f * (float)speed, speed, wh_observer_speed_radps(&fed.observer));
-            CHECK_NEAR(1e-5f, fed.observing.pulse_rad[second],
-                       wh_observer_angle_rad(&fed.observer, from + 1300U + took));
+            CHECK_NEAR(1e-4f * (float)speed, speed, wh_observer_speed_radps(&compensated.observer));
+            CHECK_NEAR(1e-5f, compensated.observing.pulse_rad[second],
+                       wh_observer_angle_rad(&compensated.observer, from + 1300U + took));
         }
     }
 }
@@ -218,19 +227,19 @@ TEST(rig_observer, two_marks_set_it_out) {
 TEST(rig_observer, a_missed_turn_is_noticed) {
     for (unsigned i = 0; i < 2; i++) {
         begin(3, WH_R(250.0));
-        fed_rotor_run(&fed, WH_R(250.0), WH_R(3.0));
-        while (fed.rotor.marks == 0 || fed.rotor.mark_sensor[0] != 0) {
-            fed_rotor_run(&fed, WH_R(250.0), FED_STEP_S);
+        compensated_rotor_run(&compensated, WH_R(250.0), WH_R(3.0));
+        while (compensated.rotor.marks == 0 || compensated.rotor.mark_sensor[0] != 0) {
+            compensated_rotor_run(&compensated, WH_R(250.0), FED_STEP_S);
         }
         if (i == 1U) { /* the position in which the rotor would hang */
-            fed.observer.state.real[0] = WH_R(5.0);
+            compensated.observer.state.real[0] = WH_R(5.0);
         }
-        const wh_real drive = i == 0 ? fed.voltage : WH_R(0.0);
+        const wh_real drive = i == 0 ? compensated.voltage : WH_R(0.0);
         uint32_t steps = 0;
-        while (fed.observer.valid && steps < 700U) {
+        while (compensated.observer.valid && steps < 700U) {
             steps++;
-            wh_observer_step(&fed.observing, &fed.observer,
-                             fed.rotor.ticks + steps * FED_STEP_TICKS, drive);
+            wh_observer_step(&compensated.observing, &compensated.observer,
+                             compensated.rotor.ticks + steps * FED_STEP_TICKS, drive);
         }
         const wh_real part = (wh_real)steps * FED_STEP_S * WH_R(250.0) / WH_R(60.0);
         TEST_ASSERT_TRUE(i == 0 ? part > WH_R(1.01) && part < WH_R(1.12) : steps < 300U);
@@ -240,19 +249,22 @@ TEST(rig_observer, a_missed_turn_is_noticed) {
 /* If control steps are no multiples of the scene's step, the remainder is added to the next control step. */
 TEST(rig_observer, uneven_steps_lose_no_time) {
     begin(3, WH_R(330.0));
-    fed_rotor_hold(&fed, WH_R(330.0));
+    compensated_rotor_hold(&compensated, WH_R(330.0));
     uint32_t seen = 0;
     for (unsigned i = 0; i < 4000; i++) {
-        rotor_turn(&fed.kind, &fed.rotor, fed.voltage, i % 3U == 0 ? 2500 : 1500);
-        wh_observer_step(&fed.observing, &fed.observer, fed.rotor.ticks, fed.voltage);
-        for (unsigned k = 0; k < fed.rotor.marks; k++) {
-            wh_observer_pulse(&fed.observing, &fed.observer, fed.rotor.mark_sensor[k],
-                              fed.rotor.mark_ticks[k]);
+        rotor_turn(&compensated.kind, &compensated.rotor, compensated.voltage,
+                   i % 3U == 0 ? 2500 : 1500);
+        wh_observer_step(&compensated.observing, &compensated.observer, compensated.rotor.ticks,
+                         compensated.voltage);
+        for (unsigned k = 0; k < compensated.rotor.marks; k++) {
+            wh_observer_pulse(&compensated.observing, &compensated.observer,
+                              compensated.rotor.mark_sensor[k], compensated.rotor.mark_ticks[k]);
         }
         if (i >= 2000U) {
-            const wh_real angle = wh_observer_angle_rad(&fed.observer, fed.rotor.ticks);
-            CHECK_NEAR(0.02f * (float)DEG, 0.0f, rotor_ahead_rad(&fed.rotor, angle));
-            seen += fed.observer.valid ? 1U : 0U;
+            const wh_real angle =
+                wh_observer_angle_rad(&compensated.observer, compensated.rotor.ticks);
+            CHECK_NEAR(0.02f * (float)DEG, 0.0f, rotor_ahead_rad(&compensated.rotor, angle));
+            seen += compensated.observer.valid ? 1U : 0U;
         }
     }
     TEST_ASSERT_EQUAL_UINT32(2000, seen);
@@ -262,32 +274,33 @@ TEST(rig_observer, uneven_steps_lose_no_time) {
 TEST(rig_observer, it_begins_anew) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     for (unsigned i = 0; i < 4; i++) {
-        fed_rotor_standard(&fed, 5);
-        fed.kind.friction_Nm = WH_R(0.05);
-        TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_OK);
-        fed_rotor_run(&fed, WH_R(330.0), WH_R(2.0));
-        TEST_ASSERT_TRUE(fed.observer.valid && fed.observer.runs);
-        const uint32_t now = fed.rotor.ticks;
+        compensated_rotor_standard(&compensated, 5);
+        compensated.kind.friction_Nm = WH_R(0.05);
+        TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, WH_R(330.0)) == WH_OK);
+        compensated_rotor_run(&compensated, WH_R(330.0), WH_R(2.0));
+        TEST_ASSERT_TRUE(compensated.observer.valid && compensated.observer.runs);
+        const uint32_t now = compensated.rotor.ticks;
         if (i == 0) {
-            wh_observer_step(&fed.observing, &fed.observer, now + 8000U, WH_R(0.5));
+            wh_observer_step(&compensated.observing, &compensated.observer, now + 8000U, WH_R(0.5));
         } else if (i == 1U) {
             for (uint32_t k = 2000; k <= UINT32_C(1600000); k += 2000U) {
-                wh_observer_step(&fed.observing, &fed.observer, now + k, WH_R(0.0));
+                wh_observer_step(&compensated.observing, &compensated.observer, now + k, WH_R(0.0));
             }
-            TEST_ASSERT_FALSE(fed.observer.marked);
+            TEST_ASSERT_FALSE(compensated.observer.marked);
         } else if (i == 2U) {
-            wh_observer_step(&fed.observing, &fed.observer, now + 2000U, nan);
+            wh_observer_step(&compensated.observing, &compensated.observer, now + 2000U, nan);
         } else {
-            wh_observer_forget(&fed.observer);
+            wh_observer_forget(&compensated.observer);
         }
-        TEST_ASSERT_FALSE(fed.observer.valid);
-        TEST_ASSERT_FALSE(fed.observer.runs);
-        TEST_ASSERT_TRUE(fed.observer.torque_Nm == WH_R(0.0));
-        fed.rotor.ticks = fed.observer.ticks; /* the rotor was at rest for this time */
-        fed_rotor_run(&fed, WH_R(330.0), WH_R(4.0));
-        TEST_ASSERT_TRUE(fed.observer.valid);
-        const wh_real seen = wh_observer_angle_rad(&fed.observer, fed.rotor.ticks);
-        CHECK_NEAR(DEG, 0.0f, rotor_ahead_rad(&fed.rotor, seen));
+        TEST_ASSERT_FALSE(compensated.observer.valid);
+        TEST_ASSERT_FALSE(compensated.observer.runs);
+        TEST_ASSERT_TRUE(compensated.observer.torque_Nm == WH_R(0.0));
+        compensated.rotor.ticks =
+            compensated.observer.ticks; /* the rotor was at rest for this time */
+        compensated_rotor_run(&compensated, WH_R(330.0), WH_R(4.0));
+        TEST_ASSERT_TRUE(compensated.observer.valid);
+        const wh_real seen = wh_observer_angle_rad(&compensated.observer, compensated.rotor.ticks);
+        CHECK_NEAR(DEG, 0.0f, rotor_ahead_rad(&compensated.rotor, seen));
     }
 }
 
@@ -297,15 +310,15 @@ TEST(rig_observer, shivers_set_nothing_going) {
     static const uint32_t apart[] = {1, 500, 5000, 60000, 1000000, 1490000, 1600000};
     for (unsigned i = 0; i < 7; i++) {
         begin(5, WH_R(100.0));
-        uint32_t now = fed.rotor.ticks;
+        uint32_t now = compensated.rotor.ticks;
         for (unsigned k = 0; k < 6; k++) {
-            wh_observer_pulse(&fed.observing, &fed.observer, 0, now);
+            wh_observer_pulse(&compensated.observing, &compensated.observer, 0, now);
             for (const uint32_t until = now + apart[i]; (int32_t)(until - now) > 0;) {
                 now += until - now < 2000U ? until - now : 2000U;
-                wh_observer_step(&fed.observing, &fed.observer, now, WH_R(0.0));
+                wh_observer_step(&compensated.observing, &compensated.observer, now, WH_R(0.0));
             }
         }
-        TEST_ASSERT_TRUE(fed.observer.runs == (i == 4U || i == 5U)); /* 60 and 40.3 rpm */
+        TEST_ASSERT_TRUE(compensated.observer.runs == (i == 4U || i == 5U)); /* 60 and 40.3 rpm */
     }
 }
 
@@ -313,31 +326,31 @@ TEST(rig_observer, the_wrap_changes_nothing) {
     wh_real speed[2];
     wh_phase phase[2];
     for (unsigned i = 0; i < 2; i++) {
-        fed_rotor_standard(&fed, 9);
-        fed.kind.jitter_s = JITTER_S;
-        fed.rotor.ticks = i == 0 ? 1000U : UINT32_MAX - UINT32_C(1500000);
-        TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(250.0)) == WH_OK);
-        fed_rotor_run(&fed, WH_R(250.0), WH_R(3.0));
-        speed[i] = wh_observer_speed_radps(&fed.observer);
-        phase[i] = wh_observer_phase(&fed.observer, fed.rotor.ticks + 3000U);
+        compensated_rotor_standard(&compensated, 9);
+        compensated.kind.jitter_s = JITTER_S;
+        compensated.rotor.ticks = i == 0 ? 1000U : UINT32_MAX - UINT32_C(1500000);
+        TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, WH_R(250.0)) == WH_OK);
+        compensated_rotor_run(&compensated, WH_R(250.0), WH_R(3.0));
+        speed[i] = wh_observer_speed_radps(&compensated.observer);
+        phase[i] = wh_observer_phase(&compensated.observer, compensated.rotor.ticks + 3000U);
     }
     TEST_ASSERT_TRUE(speed[0] == speed[1] && phase[0] == phase[1]);
 }
 
 /* The observer refuses scenes of another kind. Without a scene it is never valid. */
 TEST(rig_observer, other_scenes_are_refused) {
-    fed_rotor_standard(&fed, 1);
+    compensated_rotor_standard(&compensated, 1);
     wh_scene other = rig_fixed;
     wh_scene without = rig_fixed;
     const wh_scene *scenes[] = {NULL, &thomson_a, &carriage_free, &other, &without};
     other.step_s = WH_R(0.0010005);
     without.inputs = 0;
     for (unsigned i = 0; i < 5; i++) {
-        fed.observing.scene = scenes[i];
-        TEST_ASSERT_TRUE(fed_rotor_start(&fed, WH_R(330.0)) == WH_E_ARGUMENT);
-        fed_rotor_run(&fed, WH_R(330.0), WH_R(1.0));
-        TEST_ASSERT_EQUAL_UINT32(0, fed.valid);
-        TEST_ASSERT_TRUE(wh_observer_speed_radps(&fed.observer) == WH_R(0.0));
-        TEST_ASSERT_TRUE(wh_observer_angle_rad(&fed.observer, 77) == WH_R(0.0));
+        compensated.observing.scene = scenes[i];
+        TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, WH_R(330.0)) == WH_E_ARGUMENT);
+        compensated_rotor_run(&compensated, WH_R(330.0), WH_R(1.0));
+        TEST_ASSERT_EQUAL_UINT32(0, compensated.valid);
+        TEST_ASSERT_TRUE(wh_observer_speed_radps(&compensated.observer) == WH_R(0.0));
+        TEST_ASSERT_TRUE(wh_observer_angle_rad(&compensated.observer, 77) == WH_R(0.0));
     }
 }

@@ -230,14 +230,14 @@ TEST(rig_result, reasons_from_the_turns) {
         for (unsigned i = 0; i < 2; i++) {
             TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
             const wh_real part = WH_ABS(merge.ripple_rad) / angle.whole_rad;
-            angle.fed = true;
+            angle.compensated = true;
             const wh_real left = (wh_real)side * (i == 0 ? WH_R(0.14) : WH_R(0.16)) / part;
             merge.ripple_rad *= left;
             merge.second_N[0] *= left;
             merge.second_N[1] *= left;
             conclude(&bench);
             TEST_ASSERT_TRUE(measured.why == (i == 0 ? WH_WHY_NONE : WH_WHY_FED));
-            angle.fed = false;
+            angle.compensated = false;
         }
     }
     for (unsigned i = 0; i < 8U;

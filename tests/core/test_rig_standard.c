@@ -58,7 +58,7 @@ TEST(rig_standard, the_guard) {
     const wh_guard_config *guard = &wh_rig_standard.guard;
     const setting settings[] = {
         {"set-point at least, rpm", RPM(guard->target_min_radps), 170},
-        {"where gravity is fed, rpm", RPM(guard->target_min_fed_radps), 100},
+        {"where gravity is fed, rpm", RPM(guard->target_min_compensated_radps), 100},
         {"set-point at most, rpm", RPM(guard->target_max_radps), 360},
         {"the shaft's limit, rpm", RPM(guard->limit_radps), 400},
         {"ripple", guard->ripple, 0.1},

@@ -206,7 +206,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
     even.config.guard.supply_min_V = WH_R(1.0);
     even.config.feeds = WH_COMPENSATION_SLOW;
     even_obeys(&even, WH_EVENT_START, slowest);
-    TEST_ASSERT_FALSE(even.rig.fed);
+    TEST_ASSERT_FALSE(even.rig.compensated);
     for (unsigned never = 0; never < 2;
          /* slower set-points need an observer, and gravity compensation must be permitted */
          never++) {
@@ -215,7 +215,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
         even.config.feeds = never == 1 ? WH_COMPENSATION_NEVER : WH_COMPENSATION_SLOW;
         TEST_ASSERT_TRUE(even_order(&even, WH_EVENT_START, WH_R(110.0) * EVEN_RPM) ==
                          (never == 1 ? WH_REFUSED_TARGET : WH_ALLOWED));
-        TEST_ASSERT_TRUE(even.rig.fed == (never == 0));
+        TEST_ASSERT_TRUE(even.rig.compensated == (never == 0));
     }
     stand_in(WH_RIG_ARMED); /* the stop input disarms the rig before the order is processed */
     even.inputs.stop_pressed = true;

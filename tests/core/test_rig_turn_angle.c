@@ -15,15 +15,15 @@ static uint64_t seed;
 typedef struct turn {
     wh_rotor_config rotor;
     wh_real speed_radps;
-    bool fed;
+    bool compensated;
 } turn;
 
 static wh_turn_angle shaped(const turn *of, wh_real found) {
     wh_turn_angle angle;
     wh_turn_angle_start(&of->rotor, &angle);
-    wh_turn_angle_compensate(&angle, of->fed, WH_R(0.0625));
+    wh_turn_angle_compensate(&angle, of->compensated, WH_R(0.0625));
     angle.drive_V = of->rotor.damping_Nms * of->speed_radps / WH_R(0.0625);
-    if (of->fed) {
+    if (of->compensated) {
         angle.part = found;
     } else {
         angle.inertia_kgm2 = found;
@@ -43,8 +43,8 @@ static wh_real beyond(const turn *of, wh_real found, wh_real ratio) {
 /* Returns base_rad if sensor 2's pulse comes after the part `ratio` of the turn's time. Found by bisection on either
  * side of `about`. */
 static wh_real base_at(const turn *of, wh_real about, wh_real ratio) {
-    wh_real low = about - WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
-    wh_real high = about + WH_R(0.5) * (of->fed ? WH_R(1.0) : about);
+    wh_real low = about - WH_R(0.5) * (of->compensated ? WH_R(1.0) : about);
+    wh_real high = about + WH_R(0.5) * (of->compensated ? WH_R(1.0) : about);
     const bool rises = beyond(of, high, ratio) > beyond(of, low, ratio);
     for (unsigned i = 0; i < 30U; i++) {
         const wh_real middle = WH_R(0.5) * (low + high);
@@ -83,10 +83,10 @@ static void check_near(wh_real found, wh_real wanted, wh_real most) {
 TEST(rig_turn_angle, derivatives_are_what_differences_show) {
     seed = 1;
     for (unsigned i = 0; i < 100U; i++) {
-        turn of = {.rotor = wh_rig_standard.measure.rotor, .fed = i % 2U == 1U};
+        turn of = {.rotor = wh_rig_standard.measure.rotor, .compensated = i % 2U == 1U};
         const wh_real about =
-            of.fed ? draw_between(&seed, WH_R(-0.3), WH_R(0.3))
-                   : of.rotor.inertia_kgm2 * draw_between(&seed, WH_R(1.0), WH_R(2.0));
+            of.compensated ? draw_between(&seed, WH_R(-0.3), WH_R(0.3))
+                           : of.rotor.inertia_kgm2 * draw_between(&seed, WH_R(1.0), WH_R(2.0));
         of.speed_radps = draw_between(&seed, WH_R(28.0), WH_R(42.0));
         of.rotor.gravity_rad = WH_R(0.25) * WH_RIG_TWO_PI * draw_whole(&seed, 0, 3) +
                                draw_between(&seed, WH_R(-0.25), WH_R(0.25));
@@ -106,7 +106,7 @@ TEST(rig_turn_angle, derivatives_are_what_differences_show) {
                    WH_R(0.003) + WH_R(0.25) * bent);
         const wh_real lag = by_lag(&of, about, ratio);
         check_near(lag, angle.base_per_lag, swing * (WH_R(0.003) + WH_R(0.4) * bent) + WH_R(2e-5));
-        if (of.fed) {
+        if (of.compensated) {
             /* A lag adds a ripple a quarter turn later, in proportion to the part of gravity. */
             check_near(WH_ABS(lag), swing * WH_ABS(angle.base_per_quadrature),
                        swing * (WH_R(0.003) + WH_R(0.5) * bent) + WH_R(2e-5));

@@ -12,7 +12,7 @@ drawn_talk talk_drawn;
 stream talk_line;
 stream talk_on_tape;
 lockstep_report talk_report;
-lockstep_wish talk_wish;
+lockstep_request talk_request;
 
 static dice die;
 static int ends[2];
@@ -139,7 +139,8 @@ void talk_open_line(bool closed) {
     if (closed) {
         TEST_ASSERT_EQUAL_INT(0, shutdown(ends[1], SHUT_WR));
     }
-    talk_wish = (lockstep_wish){.guest = {.by_line = true, .line = ends[0], .patience_s = 0.05}};
+    talk_request =
+        (lockstep_request){.guest = {.by_line = true, .line = ends[0], .patience_s = 0.05}};
     talk_report = (lockstep_report){.end = LOCKSTEP_DONE};
 }
 

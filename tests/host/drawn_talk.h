@@ -31,7 +31,7 @@ extern drawn_talk talk_drawn;
 extern stream talk_line; /* bytes sent by the firmware */
 extern stream talk_on_tape;
 extern lockstep_report talk_report;
-extern lockstep_wish talk_wish;
+extern lockstep_request talk_request;
 
 void talk_die(dice with); /* sets the random generator of all functions here */
 unsigned talk_one_of(unsigned count);
@@ -51,7 +51,7 @@ void talk_put_end(stream *s, int status, unsigned length);
 void talk_tape_all(unsigned turns);
 void talk_say_all(unsigned turns);
 
-/* talk_open_line() puts the firmware's answers into a socket, and the socket into talk_wish. If `closed`, the line
+/* talk_open_line() puts the firmware's answers into a socket, and the socket into talk_request. If `closed`, the line
  * ends after the answers, else it stays silent. talk_close_line() closes the socket. *heard: the bytes that the host
  * sent. */
 void talk_open_line(bool closed);

@@ -331,14 +331,14 @@ static bool campaign_has_dials(const campaign *c) {
 }
 
 /* Draws the operator's dials, which the firmware reads as samples 4 to 6: speed, gravity compensation, braking. */
-static void put_dials(text *t, drawing *d, campaign_case *one, bool fed) {
+static void put_dials(text *t, drawing *d, campaign_case *one, bool compensated) {
     const double which = draw(d);
     one->target_rpm = which < NOMINAL_PART ? rig_nominal_rpm()
                       : which < NOMINAL_PART + SLOW_PART
                           ? SLOWEST_RPM + draw(d) * (SLOW_RPM - SLOWEST_RPM)
                           : SLOW_RPM + draw(d) * (FASTEST_RPM - SLOW_RPM);
     put(t, ",%s:4=%.4f", fault_rows[FAULT_READS].word, one->target_rpm * RADPS_PER_RPM);
-    if (draw(d) < FED_PART || fed) {
+    if (draw(d) < FED_PART || compensated) {
         put(t, ",%s:5=1", fault_rows[FAULT_READS].word);
     }
     if (draw(d) < BRAKES_PART) {

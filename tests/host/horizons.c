@@ -48,7 +48,7 @@ typedef struct beside {
 
 static void enter(beside *b) {
     horizons *h = b->h;
-    for (int k = 1; k < h->twins->columns; k++) {
+    for (int k = 1; k < h->doubling->columns; k++) {
         const double level = h->estimate.tolerance * h->estimate.column[k].range;
         const double off = fabs(b->now->row[k] - b->fine.records->row[k]);
         const bool events = h->image->contacts > 0;
@@ -71,11 +71,11 @@ static void enter(beside *b) {
 
 static void run_beside(horizons *h, uint64_t stride) {
     const image *im = h->image;
-    const engine_kind *kind = h->twins->shape->kind;
+    const engine_kind *kind = h->doubling->shape->kind;
     beside b = {.h = h,
                 .now = records_open(NULL, im, kind),
-                .last = calloc((size_t)h->twins->columns, sizeof(double)),
-                .open = h->twins->columns - 1};
+                .last = calloc((size_t)h->doubling->columns, sizeof(double)),
+                .open = h->doubling->columns - 1};
     void *run = kind->start(im);
     reference_open(&b.fine, h->plain, true);
     reference_open(&b.other, h->plain, false);
@@ -126,19 +126,19 @@ horizons horizons_of(const char *text, const char *name, horizons_setting how, d
     (void)step_doubling_plain(&settings, &plain);
     h.image = image_with(&h.made, &settings);
     h.plain = image_with(&h.made, &plain);
-    const step_doubling_wish wish = {.image = h.image, .kind = how.kind, .plain = h.plain};
-    h.twins = step_doubling_run(&wish);
-    h.estimate = horizon_of(h.twins, tolerance);
-    h.true_s = calloc((size_t)h.twins->columns, sizeof *h.true_s);
+    const step_doubling_request request = {.image = h.image, .kind = how.kind, .plain = h.plain};
+    h.doubling = step_doubling_run(&request);
+    h.estimate = horizon_of(h.doubling, tolerance);
+    h.true_s = calloc((size_t)h.doubling->columns, sizeof *h.true_s);
     TEST_ASSERT_NOT_NULL(h.true_s);
-    for (int k = 1; k < h.twins->columns; k++) {
+    for (int k = 1; k < h.doubling->columns; k++) {
         h.true_s[k] = (double)INFINITY;
     }
     const uint64_t stride = 1 + h.image->steps / LOOKS;
     h.look_s = ratio_times(stride, h.image->step);
     run_beside(&h, stride);
-    h.true_until_s = h.twins->end_s;
-    for (int k = 1; k < h.twins->columns; k++) {
+    h.true_until_s = h.doubling->end_s;
+    for (int k = 1; k < h.doubling->columns; k++) {
         h.true_until_s = fmin(h.true_until_s, h.true_s[k]);
     }
     return h;
@@ -146,7 +146,7 @@ horizons horizons_of(const char *text, const char *name, horizons_setting how, d
 
 void horizons_free(horizons *h) {
     horizon_free(&h->estimate);
-    step_doubling_free(h->twins);
+    step_doubling_free(h->doubling);
     image_free(h->plain);
     image_free(h->image);
     free(h->true_s);
@@ -159,7 +159,7 @@ double horizons_ratio(const horizons *h) {
 }
 
 double horizons_column_ratio(const horizons *h, int column) {
-    const double real = fmin(h->true_s[column], h->twins->end_s);
+    const double real = fmin(h->true_s[column], h->doubling->end_s);
     const double guess = h->estimate.column[column].until_s;
     return real > 0.0 ? guess / real : (guess > 0.0 ? (double)INFINITY : 1.0);
 }

@@ -22,7 +22,7 @@ typedef struct horizons {
     image *image; /* image with the settings of the run */
     /* image with the settings of the finer run (host/check/step_doubling.h); the reference uses it, too */
     image *plain;
-    step_doubling *twins;
+    step_doubling *doubling;
     horizon estimate;
     /* [columns] time until which the column is accurate; infinite: until the end of the run */
     double *true_s;

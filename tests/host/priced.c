@@ -38,17 +38,17 @@ void priced_open(priced *p, const char *const *texts, int points) {
 }
 
 bool priced_begin(priced *p, const char *board, whole_ratio spacing, int count, const char *of) {
-    p->wish = (trial_wish){.source = &p->source,
-                           .board = cost_board_named(board),
-                           .of = of,
-                           .spacing = spacing,
-                           .records = count};
-    TEST_ASSERT_NOT_NULL_MESSAGE(p->wish.board, board);
-    return trial_begin(&p->trial, &p->wish);
+    p->request = (trial_request){.source = &p->source,
+                                 .board = cost_board_named(board),
+                                 .of = of,
+                                 .spacing = spacing,
+                                 .records = count};
+    TEST_ASSERT_NOT_NULL_MESSAGE(p->request.board, board);
+    return trial_begin(&p->trial, &p->request);
 }
 
 void priced_close(priced *p) {
-    if (p->trial.wish.source != NULL) {
+    if (p->trial.request.source != NULL) {
         trial_end(&p->trial);
     }
     for (int i = 0; i < p->source.points; i++) {

@@ -20,7 +20,7 @@ typedef struct priced {
     int asked; /* number of images requested so far */
     char place[32];
     trial_source source;
-    trial_wish wish;
+    trial_request request;
     trials trial;
 } priced;
 

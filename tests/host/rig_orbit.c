@@ -116,7 +116,7 @@ void rig_orbit_find(const rig_plant *plant, double speed_rpm, double lead_rad, r
     orbit->turn_s = periodic(plant, drive_Nm, from);
     orbit->tare_N = plant->tare_N;
     orbit->drive_Nm = drive_Nm;
-    orbit->fed = plant->fed_Nm > 0.0;
+    orbit->compensated = plant->fed_Nm > 0.0;
     const double h = 2.0 * PI / STEPS;
     orbit->split = time_at[STEPS / 4U] / orbit->turn_s;
     orbit->in_phase_N = 0.0;
@@ -224,7 +224,7 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
         scattered();
     }
     wh_lockin_start(rotor, &lockin);
-    wh_lockin_compensate(&lockin, orbit->fed, WH_R(0.0625));
+    wh_lockin_compensate(&lockin, orbit->compensated, WH_R(0.0625));
     lockin.angle.drive_V = (wh_real)(orbit->drive_Nm / 0.0625);
     wh_merge merge = {0};
     const uint32_t begin = UINT32_MAX - 1500000U; /* the timer wraps during the measurement */

@@ -39,7 +39,7 @@ typedef struct rig_orbit {
     double quadrature_N;
     double amplitude_N;
     double phase_rad;
-    bool fed;
+    bool compensated;
     double drive_Nm; /* the motor's torque at standstill, without gravity compensation */
     double swing;    /* half the range of the speed, divided by the mean speed */
 } rig_orbit;

@@ -32,7 +32,7 @@ typedef struct request {
     diags *errors;
     pricing_scene *scene;
     trials trial;
-    choice_wish wish;
+    choice_request asked;
     table *made;
 } request;
 
@@ -41,14 +41,14 @@ static void open_request(request *q, const char *text, const char *board, double
     derived_expect(&q->d, text);
     q->scene = pricing_scene_new(q->d.model->mechanisms[0], q->d.model->scenes[0], &q->changes,
                                  &q->grid, q->errors);
-    const trial_wish wish = {.source = &q->scene->source,
-                             .board = cost_board_named(board),
-                             .spacing = ratio_of(1.0 / rate_Hz),
-                             .records = (int)(rate_Hz + 0.5)};
-    TEST_ASSERT_TRUE(trial_begin(&q->trial, &wish));
+    const trial_request asked = {.source = &q->scene->source,
+                                 .board = cost_board_named(board),
+                                 .spacing = ratio_of(1.0 / rate_Hz),
+                                 .records = (int)(rate_Hz + 0.5)};
+    TEST_ASSERT_TRUE(trial_begin(&q->trial, &asked));
     TEST_ASSERT_TRUE(q->trial.reliable);
-    q->wish =
-        (choice_wish){.table = {.rate_Hz = rate_Hz, .periods = 1, .operations = 8e8, .workers = 2}};
+    q->asked = (choice_request){
+        .table = {.rate_Hz = rate_Hz, .periods = 1, .operations = 8e8, .workers = 2}};
 }
 
 static void close_request(request *q) {
@@ -67,21 +67,21 @@ static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst
     const cost c = trial_cost(&q->trial, s, pace, &own);
     const cost_figure *f =
         c.cycles_worst.basis != COST_NOT_KNOWN ? &c.cycles_worst : &c.instructions_worst;
-    *worst = f->most * (double)substeps * q->wish.table.rate_Hz;
+    *worst = f->most * (double)substeps * q->asked.table.rate_Hz;
     if (!own || c.instructions_worst.basis == COST_NOT_KNOWN ||
-        (q->wish.clock_Hz > 0.0 && *worst > q->wish.clock_Hz) ||
-        (q->wish.flash_bytes > 0.0 && c.flash_bytes.most > q->wish.flash_bytes) ||
-        (q->wish.ram_bytes > 0.0 && c.ram_bytes.most + c.stack_bytes.most > q->wish.ram_bytes)) {
+        (q->asked.clock_Hz > 0.0 && *worst > q->asked.clock_Hz) ||
+        (q->asked.flash_bytes > 0.0 && c.flash_bytes.most > q->asked.flash_bytes) ||
+        (q->asked.ram_bytes > 0.0 && c.ram_bytes.most + c.stack_bytes.most > q->asked.ram_bytes)) {
         return false;
     }
     const trial_result r = trial_run(&q->trial, s, pace);
-    return r.ran && r.usable && 2.0 * r.error <= q->wish.table.error;
+    return r.ran && r.usable && 2.0 * r.error <= q->asked.table.error;
 }
 
 static choice choose(request *q) {
     table_free(q->made);
-    q->made = table_new(&q->trial, &q->wish.table);
-    return choice_make(&q->trial, q->made, &q->wish);
+    q->made = table_new(&q->trial, &q->asked.table);
+    return choice_make(&q->trial, q->made, &q->asked);
 }
 
 static const table_row *row_of(const request *q, const choice_row *r) {
@@ -101,7 +101,7 @@ static void try_all(request *q, double *cycles, double *flash) {
             double worst;
             bool own;
             deviation_pace pace;
-            if (!table_pace(&q->wish.table, k, &pace) || pace.steps > SUBSTEPS_MOST) {
+            if (!table_pace(&q->asked.table, k, &pace) || pace.steps > SUBSTEPS_MOST) {
                 break;
             }
             kept = keeps(q, &s, pace.steps, &worst);
@@ -124,17 +124,17 @@ TEST(choice, drawn_requests) {
         const char *text = texts[dice_one_of(&d, TEXTS)];
         const char *board = boards[dice_one_of(&d, 3)];
         open_request(&q, text, board, rates[dice_one_of(&d, 4)]);
-        q.wish.table.error = pow(10.0, dice_between(&d, -5.0, -1.0));
-        q.wish.clock_Hz = dice_one_of(&d, 3) == 0 ? 0.0 : pow(10.0, dice_between(&d, 3.5, 7.0));
-        q.wish.flash_bytes = dice_one_of(&d, 3) == 0 ? dice_between(&d, 4000.0, 9000.0) : 0.0;
-        q.wish.ram_bytes = dice_one_of(&d, 4) == 0 ? dice_between(&d, 200.0, 700.0) : 0.0;
+        q.asked.table.error = pow(10.0, dice_between(&d, -5.0, -1.0));
+        q.asked.clock_Hz = dice_one_of(&d, 3) == 0 ? 0.0 : pow(10.0, dice_between(&d, 3.5, 7.0));
+        q.asked.flash_bytes = dice_one_of(&d, 3) == 0 ? dice_between(&d, 4000.0, 9000.0) : 0.0;
+        q.asked.ram_bytes = dice_one_of(&d, 4) == 0 ? dice_between(&d, 200.0, 700.0) : 0.0;
         const choice c = choose(&q);
         double cycles;
         double flash;
         char what[200];
         snprintf(what, sizeof what, "case %u: %.20s on %s, error %.3g, %g Hz, clock %g, flash %g",
-                 n, text, board, q.wish.table.error, q.wish.table.rate_Hz, q.wish.clock_Hz,
-                 q.wish.flash_bytes);
+                 n, text, board, q.asked.table.error, q.asked.table.rate_Hz, q.asked.clock_Hz,
+                 q.asked.flash_bytes);
         try_all(&q, &cycles, &flash);
         if (c.fastest.row >= 0) {
             double worst;
@@ -170,7 +170,7 @@ TEST(choice, rows_depend_on_the_effort_alone) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
         open_request(&q, texts[n], boards[n % 3], 50.0);
-        table_wish w = {.operations = 2e7, .periods = 1, .workers = 1};
+        table_request w = {.operations = 2e7, .periods = 1, .workers = 1};
         table *one = table_new(&q.trial, &w);
         w.workers = 3;
         table *three = table_new(&q.trial, &w);
@@ -201,17 +201,17 @@ TEST(choice, rows_depend_on_the_effort_alone) {
 TEST(choice, what_would_fit_does) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);
-    q.wish.table.error = 1e-5;
-    q.wish.clock_Hz = 2e5;
+    q.asked.table.error = 1e-5;
+    q.asked.clock_Hz = 2e5;
     const choice c = choose(&q);
     TEST_ASSERT_TRUE(c.fastest.row < 0 && c.dearer.row >= 0);
-    choice_wish w = q.wish;
-    w.clock_Hz = q.wish.clock_Hz * c.dearer.load_most * (1.0 + 1e-9);
+    choice_request w = q.asked;
+    w.clock_Hz = q.asked.clock_Hz * c.dearer.load_most * (1.0 + 1e-9);
     TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, q.made, &w).fastest.row >= 0, "a faster chip");
     w.clock_Hz *= 0.98;
     TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, q.made, &w).fastest.row < 0, "a slower one");
     if (c.weaker.row >= 0) {
-        w = q.wish;
+        w = q.asked;
         w.table.error = TABLE_MARGIN * row_of(&q, &c.weaker)->result.error * (1.0 + 1e-9);
         TEST_ASSERT_TRUE(choice_make(&q.trial, q.made, &w).fastest.row >= 0);
         w.table.error *= 0.98;

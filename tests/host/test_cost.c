@@ -234,13 +234,13 @@ static cost priced_line(char *line, const cost_board *board, const char *number)
                             count, words, &at, &options, &bad) ||
               bad;
     }
-    const load_wish wish = {
+    const load_request request = {
         .settings = options.integration, .use = IMAGE_TO_WRITE, .conserve = true};
     const overrides changes = options_overrides(&options.change);
     TEST_ASSERT_FALSE(bad);
     TEST_ASSERT_EQUAL_INT(EXIT_DONE, source_open(&from, words[2]));
     TEST_ASSERT_EQUAL_INT(EXIT_DONE, source_pick(&from, true, &of, &in));
-    TEST_ASSERT_EQUAL_INT(EXIT_DONE, load(&made, &from, of, in, &changes, &wish));
+    TEST_ASSERT_EQUAL_INT(EXIT_DONE, load(&made, &from, of, in, &changes, &request));
     const bool fixed = strcmp(number, "fixed") == 0;
     fixed_plan *plan = fixed ? fixed_plan_make(made.image, false, from.errors) : NULL;
     made.image->fixed = plan;

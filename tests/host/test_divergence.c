@@ -352,9 +352,9 @@ static void hold_growth(dice *d, wh_method method, int order, bool events) {
     derived made = derived_scene(text, "s");
     derived_expect(&made, text);
     made.image->settings.method = method;
-    const step_doubling_wish wish = {
+    const step_doubling_request request = {
         .image = made.image, .kind = &engine_double, .plain = made.image, .books = events};
-    step_doubling *t = step_doubling_run(&wish);
+    step_doubling *t = step_doubling_run(&request);
     horizon h = horizon_of(t, tolerance);
     const double rough = factor(order, z);
     const double fine = factor(4, 0.5 * z);
@@ -488,9 +488,9 @@ static void expect_words(const horizon *h) {
 TEST(horizon, words_and_rows) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);
-    const step_doubling_wish wish = {
+    const step_doubling_request request = {
         .image = made.image, .kind = &engine_double, .plain = made.image, .books = true};
-    step_doubling *t = step_doubling_run(&wish);
+    step_doubling *t = step_doubling_run(&request);
     horizon h = horizon_of(t, 0.01);
     TEST_ASSERT_TRUE(h.first > 0 && t->shape->column[h.first].unknown == 0);
     TEST_ASSERT_TRUE(h.until_s > 0.68 && h.until_s < 0.85);
@@ -665,9 +665,9 @@ TEST(trust_kinks, exact_steps_are_right_to_the_end) {
     for (unsigned n = 0; n < few_or_all(12, 48); n++) {
         const way *w = &exact[n % EXACT];
         horizons h = one_of(&seed, n, step_ms[n / EXACT % STEPS], w->how);
-        TEST_ASSERT_TRUE_MESSAGE(h.true_until_s >= h.twins->end_s, w->words);
+        TEST_ASSERT_TRUE_MESSAGE(h.true_until_s >= h.doubling->end_s, w->words);
         TEST_ASSERT_TRUE_MESSAGE(h.estimate.to_the_end, w->words);
-        for (int k = 1; k < h.twins->columns && w->how.kind == &engine_double; k++) {
+        for (int k = 1; k < h.doubling->columns && w->how.kind == &engine_double; k++) {
             worst = fmax(worst, h.estimate.column[k].off / h.estimate.column[k].range);
         }
         horizons_free(&h);
@@ -698,7 +698,7 @@ TEST(trust_kinks, coarse_steps_until_the_reference_says_so) {
         TEST_ASSERT_TRUE_MESSAGE(fabs(h.estimate.until_s - h.true_until_s) <=
                                      0.1 * h.true_until_s + 1.5 * h.look_s,
                                  text);
-        ended += h.true_until_s < h.twins->end_s ? 1 : 0;
+        ended += h.true_until_s < h.doubling->end_s ? 1 : 0;
         least = fmin(least, horizons_ratio(&h));
         most = fmax(most, horizons_ratio(&h));
         horizons_free(&h);
@@ -724,13 +724,13 @@ static void write_spring(char *text, const char *unit, double a, double w, doubl
 }
 
 static step_doubling *twins_of(const motion *m, const image *im) {
-    const step_doubling_wish w = {.image = im, .kind = m->kind, .plain = m->image};
+    const step_doubling_request w = {.image = im, .kind = m->kind, .plain = m->image};
     return step_doubling_run(&w);
 }
 
 /* The finer run must have exactly half the step, whatever fraction the step is. The step of an exact matrix must not
  * be halved. */
-TEST(twins, the_finer_run) {
+TEST(doubling, the_finer_run) {
     dice d = dice_of("twins", 31);
     for (unsigned method = 0; method < WH_METHODS; method++) {
         for (unsigned of = 0; of < 3U; of++) {
@@ -783,7 +783,7 @@ TEST(twins, the_finer_run) {
     }
 }
 
-TEST(twins, plain_settings) {
+TEST(doubling, plain_settings) {
     for (unsigned i = 0; i < 24U; i++) {
         const image_settings of = {.tables = i % 2U == 0 ? TABLES_NONE : TABLES_CUBIC,
                                    .cells = i % 2U == 0 ? 0 : 64,
@@ -805,7 +805,7 @@ TEST(twins, plain_settings) {
 
 /* The lowest and highest values must be those of the motion, and the difference at the end that of two separate
  * runs. The round-off of a rate must count in its coordinate for the whole time. */
-TEST(twins, what_is_told) {
+TEST(doubling, what_is_told) {
     static const struct {
         const char *name;
         double per_m;
@@ -851,7 +851,7 @@ TEST(twins, what_is_told) {
 }
 
 /* An interrupt must end both runs before the next step. */
-TEST(twins, an_end_from_outside) {
+TEST(doubling, an_end_from_outside) {
     char text[TEXT];
     motion m;
     write_spring(text, "m", 1.0, 3.0, 1e-3, 1.2);
@@ -869,7 +869,7 @@ TEST(twins, an_end_from_outside) {
 
 /* x'' = x^3 from x = s, x' = s^2/sqrt(2) has the solution x = s/(1 - s t/sqrt(2)), infinite at a known time. The
  * report must end there. */
-TEST(twins, runs_that_fail) {
+TEST(doubling, runs_that_fail) {
     dice d = dice_of("twins", 33);
     for (unsigned i = 0; i < 6U; i++) {
         char text[TEXT];
@@ -892,7 +892,7 @@ TEST(twins, runs_that_fail) {
 
 /* The predicted work of step doubling must be the counted work, except for the first steps and the samples of the
  * state. */
-TEST(twins, what_they_take) {
+TEST(doubling, what_they_take) {
     dice d = dice_of("twins", 34);
     for (unsigned i = 0; i < 2U * WH_METHODS; i++) {
         char text[TEXT];

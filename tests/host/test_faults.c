@@ -107,13 +107,13 @@ static verdict judged(const made_up *m) {
                               .calibration = m->calibration,
                               .runs_away = m->runs_away,
                               .delays = m->delays};
-    const plant_wish wish = {.seed = 1};
+    const plant_request request = {.seed = 1};
     TEST_ASSERT_TRUE(fault_read(&plan, "unwatched"));
     TEST_ASSERT_TRUE(fault_read(&plan, m->fault));
     snprintf(words, sizeof words, text, m->swing_J, m->rpm);
     motion_open_text(&bench, words, IN_DOUBLE);
     TEST_ASSERT_TRUE(bind_signals(&b, &hello_faults, bench.image, NULL));
-    plant_start(&on, bench.image, &b, &hello_faults, &wish);
+    plant_start(&on, bench.image, &b, &hello_faults, &request);
     const tap taps[] = {fault_tap(&plan), judge_tap(&j, &of, &plan, &until_s)};
     TEST_ASSERT_TRUE(taps[0].start(taps[0].of, &hello_faults, &on) &&
                      taps[1].start(taps[1].of, &hello_faults, &on));
@@ -312,14 +312,14 @@ static void find_firmware(void) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, access(firmware, X_OK), "make build/pil_cart");
 }
 
-static lockstep_wish wish_until(double until_s) {
-    return (lockstep_wish){.guest = {.image = firmware, .board = "", .patience_s = 20.0},
-                           .plant = {.seed = 1},
-                           .until_s = until_s};
+static lockstep_request wish_until(double until_s) {
+    return (lockstep_request){.guest = {.image = firmware, .board = "", .patience_s = 20.0},
+                              .plant = {.seed = 1},
+                              .until_s = until_s};
 }
 
-static void run(const lockstep_wish *wish) {
-    lockstep_run(wish, cart.image, &report);
+static void run(const lockstep_request *request) {
+    lockstep_run(request, cart.image, &report);
     TEST_ASSERT_TRUE(report.end == LOCKSTEP_LET_GO);
 }
 
@@ -390,15 +390,15 @@ static void see_plant(void *of, double time_s, const plant *on) {
 
 /* A tap that listens must receive every message and change nothing. */
 static void test_listening(void) {
-    lockstep_wish wish = wish_until(1.5);
-    run(&wish);
+    lockstep_request request = wish_until(1.5);
+    run(&request);
     const lockstep_report without = report;
     listener heard = {.orders = 0};
     const tap taps[] = {{.of = &heard, .orders = hear_orders},
                         {.of = &heard, .readings = hear_readings}};
-    wish.taps = taps;
-    wish.tap_count = 2;
-    run(&wish);
+    request.taps = taps;
+    request.tap_count = 2;
+    run(&request);
     TEST_ASSERT_TRUE(report.hash == without.hash && report.plant_hash == without.plant_hash);
     TEST_ASSERT_EQUAL_UINT64(1500, report.exchanges);
     TEST_ASSERT_EQUAL_UINT64(1500, heard.orders);
@@ -411,16 +411,16 @@ static void test_listening(void) {
  * milliseconds. */
 static void test_watching(void) {
     for (int late = 0; late < 2; late++) {
-        lockstep_wish wish = wish_until(1.5);
+        lockstep_request request = wish_until(1.5);
         listener seen = {.orders = 0};
         const tap taps[] = {{.orders = late ? take_ten_ms : NULL},
                             {.of = &seen, .start = see_start, .watch = see_plant}};
-        wish.taps = taps;
-        wish.tap_count = 1;
-        run(&wish);
+        request.taps = taps;
+        request.tap_count = 1;
+        run(&request);
         const lockstep_report without = report;
-        wish.tap_count = 2;
-        run(&wish);
+        request.tap_count = 2;
+        run(&request);
         TEST_ASSERT_TRUE(report.hash == without.hash && report.plant_hash == without.plant_hash);
         TEST_ASSERT_EQUAL_UINT64(1500, seen.readings);
         TEST_ASSERT_EQUAL_UINT64(late ? 150 : 1500, report.exchanges);
@@ -429,34 +429,34 @@ static void test_watching(void) {
 }
 
 static void test_refused_start(void) {
-    lockstep_wish wish = wish_until(1.0);
+    lockstep_request request = wish_until(1.0);
     const tap taps[] = {{.start = refuse_start}};
-    wish.taps = taps;
-    wish.tap_count = 1;
-    lockstep_run(&wish, cart.image, &report);
+    request.taps = taps;
+    request.tap_count = 1;
+    lockstep_run(&request, cart.image, &report);
     TEST_ASSERT_TRUE(report.end == LOCKSTEP_BAD);
     TEST_ASSERT_EQUAL_UINT64(0, report.exchanges);
 }
 
 /* A plant that loses its orders must move as it would alone. */
 static void test_deaf_plant(void) {
-    lockstep_wish wish = wish_until(1.0);
+    lockstep_request request = wish_until(1.0);
     const tap taps[] = {{.orders = forget_orders}};
-    wish.taps = taps;
-    wish.tap_count = 1;
-    run(&wish);
+    request.taps = taps;
+    request.tap_count = 1;
+    run(&request);
     TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&cart, 20000));
     TEST_ASSERT_TRUE(report.plant_hash == engine_double.hash(cart.run));
 }
 
 /* A firmware without inputs must not push. */
 static void test_blind_firmware(void) {
-    lockstep_wish wish = wish_until(0.2);
+    lockstep_request request = wish_until(0.2);
     listener heard = {.orders = 0};
     const tap taps[] = {{.readings = lose_samples}, {.of = &heard, .orders = hear_orders}};
-    wish.taps = taps;
-    wish.tap_count = 2;
-    run(&wish);
+    request.taps = taps;
+    request.tap_count = 2;
+    run(&request);
     TEST_ASSERT_EQUAL_UINT64(200, heard.orders);
     TEST_ASSERT_TRUE(heard.most_N == 0.0F);
 }
@@ -466,16 +466,16 @@ static void tape_of_a_tapped_run(const tap *only, uint64_t exchanges) {
     char name[] = "/tmp/whirl_tape_XXXXXX";
     const int file = mkstemp(name);
     TEST_ASSERT_TRUE(file >= 0);
-    lockstep_wish wish = wish_until(0.3);
-    wish.taps = only;
-    wish.tap_count = 1;
-    wish.tape = fdopen(file, "wb");
-    TEST_ASSERT_NOT_NULL(wish.tape);
-    run(&wish);
-    TEST_ASSERT_EQUAL_INT(0, fclose(wish.tape));
+    lockstep_request request = wish_until(0.3);
+    request.taps = only;
+    request.tap_count = 1;
+    request.tape = fdopen(file, "wb");
+    TEST_ASSERT_NOT_NULL(request.tape);
+    run(&request);
+    TEST_ASSERT_EQUAL_INT(0, fclose(request.tape));
     const uint64_t hash = report.hash;
     TEST_ASSERT_EQUAL_UINT64(exchanges, report.exchanges);
-    const lockstep_wish again = wish_until(0.3);
+    const lockstep_request again = wish_until(0.3);
     lockstep_replay(&again, name, &report);
     TEST_ASSERT_EQUAL_INT(0, remove(name));
     TEST_ASSERT_TRUE(report.end == LOCKSTEP_LET_GO);
@@ -514,9 +514,9 @@ static void test_tapes_of_resets(void) {
 
 /* An interrupt must stop the run and end the firmware's process. */
 static void test_interrupt(void) {
-    lockstep_wish wish = wish_until(100.0);
+    lockstep_request request = wish_until(100.0);
     interrupted = 1;
-    lockstep_run(&wish, cart.image, &report);
+    lockstep_run(&request, cart.image, &report);
     interrupted = 0;
     TEST_ASSERT_TRUE(report.end == LOCKSTEP_STOPPED);
     TEST_ASSERT_FALSE(report.status.killed);
@@ -551,7 +551,7 @@ static const char *replay(lockstep_end end, unsigned turns, bool with_hello) {
     close(file);
     talk_open_line(true);
     errors_catch();
-    lockstep_replay(&talk_wish, name, &talk_report);
+    lockstep_replay(&talk_request, name, &talk_report);
     const char *told = errors_caught();
     (void)remove(name);
     TEST_ASSERT_EQUAL_INT_MESSAGE(end, talk_report.end, told);

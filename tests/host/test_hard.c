@@ -24,12 +24,12 @@ static void open_hard(motion *m, const char *file, const char *name, const engin
 
 /* The motion that begins when P0 sin(rate t) reaches LIFTS_N, with the acceleration factor (P0 sin(rate t) -
  * against). */
-static double moved_m(double rate, double t, double factor, double against) {
+static double moved_m(double rate, double t, double factor, double warned) {
     const double t0 = asin(LIFTS_N / P0) / rate;
     const double s = t - t0;
     const double pushed =
         P0 / rate * cos(rate * t0) * s - P0 / (rate * rate) * (sin(rate * t) - sin(rate * t0));
-    return s > 0.0 ? factor * (pushed - against * s * s / 2.0) : 0.0;
+    return s > 0.0 ? factor * (pushed - warned * s * s / 2.0) : 0.0;
 }
 
 typedef struct breaking {
@@ -40,7 +40,7 @@ typedef struct breaking {
 /* Runs until 0.3 s after P0 sin(rate t) reaches LIFTS_N. Both coordinates must move together. The phase of the force
  * advances by `rate`, in rad/s. */
 static void run_breaking(const char *name, const char *second, stepping how, double rate,
-                         double factor, double against, breaking *most) {
+                         double factor, double warned, breaking *most) {
     const char *first = second[0] == 's' ? "y" : "x";
     char start[40];
     motion m;
@@ -52,7 +52,7 @@ static void run_breaking(const char *name, const char *second, stepping how, dou
     for (int i = 1; i <= steps; i++) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));
         const double t = i * how.step_s;
-        const double wanted = moved_m(rate, t, factor, against);
+        const double wanted = moved_m(rate, t, factor, warned);
         const double off =
             fmax(fabs(motion_value(&m, first) - wanted), fabs(motion_value(&m, second) - wanted));
         most->off_m = fmax(most->off_m, off);
@@ -64,7 +64,7 @@ static void run_breaking(const char *name, const char *second, stepping how, dou
     motion_close(&m);
 }
 
-static void check_breaking(const char *name, const char *second, double factor, double against) {
+static void check_breaking(const char *name, const char *second, double factor, double warned) {
     for (int real = 0; real < 2; real++) {
         const engine_kind *kind = real == 0 ? &engine_double : &engine_float;
         static const double steps[] = {1e-3, 0.25e-3};
@@ -74,7 +74,7 @@ static void check_breaking(const char *name, const char *second, double factor, 
                 const double rate = 0.7 * pow(1.27, i);
                 run_breaking(name, second,
                              (stepping){.kind = kind, .method = WH_RK4, .step_s = steps[k]}, rate,
-                             factor, against, &most[k]);
+                             factor, warned, &most[k]);
             }
         }
         printf("  %s, %s: at rest to %.1e m; off by %.1e m at 1 ms, %.1e m at 0.25 ms\n", name,

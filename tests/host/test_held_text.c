@@ -10,7 +10,7 @@ static drawn_image drawn;
 static exact_state states[DRAWN_STATES];
 static containment_state found_states[DRAWN_STATES];
 static exact_motion of;
-static containment_wish wish;
+static containment_request request;
 static containment_found found;
 
 static double drawn_size(void) {
@@ -23,13 +23,13 @@ static void draw(void) {
     drawn_image_draw(&drawn, &die, MATRIX_NONE);
     drawn.im.settings.method = (wh_method)dice_one_of(&die, 2);
     of = (exact_motion){.states = 2 * drawn.im.count, .state = states};
-    wish = (containment_wish){.motion = &of, .image = &drawn.im, .kind = &engine_float};
+    request = (containment_request){.motion = &of, .image = &drawn.im, .kind = &engine_float};
     found = (containment_found){.state = found_states,
                                 .states = of.states,
                                 .flowpipe_steps = dice_one_of(&die, 1000000),
                                 .tube_s = dice_between(&die, 0.0, 30.0),
                                 .end = (containment_end)dice_one_of(&die, CONTAINMENT_STOPPED + 1)};
-    wish.kind = dice_one_of(&die, 2) == 0 ? &engine_float : &engine_double;
+    request.kind = dice_one_of(&die, 2) == 0 ? &engine_float : &engine_double;
     const unsigned likely = 1 + dice_one_of(&die, 4);
     for (int i = 0; i < of.states; i++) {
         containment_state *s = &found_states[i];
@@ -51,7 +51,7 @@ static char *said_of(void) {
     char *text = NULL;
     size_t length = 0;
     FILE *out = alloc_text(&text, &length);
-    containment_print(out, &found, &wish);
+    containment_print(out, &found, &request);
     alloc_text_end(out);
     return text;
 }
@@ -193,7 +193,7 @@ TEST(held_text, words) {
             said_exactly(text, im->title[0] != '\0' ? "drawn: of no mechanism\n  " : "drawn\n  ");
         at = said_exactly(at, wh_methods[im->settings.method].title);
         at = said_exactly(at, im->settings.compensated ? " compensated, " : ", ");
-        at = said_exactly(at, wish.kind == &engine_float ? "float, step " : "double, step ");
+        at = said_exactly(at, request.kind == &engine_float ? "float, step " : "double, step ");
         at = read_time(at, im->step_s);
         at = said_exactly(at, " s, ");
         at = read_time(at, (double)im->steps);
@@ -232,12 +232,12 @@ TEST(held_text, rows) {
         draw();
         const uint64_t step = dice_one_of(&die, 1000000);
         FILE *out = alloc_text(&text, &length);
-        containment_rows_head(out, &wish);
+        containment_rows_head(out, &request);
         for (int i = 0; i < of.states; i++) {
             run[i] = dice_between(&die, -1.0, 1.0) * pow(10.0, dice_between(&die, -200.0, 200.0));
             exact[i] = (enclosure){run[i] - fabs(run[i]) * 1e-15, run[i] * (1.0 / 3.0)};
         }
-        containment_row(out, &wish, step, exact, run);
+        containment_row(out, &request, step, exact, run);
         alloc_text_end(out);
         const char *at = said_exactly(text, "time [s]");
         for (int i = 0; i < of.states; i++) {

@@ -33,15 +33,15 @@ static void open_map(drawn_map *m, const map_asked *a) {
     for (int i = 0; i < 2; i++) {
         TEST_ASSERT_TRUE_MESSAGE(grid_add(&m->grid, of, a->over[i], m->errors), a->over[i]);
     }
-    const map_wish wish = {.of = {.grid = &m->grid,
-                                  .mechanism = of,
-                                  .scene = m->d.model->scenes[0],
-                                  .changes = &m->changes,
-                                  .kind = &engine_double,
-                                  .engine = {.method = a->method}},
-                           .tolerance = a->tolerance,
-                           .progress = a->progress};
-    m->map = map_make(&wish);
+    const map_request request = {.of = {.grid = &m->grid,
+                                        .mechanism = of,
+                                        .scene = m->d.model->scenes[0],
+                                        .changes = &m->changes,
+                                        .kind = &engine_double,
+                                        .engine = {.method = a->method}},
+                                 .tolerance = a->tolerance,
+                                 .progress = a->progress};
+    m->map = map_make(&request);
 }
 
 static void close_map(drawn_map *m) {

@@ -224,13 +224,13 @@ static void run_with(const char *words, heard *h) {
     plant on;
     binding b;
     fault_plan plan = {.seed = 7};
-    const plant_wish wish = {.seed = 1};
+    const plant_request request = {.seed = 1};
     *h = (heard){.edges = 0};
     TEST_ASSERT_TRUE_MESSAGE(words == NULL || fault_read(&plan, words), words);
     const tap t = fault_tap(&plan);
     motion_open_text(&bench, text, IN_DOUBLE);
     TEST_ASSERT_TRUE(bind_signals(&b, &hello, bench.image, NULL));
-    plant_start(&on, bench.image, &b, &hello, &wish);
+    plant_start(&on, bench.image, &b, &hello, &request);
     TEST_ASSERT_TRUE(t.start(t.of, &hello, &on));
     for (int i = 1; i <= READS; i++) {
         const double before_s = (i - 1) * 2e-3;

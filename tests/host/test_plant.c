@@ -26,7 +26,7 @@ static binding bound_to;
 static wh_hello hello;
 static wh_signal signals[WH_SIGNALS_MAX];
 
-static void open_bench(double a_rad, double a_radps, double step_s, const plant_wish *wish) {
+static void open_bench(double a_rad, double a_radps, double step_s, const plant_request *request) {
     char words[1000];
     snprintf(words, sizeof words, text, a_rad, a_radps, step_s);
     motion_open_text(&bench, words, IN_DOUBLE);
@@ -36,7 +36,7 @@ static void open_bench(double a_rad, double a_radps, double step_s, const plant_
     hello.start_ticks = 0xFFFFFF00U; /* the timer wraps soon */
     hello.signal = signals;
     TEST_ASSERT_TRUE(bind_signals(&bound_to, &hello, bench.image, NULL));
-    plant_start(&on, bench.image, &bound_to, &hello, wish);
+    plant_start(&on, bench.image, &bound_to, &hello, request);
 }
 
 static void close_bench(void) {
@@ -84,13 +84,14 @@ TEST(plant, edges_of_an_angle) {
         const double middle = random_between(&seed, -3.0, 3.0);
         const float low = (float)(middle - 0.02);
         const float high = (float)(middle + 0.02);
-        const plant_wish wish = {.place = {random_between(&seed, -5.0, 5.0)}};
+        const plant_request request = {.place = {random_between(&seed, -5.0, 5.0)}};
         add(edge("a", "rad", low, high));
-        open_bench(start, speed, 50e-6, &wish);
+        open_bench(start, speed, 50e-6, &request);
         double at_s[64];
         const int count = edges_until(1.0, at_s, 64);
         close_bench();
-        const double level = (double)(speed > 0.0 ? low : high) + wish.place[0] * TURN_RAD / 360.0;
+        const double level =
+            (double)(speed > 0.0 ? low : high) + request.place[0] * TURN_RAD / 360.0;
         double turns = (level - start) / TURN_RAD * (speed > 0.0 ? 1.0 : -1.0);
         turns -= floor(turns); /* part of a turn before the first edge */
         const int wanted = (int)(fabs(speed) / TURN_RAD - turns + 1.0); /* edges in 1 s */
@@ -109,9 +110,9 @@ TEST(plant, edges_of_a_length) {
         const float low = 0.2F;
         const float high = 0.4F;
         const float scale = output == 1 ? 2.0F : 1.0F;
-        const plant_wish wish = {.seed = 1};
+        const plant_request request = {.seed = 1};
         add(edge(output == 1 ? "twice" : "x", "m", scale * low, scale * high));
-        open_bench(0.0, 0.0, 50e-6, &wish);
+        open_bench(0.0, 0.0, 50e-6, &request);
         double at_s[32];
         const int count = edges_until(2.0, at_s, 32);
         close_bench();
@@ -130,10 +131,10 @@ TEST(plant, edges_of_a_length) {
 
 /* Jitter must have the requested deviation, and no edge may come before its time. */
 TEST(plant, jitter) {
-    const plant_wish wish = {.jitter_s = 20e-6, .seed = 5};
+    const plant_request request = {.jitter_s = 20e-6, .seed = 5};
     const double speed = 100.0;
     add(edge("a", "rad", -0.01F, 0.01F));
-    open_bench(1.0, speed, 50e-6, &wish);
+    open_bench(1.0, speed, 50e-6, &request);
     double at_s[200];
     const int count = edges_until(10.0, at_s, 200);
     close_bench();
@@ -164,11 +165,11 @@ static wh_signal sample(float per_count, float most, uint32_t period_ticks) {
 TEST(plant, samples) {
     const double delays_s[] = {0.0, 150e-6, 1.3e-3};
     for (int d = 0; d < 3; d++) {
-        const plant_wish wish = {.delay_s = delays_s[d]};
+        const plant_request request = {.delay_s = delays_s[d]};
         unsigned seen = 0;
         unsigned saturated = 0;
         add(sample(1e-4F, 0.9F, 500));
-        open_bench(0.0, 0.0, 50e-6, &wish);
+        open_bench(0.0, 0.0, 50e-6, &request);
         for (int read = 1; read <= 500; read++) {
             wh_readings r;
             TEST_ASSERT_TRUE(plant_advance(&on, 2000.0 * read));
@@ -196,7 +197,7 @@ TEST(plant, samples) {
 /* Counts at both ends of a range must fit into 32 bits. If the range is accepted, samples must reach both ends
  * exactly. */
 TEST(plant, ranges) {
-    const plant_wish wish = {.seed = 1};
+    const plant_request request = {.seed = 1};
     uint64_t seed = 3;
     int taken = 0;
     fputs("(refusals of ranges follow)\n", stderr);
@@ -211,7 +212,7 @@ TEST(plant, ranges) {
         const double least = (double)s.low / (double)s.per_count;
         const double most = (double)s.high / (double)s.per_count;
         if (least < -2147483648.0 || most > 2147483647.0) {
-            open_bench(0.0, 0.0, 1e-3, &wish);
+            open_bench(0.0, 0.0, 1e-3, &request);
             binding b;
             const wh_hello of = {.program = "p", .ticks_per_s = 1000, .signal = &s, .signals = 1};
             TEST_ASSERT_FALSE(bind_signals(&b, &of, bench.image, NULL));
@@ -221,7 +222,7 @@ TEST(plant, ranges) {
         wh_readings r;
         taken++;
         add(s);
-        open_bench(0.0, 0.0, 1e-3, &wish); /* x = cos(10 t) */
+        open_bench(0.0, 0.0, 1e-3, &request); /* x = cos(10 t) */
         TEST_ASSERT_TRUE(plant_advance(&on, 1000.0));
         plant_read(&on, &r);
         TEST_ASSERT_EQUAL_UINT(1, r.samples);
@@ -241,10 +242,10 @@ TEST(plant, ranges) {
 
 /* If there are more samples than a reading can hold, the newest must be lost and counted. */
 TEST(plant, too_many) {
-    const plant_wish wish = {.seed = 1};
+    const plant_request request = {.seed = 1};
     wh_readings r;
     add(sample(1e-4F, 2.0F, 50));
-    open_bench(0.0, 0.0, 50e-6, &wish);
+    open_bench(0.0, 0.0, 50e-6, &request);
     TEST_ASSERT_TRUE(plant_advance(&on, 2000.0));
     plant_read(&on, &r);
     TEST_ASSERT_EQUAL_UINT(WH_SAMPLES_MAX, r.samples);
@@ -274,9 +275,9 @@ static void add_push(void) {
  * the time before. */
 TEST(plant, late_orders) {
     for (int late = 0; late <= 1000; late += 125) {
-        const plant_wish wish = {.seed = 1};
+        const plant_request request = {.seed = 1};
         add_push();
-        open_bench(0.0, 0.0, 50e-6, &wish);
+        open_bench(0.0, 0.0, 50e-6, &request);
         const wh_orders orders = {.outputs = 1, .output = {1.0F}};
         plant_order(&on, &orders, late);
         TEST_ASSERT_TRUE(plant_advance(&on, 4000.0));
@@ -288,11 +289,11 @@ TEST(plant, late_orders) {
 
 /* A note belongs to no quantity of the plant and must change nothing. Outputs must keep their channels. */
 TEST(plant, notes) {
-    const plant_wish wish = {.seed = 1};
+    const plant_request request = {.seed = 1};
     add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "state", .unit = "1"});
     add_push();
     add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "x", .unit = "kg"});
-    open_bench(0.0, 0.0, 50e-6, &wish);
+    open_bench(0.0, 0.0, 50e-6, &request);
     TEST_ASSERT_EQUAL_UINT(2, bound_to.notes);
     TEST_ASSERT_EQUAL_UINT(1, bound_to.outputs);
     const wh_orders orders = {.outputs = 3, .output = {1.0F, NAN, -7.0F}};
@@ -307,9 +308,9 @@ TEST(plant, held_orders) {
     const float asked[] = {5.0F, -5.0F, 0.5F, NAN};
     const double taken[] = {2.0, -2.0, 0.5, -2.0};
     for (int i = 0; i < 4; i++) {
-        const plant_wish wish = {.seed = 1};
+        const plant_request request = {.seed = 1};
         add_push();
-        open_bench(0.0, 0.0, 50e-6, &wish);
+        open_bench(0.0, 0.0, 50e-6, &request);
         const wh_orders orders = {.outputs = 1, .output = {asked[i]}};
         plant_order(&on, &orders, 0.0);
         TEST_ASSERT_TRUE(plant_advance(&on, 1000.0));
@@ -321,10 +322,10 @@ TEST(plant, held_orders) {
 /* The watchdog is kicked at time 0 only. After 10 ms and one step, the push must end for good, and the report must
  * say so. */
 TEST(plant, watchdog) {
-    const plant_wish wish = {.seed = 1};
+    const plant_request request = {.seed = 1};
     wh_readings r;
     add_push();
-    open_bench(0.0, 0.0, 50e-6, &wish);
+    open_bench(0.0, 0.0, 50e-6, &request);
     wh_orders orders = {
         .outputs = 1, .output = {1.0F}, .watchdog_ticks = 10000, .flags = WH_ORDER_ALIVE};
     for (int turn = 0; turn < 10; turn++) {
@@ -353,8 +354,8 @@ static bool binds(const char *name, const char *unit, wh_signal_kind kind, const
 }
 
 TEST(plant, names) {
-    const plant_wish wish = {.seed = 1};
-    open_bench(0.0, 0.0, 1e-3, &wish);
+    const plant_request request = {.seed = 1};
+    open_bench(0.0, 0.0, 1e-3, &request);
     TEST_ASSERT_TRUE(binds("x'", "m/s", WH_SIGNAL_SAMPLE, NULL));
     TEST_ASSERT_TRUE(binds("a'", "1/s", WH_SIGNAL_SAMPLE, NULL));
     TEST_ASSERT_TRUE(binds("twice", "m", WH_SIGNAL_SAMPLE, NULL));

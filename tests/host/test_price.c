@@ -234,7 +234,7 @@ static cost cost_at(priced *p, int point, const setting *s, const char *step) {
     diags *errors = diags_new();
     fixed_plan *plan = s->number == &engine_fixed ? fixed_plan_make(im, false, errors) : NULL;
     im->fixed = plan;
-    const cost c = cost_of(im, p->wish.board, setting_cost_number(s));
+    const cost c = cost_of(im, p->request.board, setting_cost_number(s));
     fixed_plan_free(plan);
     diags_free(errors);
     image_free(im);
@@ -401,9 +401,9 @@ TEST(price_dearest, contacts_are_left_out_where_that_is_asked) {
     image *im = priced_image(&p, 0, &rk4, "0.0004");
     TEST_ASSERT_TRUE(im->contacts > 0);
     bool own;
-    const cost with = cost_of(im, p.wish.board, COST_FLOAT);
+    const cost with = cost_of(im, p.request.board, COST_FLOAT);
     im->contacts = 0;
-    const cost without = cost_of(im, p.wish.board, COST_FLOAT);
+    const cost without = cost_of(im, p.request.board, COST_FLOAT);
     im->contacts = 1;
     cost c = trial_cost(&p.trial, &rk4, (deviation_pace){5, 1}, &own);
     expect_same(&with, &c, "with");

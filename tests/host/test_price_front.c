@@ -70,7 +70,7 @@ TEST(price_front, drawn_rows_are_sorted_and_their_front_is_marked) {
 /* The tried paces are 50, 20, 10, 5 and 2 records in a step, then 1, 2, 5, 10, ... steps in a record, up to 5e7. */
 TEST(price_front, the_ladder_goes_down_by_one_two_five) {
     double length = 100.0;
-    const table_wish w = {.rate_Hz = 0.0};
+    const table_request w = {.rate_Hz = 0.0};
     deviation_pace p;
     int rungs = 0;
     for (; table_pace(&w, rungs, &p); rungs++) {
@@ -92,7 +92,7 @@ TEST(price_front, the_ladder_goes_down_by_one_two_five) {
 /* With a record rate, the number of steps in 1/rate_Hz begins with 1, 2, ..., 10 and rises with each pace. */
 TEST(price_front, substeps_rise_as_they_are_told) {
     for (uint64_t periods = 1; periods < 6; periods++) {
-        const table_wish w = {.rate_Hz = 7.0, .periods = periods};
+        const table_request w = {.rate_Hz = 7.0, .periods = periods};
         table_row row = {.pace = {0, 1}};
         uint64_t before = 0;
         for (int rung = 0; table_pace(&w, rung, &row.pace); rung++) {
@@ -105,7 +105,7 @@ TEST(price_front, substeps_rise_as_they_are_told) {
         TEST_ASSERT_EQUAL_UINT64(800000, before);
     }
     const table_row row = {.pace = {4, 1}};
-    TEST_ASSERT_EQUAL_UINT64(0, table_substeps(&(table_wish){.periods = 1}, &row));
+    TEST_ASSERT_EQUAL_UINT64(0, table_substeps(&(table_request){.periods = 1}, &row));
 }
 
 /* === suite price_measured ===================================================================== */
@@ -201,7 +201,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
         priced p;
         priced_open(&p, balls, PLACES);
         TEST_ASSERT_TRUE(priced_begin(&p, boards[n], spacing, 10, NULL));
-        const cost_board *b = p.wish.board;
+        const cost_board *b = p.request.board;
         const bool range = b->cycles == COST_RANGE;
         tree_enter();
         const setting rk4 = priced_setting(WH_RK4, &engine_float);
@@ -297,7 +297,7 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
         table made = {.row = row, .count = 5, .why = ""};
         table_sort(&made);
         int told = 0;
-        const table_wish w = {.progress = count_progress, .context = &told};
+        const table_request w = {.progress = count_progress, .context = &told};
         TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_front(&p.trial, &made, &words, &w));
         TEST_ASSERT_EQUAL_INT(refused ? 4 : 3, told);
         TEST_ASSERT_EQUAL_INT(refused ? 3 : 5, made.count);
@@ -317,7 +317,7 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
             TEST_ASSERT_TRUE(!r->on_front || r->counted);
         }
         tree_keep("mk/price/measure_one.sh", "exit 2\n");
-        const table_wish quiet = {.progress = NULL};
+        const table_request quiet = {.progress = NULL};
         for (int i = 0; i < made.count; i++) {
             made.row[i].counted = false;
         }
@@ -379,9 +379,9 @@ TEST(price_measured, choices_are_as_if_all_was_counted) {
         table by_all = {.row = all, .count = ROWS, .why = ""};
         table_sort(&made);
         table_sort(&by_all);
-        const choice_wish w = {.table = {.error = 1e-1},
-                               .clock_Hz = n % 3 == 2 ? 2e4 : 0.0,
-                               .flash_bytes = n % 2 == 1 ? dice_between(&d, 90, 900) : 0.0};
+        const choice_request w = {.table = {.error = 1e-1},
+                                  .clock_Hz = n % 3 == 2 ? 2e4 : 0.0,
+                                  .flash_bytes = n % 2 == 1 ? dice_between(&d, 90, 900) : 0.0};
         choice c;
         TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, choice_counted(&p.trial, &made, &w, &words, &c));
         const choice wanted = choice_make(&p.trial, &by_all, &w);
@@ -420,7 +420,8 @@ static const char *const spring =
     "V = 16 [N/m]*x^2/2\nscene s { start x = 250 [mm]; step 10 [ms]; until 1 [s] }\n";
 
 static reference *reference_of(const image *im, int count) {
-    const reference_wish w = {.image = im, .spacing = {1, 20}, .records = count, .operations = 1e8};
+    const reference_request w = {
+        .image = im, .spacing = {1, 20}, .records = count, .operations = 1e8};
     reference *r = reference_new(&w);
     TEST_ASSERT_TRUE(r->reliable);
     TEST_ASSERT_EQUAL_INT(count, r->records);
@@ -492,7 +493,7 @@ TEST(price_motion, the_step_with_most_evaluations_is_told) {
                                "scene s { start x = 1 [m]; step 10 [ms]; until 1 [s] }\n",
                                "s");
     derived_expect(&of, "a ball");
-    const reference_wish w = {
+    const reference_request w = {
         .image = of.image, .spacing = {1, 20}, .records = 18, .operations = 1e7};
     reference *r = reference_new(&w);
     TEST_ASSERT_TRUE(r->reliable);

@@ -6,11 +6,11 @@
 #define MOST_OPERATIONS 6e8
 
 static reference *reference_of(const image *im, double spacing_s, int count) {
-    const reference_wish wish = {.image = im,
-                                 .spacing = ratio_of(spacing_s),
-                                 .records = count,
-                                 .operations = MOST_OPERATIONS};
-    reference *r = reference_new(&wish);
+    const reference_request request = {.image = im,
+                                       .spacing = ratio_of(spacing_s),
+                                       .records = count,
+                                       .operations = MOST_OPERATIONS};
+    reference *r = reference_new(&request);
     TEST_ASSERT_TRUE_MESSAGE(r->reliable, r->why);
     TEST_ASSERT_EQUAL_INT_MESSAGE(count, r->records, r->why);
     return r;
@@ -193,9 +193,9 @@ TEST(price_reference, pendulums_keep_their_energy) {
 /* A double pendulum that is thrown high is chaotic. The horizon must be shorter if it is thrown higher. */
 TEST(price_reference, chaos_cuts_the_horizon) {
     derived d = derived_surely(derived_builtin("thomson_b"), "thomson_b");
-    const reference_wish wish = {
+    const reference_request request = {
         .image = d.image, .spacing = {1, 10}, .records = 100, .operations = MOST_OPERATIONS};
-    reference *r = reference_new(&wish);
+    reference *r = reference_new(&request);
     TEST_ASSERT_TRUE(r->reliable);
     TEST_ASSERT_TRUE(r->records > 10 && r->records < 100);
     TEST_ASSERT_NOT_NULL(r->why);

@@ -107,7 +107,7 @@ static void expect_columns(const reference *r) {
 }
 
 static reference *reference_to(const image *im, int count, double operations) {
-    const reference_wish w = {
+    const reference_request w = {
         .image = im, .spacing = {1, 20}, .records = count, .operations = operations};
     return reference_new(&w);
 }
@@ -213,11 +213,11 @@ TEST(price_trials, steps_are_exact) {
     int exact = 0;
     int rounded = 0;
     for (unsigned n = 0; n < dice_cases(few_or_all(3000, 300000)); n++) {
-        trials t = {.wish.spacing = {drawn_up_to(&d, 50), drawn_up_to(&d, 59)}};
+        trials t = {.request.spacing = {drawn_up_to(&d, 50), drawn_up_to(&d, 59)}};
         const deviation_pace pace =
             dice_one_of(&d, 2) == 0 ? (deviation_pace){1, drawn_up_to(&d, 30)}
                                     : (deviation_pace){drawn_up_to(&d, n % 2 == 0 ? 10 : 40), 1};
-        const whole_ratio s = t.wish.spacing;
+        const whole_ratio s = t.request.spacing;
         if (!have_no_divisor(s.numerator, s.denominator)) {
             continue;
         }

@@ -106,7 +106,7 @@ static void print_tables(FILE *out) {
 }
 
 static void print_choice(FILE *out, const char *name, int n, const priced *p, const table *made,
-                         const choice_wish *w, const choice *c) {
+                         const choice_request *w, const choice *c) {
     static const table_words words = {"f.whirl:s", " --set m=3", false, 1e7};
     caught text;
     choice_print(catch_text(&text), &p->trial, made, w, c, &words);
@@ -138,7 +138,7 @@ static void print_answers(FILE *out) {
                             .broken_off = n == 1 ? 3 : 0,
                             .unpriced = n == 2 ? 2 : 0,
                             .why = "a reason"};
-        const choice_wish w = {
+        const choice_request w = {
             .table = {.error = 0.01, .rate_Hz = cases[n].rate_Hz, .periods = 1, .operations = 1e7},
             .clock_Hz = cases[n].clock_Hz,
             .prices = "as they are"};
@@ -161,7 +161,7 @@ static void print_remedies(FILE *out) {
         table made = table_of(row, 3, 2, COST_ESTIMATED, PRICE_CYCLES);
         made.why = "";
         made.broken_off = n == 3 ? 3 : 0;
-        const choice_wish w = {
+        const choice_request w = {
             .table = {.error = 1e-3, .operations = 1e7}, .clock_Hz = 16e6, .prices = "as they are"};
         choice c = {.fastest.row = -1, .smallest.row = -1};
         choice_row *const rows[] = {&c.weaker, &c.dearer, &c.larger, &c.any};
@@ -180,7 +180,7 @@ static void print_remedies(FILE *out) {
     const choice_row none = {.row = -1};
     const choice c = {none, none, none, none, none, none};
     print_choice(out, "no price", 0, &p, &made,
-                 &(choice_wish){.table = {.error = 1e-3}, .prices = "as they are"}, &c);
+                 &(choice_request){.table = {.error = 1e-3}, .prices = "as they are"}, &c);
     priced_close(&p);
 }
 

@@ -28,9 +28,9 @@ typedef struct seeing {
     int states;
 } seeing;
 
-static void see(void *told, uint64_t step, const enclosure *exact, const double *run) {
+static void see(void *context, uint64_t step, const enclosure *exact, const double *run) {
     (void)run;
-    const seeing *s = told;
+    const seeing *s = context;
     beside *b = s->beside;
     if (step > 0) {
         quad_follow(b->slopes, b->of, s->states, b->step_s, b->state);
@@ -63,14 +63,14 @@ static containment_found beside_hold(const char *text, const char *name, const e
     double *within = calloc((size_t)m->states, sizeof *within);
     seeing s = {b, m->states};
     b->nearest = 1.0;
-    const containment_wish wish = {.motion = m,
-                                   .image = d.image,
-                                   .kind = kind,
-                                   .tolerance = CONTAINMENT_TOLERANCE,
-                                   .within = within,
-                                   .see = see,
-                                   .told = &s};
-    containment_found h = containment_run(&wish);
+    const containment_request request = {.motion = m,
+                                         .image = d.image,
+                                         .kind = kind,
+                                         .tolerance = CONTAINMENT_TOLERANCE,
+                                         .within = within,
+                                         .see = see,
+                                         .context = &s};
+    containment_found h = containment_run(&request);
     free(within);
     exact_motion_free(m);
     diags_free(errors);

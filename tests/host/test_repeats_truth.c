@@ -20,11 +20,11 @@ static double drawn(double least, double most) {
     return least + (most - least) * ((double)(scattered() >> 11) * 0x1p-53);
 }
 
-static void draw_bench(bool fed) {
+static void draw_bench(bool compensated) {
     plant = rig_plant_nominal;
     plant.inertia_kgm2 *= drawn(0.75, 1.45);
-    rpm = fed ? drawn(100.0, 170.0) : drawn(170.0, 360.0);
-    if (fed) {
+    rpm = compensated ? drawn(100.0, 170.0) : drawn(170.0, 360.0);
+    if (compensated) {
         plant.fed_Nm = plant.unbalance_kgm * plant.gravity_mps2;
         plant.fed_late_rad = drawn(-0.02, 0.02);
     }

@@ -34,7 +34,7 @@ TEST(talk, heard_and_kept) {
         talk_open_line(true);
         FILE *onto = alloc_text(&kept, &length);
         errors_catch();
-        TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, onto));
+        TEST_ASSERT_TRUE(talk_start(&t, &talk_request, &talk_report, onto));
         TEST_ASSERT_EQUAL_UINT(talk_drawn.outputs, t.outputs);
         TEST_ASSERT_TRUE(talk_is_same_hello(&talk_drawn.hello, &t.hello));
         for (unsigned i = 0; i < talk_drawn.turns; i++) {
@@ -78,7 +78,7 @@ static void expect_unheard(lockstep_end end, const char *why, bool closed) {
     wh_orders orders;
     talk_open_line(closed);
     errors_catch();
-    TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
+    TEST_ASSERT_TRUE(talk_start(&t, &talk_request, &talk_report, NULL));
     TEST_ASSERT_TRUE(talk_tell(&t, talk_drawn.ticks[0], &talk_drawn.readings[0]) &&
                      talk_hear(&t, &orders));
     TEST_ASSERT_FALSE(talk_tell(&t, talk_drawn.ticks[1], &talk_drawn.readings[1]) &&
@@ -203,13 +203,13 @@ TEST(talk, hellos) {
         talk_open_line(c != 4);
         interrupted = c == 4;
         errors_catch();
-        const bool good = talk_start(&t, &talk_wish, &talk_report, NULL);
+        const bool good = talk_start(&t, &talk_request, &talk_report, NULL);
         const char *told = errors_caught();
         interrupted = 0;
         TEST_ASSERT_TRUE(good == (c == 3));
         TEST_ASSERT_EQUAL_INT(why[c], talk_report.end);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, words[c]), told);
-        TEST_ASSERT_TRUE(c != 3 || t.guest.wish.patience_s == 0.05);
+        TEST_ASSERT_TRUE(c != 3 || t.guest.request.patience_s == 0.05);
         talk_close_line(&heard);
     }
 }
@@ -222,9 +222,9 @@ TEST(talk, interrupted) {
         talk_draw();
         talk_say_all(1);
         talk_open_line(closed == 1);
-        talk_wish.guest.patience_s = 20.0;
+        talk_request.guest.patience_s = 20.0;
         errors_catch();
-        TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
+        TEST_ASSERT_TRUE(talk_start(&t, &talk_request, &talk_report, NULL));
         TEST_ASSERT_TRUE(talk_hear(&t, &orders));
         interrupted = 1;
         TEST_ASSERT_FALSE(talk_hear(&t, &orders));
@@ -243,7 +243,7 @@ TEST(talk, no_reset) {
     talk_say_all(0);
     talk_open_line(true);
     errors_catch();
-    TEST_ASSERT_TRUE(talk_start(&t, &talk_wish, &talk_report, NULL));
+    TEST_ASSERT_TRUE(talk_start(&t, &talk_request, &talk_report, NULL));
     TEST_ASSERT_FALSE(talk_restart(&t, 5, &(wh_reset){.cause = WH_RESET_WATCHDOG}));
     const char *told = errors_caught();
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "a reset, which is not possible"), told);

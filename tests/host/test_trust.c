@@ -23,7 +23,7 @@ enum { ARITHMETICS = sizeof arithmetics / sizeof arithmetics[0] };
 #define KNOWN 0.05
 
 static void say(const char *what, const horizons *h) {
-    const step_doubling *t = h->twins;
+    const step_doubling *t = h->doubling;
     double least = (double)INFINITY;
     double most = 0.0;
     for (int k = 1; k < t->columns; k++) {
@@ -38,9 +38,10 @@ static void expect_near(const char *what, const horizons *h, double least, doubl
     say(what, h);
     TEST_ASSERT_TRUE_MESSAGE(h->known < KNOWN, what);
     TEST_ASSERT_FALSE_MESSAGE(h->estimate.to_the_end, what);
-    TEST_ASSERT_TRUE_MESSAGE(isfinite(h->true_until_s) && h->true_until_s < h->twins->end_s, what);
+    TEST_ASSERT_TRUE_MESSAGE(isfinite(h->true_until_s) && h->true_until_s < h->doubling->end_s,
+                             what);
     TEST_ASSERT_TRUE_MESSAGE(horizons_ratio(h) >= least && horizons_ratio(h) <= most, what);
-    for (int k = 1; k < h->twins->columns; k++) {
+    for (int k = 1; k < h->doubling->columns; k++) {
         const double ratio = horizons_column_ratio(h, k);
         TEST_ASSERT_TRUE_MESSAGE(ratio >= least && ratio <= most, what);
     }
@@ -110,9 +111,9 @@ static const horizons_setting in_tables = {&engine_float, false, WH_RK4, TABLES_
 static void expect_the_end(const char *file, const char *name, horizons_setting how) {
     horizons h = built_in(file, name, how, HORIZON_TOLERANCE);
     say(name, &h);
-    TEST_ASSERT_TRUE_MESSAGE(h.true_until_s >= h.twins->end_s, name);
+    TEST_ASSERT_TRUE_MESSAGE(h.true_until_s >= h.doubling->end_s, name);
     TEST_ASSERT_TRUE_MESSAGE(h.estimate.to_the_end, name);
-    TEST_ASSERT_EQUAL_DOUBLE(h.twins->end_s, h.estimate.until_s);
+    TEST_ASSERT_EQUAL_DOUBLE(h.doubling->end_s, h.estimate.until_s);
     horizons_free(&h);
 }
 
@@ -236,7 +237,7 @@ TEST(trust_scenes, contacts) {
  * until 0 s only. */
 TEST(trust_scenes, steps_with_too_many_events) {
     horizons h = built_in("contacts.whirl", "ball_between", in_double, HORIZON_TOLERANCE);
-    TEST_ASSERT_EQUAL_DOUBLE(0.0, h.twins->overrun_s);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, h.doubling->overrun_s);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.estimate.until_s);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, h.true_until_s);
     horizons_free(&h);

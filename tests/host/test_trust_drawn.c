@@ -164,7 +164,7 @@ TEST(trust_drawn, drawn_mechanisms) {
         sscanf(text, "mechanism drawn \"%59[^\"]", what);
         if (h.known >= 0.05) { /* the references disagree: no truth */
             beyond++;
-        } else if (h.estimate.to_the_end && h.true_until_s >= h.twins->end_s) {
+        } else if (h.estimate.to_the_end && h.true_until_s >= h.doubling->end_s) {
             regular++; /* run and estimate are accurate to the end */
         } else {
             ratio[count] = horizons_ratio(&h);

@@ -510,11 +510,11 @@ static void expect_cost(const char *target, double share) {
     const mechanism *of;
     const scene *in;
     const overrides changes = {.balance = true};
-    const load_wish wish = {.settings = plainly, .use = IMAGE_TO_RUN, .conserve = true};
+    const load_request request = {.settings = plainly, .use = IMAGE_TO_RUN, .conserve = true};
     source_model from = {0};
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, source_open(&from, target), target);
     TEST_ASSERT_EQUAL_INT_MESSAGE(0, source_pick(&from, true, &of, &in), target);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(0, load(&made, &from, of, in, &changes, &wish), target);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, load(&made, &from, of, in, &changes, &request), target);
     const uint64_t steps = (uint64_t)(share * (double)made.image->steps) + 1U;
     const uint64_t before = engine_operations;
     void *run = engine_double.start(made.image);

@@ -52,7 +52,7 @@ static const image *plant_with(plants *p, const char *parameter) {
     }
     const overrides changes = {
         .step = p->step, .sets = &parameter, .set_count = parameter[0] != '\0' ? 1 : 0};
-    const load_wish what = {
+    const load_request what = {
         .settings = options_defaults().integration, .use = IMAGE_TO_RUN, .conserve = true};
     if (load(&p->made[p->count], &p->from, p->of, p->in, &changes, &what) != EXIT_DONE) {
         return NULL;
@@ -84,18 +84,18 @@ static bool run_one(const campaign *c, plants *from, unsigned i, verdict *v) {
         return false;
     }
     const image *im = plant_of(from, &plan);
-    lockstep_wish wish = {
+    lockstep_request request = {
         .guest = {.image = c->firmware, .board = c->board, .mute = true, .patience_s = PATIENCE_S},
         .plant = {.seed = one.seed, .jitter_s = JITTER_S},
         .until_s = UNTIL_S,
         .instruction_s = INSTRUCTION_S};
-    const tap taps[] = {fault_tap(&plan), judge_tap(&j, &one, &plan, &wish.until_s)};
-    wish.taps = taps;
-    wish.tap_count = 2;
+    const tap taps[] = {fault_tap(&plan), judge_tap(&j, &one, &plan, &request.until_s)};
+    request.taps = taps;
+    request.tap_count = 2;
     if (im == NULL) {
         return false;
     }
-    lockstep_run(&wish, im, &report);
+    lockstep_run(&request, im, &report);
     judge_end(&j, &report);
     *v = j.verdict;
     v->run = i;

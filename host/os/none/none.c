@@ -91,8 +91,8 @@ bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]) {
     return false;
 }
 
-bool guest_start(guest *g, const guest_wish *wish) {
-    *g = (guest){.wish = *wish, .up = -1, .down = -1};
+bool guest_start(guest *g, const guest_request *request) {
+    *g = (guest){.request = *request, .up = -1, .down = -1};
     fputs("whirl pil: error: this build of whirl cannot start firmware\n", stderr);
     return false;
 }

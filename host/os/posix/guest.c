@@ -96,17 +96,17 @@ static bool mute(bool wished) {
 static _Noreturn void become(const guest *g, int down, int up, pid_t parent) {
     char shift[64];
     snprintf(shift, sizeof shift, "shift=%d,align=off,sleep=off", GUEST_SHIFT);
-    if (tie_to(parent) && mute(g->wish.mute) && place_line(down, up)) {
+    if (tie_to(parent) && mute(g->request.mute) && place_line(down, up)) {
         if (g->emulated) {
-            execlp("qemu-system-arm", "qemu-system-arm", "-M", g->wish.board, "-display", "none",
+            execlp("qemu-system-arm", "qemu-system-arm", "-M", g->request.board, "-display", "none",
                    "-monitor", "none", "-serial", "stdio", "-icount", shift, "-semihosting-config",
-                   "enable=on,target=native", "-kernel", g->wish.image, (char *)NULL);
+                   "enable=on,target=native", "-kernel", g->request.image, (char *)NULL);
         } else {
-            execl(g->wish.image, g->wish.image, (char *)NULL);
+            execl(g->request.image, g->request.image, (char *)NULL);
         }
     }
     fprintf(stderr, "%s: error: cannot be run: %s\n",
-            g->emulated ? "qemu-system-arm" : g->wish.image, strerror(errno));
+            g->emulated ? "qemu-system-arm" : g->request.image, strerror(errno));
     fflush(stderr);
     _exit(GUEST_NOT_RUN);
 }
@@ -124,15 +124,15 @@ static bool make_line(int down[2], int up[2]) {
            fcntl(up[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(up[1], F_SETFD, FD_CLOEXEC) == 0;
 }
 
-bool guest_start(guest *g, const guest_wish *wish) {
-    *g = (guest){.wish = *wish, .up = -1, .down = -1};
+bool guest_start(guest *g, const guest_request *request) {
+    *g = (guest){.request = *request, .up = -1, .down = -1};
     wh_frame_reader_start(&g->reader, g->frame, sizeof g->frame);
-    if (wish->by_line) {
-        g->up = wish->line;
-        g->down = wish->line;
+    if (request->by_line) {
+        g->up = request->line;
+        g->down = request->line;
         return true;
     }
-    if (!look_at_image(wish->image, &g->emulated)) {
+    if (!look_at_image(request->image, &g->emulated)) {
         return false;
     }
     int down[2];
@@ -176,7 +176,7 @@ static guest_heard wait_to_read(const guest *g, double end_s) {
 
 /* Invalid frames count as silence, so that a line with noise reaches the timeout. */
 guest_heard guest_receive(guest *g, wh_frame *frame) {
-    const double end_s = system_now_s() + g->wish.patience_s;
+    const double end_s = system_now_s() + g->request.patience_s;
     for (;;) {
         while (g->line_at < g->line_end) {
             if (wh_frame_take(&g->reader, g->line[g->line_at++], frame)) {
@@ -228,7 +228,7 @@ static void close_line(int *descriptor) {
 
 /* Waits for the guest's end. Returns false if it still runs after patience_s. */
 static bool wait_for_end(const guest *g, int *status) {
-    const double end_s = system_now_s() + g->wish.patience_s;
+    const double end_s = system_now_s() + g->request.patience_s;
     const struct timespec pause = {.tv_nsec = 1000000};
     pid_t ended = 0;
     do {
@@ -243,7 +243,7 @@ static bool wait_for_end(const guest *g, int *status) {
 guest_end_status guest_end(guest *g) {
     guest_end_status end = {.status = -1};
     int status = 0;
-    if (g->wish.by_line) {
+    if (g->request.by_line) {
         g->up = -1;
         g->down = -1;
         return end;

@@ -1,4 +1,4 @@
-/* fed_rotor.h: the imitated rotor under a speed drive, with observer and gravity compensation (core/rig/observer.c,
+/* compensated_rotor.h: the imitated rotor under a speed drive, with observer and gravity compensation (core/rig/observer.c,
  * gravity_compensation.c) and their errors. */
 #ifndef TESTS_CORE_FED_ROTOR_H
 #define TESTS_CORE_FED_ROTOR_H
@@ -13,7 +13,7 @@
 
 typedef enum fed_by { FED_BY_NOBODY, FED_BY_OBSERVER, FED_BY_TRUTH } fed_by;
 
-typedef struct fed_rotor {
+typedef struct compensated_rotor {
     rotor_kind kind;
     rotor_state rotor;
     wh_observer_config observing;
@@ -26,7 +26,7 @@ typedef struct fed_rotor {
     wh_real voltage; /* voltage of the next control step, as a fraction of the rated one */
     fed_by by;
     unsigned lose_marks; /* number of coming pulses that will be lost, of any sensor */
-    /* From here to sum_radps: values counted since fed_rotor_count(). */
+    /* From here to sum_radps: values counted since compensated_rotor_count(). */
     uint32_t steps;
     uint32_t valid;    /* number of steps with a valid observer */
     uint32_t lies;     /* steps whose observer is valid but has an error above FED_LIE_RAD */
@@ -36,26 +36,26 @@ typedef struct fed_rotor {
     wh_real most_radps;
     wh_real sum_radps;
     bool stood; /* the rotor was slower than 10 rpm */
-} fed_rotor;
+} compensated_rotor;
 
 #define FED_LIE_RAD WH_R(0.35)
 
 /* Sets the rotor and the controller as in the standard rig. If you want another rotor, change it before
- * fed_rotor_start(). That function gives the rotor its speed. */
-void fed_rotor_standard(fed_rotor *fed, uint64_t seed);
-wh_status fed_rotor_start(fed_rotor *fed, wh_real speed_rpm);
+ * compensated_rotor_start(). That function gives the rotor its speed. */
+void compensated_rotor_standard(compensated_rotor *compensated, uint64_t seed);
+wh_status compensated_rotor_start(compensated_rotor *compensated, wh_real speed_rpm);
 
-void fed_rotor_run(fed_rotor *fed, wh_real target_rpm, wh_real time_s);
+void compensated_rotor_run(compensated_rotor *compensated, wh_real target_rpm, wh_real time_s);
 
 /* From now on the voltage is constant: the voltage for this speed, without a speed drive. */
-void fed_rotor_hold(fed_rotor *fed, wh_real speed_rpm);
+void compensated_rotor_hold(compensated_rotor *compensated, wh_real speed_rpm);
 
-void fed_rotor_count(fed_rotor *fed);
+void compensated_rotor_count(compensated_rotor *compensated);
 
 /* For the counted steps: RMS error of the angle while the observer is valid. The next function returns half the range
  * of the speed divided by its mean. */
-wh_real fed_rotor_rms_rad(const fed_rotor *fed);
-wh_real fed_rotor_ripple(const fed_rotor *fed);
-wh_real fed_rotor_mean_rpm(const fed_rotor *fed);
+wh_real fed_rotor_rms_rad(const compensated_rotor *compensated);
+wh_real compensated_rotor_ripple(const compensated_rotor *compensated);
+wh_real fed_rotor_mean_rpm(const compensated_rotor *compensated);
 
 #endif

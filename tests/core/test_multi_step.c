@@ -1,4 +1,4 @@
-/* test_ahead.c: many steps in one call give the same bits as single steps, also if a step fails. Closed forms are the
+/* test_multi_step.c: many steps in one call give the same bits as single steps, also if a step fails. Closed forms are the
  * reference of steps by a constant matrix, and of float steps with a two-part length. */
 #include "core/scene.h"
 #define WH_COORDS 3
@@ -36,7 +36,7 @@ static wh_status advance(const wh_scene *scene, wh_state *of) {
 }
 
 static wh_status ahead(const wh_scene *scene, wh_state *of, uint32_t steps) {
-    return wh_steps_ahead(scene, advance, 1, 3, scene->compensated, of, steps);
+    return wh_multi_step(scene, advance, 1, 3, scene->compensated, of, steps);
 }
 
 static const wh_angle start_angle[1] = {0};
@@ -78,7 +78,7 @@ static ending end_of(const wh_scene *scene, uint32_t some, uint32_t more, wh_rea
     return end;
 }
 
-TEST(ahead, steps_ahead_are_steps) {
+TEST(ahead, multi_steps_are_steps) {
     /* Three inputs: a usual one; one that accelerates the shaft to half a turn per step; NaN. */
     const wh_real inputs[] = {WH_R(2.0), WH_R(300.0), (wh_real)__builtin_nan("")};
     length[0] = WH_R(0.0625);

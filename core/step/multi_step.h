@@ -1,11 +1,11 @@
-/* ahead.h: many steps in one call, with the state in registers between the steps. Part of step.h. Compiled only if
- * WH_AHEAD is 1, because it is a second copy of the step. */
-#ifndef WH_AHEAD_H
-#define WH_AHEAD_H
+/* multi_step.h: many steps in one call, with the state in registers between the steps. Part of step.h. Compiled only if
+ * WH_MULTI_STEP is 1, because it is a second copy of the step. */
+#ifndef WH_MULTI_STEP_H
+#define WH_MULTI_STEP_H
 
 #ifdef __cplusplus
 #error \
-    "core/step/ahead.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
+    "core/step/multi_step.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
 #endif
 
 #include "../scene.h"
@@ -14,7 +14,7 @@
 /* With ira-loop-pressure, gcc loads as many constants before the loop as fit into registers: up to 5 % fewer
  * instructions in a small scene. gcse is off for small scenes only: there it needs more registers for constants than it
  * saves. */
-#if defined(WH_AHEAD) && WH_AHEAD && defined(__GNUC__) && !defined(__clang__)
+#if defined(WH_MULTI_STEP) && WH_MULTI_STEP && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
@@ -29,10 +29,10 @@
 /* Does what `steps` > 0 calls of scene->advance() do, and counts the steps in state->steps. The variables are copied to
  * local memory: no pointer of the caller refers to it, so compilers keep the variables in registers. Returns as
  * wh_scene_steps() does. */
-WH_INLINE wh_status wh_steps_ahead(const wh_scene *of,
-                                   wh_status (*one)(const wh_scene *of, wh_state *state),
-                                   unsigned angles, unsigned reals, bool compensated,
-                                   wh_state *state, uint32_t steps) {
+WH_INLINE wh_status wh_multi_step(const wh_scene *of,
+                                  wh_status (*one)(const wh_scene *of, wh_state *state),
+                                  unsigned angles, unsigned reals, bool compensated,
+                                  wh_state *state, uint32_t steps) {
     wh_angle angle[WH_COORDS];
     wh_real real[2 * WH_COORDS];
     wh_real carry[2 * WH_COORDS];
