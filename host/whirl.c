@@ -33,14 +33,15 @@ static const command commands[] = {
     {"plot", command_plot, "FILE.csv|SCENE ...", "curves of recorded or new runs"},
     {"figure", command_figure, "NUMBER", "a figure of the dissertation, as it is or varied"},
     {"sweep", command_sweep, "SCENE|FILE[:SCENE] ...", "simulate over ranges of parameters"},
-    {"price", command_price, "SCENE|FILE[:SCENE] ...", "error against price, for all settings"},
+    {"price", command_price, "SCENE|FILE[:SCENE] ...", "error and price of many settings"},
     {"choose", command_choose, "SCENE|FILE[:SCENE] ...",
      "the cheapest setting that keeps an error on a board"},
     {"effects", command_effects, "SCENE|FILE[:SCENE] ...",
-     "influence and cost of each effect, and which are needed"},
-    {"trust", command_trust, "SCENE|FILE[:SCENE] ...", "until when a run can be trusted"},
-    {"prove", command_prove, "SCENE|FILE[:SCENE] ...", "until when a run is proved to be accurate"},
-    {"map", command_map, "SCENE|FILE[:SCENE] ...", "which pairs of two values a run survives"},
+     "influence and cost of each effect; the effects that are needed"},
+    {"trust", command_trust, "SCENE|FILE[:SCENE] ...", "the time until which a run can be trusted"},
+    {"prove", command_prove, "SCENE|FILE[:SCENE] ...",
+     "the time until which a run is proved to be accurate"},
+    {"map", command_map, "SCENE|FILE[:SCENE] ...", "for which pairs of values a run is right"},
     {"pil", command_pil, "SCENE --firmware IMAGE",
      "firmware in an emulator, with a scene as its plant"},
     {"monitor", command_monitor, "PORT", "a rig's console, with a record of its telemetry"},
@@ -55,7 +56,7 @@ static void print_usage(FILE *out) {
         "", "a run failed, or an output could not be written (full disk)", "", ""};
     fputs("usage: whirl COMMAND ...\n"
           "\n"
-          "From a mechanism's energies to its equations of motion, its motion and its firmware.\n"
+          "Whirl derives equations of motion from energies, runs them, and writes C for firmware.\n"
           "\n",
           out);
     for (int i = 0; i < COMMANDS; i++) {
@@ -65,8 +66,7 @@ static void print_usage(FILE *out) {
                     commands[i].text);
         }
     }
-    fputs("\n"
-          "For FILE[:SCENE] the built-in MECHANISM[:SCENE] can stand everywhere.\n"
+    fputs("\nIn place of FILE[:SCENE] every command also takes a built-in MECHANISM[:SCENE].\n"
           "`whirl help COMMAND` says more; `whirl version` prints the version.\n",
           out);
     exit_describe(out, why);
@@ -135,7 +135,7 @@ static int after_writing(int code) {
     if (last_part && ferror(stdout) == 0) {
         return atomic_file_code(code);
     }
-    fprintf(stderr, "whirl: error: standard output cannot be written%s%s\n", last_part ? "" : ": ",
+    fprintf(stderr, "whirl: error: cannot write to standard output%s%s\n", last_part ? "" : ": ",
             last_part ? "" : strerror(reason));
     return code == EXIT_DONE ? EXIT_RUN_FAILED : code;
 }

@@ -256,7 +256,7 @@ void equations_report_growth(const equations *e, diags *errors) {
         0) {
         snprintf(
             hint, sizeof hint,
-            "write let instead of parameter: %d parameters become numbers; or use smaller powers of sums, or coordinates nearer to the joints",
+            "write let instead of parameter, which makes numbers of %d parameters; or use smaller powers of sums, or coordinates nearer to the joints",
             m->parameter_count);
     }
     diag_error(errors, m->at, hint, "the equations of '%s' grow beyond what can be handled: %s",

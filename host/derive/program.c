@@ -479,14 +479,13 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
             errors, m->at, "leave out --matrix, or --stabilized",
             "--stabilized needs the stages of a step, which steps with --matrix do not have");
     } else if (wh_methods[settings->method].takes == WH_NO_RATES) {
-        diag_error(
-            errors, m->at, "choose another --method, or leave out --stabilized",
-            "--stabilized needs a ledger, which %s cannot have: its kicks do not depend on rates",
-            wh_methods[settings->method].title);
+        diag_error(errors, m->at, "choose another --method, or leave out --stabilized",
+                   "--stabilized needs a ledger, which is not possible with %s",
+                   wh_methods[settings->method].title);
     } else if (settings->method == WH_SEMI_IMPLICIT_EULER) {
         diag_error(
             errors, m->at, "choose another --method, or leave out --stabilized",
-            "--stabilized corrects an energy drift, but with %s the energy oscillates about the right one instead",
+            "--stabilized corrects an energy drift, but with %s the energy does not drift: it oscillates around the right value",
             wh_methods[settings->method].title);
     } else if (map->form != WH_SECOND_ORDER) {
         diag_error(
@@ -509,7 +508,7 @@ static bool stabilizing_conserves(const ledger_lists *books, const equations *e,
             diag_error(
                 errors, *books->entry[i].at,
                 "leave the effect out with --without EFFECT, or leave out --stabilized",
-                "--stabilized is for motion without drive or damping: this statement drives or damps");
+                "--stabilized is for motion without drive or damping, but this statement drives or damps");
             return false;
         }
     }

@@ -62,7 +62,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
 #define ROUNDING 1e-9
 
 static bool is_apart(const image_contact *stop, double gap, diags *errors) {
-    static const char hint[] = "start on it or apart from it, or leave the stop out";
+    static const char hint[] = "start on the stop or on its free side, or leave the stop out";
     if (stop->kind != WH_STOP || (gap >= -ROUNDING && isfinite(gap))) {
         return true;
     }
@@ -84,8 +84,8 @@ bool start_angles_are_held(const image *im, diags *errors) {
         if (!phase_holds_start(u->start[0])) {
             diag_error(errors, u->start_at[0].source != NULL ? u->start_at[0] : u->at,
                        "start it within a turn: a sine does not change with whole turns",
-                       "'%s' starts at %.9g rad: float counts turns up to %g rad only", u->name,
-                       u->start[0], PHASE_START_MOST_RAD);
+                       "'%s' starts at %.9g rad, but float represents angles only up to %g rad",
+                       u->name, u->start[0], PHASE_START_MOST_RAD);
             held = false;
         }
     }
@@ -132,7 +132,7 @@ static bool is_free_of_rates(const image *im, const char *title, diags *errors) 
     char hint[METHODS_TEXT_SIZE + 160];
     const int taken = rate_taken(im);
     snprintf(hint, sizeof hint,
-             "the kicks of this method depend on positions only; choose --method %s",
+             "this method needs forces that depend on positions only; choose --method %s",
              methods_of_form(im->form, others));
     if (taken >= 0) {
         diag_error(errors, im->unknown[taken].at, hint,

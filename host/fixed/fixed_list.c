@@ -744,7 +744,8 @@ fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors)
     }
     if (lacks != NULL) {
         diag_error(errors, im->at, "--number float has one",
-                   "the equations of '%s' hold %s, which has no fixed-point form", im->name, lacks);
+                   "the equations of '%s' contain %s, which has no fixed-point form", im->name,
+                   lacks);
         free(number);
         fixed_list_free(l);
         return NULL;

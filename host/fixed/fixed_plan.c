@@ -21,7 +21,7 @@ static bool fixed_has_step(const image *im, diags *errors) {
                    "outputs of '%s' have noise, which fixed point does not support", im->name);
     } else if (im->contacts > 0) {
         diag_error(errors, im->contact[0].at, refused_part,
-                   "there are no events in fixed point: '%s' has this %s", im->name,
+                   "fixed point has no events, but '%s' has this %s", im->name,
                    im->contact[0].word);
     } else if (im->drives > 0) {
         diag_error(errors, im->input[im->drive[0].input].at,
@@ -475,7 +475,8 @@ void fixed_plan_say(const fixed_plan *p, FILE *out, const char *begin) {
         if (!p->declared[i]) {
             fprintf(out, "%srange %s = %.6g .. %.6g: not declared, taken from %s\n", begin,
                     im->range[i].name, p->range[i].low, p->range[i].high,
-                    i < im->reals ? "a run in double to the scene's end" : "its value");
+                    i < im->reals ? "the results of a run in double to the scene's end"
+                                  : "its value");
         }
     }
 }

@@ -120,7 +120,7 @@ static bool take_curve(figure *f, char *words, bool law) {
         number++;
     }
     if (!law && number == f->count) {
-        return is_wrong(f, "no run, sweep or table is called ", field[0]);
+        return is_wrong(f, "there is no run, sweep or table with the name ", field[0]);
     }
     FILE *to = alloc_text(&text, &length);
     fputs(f->curves > 0 ? ", " : "", to);

@@ -52,7 +52,7 @@ static void say_unknown(const char *command, const char *name, const plot_run *r
             nearest_offer(&search, kept[names++]);
         }
     }
-    fprintf(stderr, "whirl %s: error: no quantity is called '%.80s'\n", command, name);
+    fprintf(stderr, "whirl %s: error: there is no quantity '%.80s'\n", command, name);
     if (search.best != NULL) {
         fprintf(stderr, "hint: did you mean %s?\n", search.best);
     } else {
@@ -194,7 +194,7 @@ static bool name_runs(panels *p, const char *command, const char *legend, const 
         char *label = panels_next(&list);
         if (label == NULL && legend != NULL) {
             fprintf(stderr,
-                    "whirl %s: error: --legend names %d of %d runs\n"
+                    "whirl %s: error: --legend has %d names for %d runs\n"
                     "hint: --legend \"first, second\"\n",
                     command, k, p->runs);
             return false;
@@ -219,7 +219,7 @@ static bool labels_fit(const panels *p, const char *command, const char *labels)
     if (more >= p->count && p->count > 0) {
         fprintf(stderr,
                 "whirl %s: error: --ylabel has %d texts for %d panel%s\n"
-                "hint: a comma stands between the texts of two panels\n",
+                "hint: write a comma between the texts of two panels\n",
                 command, more + 1, p->count, p->count == 1 ? "" : "s");
     }
     return more < p->count || p->count == 0;
@@ -610,7 +610,8 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run) {
             good = take_rows(csv, from, &line, &size, run);
             read_about(csv, run);
             if (good && run->rows == 0) {
-                fprintf(stderr, "%s: error: no rows: `whirl %s` has nothing to draw\n", csv,
+                fprintf(stderr,
+                        "%s: error: the file has no rows, so `whirl %s` has nothing to draw\n", csv,
                         command);
             }
         }

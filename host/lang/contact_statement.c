@@ -306,7 +306,8 @@ bool read_when(parser *in, const statement_word *word) {
 
 void contact_on_system(parser *in, const contact_statement *each) {
     diag_error(in->diags, each->at, "write the mechanism with coordinate, T, V, F and Q",
-               "'%s' does not go with state and equation", contact_word(each->kind));
+               "'%s' is not possible in a mechanism with state and equation",
+               contact_word(each->kind));
 }
 
 static void check_friction_once(parser *in, const contact_statement *made) {
@@ -315,7 +316,7 @@ static void check_friction_once(parser *in, const contact_statement *made) {
         const contact_statement *each = &into->contacts[i];
         if (each->kind == CONTACT_FRICTION && each->coordinate == made->coordinate &&
             made->coordinate != NULL && always_meet(each->effect, made->effect)) {
-            diag_error(in->diags, made->at, "add its normal forces up in one statement",
+            diag_error(in->diags, made->at, "add all normal forces in one statement",
                        "friction on '%s' was already given in line %d", made->coordinate->name,
                        each->at.line);
             break;
@@ -432,7 +433,8 @@ bool read_friction(parser *in, const statement_word *word) {
     parser_next(in);
     if (parser_is_sign(in, '-') || parser_is_sign(in, '+')) {
         return parser_fail(
-            in, "between two bodies: coordinate d [rad], and let b = a + d; then friction d",
+            in,
+            "for friction between two bodies a and b, declare coordinate d [rad] and let b = a + d, then write friction d",
             "friction acts on one coordinate, not on a sum");
     }
     if (!parser_expect_word(in, WORD_STATIC, WORD_FRICTION)) {

@@ -129,7 +129,8 @@ static named *claim_name(parser *in, const token *name) {
         return NULL;
     }
     if (name->primes > 0) {
-        diag_error(in->diags, name->at, "a prime is a time derivative: it comes with the name",
+        diag_error(in->diags, name->at,
+                   "declare the name without a prime: each prime is a time derivative",
                    "a declared name carries no primes");
         return NULL;
     }

@@ -260,7 +260,7 @@ static void read_stray(lexer *in, token *made) {
     }
     if (c == '\'') {
         diag_error(in->diags, made->at, "write theta' without a space",
-                   "a prime must follow a name at once");
+                   "a prime must stand directly after a name");
     } else if (c == ']') {
         diag_error(in->diags, made->at, NULL, "']' without '['");
     } else if (c < 0x20 || c == 0x7f) {
@@ -272,7 +272,8 @@ static void read_stray(lexer *in, token *made) {
                           strchr("*/^", next) !=
                               NULL; /* .*, ./ and .^ are operators of matrices in other languages */
         diag_error(in->diags, made->at,
-                   each ? "an operator has no point: *, /, ^" : first_word_hint(&sign, 1),
+                   each ? "write the operators *, / and ^ without a point"
+                        : first_word_hint(&sign, 1),
                    "unexpected character '%c'", c);
     }
     advance(in, 1);

@@ -131,9 +131,10 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     } else {
         snprintf(text, sizeof text, "%.15g", number);
     }
-    snprintf(hint, sizeof hint,
-             "write %s [%s], or in SI: %s [rad]; formulas have '%s' in rad: no factor 57.3", text,
-             angle->unit, text, angle->name);
+    snprintf(
+        hint, sizeof hint,
+        "write %s [%s], or in SI: %s [rad]; in formulas '%s' is in rad, so leave out a factor such as 57.3",
+        text, angle->unit, text, angle->name);
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 

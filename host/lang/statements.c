@@ -399,8 +399,10 @@ static void note_way(parser *in, const statement_word *word) {
     into->has_energies |= (word->rules & BY_ENERGIES) != 0;
     if (into->has_equations && into->has_energies && !into->mixed) {
         into->mixed = true;
-        parser_fail(in, "write coordinate with T, V, F, Q, or state with equation",
-                    "'%s' does not go with what this mechanism began with", word->text);
+        parser_fail(
+            in, "use either coordinate with T, V, F, Q, or state with equation",
+            "'%s' is not possible in this mechanism: it began with the other kind of statements",
+            word->text);
     }
 }
 

@@ -25,16 +25,16 @@ COLUMN(contact_undefined, contact_kind, CONTACT_KIND_ROWS, CONTACT_UNDEFINED)
 /* === words of other languages, and their counterparts here ==================================== */
 
 #define CLOCK \
-    "the time has no name; in Q and in the condition of a hold use a coordinate as a clock " \
-    "(docs/language.md, \"What is given over time\")"
+    "the language has no name for the time; in Q and in the condition of a hold use a coordinate as a clock (docs/language.md, \"What is given over time\")"
 #define CHOICE "choose with max(a, b), min(a, b) or sign(x); at a moment, with when or hold"
-#define JUMP "write (1 + sign(x))/2; of a contact, stop, hold or when"
+#define JUMP "for a step function write (1 + sign(x))/2; for a contact use stop, hold or when"
 #define COUNT \
     "a run has no step counter; an event sets a value: when x crosses 1 [m] rising { set x = 0 [m] }"
 #define PARAMETER "write: parameter m = 2 [kg]"
 #define RATE "a derivative in time is a prime: x', x''"
 #define NOISE "an output has noise: noise y deviation 0.01 [m] seed 7"
-#define BLOW "write a blow as a change of a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"
+#define BLOW \
+    "write an impact as a change of a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"
 #define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
 
 const char *energy_hint(const char *text, size_t length) {
@@ -108,7 +108,7 @@ const char *first_word_hint(const char *text, size_t length) {
         {"constraint", "write: hold x - l*sin(a) while 1 > 0"},
         {"duration", "write: until 2 [s]"},
         {"for", "write: until 2 [s]"},
-        {"tunable", "what may change while running is an input: input k = 3 [N/m]"}};
+        {"tunable", "a value that may change during a run is an input: input k = 3 [N/m]"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (strlen(rows[i].word) == length && memcmp(rows[i].word, text, length) == 0) {
             return rows[i].hint;

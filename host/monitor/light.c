@@ -81,7 +81,8 @@ static bool split(light *l, size_t body) {
 }
 
 const char *light_read(light *l, const char *bytes, size_t count, const char **hint) {
-    static const char again[] = "press Enter at the board's console, it prints the record again";
+    static const char again[] =
+        "press Enter at the board's console: the board prints the record again";
     const char *end = bytes + count;
     const char *from = find(bytes, end, WH_LIGHT_BEGIN, BEGIN);
     *hint = again;
@@ -90,20 +91,20 @@ const char *light_read(light *l, const char *bytes, size_t count, const char **h
         return "there is no record: no line '" WH_LIGHT_BEGIN "'";
     }
     if (light_begin(bytes, count) != from) {
-        *hint = "keep one record in the file; the first is cut if the board was reset meanwhile";
-        return "more than one record begins";
+        *hint = "keep one complete record in the file; a reset of the board cuts a record off";
+        return "the file contains the beginning of more than one record";
     }
     if (!keep_text(l, from, end)) {
-        return "the record does not end: it is longer than any";
+        return "the record has no end: it is longer than any record of firstlight";
     }
     const size_t last = END + DIGITS + 1;
     const char *behind = light_end(l->text, l->text + l->length);
     if (behind == NULL) {
-        return "the record is cut: it has no line '" WH_LIGHT_END "...'";
+        return "the record is incomplete: it has no line '" WH_LIGHT_END "...'";
     }
     if (*behind != '\0' || behind != l->text + l->length) {
-        *hint = "delete the text behind the record";
-        return "more text stands behind the record";
+        *hint = "delete the text after the record";
+        return "there is more text after the record";
     }
     char said[DIGITS + 1] = "";
     const size_t body = l->length < last ? 0 : l->length - last;
@@ -115,7 +116,7 @@ const char *light_read(light *l, const char *bytes, size_t count, const char **h
     }
     if (!split(l, body)) {
         *hint = "build the image and whirl from one version of the sources";
-        return "the record has other fields than this version of whirl knows";
+        return "the fields of the record differ from those of this version of whirl";
     }
     return NULL;
 }

@@ -16,7 +16,7 @@ void write_error_say(const char *name) {
     const int reason = errno;
     failed = failed || reason == ENOSPC || reason == EDQUOT || reason == EFBIG || reason == EIO;
     fprintf(stderr, "%s: error: cannot be written: %s\n", name[0] != '\0' ? name : "''",
-            reason != 0 ? strerror(reason) : "not all of it was taken");
+            reason != 0 ? strerror(reason) : "only a part was written");
 }
 
 void atomic_file_not_whole(void) { failed = true; }

@@ -28,9 +28,10 @@
 /* === a CSV file that is continued ============================================================= */
 
 static int refuse(const char *path, const char *why) {
-    fprintf(stderr,
-            "%s: error: %s\nhint: use another --csv to keep it, or --fresh to overwrite it\n", path,
-            why);
+    fprintf(
+        stderr,
+        "%s: error: %s\nhint: use another --csv to keep this file, or --fresh to overwrite it\n",
+        path, why);
     return EXIT_BAD_INPUT;
 }
 
@@ -86,7 +87,7 @@ static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s)
         free(sh->notes);
         sh->notes = alloc_words("%s", old);
     } else if (*old != '\0' || *new != '\0') {
-        code = refuse(s->path, "the file belongs to another sweep");
+        code = refuse(s->path, "the file contains another sweep");
         fprintf(stderr, "  there: %.*s\n  here:  %.*s\n", line_length(old), old, line_length(new),
                 new);
     }

@@ -280,7 +280,7 @@ static void say_no_column(const trials *t) {
     const records *shape = t->reference[0]->shape;
     const char *of = t->request.of;
     nearest search = nearest_start(of, strlen(of));
-    fprintf(stderr, "whirl: error: %s is no output, coordinate or rate of '%s'\n", of,
+    fprintf(stderr, "whirl: error: %s is not an output, coordinate or rate of '%s'\n", of,
             shape->image->name);
     char *names = alloc(shape->columns, TRIAL_NAME);
     for (int k = 1; k < shape->columns; k++) {
@@ -308,7 +308,7 @@ static bool find_column(trials *t) {
     if (noisy) {
         fprintf(
             stderr,
-            "whirl: error: %s has noise, so its error is not that of the step\n"
+            "whirl: error: %s has noise, which would count as an error of the step\n"
             "hint: choose a quantity without noise, or leave out the effect that adds it with --without EFFECT\n",
             t->request.of);
         return false;
@@ -581,7 +581,7 @@ bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pac
 cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
     if (trial_is_slow_to_plan(t, s, pace)) {
         *own = true;
-        return (cost){.why = "finding its ranges takes too long: raise --effort"};
+        return (cost){.why = "the run that finds the ranges takes too long: raise --effort"};
     }
     cost c = trial_cost(t, s, pace, own);
     for (int i = 0;

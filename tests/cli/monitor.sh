@@ -159,7 +159,7 @@ printf sta >"$RIG_TTY"
 "$whirl" monitor "$RIG_TTY" --csv "$scratch/csv" --strict >"$scratch/text" 2>"$scratch/said" </dev/null &
 running=$!
 until_said '^[0-9]' "$scratch/csv"
-exits 2 'another program is at this line' "$RIG_TTY" --for 1
+exits 2 'another program uses this line' "$RIG_TTY" --for 1
 kill -INT $running
 wait $running && [ ! -s "$scratch/text" ] && ! grep -qv ' samples, 0 pulses in .* lost: 0 .*damaged frames: 0$' "$scratch/said"
 verdict $? "what was in the line before is nobody's answer, nobody's words and no loss" "$scratch/said"

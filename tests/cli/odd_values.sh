@@ -87,7 +87,7 @@ while read -r command option words; do
     # enough rows for a part to be written before the end
     sh tests/limit.sh 60 "$whirl" "$command" $words --until 50ms "$option" - >/dev/full 2>"$scratch/err" </dev/null
     status=$?
-    [ $status -eq 1 ] && grep -q '^whirl: error: standard output cannot be written' "$scratch/err" &&
+    [ $status -eq 1 ] && grep -q '^whirl: error: cannot write to standard output' "$scratch/err" &&
         ! grep -q '^-: ' "$scratch/err"
     verdict $? "whirl $command $option - into what is full: status $status"
 done <<END

@@ -135,9 +135,9 @@ refused() { # refused ERROR HINT WORD...: exit status 2, with error and hint, an
 }
 out="--out=$scratch/no.svg"
 case $whirl in /*) program=$whirl ;; *) program=$PWD/$whirl ;; esac
-refused "no quantity is called 'pul'" "did you mean pull?" plot "$scratch/soft.csv" --y pul "$out"
-refused "no quantity is called 'zzzzzz'" "the quantities are time, x, a, x', a', pull" plot "$scratch/soft.csv" --y zzzzzz "$out"
-refused "no quantity is called 'pul'" "did you mean pull?" run "$model" --y pul --plot "$scratch/no.svg"
+refused "there is no quantity 'pul'" "did you mean pull?" plot "$scratch/soft.csv" --y pul "$out"
+refused "there is no quantity 'zzzzzz'" "the quantities are time, x, a, x', a', pull" plot "$scratch/soft.csv" --y zzzzzz "$out"
+refused "there is no quantity 'pul'" "did you mean pull?" run "$model" --y pul --plot "$scratch/no.svg"
 refused "one panel has one unit" '--y "x, pull" makes a panel for each unit' plot "$scratch/soft.csv" --panel x,pull "$out"
 refused "No such file" "whirl run SCENE --csv $scratch/none.csv writes one" plot "$scratch/none.csv" "$out"
 refused "x is in" "draw them in two pictures" plot "$scratch/hand.csv" "$scratch/inch.csv" --y x "$out" 2>/dev/null <<END
@@ -148,7 +148,7 @@ $(printf '0,1\n1,2\n' >"$scratch/bare.csv")
 END
 refused "no file for the picture" "--out picture.svg" plot "$scratch/soft.csv"
 refused "draws .svg, .pdf and .png files" "--out picture.svg" plot "$scratch/soft.csv" --out "$scratch/no.txt"
-refused "--ylabel has 3 texts for 1 panel" 'a comma stands between' plot "$scratch/soft.csv" --y x --ylabel "a, b, c" "$out"
+refused "--ylabel has 3 texts for 1 panel" 'write a comma between' plot "$scratch/soft.csv" --y x --ylabel "a, b, c" "$out"
 refused "--legend names 1 of 2 runs" '--legend "first, second"' plot "$scratch/soft.csv" "$scratch/stiff.csv" --legend one "$out"
 refused "--set changes a scene" "whirl plot SCENE --set" plot "$scratch/soft.csv" --set k=1 "$out"
 refused "k is given twice, but an option changes both in the same way" "record each run, then draw both:" plot "$model" --set k=5 "$model" --set=k=90 "$out"

@@ -362,9 +362,9 @@ for command in price choose; do
     exits 2 'takes only one scene' $command "$s" other $e
     exits 2 "there is no board 'nix'" $command "$s" $e --board nix
     exits 2 'hint: --board mps2-an386 has the processor' $command "$s" $e --board stm32-h405
-    exits 2 'is no output, coordinate or rate' $command "$s" $e --of y
+    exits 2 'is not an output, coordinate or rate' $command "$s" $e --of y
     exits 2 "did you mean 'x_mm'" $command "$s" $e --of x_mn
-    exits 2 "is no output, coordinate or rate" $command "$s" $e --of "x''"
+    exits 2 "is not an output, coordinate or rate" $command "$s" $e --of "x''"
     exits 2 'has noise' $command "$s" $e --of shaky
     exits 2 'length' $command "$s" --of x --error 1s
     exits 2 'error:' $command "$s" --error 1mm

@@ -320,7 +320,7 @@ TEST(bad_input, ten_megabytes_of_garbage) {
     expect_repeated("x y z {\n", 1250000, "", "error: unknown name 'x'");
     expect_repeated("1", 10000000, "", "this number has more than 100 characters");
     expect_repeated("x", 10000000, "", "this name is longer than 63 characters");
-    expect_repeated("'", 10000000, "", "a prime must follow a name");
+    expect_repeated("'", 10000000, "", "a prime must stand directly after a name");
     expect_repeated("\"", 10000000, "", "a value is missing before a text in quotes");
     expect_repeated("X+", 5000000, "", "more than 1000 operators deep");
 }

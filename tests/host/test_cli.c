@@ -462,7 +462,7 @@ TEST(firstlight, command) {
     put(files[1], page_head);
     ask(&what);
     TEST_ASSERT_EQUAL(2, what.status);
-    TEST_ASSERT_NOT_NULL(strstr(what.err, "error: the record is cut"));
+    TEST_ASSERT_NOT_NULL(strstr(what.err, "error: the record is incomplete"));
     TEST_ASSERT_NOT_NULL(strstr(what.err, "\nhint: "));
     TEST_ASSERT_EQUAL_STRING(page_head, got(files[1]));
     (void)remove(files[1]);

@@ -494,9 +494,10 @@ static void expect_refused(const char *text, size_t length, const char *beside, 
     }
     errors_catch();
     const int code = resumable_csv_open(&sh, &d.settings);
-    snprintf(wanted, sizeof wanted,
-             "%s: error: %s\nhint: use another --csv to keep it, or --fresh to overwrite it\n",
-             path, why);
+    snprintf(
+        wanted, sizeof wanted,
+        "%s: error: %s\nhint: use another --csv to keep this file, or --fresh to overwrite it\n",
+        path, why);
     const char *told = errors_caught();
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
     /* the error must be printed once */

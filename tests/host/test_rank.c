@@ -539,7 +539,8 @@ TEST(underivable, a_hint_about_parameters_helps) {
         char wanted[100];
         const unsigned sums = 11 + dice_one_of(&d, 3);
         snprintf(wanted, sizeof wanted,
-                 "hint: write let instead of parameter: %u parameters become numbers", 3 * sums);
+                 "hint: write let instead of parameter, which makes numbers of %u parameters",
+                 3 * sums);
         for (int lets = 0; lets < 2; lets++) {
             const dice drawn = d;
             size_t at = (size_t)snprintf(text[lets], sizeof text[lets],

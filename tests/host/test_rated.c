@@ -330,7 +330,7 @@ static void test_a_run_without_rows_says_why(void) {
     says(2, "error: --error chooses the step, so --step cannot set it",
          RUN("thomson_a", "--error", "X=1mm", "--step", "1ms"));
     says(2, "hint: write a value such as --error x=0.1mm", RUN("thomson_a", "--error", "1mm"));
-    says(2, "Y is no output, coordinate or rate", RUN("thomson_a", "--error", "Y=1mm"));
+    says(2, "Y is not an output, coordinate or rate", RUN("thomson_a", "--error", "Y=1mm"));
     says(1, "shorter steps do not reduce the error, because of round-off",
          RUN("thomson_a", "--error", "X=1e-15m", "--until", "2s"));
     says(2, "length", RUN("thomson_a", "--error", "X=1s"));

@@ -167,8 +167,9 @@ TEST(starts, angles_that_start_too_far) {
         TEST_ASSERT_EQUAL_UINT_MESSAGE(wanted, times(told, "error: "), told);
         for (int i = 0; i < count; i++) {
             char what[120];
-            snprintf(what, sizeof what, "error: 'q%d' starts at %.9g rad: float counts turns up to",
-                     i, far_rad[i]);
+            snprintf(what, sizeof what,
+                     "error: 'q%d' starts at %.9g rad, but float represents angles only up to", i,
+                     far_rad[i]);
             TEST_ASSERT_EQUAL_INT_MESSAGE(far_rad[i] > 0.0, strstr(told, what) != NULL, told);
         }
         diags_free(errors);

@@ -196,7 +196,7 @@ TEST(vocabulary, other_notations_are_mended) {
         {"let a = $(t)", "a coordinate has no (t)", "let a = $"},
         {"let a = K*e", "write exp(1)", "let a = K*exp(1)"},
         {"let a = Pi*K", "write pi", "let a = pi*K"},
-        {"let a = K .* $", "an operator has no point", "let a = K * $"},
+        {"let a = K .* $", "write the operators", "let a = K * $"},
         {"let a = |$|", "write abs(x)", "let a = abs($)"},
         {"let a = K$", "write K*$", "let a = K*$"},
         {"let a = (K $)", "write K*$", "let a = (K*$)"},

@@ -126,7 +126,7 @@ bool port_open(port *p, const char *name, double baud) {
 
 void port_say_unopened(const char *name, const char *hint) {
     (void)hint;
-    fprintf(stderr, "%s: error: this build of whirl opens no lines\n", name);
+    fprintf(stderr, "%s: error: this build of whirl cannot open serial lines\n", name);
 }
 
 void port_forget(const port *p) { (void)p; }

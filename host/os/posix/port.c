@@ -83,7 +83,7 @@ void port_forget(const port *p) {
 void port_say_unopened(const char *name, const char *hint) {
     const int reason = errno;
     fprintf(stderr, "%s: error: cannot be opened: %s\nhint: %s\n", name[0] != '\0' ? name : "''",
-            strerror(reason), reason == EBUSY ? "another program is at this line" : hint);
+            strerror(reason), reason == EBUSY ? "another program uses this line" : hint);
 }
 
 void port_close(port *p) {
