@@ -249,7 +249,7 @@ static seen see(const held *h) {
     s.warned = strstr(what.err, "warning") != NULL;
     s.singular = strstr(what.err, "nearly singular") != NULL;
     s.trusted = strstr(what.out, "to the end: every") != NULL;
-    s.untold = strstr(what.out, "unknown: double has") != NULL;
+    s.untold = strstr(what.out, "unknown: even in double") != NULL;
     TEST_ASSERT_TRUE_MESSAGE(!s.trusted || !s.warned, what.err);
     motion m;
     motion_open_text(&m, text, IN_DOUBLE);
@@ -345,7 +345,7 @@ TEST(folded, what_is_lost_is_told) {
         "in %u more ends\n",
         cases, off, told, ended, worst_trusted, right, told_right, ended_right);
     TEST_ASSERT_TRUE(cases < 60 || (off > 0 && told > 0 && right > 0));
-    TEST_ASSERT_TRUE(10 * (told_right + ended_right) <= right);
+    TEST_ASSERT_TRUE(cases < 60 || 10 * (told_right + ended_right) <= right);
 }
 
 /* Number of further foldings, with other rounding, that the image keeps. */
