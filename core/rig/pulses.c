@@ -77,8 +77,8 @@ static wh_real climb(const wh_pulses *pulses, const wh_speed *after) {
     return before->known && after->known && beyond > WH_R(0.0) ? beyond : WH_R(0.0);
 }
 
-/* Accepts a pulse that gives the speed `after`. pulses->before must be the speed without this pulse. If the last pulse
- * was rejected, it must be the speed without that one, too. */
+/* Accepts a pulse that gives the speed `after`. pulses->before must be the speed without this pulse, and without a
+ * rejected pulse just before it. */
 static void accept(wh_pulses *pulses, const wh_pulse *pulse, const wh_speed *after) {
     const wh_speed *before = &pulses->before;
     const bool alternates = after->lost == before->lost && before->running;

@@ -128,7 +128,7 @@ typedef struct wh_measured {
     wh_real inertia_kgm2;
     /* Error of the speed ripple, as a vector, found from the load's second order. */
     wh_real ripple_off_rad;
-    /* With gravity compensation: the uncompensated part of gravity, positive or negative; otherwise 0. */
+    /* With gravity compensation: the uncompensated part of gravity, without its sign; otherwise 0. */
     wh_real uncompensated_part;
     wh_real at_pulse_N[2]; /* load at each sensor's pulse, minus the tare */
 } wh_measured;

@@ -5,7 +5,7 @@
 #include "datasheet.h"
 #include "polar.h"
 
-/* Largest E for which the series is valid: above it the rotor hardly gets over the top. */
+/* Largest ripple E (turn_angle.h) for which its series is valid. With a larger E the rotor almost stops at the top. */
 #define SWING_MOST WH_R(0.35)
 
 /* Least derivative of the quadrature ratio with respect to E at which E is estimated. */

@@ -28,7 +28,8 @@ typedef union wh_value {
  *     @x           a count in eight hexadecimal digits
  *     @g           the word good or bad, for a count of 1 or 0
  *     @0 ... @9    a number with this many decimals
- *     @e           a number with seven digits, without trailing zeros; a user can type it */
+ *     @e           a number with seven digits, at most eight of them decimals, without trailing zeros; a user can
+ *                  type it */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
 /* A list begins with its separator, a character that no item contains: "|" "off" "|" "on". */

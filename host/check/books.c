@@ -356,7 +356,8 @@ static void find_frame(books *b) {
         leads[lead[r]] = true;
     }
     for (int c = 0; c < n && known; c++) {
-        for (int r = -1; r < rank && !leads[c]; r++) { /* the null vector with momentum c */
+        for (int r = -1; r < rank && !leads[c];
+             r++) { /* the null vector whose entry is 1 at column c, which has no pivot (r = -1) */
             const int i = r < 0 ? c : lead[r];
             const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
             b->frame[i] = b->frame[i] || share > FRAME_LEAST;

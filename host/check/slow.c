@@ -42,9 +42,11 @@ static void say(FILE *out, const image *im, const engine_kind *kind, const void 
     const double off = kind->component_off(run, i, &span);
     fprintf(out, "'%s%.*s' ", u->name, c.primes, "''''''''''");
     if (kind->unit == NULL) {
-        fputs("turns so slowly that rounding its steps to 1.5e-9 rad, as float does,", out);
+        fputs("turns so slowly that rounding its change in each step to 1.5e-9 rad, as float does,",
+              out);
     } else {
-        fprintf(out, "moves so slowly that rounding, to %.2g%s%s and of each increment,",
+        fprintf(out,
+                "moves so slowly that rounding its value to %.2g%s%s and its change in each step",
                 kind->unit(run, i), space, unit);
     }
     fprintf(out, " causes an error of up to %.2g%s%s", off, space, unit);

@@ -138,11 +138,11 @@ static void print_uncommon(const show *s, const equations *e, const symmetry *of
         }
     }
     if (moved[1] != NULL) {
-        fprintf(s->out,
-                "%sthis direction shifts %s and %s by different amounts: its momentum is not the "
-                "total momentum, unless one of the two is measured from the other or in another "
-                "direction\n",
-                prefix, moved[0]->name, moved[1]->name);
+        fprintf(
+            s->out,
+            "%s%s and %s change by different amounts here, so this momentum is not the total momentum, "
+            "unless one of them is measured from the other, or in another direction\n",
+            prefix, moved[0]->name, moved[1]->name);
     }
 }
 

@@ -700,7 +700,7 @@ static int choose_begun(pricing *p, choice_request *w) {
         "%s%s",
         missing == NULL ? "counted on the board: the step or the whole run, and the bytes"
         : predicts      ? "predicted, as --predict asks for"
-                        : "predicted, because Whirl cannot count: ",
+                        : "predicted, because the instructions cannot be counted: ",
         missing != NULL ? missing : "");
     w->prices = prices;
     const int done = choose_from(p, w, missing == NULL);

@@ -36,10 +36,10 @@ static const command_usage usage = {
     .groups = OPTIONS_SCENE,
     .tail =
         "  --within X=1mm       allowed distance of X from the exact motion (repeatable, each name once)\n"
-        "  --tolerance 1e-3     allowed distance of the other coordinates and rates, as a part of the range of\n"
-        "                       each over the run (default: 1e-3)\n"
-        "  --csv FILE           a row for each step, in SI: the time, and for each coordinate and rate bounds\n"
-        "                       below and above the exact motion, then the run's value. "
+        "  --tolerance 1e-3     allowed distance of the others, as a part of the range of each over the run\n"
+        "                       (default: 1e-3)\n"
+        "  --csv FILE           a row for each step, in SI: the time, and for each coordinate and rate\n"
+        "                       bounds below and above the exact motion, then the run's value. "
         "- is\n                       standard output; the report then goes to standard error.\n"
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. After that it\n"
         "                       prints the proof so far.\n"

@@ -420,9 +420,10 @@ static product_sum wave_of(collecting *c, const op *o) {
     const op *phase = &c->list->ops[o->a];
     double *multiple = NULL;
     if (phase->b >= 0 || phase->parts != NULL) {
-        refuse(c->why, "contain a sine or cosine of a quantity that is no turn angle",
-               "leave out --tables: an angle that also stands outside sines is stored in radians",
-               -1);
+        refuse(
+            c->why, "contain a sine or cosine of a quantity that is no turn angle",
+            "leave out --tables: an angle that also stands outside a sine or cosine is stored in radians, so it is no turn angle",
+            -1);
         return (product_sum){NULL, 0};
     }
     if (phase->turns != NULL) {

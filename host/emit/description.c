@@ -408,7 +408,7 @@ static void put_ranges(FILE *out, const image *im) {
 }
 
 static void tell_lists(FILE *out, const image *im) {
-    fprintf(out, "\nlist       results   + - *     /  roots  waves  calls\n");
+    fprintf(out, "\nlist       results   + - *     /  roots sincos  calls\n");
     for (int role = 0; role < IMAGE_ROLES; role++) {
         if (im->list[role] != NULL) {
             const op_list_cost cost = op_list_count(im->list[role]);

@@ -298,9 +298,10 @@ static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *er
     const fixed_leaves leaves = leaves_of(p);
     p->cells = fixed_hull(p->list, im, &leaves, bits_known, errors);
     if (p->cells == FIXED_HULL_UNBOUNDED && ranges_alone) {
-        diag_error(errors, im->at, "declare narrower ranges: range NAME = A .. B",
-                   "the equations of '%s' have values beyond %.2g within the ranges", im->name,
-                   FIXED_SIZE_MOST);
+        diag_error(
+            errors, im->at, "declare narrower ranges: range NAME = A .. B",
+            "within the ranges of '%s', values in its equations may exceed %.2g, the most that fixed point allows",
+            im->name, FIXED_SIZE_MOST);
     } else if (p->cells == FIXED_HULL_UNBOUNDED) {
         too_far(p, errors);
     }

@@ -43,7 +43,7 @@ typedef struct fixed_plan {
     wh_fixed_format *format; /* [reals + inputs] in the order of the scene */
     enclosure *range;        /* [reals + inputs] at the ends of steps */
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
-    /* [reals + inputs] the range is declared; otherwise it is from a reference run */
+    /* [reals + inputs] the range is declared; otherwise it is twice that of a reference run, or of an input's value */
     bool *declared;
     bool second;
     int coordinates;    /* for first order, the number of components */
@@ -60,8 +60,8 @@ typedef struct fixed_plan {
 fixed_plan *fixed_plan_make(const image *im, bool progress, diags *errors);
 void fixed_plan_free(fixed_plan *plan);
 
-/* Prints declared ranges of turn angles, which are not used, and undeclared ranges. Each takes a line that begins with
- * `begin`, such as "the range of theta' is -40 .. 40 [rad/s], ...". */
+/* Prints a line for each turn angle with a declared range, which is not used, and for each undeclared range: first
+ * `begin`, then for example "range theta' = -40 .. 40: not declared, ...". */
 void fixed_plan_say(const fixed_plan *plan, FILE *out, const char *begin);
 
 #endif

@@ -182,7 +182,7 @@ typedef struct chosen {
     int count;
 } chosen;
 
-/* Does this solution multiply the values at each of these uses, and does it change anything? */
+/* Returns true if the solution e[] has a nonzero exponent at each chosen use, and for an operation that absorbs no factor. */
 static bool tells(const op_list *t, const double *e, const chosen *c) {
     bool all = true;
     bool changes = false;
@@ -379,8 +379,8 @@ static double times_of(const multiplied *m, int i, int which) {
                                                   : m->times[operand];
 }
 
-/* Enters a product or quotient of multiplied operands, and the remaining factor. Each call is a statement, because C
- * does not fix the order in which arguments are evaluated. */
+/* Enters operation i, a product or quotient, with operands that carry their own factors, and the factor that then
+ * remains. No call has two arguments that enter operations, because C does not fix their order. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);

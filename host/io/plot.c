@@ -194,9 +194,9 @@ static bool name_runs(panels *p, const char *command, const char *legend, const 
         char *label = panels_next(&list);
         if (label == NULL && legend != NULL) {
             fprintf(stderr,
-                    "whirl %s: error: --legend has %d names for %d runs\n"
+                    "whirl %s: error: --legend has %d name%s for %d runs\n"
                     "hint: --legend \"first, second\"\n",
-                    command, k, p->runs);
+                    command, k, k == 1 ? "" : "s", p->runs);
             return false;
         }
         p->label[k] = label != NULL ? label : alloc_words("%s", runs[k].label);

@@ -105,7 +105,7 @@ static void report_reserved(parser *in, const token *name) {
     for (size_t i = 0; i < sizeof quantities / sizeof quantities[0]; i++) {
         if (word_is(quantities[i], name->text, name->length)) {
             const statement_word *word = word_row(quantities[i]);
-            diag_error(in->diags, name->at, "give the expression a name with let",
+            diag_error(in->diags, name->at, "name its formula with let, and use that name here",
                        "%s is %s and cannot be used in an expression", word->text,
                        term_meaning((term_kind)word->kind));
             return;

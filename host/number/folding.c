@@ -62,8 +62,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* Returns the nearest double, moved by moved_by(). If the nearest double is exact, it is not moved. FOLDING_OTHER
- * moves it two doubles across the exact value, because several round-offs may add up to as much. */
+/* Returns the double nearest to the exact value, moved by moved_by() unless both are equal. FOLDING_OTHER moves it by
+ * two doubles, towards the exact value and past it, because several round-offs may add up to as much. */
 static double other_neighbour(twofold exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;

@@ -47,7 +47,7 @@ typedef struct peak {
     double at_s;
 } peak;
 
-/* The last value of a firmware's note. */
+/* A note of the firmware, which is a value that it reports about itself: name, unit and last value. */
 typedef struct told_note {
     char name[32];
     char unit[16];

@@ -402,9 +402,8 @@ int graph_without(graph *g, int a, int first) {
 /* === conversion of a model's expressions ====================================================== */
 
 static int refused(reader_symbols *s, const expr *at, const char *what) {
-    diag_error(s->errors, at->at,
-               "use whirl trust, which estimates; a proof needs smooth functions",
-               "%s of a moving quantity cannot be enclosed in intervals", what);
+    diag_error(s->errors, at->at, "use whirl trust, which estimates",
+               "whirl prove has no bounds for %s of a quantity that changes in the run", what);
     return -1;
 }
 

@@ -177,9 +177,9 @@ static void add_libraries(cost_counts *c, const image *im) {
 
 typedef struct work {
     int stages;
-    int places; /* distinct places of the stages */
-    int shares; /* nonzero coefficients of the stages, of their places, and of the end of the step */
-    int turns;  /* rotations of a sine-cosine pair in a step */
+    int places; /* distinct positions of the stages */
+    int shares; /* nonzero weights of the method's tableau, those of the end of the step among them */
+    int turns; /* rotations of a sine-cosine pair in a step */
 } work;
 
 /* Is stage s at the same place as an earlier stage? */

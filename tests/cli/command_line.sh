@@ -381,7 +381,7 @@ prints 'Runge-Kutta 4 stabilized, double' trust docs/hard/long.whirl:pendulum_sw
 exits 2 "contacts.whirl:[0-9]+:[0-9]+: error: --stabilized: 'ball' has events" run ball_bounces --stabilized
 exits 2 "error: --stabilized corrects .* 'lorenz' is given by equations" run "tests/mechanisms/lorenz.whirl" --stabilized
 exits 2 'thomson.whirl:[0-9]+:[0-9]+: error: --stabilized is for motion without drive or damping, but this statement drives or damps' run thomson_a --stabilized
-exits 2 "error: --stabilized needs a ledger, which leapfrog cannot have" run docs/hard/long.whirl:pendulum_swings --stabilized --method leapfrog
+exits 2 "error: --stabilized needs a ledger, which is not possible with leapfrog" run docs/hard/long.whirl:pendulum_swings --stabilized --method leapfrog
 exits 2 "error: --stabilized corrects an energy drift, but with semi-implicit Euler" run docs/hard/long.whirl:pendulum_swings --stabilized --method semi-implicit-euler
 prints '^  energy correction \(--stabilized\) ' run docs/hard/long.whirl:gear_turns --stabilized
 exits 2 'error: --stabilized needs the stages of a step' run two_mass_relative --stabilized --matrix exact

@@ -14,7 +14,7 @@ lost() {
             "$whirl" "$@" >/dev/full 2>"$scratch/err"
         fi
         status=$?
-        [ $status -eq 1 ] && [ "$(grep -c 'error: standard output' "$scratch/err")" -eq 1 ]
+        [ $status -eq 1 ] && [ "$(grep -c 'error: cannot write to standard output' "$scratch/err")" -eq 1 ]
         verdict $? "whirl $(echo "$*" | sed "s|$scratch/||g") $output: exit status $status"
     done
 }

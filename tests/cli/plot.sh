@@ -149,7 +149,7 @@ END
 refused "no file for the picture" "--out picture.svg" plot "$scratch/soft.csv"
 refused "draws .svg, .pdf and .png files" "--out picture.svg" plot "$scratch/soft.csv" --out "$scratch/no.txt"
 refused "--ylabel has 3 texts for 1 panel" 'write a comma between' plot "$scratch/soft.csv" --y x --ylabel "a, b, c" "$out"
-refused "--legend names 1 of 2 runs" '--legend "first, second"' plot "$scratch/soft.csv" "$scratch/stiff.csv" --legend one "$out"
+refused "--legend has 1 name for 2 runs" '--legend "first, second"' plot "$scratch/soft.csv" "$scratch/stiff.csv" --legend one "$out"
 refused "--set changes a scene" "whirl plot SCENE --set" plot "$scratch/soft.csv" --set k=1 "$out"
 refused "k is given twice, but an option changes both in the same way" "record each run, then draw both:" plot "$model" --set k=5 "$model" --set=k=90 "$out"
 sed -n 's/^  whirl //p' "$scratch/err" | (cd "$scratch" && while read -r line; do eval "\"$program\" $line" || exit 1; done) >"$scratch/said" 2>&1 && [ -s "$scratch/no.svg" ]

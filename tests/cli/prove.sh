@@ -152,7 +152,7 @@ verdict $? "interrupted before anything is proved: no rows" "$scratch/err"
 exits 2 'the stop changes the equations' carriage_stop
 exits 2 'the hold changes the equations' thomson_magnet
 exits 2 'the friction changes the equations' incline_slides
-exits 2 'abs of a moving quantity cannot be enclosed in intervals' epicyclic_from_rest --with air_drag
+exits 2 'whirl prove has no bounds for abs of a quantity that changes in the run' epicyclic_from_rest --with air_drag
 exits 2 'give a number above zero' epicyclic_from_rest --within X=-1mm
 exits 2 'give a number above zero' epicyclic_from_rest --within X=0
 exits 2 "'Y' is unknown" epicyclic_from_rest --within Y=1mm

@@ -111,7 +111,7 @@ kill "$running" && wait "$running" 2>/dev/null
 running=
 echo mine >"$RIG_TTY"
 "$station" >"$scratch/said" 2>"$scratch/err" </dev/null
-[ $? -eq 2 ] && [ "$(cat "$RIG_TTY")" = mine ] && grep -q 'hint: RIG_TTY' "$scratch/err"
+[ $? -eq 2 ] && [ "$(cat "$RIG_TTY")" = mine ] && grep -q 'hint: choose another path: RIG_TTY' "$scratch/err"
 verdict $? "a file in its place stays, and is named"
 rm "$RIG_TTY"
 RIG_TTY=$scratch/none/rig.tty "$station" >"$scratch/said" 2>"$scratch/err" </dev/null

@@ -94,7 +94,7 @@ seconds=5
 [ -z "${WHIRL_FEW:-}" ] || seconds=50
 for digits in 20 90 300; do
     (ulimit -t $seconds && "$whirl" run epicyclic_from_rest --error "X=1e-${digits}m") >"$scratch/out" 2>"$scratch/err"
-    [ $? -eq 1 ] && grep -q 'no tried step stays within --error.*would take [0-9.e+]* operations' "$scratch/err" && [ ! -s "$scratch/out" ]
+    [ $? -eq 1 ] && grep -q 'no tried step stays within --error.*need [0-9.e+]* operations' "$scratch/err" && [ ! -s "$scratch/out" ]
     verdict $? "an error of 1e-$digits m is refused with the number of operations" "$scratch/err"
 done
 exit $failed

@@ -4,7 +4,7 @@
 #include "draw.h"
 #include "tests/suites.h"
 
-/* A payload fills two blocks of the code and a part of the third; on an AVR, one block and a part of the second. */
+/* The payload is longer than two COBS blocks of 254 bytes (core/cobs.h), on an AVR than one. */
 #if defined(__AVR__)
 enum { PAYLOAD_BYTES = 280 };
 #else

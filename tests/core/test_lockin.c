@@ -292,8 +292,8 @@ TEST(lockin, outliers_are_left_out) {
     }
 }
 
-/* The load changes permanently at some turn. Its new samples are outliers in one turn, then a gap, and then the
- * prediction. */
+/* From some turn on, the load has a bump in each turn. The first such turn does not count: its samples are outliers
+ * and leave a gap. The next turn has no prediction, and gives the new one. */
 TEST(lockin, what_stays_is_expected) {
     settings();
     made_up made = plain;

@@ -21,7 +21,7 @@ typedef struct runner {
     hybrid_motion *motion;
 } runner;
 
-/* The gap of a stop or the coordinate of a friction. rate = row . q', and the second derivative is row . q'' + bend. */
+/* The gap of a stop; of a friction only the rate is used. rate = row . q', and its derivative is row . q'' + bend. */
 typedef struct gauge {
     long double gap;
     long double rate;

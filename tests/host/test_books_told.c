@@ -181,7 +181,7 @@ TEST(books_told, conserved_momenta) {
     TEST_ASSERT_TRUE(none > 3U);
 }
 
-/* Checks for each coordinate the causes and the change of its momentum, and the mean over time. */
+/* Checks for each coordinate the named causes of its momentum's change, this change, and its mean over the run. */
 TEST(books_told, ledgers) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",

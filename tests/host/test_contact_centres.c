@@ -109,7 +109,7 @@ static bool reference(const machine *c, long double until_s, long double s[2]) {
             rk4(c, span, way, next);
             way = -way;
             law(c, next[0], f);
-            /* b' = f[1] a'. If f[1] is not zero here, a' is: the machine may stick, which is not tested */
+            /* b' = f[1] a' is zero here. If f[1] is not zero, then a' is zero: the machine may stick, which is not tested */
             if (fabsl(f[1]) > 1e-9L * wide(c->e)) {
                 return false;
             }

@@ -61,7 +61,7 @@ static void test_four_operations(void) {
         const enclosure ratio = enclosure_div(a, b);
         if (b.low <= 0.0 && b.high >= 0.0) {
             TEST_ASSERT_FALSE(enclosure_is_finite(ratio));
-        } else { /* exact products of x and of r y must agree */
+        } else { /* the bounds of the ratio, multiplied exactly by y, must enclose x */
             const quad low = (quad)ratio.low * (quad)y;
             const quad high = (quad)ratio.high * (quad)y;
             expect_holds("a ratio", ratio, (quad)x / (quad)y);

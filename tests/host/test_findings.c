@@ -148,8 +148,9 @@ TEST(small_told, slow_angles) {
             const char *note = strstr(what.err, "whirl run: note:");
             TEST_ASSERT_NOT_NULL_MESSAGE(note, what.err);
             const char *at = said_exactly(
-                note, "whirl run: note: 'a' turns so slowly that rounding its steps to 1.5e-9 "
-                      "rad, as float does, causes an error of up to ");
+                note,
+                "whirl run: note: 'a' turns so slowly that rounding its change in each step to 1.5e-9 "
+                "rad, as float does, causes an error of up to ");
             at = said_exactly(said_number(at, &figure[0]), " rad, ");
             at = said_exactly(said_number(at, &figure[1]), " % of the ");
             at = said_exactly(

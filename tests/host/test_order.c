@@ -88,7 +88,7 @@ static int by_size(const void *x, const void *y) {
     return (left > right) - (left < right);
 }
 
-/* Returns the sorted hashes of what each operation computes. *phases: one hash of all phases, in sequence. */
+/* Returns a hash of each operation with its operands, sorted, so that another order has the same hashes. *phases: one hash of all OP_PHASE operations, which depends on their order. */
 static uint64_t *computed_by(const op_list *t, uint64_t *phases) {
     uint64_t *sum = alloc((int64_t)t->count + 1, sizeof *sum);
     int operand[2];

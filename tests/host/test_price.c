@@ -138,8 +138,8 @@ TEST(price, powers_of_sines_are_put_back) {
     expect(price_of("x0*(1 - cos(2*a)) + x1*(1 + cos(4*b))"), 9, 2, "squares beside each other");
 }
 
-/* Operations of a step of n equations. All coefficients and right sides are different states, except coefficient
- * `number`, which is 3. */
+/* Returns the operations of a step with n equations. Each coefficient and each right side is a state of its own, but
+ * the coefficient with index `number` is the constant 3. */
 static int price_of_system(int n, int number) {
     char text[4000] = "mechanism m\n";
 #define PUT(...) snprintf(text + strlen(text), sizeof text - strlen(text), __VA_ARGS__)

@@ -1,5 +1,5 @@
-/* test_undefined_where.c: where an expression is undefined (host/check/nonfinite.h): the innermost part of random
- * formulas, by its column; the sampled places of a step; and a sine whose angle is too large. */
+/* test_undefined_where.c: where an expression is undefined (host/check/nonfinite.h): the innermost undefined part of
+ * random formulas, by its column; the states within a step that are tried; and a sine whose angle is too large. */
 #include "command.h"
 #include "derived.h"
 #include "host/base/alloc.h"

@@ -157,7 +157,7 @@ TEST(vocabulary, first_words_get_a_hint) {
     static const char *const attempts[][2] = {
         {"F = m*x", "hint: it contains no speed; write: F = "},
         {"V = 1/2*m*9.81", "hint: a number without a unit"},
-        {"friction x - l static 1 kinetic 1 normal 1 [N]", "hint: between two bodies"},
+        {"friction x - l static 1 kinetic 1 normal 1 [N]", "hint: for friction between two bodies"},
         {"input w", "hint: an input has a value at the start: input w = 0"},
         {"input F", "hint: choose another name, such as F_1"},
         {"Q = 3", "hint: write Q(x) = "},

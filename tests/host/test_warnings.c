@@ -313,7 +313,7 @@ TEST(warnings, passing_a_pole_is_told) {
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
-/* The ball rests after eight of about 25000 bounces, with a warning. The remedy must remove the warning. */
+/* A step computes at most eight of the ball's bounces, then lets the ball rest, and the run warns. With the remedy the warning must vanish. */
 static void expect_ball_between(said *what, const char **words) {
     named_cure is;
     const char *again[12];
