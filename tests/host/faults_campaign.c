@@ -11,20 +11,14 @@
 /* === the controller's words ==================================================================== */
 
 typedef struct rig_stage {
-    char when[32]; /* the note that has this value in the state, as NOTE=VALUE */
-    const char *word;
+    unsigned of;   /* the value of the note `state` */
     double span_s; /* mean duration of the state in a healthy run, s */
 } rig_stage;
 
-enum { RIG_STAGES_MAX = 16 };
-
 #define PHASE(phase) (WH_RIG_STAGE_OF_PHASE + (unsigned)(phase))
 
-/* Mean duration of each state in a healthy run to 330 rpm. */
-static const struct {
-    unsigned stage;
-    double span_s;
-} healthy[] = {
+/* A healthy run to 330 rpm. */
+static const rig_stage healthy[] = {
     {WH_RIG_IDLE, 1.4},
     {PHASE(WH_PHASE_TARE), 0.5},
     {PHASE(WH_PHASE_SPIN_UP), 0.6},
@@ -36,19 +30,10 @@ static const struct {
 };
 enum { STAGES = sizeof healthy / sizeof healthy[0] };
 
-static unsigned rig_stages(rig_stage *stage) {
-    for (unsigned i = 0; i < STAGES; i++) {
-        const unsigned which = healthy[i].stage;
-        stage[i] = (rig_stage){.word = wh_rig_stage_text(which), .span_s = healthy[i].span_s};
-        snprintf(stage[i].when, sizeof stage[i].when, "state=%u", which);
-    }
-    return STAGES;
-}
-
 /* Index of the stage that the notes show; -1 if they show no stage. */
 static int rig_stage_of(const float *note) {
     for (int i = 0; i < STAGES; i++) {
-        if (healthy[i].stage == (unsigned)note[HAL_NOTE_STATE]) {
+        if (healthy[i].of == (unsigned)note[HAL_NOTE_STATE]) {
             return i;
         }
     }
@@ -65,19 +50,6 @@ static bool rig_may_drive(const float *note) {
     const unsigned stage = (unsigned)note[HAL_NOTE_STATE];
     return stage >= PHASE(WH_PHASE_SPIN_UP) && stage <= PHASE(WH_PHASE_RAMP_DOWN);
 }
-
-/* The note of a tripped rig, as NOTE=VALUE. */
-static const char *rig_tripped_when(void) {
-    static char when[32];
-    snprintf(when, sizeof when, "state=%d", (int)WH_RIG_TRIPPED);
-    return when;
-}
-
-static const char *rig_trip_word(int trip) { return wh_trip_text((wh_trip)trip); }
-
-static double rig_limit_rpm(void) { return (double)WH_RIG_SHAFT_LIMIT_RPM; }
-
-static double rig_nominal_rpm(void) { return (double)WH_RIG_NOMINAL_RPM; }
 
 /* The controller detects a drive that ignores the voltage after two slot pulses that come too early. These pulses
  * come within a turn of the fault's begin, except that a pulse in the first sixth of the turn is not early enough
@@ -228,8 +200,6 @@ static const char *const trip_words[] = {"cell-open",  "cell-dead", "edge-dead",
 /* Factors of the inertia. There are few, because each factor needs a plant of its own. */
 static const double inertias[] = {0.5, 0.7, 1.4, 2.0, 3.0, 4.0, 6.0};
 
-static unsigned campaign_rows(void) { return ROWS + 1; }
-
 static const char *campaign_row_word(unsigned row) {
     if (row == TWO_FAULTS) {
         return TWO_WORD;
@@ -311,8 +281,7 @@ static void put_channel(text *t, drawing *d, int channel) {
 }
 
 static void put_time(text *t, drawing *d, const rig_stage *stage) {
-    put(t, "@%s", stage->when);
-    put(t, "~%.6g", draw(d) * stage->span_s);
+    put(t, "@state=%u~%.6g", stage->of, draw(d) * stage->span_s);
 }
 
 static void put_duration(text *t, drawing *d) {
@@ -333,7 +302,7 @@ static bool campaign_has_dials(const campaign *c) {
 /* Draws the operator's dials, which the firmware reads as samples 4 to 6: speed, gravity compensation, braking. */
 static void put_dials(text *t, drawing *d, campaign_case *one, bool compensated) {
     const double which = draw(d);
-    one->target_rpm = which < NOMINAL_PART ? rig_nominal_rpm()
+    one->target_rpm = which < NOMINAL_PART ? (double)WH_RIG_NOMINAL_RPM
                       : which < NOMINAL_PART + SLOW_PART
                           ? SLOWEST_RPM + draw(d) * (SLOW_RPM - SLOWEST_RPM)
                           : SLOW_RPM + draw(d) * (FASTEST_RPM - SLOW_RPM);
@@ -355,13 +324,14 @@ static void put_share(text *t, drawing *d, unsigned row, const rig_stage *stage,
     const unsigned dead = draw_of(d, 4);
     put(t, ",%s=%.4g", fault_rows[FAULT_SUPPLY].word, supply);
     if (draw(d) < 0.5) {
-        put(t, ",%s@%s~%.6g", fault_rows[FAULT_STOP].word, stage->when, after_s);
+        put(t, ",%s@state=%u~%.6g", fault_rows[FAULT_STOP].word, stage->of, after_s);
     }
     one->blind = dead > 1;
     if (one->blind) {
-        put(t, ",%s:%u@%s~%.6g", fault_rows[FAULT_EDGE_DEAD].word, dead - 1U, stage->when, after_s);
+        put(t, ",%s:%u@state=%u~%.6g", fault_rows[FAULT_EDGE_DEAD].word, dead - 1U, stage->of,
+            after_s);
     }
-    put(t, ",%s=%.4g@%s~%.6g", fault_rows[rows[row].kind].word, draw_size(d, row), stage->when,
+    put(t, ",%s=%.4g@state=%u~%.6g", fault_rows[rows[row].kind].word, draw_size(d, row), stage->of,
         after_s);
     one->drives = true;
 }
@@ -377,7 +347,7 @@ static void put_fault(text *t, drawing *d, unsigned row, const rig_stage *stage,
         put(t, "=%.4g", size);
     }
     if ((is & AFTER_TRIP) != 0) {
-        put(t, "@%s~%.6g", rig_tripped_when(), draw_log(d, 1e-3, 5.0));
+        put(t, "@state=%d~%.6g", (int)WH_RIG_TRIPPED, draw_log(d, 1e-3, 5.0));
     } else if (fault_rows[kind].place != FAULT_PARAMETER && (is & FED) == 0) {
         put_time(t, d, stage);
         if (kind != FAULT_RESET) {
@@ -430,10 +400,8 @@ bool campaign_has_any(const campaign *c) {
 
 void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
     drawing d = {.hash = wh_hash_u64(wh_hash_u64(WH_HASH_START, c->seed), i)};
-    rig_stage stage[RIG_STAGES_MAX];
-    const unsigned stages = rig_stages(stage);
     *one = (campaign_case){.seed = (uint32_t)(wh_hash_u64(d.hash, 0x73656564U) >> 32),
-                           .target_rpm = rig_nominal_rpm(),
+                           .target_rpm = (double)WH_RIG_NOMINAL_RPM,
                            .drives = c->also != NULL,
                            .delays = c->also != NULL};
     do {
@@ -441,7 +409,7 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
     } while (!may_be_first(c, one->row));
     const unsigned row = one->row;
     const unsigned is = rows[row].is;
-    one->stage = draw_of(&d, stages);
+    one->stage = draw_of(&d, STAGES);
     text t = {one->words, sizeof one->words};
     put(&t, NOISE);
     if (campaign_has_dials(c)) {
@@ -457,17 +425,17 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
     one->from_start = (is & FED) != 0;
     one->runs_away = (is & RUNS_AWAY) != 0;
     if ((is & SHARE) != 0) {
-        put_share(&t, &d, row, &stage[one->stage], one);
+        put_share(&t, &d, row, &healthy[one->stage], one);
         return;
     }
-    put_second(&t, &d, c, row, &stage[one->stage], one);
+    put_second(&t, &d, c, row, &healthy[one->stage], one);
     if ((is & AFTER_TRIP) != 0) {
         put(&t, ",%s", trip_words[draw_of(&d, sizeof trip_words / sizeof trip_words[0])]);
-        put_time(&t, &d, &stage[one->stage]);
+        put_time(&t, &d, &healthy[one->stage]);
     } else if ((is & STARVED) != 0) {
         put(&t, ",%s", fault_rows[FAULT_WATCHDOG_RESETS].word);
     }
-    put_fault(&t, &d, row, &stage[one->stage], one);
+    put_fault(&t, &d, row, &healthy[one->stage], one);
 }
 
 /* === verdicts ================================================================================== */
@@ -836,9 +804,9 @@ void judge_end(judge *j, const lockstep_report *report) {
     } else {
         v->outcome = OUTCOME_NONE;
     }
-    v->runs_on =
-        (j->enabled && !rig_may_drive(j->told)) || (j->driven && j->speed_rpm > rig_limit_rpm());
-    v->overspeed = !j->of->drives && v->turn_rpm > rig_limit_rpm();
+    v->runs_on = (j->enabled && !rig_may_drive(j->told)) ||
+                 (j->driven && j->speed_rpm > (double)WH_RIG_SHAFT_LIMIT_RPM);
+    v->overspeed = !j->of->drives && v->turn_rpm > (double)WH_RIG_SHAFT_LIMIT_RPM;
     v->cut = report->cut && !j->of->delays;
 }
 
@@ -867,9 +835,35 @@ static bool is_not_caught(const verdict *v) {
 static bool is_not_halted(const verdict *v) { return v->halted && v->halted_s < 0.0; }
 static bool forgets(const verdict *v) { return v->forgets; }
 
+static double by_lie(const verdict *v) { return v->lie; }
+static double by_off(const verdict *v) { return v->off_s < 0.0 ? 1e9 : v->off_s; }
+static double by_speed(const verdict *v) { return v->turn_rpm; }
+
+static const struct {
+    const char *what;
+    bool (*is)(const verdict *v);
+    double (*by)(const verdict *v); /* the worst run has the largest value */
+    double share;                   /* of the runs; more is a failure */
+} violations[] = {
+    {"Does not end, or is silent", is_hang, by_speed, 0.0},
+    {"Ends with the motor on", runs_on, by_speed, 0.0},
+    {"Has the enable on, though turns show a drive", stays_on, by_speed, 0.0},
+    {"Is driven with the motor off, and does not trip", is_untold, by_speed, 0.0},
+    {"Called good, and is not", is_lie, by_lie, 0.0},
+    {"Too fast, and the controller's doing", is_overspeed, by_speed, OVERSPEED_SHARE},
+    {"Cut by the watchdog, and nothing was late", is_cut, by_speed, 0.0},
+    {"Ignores the voltage, and is not off in time", is_not_caught, by_off, 0.0},
+    {"Drives after stop or a reset", is_not_halted, by_speed, 0.0},
+    {"A reset loses the trip, or is not known of", forgets, by_speed, 0.0},
+};
+enum { VIOLATIONS = sizeof violations / sizeof violations[0] };
+
 static bool is_violation(const verdict *v) {
-    return is_lie(v) || is_hang(v) || runs_on(v) || is_overspeed(v) || is_not_caught(v) ||
-           is_cut(v) || is_not_halted(v) || forgets(v) || stays_on(v) || is_untold(v);
+    bool is = false;
+    for (int i = 0; i < VIOLATIONS; i++) {
+        is = is || violations[i].is(v);
+    }
+    return is;
 }
 
 static void campaign_print_command(FILE *out, const campaign *c, unsigned i) {
@@ -909,29 +903,27 @@ static void print_cell(FILE *out, const cell_count *cell) {
 }
 
 static void print_matrix(FILE *out, const verdict *all, unsigned count) {
-    rig_stage stage[RIG_STAGES_MAX];
-    const unsigned stages = rig_stages(stage);
     fputs("| fault |", out);
-    for (unsigned s = 0; s < stages; s++) {
-        fprintf(out, " %s |", stage[s].word);
+    for (unsigned s = 0; s < STAGES; s++) {
+        fprintf(out, " %s |", wh_rig_stage_text(healthy[s].of));
     }
     fputs(" else |\n|---|", out);
-    for (unsigned s = 0; s <= stages; s++) {
+    for (unsigned s = 0; s <= STAGES; s++) {
         fputs("---|", out);
     }
     fputc('\n', out);
-    for (unsigned row = 0; row < campaign_rows(); row++) {
-        cell_count cell[RIG_STAGES_MAX + 1] = {{.runs = 0}};
+    for (unsigned row = 0; row < ROWS + 1; row++) {
+        cell_count cell[STAGES + 1] = {{.runs = 0}};
         unsigned runs = 0;
         for (unsigned i = 0; i < count; i++) {
             if (all[i].row == row) {
-                count_in(&cell[all[i].stage >= 0 ? (unsigned)all[i].stage : stages], &all[i]);
+                count_in(&cell[all[i].stage >= 0 ? (unsigned)all[i].stage : STAGES], &all[i]);
                 runs++;
             }
         }
         if (runs > 0) {
             fprintf(out, "| %s |", campaign_row_word(row));
-            for (unsigned s = 0; s <= stages; s++) {
+            for (unsigned s = 0; s <= STAGES; s++) {
                 print_cell(out, &cell[s]);
             }
             fputc('\n', out);
@@ -939,18 +931,9 @@ static void print_matrix(FILE *out, const verdict *all, unsigned count) {
     }
 }
 
-static unsigned count_of(const verdict *all, unsigned count, int row,
-                         bool (*is)(const verdict *v)) {
-    unsigned found = 0;
-    for (unsigned i = 0; i < count; i++) {
-        found += (row < 0 || all[i].row == (unsigned)row) && is(&all[i]);
-    }
-    return found;
-}
-
 static void print_trips(FILE *out, const verdict *all, unsigned count) {
     fputs("\n| fault | runs | fastest turn, rpm | trips: number, runs |\n|---|---|---|---|\n", out);
-    for (unsigned row = 0; row < campaign_rows(); row++) {
+    for (unsigned row = 0; row < ROWS + 1; row++) {
         unsigned trips[TRIPS] = {0};
         unsigned runs = 0;
         double fastest = 0.0;
@@ -979,14 +962,10 @@ static void print_trips(FILE *out, const verdict *all, unsigned count) {
             runs += all[i].trip == t;
         }
         if (runs > 0) {
-            fprintf(out, "| %d | %u | %s |\n", t, runs, rig_trip_word(t));
+            fprintf(out, "| %d | %u | %s |\n", t, runs, wh_trip_text((wh_trip)t));
         }
     }
 }
-
-static double by_lie(const verdict *v) { return v->lie; }
-static double by_off(const verdict *v) { return v->off_s < 0.0 ? 1e9 : v->off_s; }
-static double by_speed(const verdict *v) { return v->turn_rpm; }
 
 /* The worst run that has not been printed yet; `count` if all have been printed. */
 static unsigned next_worst(const verdict *all, unsigned count, bool (*is)(const verdict *v),
@@ -1003,12 +982,17 @@ static unsigned next_worst(const verdict *all, unsigned count, bool (*is)(const 
     return worst;
 }
 
-static void print_worst(FILE *out, const campaign *c, const verdict *all, unsigned count,
-                        const char *what, bool (*is)(const verdict *v),
-                        double (*by)(const verdict *v)) {
+/* Prints the worst runs with this violation. Returns whether the campaign allows their number. */
+static bool print_worst(FILE *out, const campaign *c, const verdict *all, unsigned count,
+                        int violation) {
+    bool (*const is)(const verdict *v) = violations[violation].is;
+    double (*const by)(const verdict *v) = violations[violation].by;
     bool *shown = alloc(count, sizeof *shown);
-    const unsigned found = count_of(all, count, -1, is);
-    fprintf(out, "\n%s: %u of %u runs\n", what, found, count);
+    unsigned found = 0;
+    for (unsigned i = 0; i < count; i++) {
+        found += is(&all[i]);
+    }
+    fprintf(out, "\n%s: %u of %u runs\n", violations[violation].what, found, count);
     for (unsigned n = 0; n < found && n < WORST; n++) {
         const verdict *v = &all[next_worst(all, count, is, by, shown)];
         fprintf(out, "\n    # run %u: ", v->run);
@@ -1028,17 +1012,16 @@ static void print_worst(FILE *out, const campaign *c, const verdict *all, unsign
         fputc('\n', out);
     }
     free(shown);
+    return found <= violations[violation].share * count;
 }
 
 /* Prints, for runs in which the drive ignored the voltage for long, the time until the enable line was off and the
  * greatest speed until then. */
 static void print_runaways(FILE *out, const verdict *all, unsigned count) {
-    rig_stage stage[RIG_STAGES_MAX];
-    const unsigned stages = rig_stages(stage);
     fputs("\n| the drive ignores the voltage, from | runs | never off | off after, s, at most | "
           "fastest instant until then, rpm |\n|---|---|---|---|---|\n",
           out);
-    for (unsigned s = 0; s < stages; s++) {
+    for (unsigned s = 0; s < STAGES; s++) {
         unsigned runs = 0;
         unsigned never = 0;
         double off_s = 0.0;
@@ -1053,8 +1036,8 @@ static void print_runaways(FILE *out, const verdict *all, unsigned count) {
             }
         }
         if (runs > 0) {
-            fprintf(out, "| %s | %u | %u | %.3f | %.0f |\n", stage[s].word, runs, never, off_s,
-                    rpm);
+            fprintf(out, "| %s | %u | %u | %.3f | %.0f |\n", wh_rig_stage_text(healthy[s].of), runs,
+                    never, off_s, rpm);
         }
     }
 }
@@ -1062,7 +1045,7 @@ static void print_runaways(FILE *out, const verdict *all, unsigned count) {
 /* Prints how long the motor drove after a stop or reset, and how many runs still reported their trip after a reset. */
 static void print_halts(FILE *out, const verdict *all, unsigned count) {
     bool any = false;
-    for (unsigned row = 0; row < campaign_rows(); row++) {
+    for (unsigned row = 0; row < ROWS + 1; row++) {
         unsigned runs = 0;
         unsigned latched = 0;
         double off_s = 0.0;
@@ -1157,27 +1140,10 @@ int campaign_print(FILE *out, const campaign *c, const verdict *all, unsigned co
     print_runaways(out, all, count);
     print_halts(out, all, count);
     print_steps(out, c, all, count);
-    print_worst(out, c, all, count, "Does not end, or is silent", is_hang, by_speed);
-    print_worst(out, c, all, count, "Ends with the motor on", runs_on, by_speed);
-    print_worst(out, c, all, count, "Has the enable on, though turns show a drive", stays_on,
-                by_speed);
-    print_worst(out, c, all, count, "Is driven with the motor off, and does not trip", is_untold,
-                by_speed);
-    print_worst(out, c, all, count, "Called good, and is not", is_lie, by_lie);
-    print_worst(out, c, all, count, "Too fast, and the controller's doing", is_overspeed, by_speed);
-    print_worst(out, c, all, count, "Cut by the watchdog, and nothing was late", is_cut, by_speed);
-    print_worst(out, c, all, count, "Ignores the voltage, and is not off in time", is_not_caught,
-                by_off);
-    print_worst(out, c, all, count, "Drives after stop or a reset", is_not_halted, by_speed);
-    print_worst(out, c, all, count, "A reset loses the trip, or is not known of", forgets,
-                by_speed);
-    const bool good =
-        count_of(all, count, -1, is_not_halted) == 0 && count_of(all, count, -1, forgets) == 0 &&
-        count_of(all, count, -1, is_hang) == 0 && count_of(all, count, -1, runs_on) == 0 &&
-        count_of(all, count, -1, is_lie) == 0 && count_of(all, count, -1, is_not_caught) == 0 &&
-        count_of(all, count, -1, is_cut) == 0 && count_of(all, count, -1, stays_on) == 0 &&
-        count_of(all, count, -1, is_untold) == 0 &&
-        count_of(all, count, -1, is_overspeed) <= OVERSPEED_SHARE * count;
+    bool good = true;
+    for (int i = 0; i < VIOLATIONS; i++) {
+        good = print_worst(out, c, all, count, i) && good;
+    }
     fprintf(out, "\n%u runs, seed %u, %s: %s\n", count, c->seed, c->firmware,
             good ? "nothing is wrong" : "there are violations");
     return good ? 0 : 1;
