@@ -15,6 +15,9 @@ typedef struct said {
 /* Runs `command`, such as command_run(), with the arguments `words`, which end with NULL. *what: exit status and
  * output. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
+/* The same with the arguments themselves. The first NULL ends them. */
+#define COMMAND_SAY(command, what, ...) \
+    command_say(command, (const char *const[]){__VA_ARGS__, NULL}, what)
 
 /* The exit status that `whirl run` or `whirl sweep` must have: 1 if a message warns of a finding, else 0. */
 int said_owes(const char *err);

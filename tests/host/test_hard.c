@@ -268,16 +268,8 @@ TEST(hard_contacts, a_resonance_that_nothing_damps) {
 
 static void run_with(const char *target, const char *set, bool is_float, const char *step,
                      said *what) {
-    const char *words[] = {target,
-                           "--quiet",
-                           "--number",
-                           is_float ? "float" : "double",
-                           "--step",
-                           step,
-                           set != NULL ? "--set" : NULL,
-                           set,
-                           NULL};
-    command_say(command_run, words, what);
+    COMMAND_SAY(command_run, what, target, "--quiet", "--number", is_float ? "float" : "double",
+                "--step", step, set != NULL ? "--set" : NULL, set);
 }
 
 static bool tells(const said *what) { return what->status != 0 || what->err[0] != '\0'; }
@@ -302,43 +294,6 @@ static double passage_by(wh_method method, double d_m, double step_s, const engi
 
 static double passage_off_m(double d_m, double step_s, const engine_kind *kind, bool compensated) {
     return passage_by(WH_RK4, d_m, step_s, kind, compensated);
-}
-
-TEST(hard_origin, past_the_origin_of_polar_coordinates) {
-    dice d = dice_of("origin", 15001);
-    const unsigned cases = dice_cases(few_or_all(8, 60));
-    unsigned off_course = 0;
-    unsigned sound = 0;
-    double cured_m = 0.0;
-    for (unsigned i = 0; i < cases; i++) {
-        const double d_m = pow(10.0, dice_between(&d, -4.5, -0.5));
-        const bool is_float = i % 2 == 1;
-        const engine_kind *kind = is_float ? &engine_float : &engine_double;
-        const double off_m = passage_off_m(d_m, 1e-3, kind, false);
-        char set[40];
-        char about[SAID_SIZE + 100];
-        said what;
-        snprintf(set, sizeof set, "d=%.17g m", d_m);
-        run_with(HARD "polar.whirl", set, is_float, "1ms", &what);
-        snprintf(about, sizeof about, "past %.3g m, off by %.3g m: %s", d_m, off_m, what.err);
-        if (off_m > 0.02) {
-            off_course++;
-            TEST_ASSERT_TRUE_MESSAGE(tells(&what), about);
-            const double step_s = said_named_step_s(what.err);
-            if (step_s > 0.0 && step_s < 1e-3) { /* tries the proposed remedy */
-                const bool compensated = strstr(what.err, "--compensated") != NULL;
-                const double now_m = passage_off_m(d_m, step_s, kind, compensated);
-                TEST_ASSERT_TRUE_MESSAGE(now_m < 2e-3, about);
-                cured_m = fmax(cured_m, now_m);
-            }
-        } else if (off_m < 1e-4) {
-            sound++;
-            TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, about);
-        }
-    }
-    printf("  %u passages: %u end more than 2 cm off, all told, cured to %.1e m; %u sound\n", cases,
-           off_course, cured_m, sound);
-    TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
 
 /* The method that a hint names; `own` if the hint names none. */
@@ -371,9 +326,8 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
         said what;
         snprintf(set, sizeof set, "d=%.17g m", d_m);
         static const char target[] = HARD "polar.whirl";
-        const char *words[] = {target,  "--quiet", "--method", wh_methods[own].word,
-                               "--set", set,       NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, target, "--quiet", "--method", wh_methods[own].word,
+                    "--set", set);
         snprintf(about, sizeof about, "%s past %.3g m: %s", wh_methods[own].word, d_m, what.err);
         const char *resolves = strstr(what.err, " cures this (tried)");
         TEST_ASSERT_NOT_NULL_MESSAGE(resolves, about);
@@ -479,32 +433,41 @@ static double flight_off_m(const flight *f, double step_s, const engine_kind *ki
     return went ? sqrt(sum) : (double)INFINITY;
 }
 
-TEST(hard_origin, past_the_origin_of_spherical_coordinates) {
-    dice d = dice_of("space", 15004);
+/* Flights past the origin of polar coordinates if `plane`, else of spherical ones. */
+static void check_passages(bool plane) {
+    dice d = plane ? dice_of("origin", 15001) : dice_of("space", 15004);
     const unsigned cases = dice_cases(few_or_all(8, 60));
     unsigned off_course = 0;
     unsigned sound = 0;
     double cured_m = 0.0;
     for (unsigned i = 0; i < cases; i++) {
-        const flight f = flight_drawn(&d, pow(10.0, dice_between(&d, -4.5, -0.3)));
+        const double d_m = pow(10.0, dice_between(&d, -4.5, plane ? -0.5 : -0.3));
+        const flight f = plane ? (flight){{0.0}, {0.0}, ""} : flight_drawn(&d, d_m);
         const bool is_float = i % 2 == 1;
         const engine_kind *kind = is_float ? &engine_float : &engine_double;
-        const double off_m = flight_off_m(&f, 1e-3, kind, false);
-        char *text = horizons_builtin("spherical_particle.whirl", f.text);
-        char target[80];
+        const double off_m =
+            plane ? passage_off_m(d_m, 1e-3, kind, false) : flight_off_m(&f, 1e-3, kind, false);
+        char target[80] = HARD "polar.whirl";
+        char set[40];
         char about[SAID_SIZE + 500];
         said what;
-        snprintf(target, sizeof target, "%s:drawn", model_keep(text));
-        free(text);
-        run_with(target, NULL, is_float, "1ms", &what);
-        snprintf(about, sizeof about, "off by %.3g m: %s%s", off_m, f.text, what.err);
+        snprintf(set, sizeof set, "d=%.17g m", d_m);
+        if (!plane) {
+            char *text = horizons_builtin("spherical_particle.whirl", f.text);
+            snprintf(target, sizeof target, "%s:drawn", model_keep(text));
+            free(text);
+        }
+        run_with(target, plane ? set : NULL, is_float, "1ms", &what);
+        snprintf(about, sizeof about, "past %.3g m, off by %.3g m: %s%s", d_m, off_m, f.text,
+                 what.err);
         if (off_m > 0.02) {
             off_course++;
             TEST_ASSERT_TRUE_MESSAGE(tells(&what), about);
             const double step_s = said_named_step_s(what.err);
-            if (step_s > 0.0 && step_s < 1e-3) {
+            if (step_s > 0.0 && step_s < 1e-3) { /* tries the proposed remedy */
                 const bool compensated = strstr(what.err, "--compensated") != NULL;
-                const double now_m = flight_off_m(&f, step_s, kind, compensated);
+                const double now_m = plane ? passage_off_m(d_m, step_s, kind, compensated)
+                                           : flight_off_m(&f, step_s, kind, compensated);
                 TEST_ASSERT_TRUE_MESSAGE(now_m < 2e-3, about);
                 cured_m = fmax(cured_m, now_m);
             }
@@ -514,10 +477,13 @@ TEST(hard_origin, past_the_origin_of_spherical_coordinates) {
         }
     }
     model_drop();
-    printf("  %u flights: %u end more than 2 cm off, all told, cured to %.1e m; %u sound\n", cases,
+    printf("  %u passages: %u end more than 2 cm off, all told, cured to %.1e m; %u sound\n", cases,
            off_course, cured_m, sound);
     TEST_ASSERT_TRUE(off_course > cases / 10 && sound > cases / 10);
 }
+
+TEST(hard_origin, past_the_origin_of_polar_coordinates) { check_passages(true); }
+TEST(hard_origin, past_the_origin_of_spherical_coordinates) { check_passages(false); }
 
 /* === suite hard_cases ========================================================================= */
 /* A motor that is too weak to pass a resonance (Sommerfeld), a very small inertia, decaying hops on a moving floor,
@@ -947,16 +913,9 @@ TEST(hard_edges, starts_that_are_too_large) {
     };
     for (size_t i = 0; i < sizeof starts / sizeof starts[0]; i++) {
         said what;
-        const char *words[] = {starts[i].file,
-                               "--quiet",
-                               "--number",
-                               starts[i].is_float ? "float" : "double",
-                               "--start",
-                               starts[i].start,
-                               "--until",
-                               "1s",
-                               NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, starts[i].file, "--quiet", "--number",
+                    starts[i].is_float ? "float" : "double", "--start", starts[i].start, "--until",
+                    "1s");
         TEST_ASSERT_EQUAL_INT_MESSAGE(starts[i].status, what.status, starts[i].start);
         TEST_ASSERT_EQUAL_INT_MESSAGE(starts[i].status != 0, what.err[0] != '\0', what.err);
     }
