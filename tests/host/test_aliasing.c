@@ -126,9 +126,8 @@ TEST(aliasing, what_is_wrong_is_told) {
             TEST_ASSERT_FALSE_MESSAGE(trusted(&what), about);
             if (told(&what)) {
                 said trust;
-                const char *words[] = {model_keep(m.text), "--number",
-                                       is_float ? "float" : "double", NULL};
-                command_say(command_trust, words, &trust);
+                COMMAND_SAY(command_trust, &trust, model_keep(m.text), "--number",
+                            is_float ? "float" : "double");
                 TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "\ntrusted until t = 0 s of "),
                                              about);
                 TEST_ASSERT_NOT_NULL_MESSAGE(strstr(trust.out, "the steps alias a fast force"),
@@ -169,8 +168,7 @@ TEST(aliasing, sweeps_count_it) {
             continue;
         }
         snprintf(over, sizeof over, "R=%.17g..%.17g:2", m.rate, 1.001 * m.rate);
-        const char *words[] = {model_keep(m.text), "--over", over, NULL};
-        command_say(command_sweep, words, &what);
+        COMMAND_SAY(command_sweep, &what, model_keep(m.text), "--over", over);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "2 of 2 points alias a force"), what.err);
         counted++;
     }
@@ -272,8 +270,7 @@ typedef struct verdict_of {
 /* Runs `whirl run` on the text and reads its warnings and the final value of the state `name`. */
 static verdict_of ask(const char *text, const char *name, const char *method, const char *number) {
     static said what;
-    const char *words[] = {model_keep(text), "--method", method, "--number", number, NULL};
-    command_say(command_run, words, &what);
+    COMMAND_SAY(command_run, &what, model_keep(text), "--method", method, "--number", number);
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
     const char *at = strstr(what.out, name);
     TEST_ASSERT_NOT_NULL_MESSAGE(at, what.out);

@@ -239,8 +239,7 @@ static double left_over_leans(const charge *c, const char *potential, double x0,
              "scene s { start x = %.17g [m], y' = %.17g [m/s]\nstep %.17g [s]\nuntil %.17g [s] }\n",
              c->mass_kg, c->field_kgps, c->spring_Npm, x0, potential, x0, c->speed_mps, c->step_s,
              300.0 * c->step_s);
-    const char *words[] = {model_keep(text), "--method", c->method, NULL};
-    command_say(command_run, words, &what);
+    COMMAND_SAY(command_run, &what, model_keep(text), "--method", c->method);
     if (what.status == 1 && strstr(what.err, "the run diverged") != NULL) {
         *warned = true;
         return 1.0;

@@ -33,8 +33,7 @@ TEST(account, entries_across_impacts_are_closed_forms) {
                  "F = %.9f [N*s/m]*x'^2/2\nstop z >= 0 restitution %.9f\n"
                  "scene s { start z = %.9f [m], x' = 1.5 [m/s]\nuntil 2 [s] }\n",
                  push, damping, e, height);
-        const char *words[] = {model_keep(text), NULL, NULL, NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text));
         TEST_ASSERT_EQUAL_INT(said_owes(what.err), what.status);
         const double work = push * (told(what.out, "\n  z ") - height);
         const double lost = 1.5 * 1.5 * (exp(-2.0 * damping) - 1.0); /* v = 1.5 exp(-b t/m) */

@@ -105,9 +105,7 @@ static double change_Ns(const own_body *b, double time_s) {
 }
 
 static void run(const char *text, const char *more, said *what) {
-    const char *words[] = {model_keep(text), more, "ledger", NULL};
-    words[2] = more != NULL ? words[2] : NULL;
-    command_say(command_run, words, what);
+    COMMAND_SAY(command_run, what, model_keep(text), more, "ledger");
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, what->err);
 }
 
@@ -244,8 +242,7 @@ TEST(books_told, contacts_that_gave_nothing) {
         }
         snprintf(text + length, sizeof text - (size_t)length,
                  "scene a {\nwith ledger\nstart x = 1 [m]\nstep 1 [ms]\nuntil 1 [s]\n}\n");
-        const char *const words[] = {model_keep(text), NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text));
         model_drop();
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
         for (int i = 0; i < STOPS; i++) {

@@ -53,14 +53,8 @@ static measured run_beside(const rattle *of, const char *text, double step_s, bo
 }
 
 static void say(const char *text, const char *step, bool is_float, said *what) {
-    const char *words[] = {model_keep(text),
-                           "--quiet",
-                           "--number",
-                           is_float ? "float" : "double",
-                           step != NULL ? "--step" : NULL,
-                           step,
-                           NULL};
-    command_say(command_run, words, what);
+    COMMAND_SAY(command_run, what, model_keep(text), "--quiet", "--number",
+                is_float ? "float" : "double", step != NULL ? "--step" : NULL, step);
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, text);
 }
 

@@ -388,10 +388,7 @@ static void write_record(const said *hashes, const char *other, const char *valu
 }
 
 static const char page_head[] = "# A page\n\n| date | record |\n|---|---|\n";
-static void ask(said *what) {
-    const char *const words[] = {files[0], "--page", files[1], NULL};
-    command_say(command_firstlight, words, what);
-}
+static void ask(said *what) { COMMAND_SAY(command_firstlight, what, files[0], "--page", files[1]); }
 
 TEST(firstlight, command) {
     static said hashes;
@@ -453,9 +450,8 @@ TEST(firstlight, command) {
     ask(&what);
     TEST_ASSERT_EQUAL(1, what.status);
     TEST_ASSERT_EQUAL_STRING("no table\n", got(files[1]));
-    const char *const other_board[] = {files[0], "--board", "netduinoplus2",
-                                       "--page", files[1],  NULL};
-    command_say(command_firstlight, other_board, &what);
+    COMMAND_SAY(command_firstlight, &what, files[0], "--board", "netduinoplus2", "--page",
+                files[1]);
     TEST_ASSERT_NOT_NULL(strstr(what.out, "\ndiffers: board\n"));
     record[strlen(record) / 2] = '\0';
     put(files[0], record);

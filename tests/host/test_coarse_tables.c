@@ -7,9 +7,8 @@
 static void run(const char *text, const char *form, int cells, const char *step, said *what) {
     char count[20];
     snprintf(count, sizeof count, "%d", cells);
-    const char *words[] = {model_keep(text), "--tables", form,      "--cells", count,
-                           "--step",         step,       "--quiet", NULL};
-    command_say(command_run, words, what);
+    COMMAND_SAY(command_run, what, model_keep(text), "--tables", form, "--cells", count, "--step",
+                step, "--quiet");
 }
 
 TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
@@ -32,8 +31,7 @@ TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
                  "scene s { start a = 0.4 [rad]; step 1 [ms]; until 3 [s] }\n",
                  dice_between(&d, 5.2, 6.0), dice_between(&d, 1e-3, 3e-3),
                  dice_between(&d, 0.3, 0.6));
-        const char *plain[] = {model_keep(text), "--quiet", NULL};
-        command_say(command_run, plain, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--quiet");
         const bool is_fine = what.err[0] == '\0';
         run(text, form, cells, "1ms", &what);
         if (!is_fine || what.err[0] == '\0') {

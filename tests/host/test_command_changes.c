@@ -92,21 +92,9 @@ TEST(command_changes, measures_that_overflow_fail_their_points) {
         /* a swing takes 4.1 ms; the square of x has a mean above zero, so the sum of its samples grows */
         snprintf(measure, sizeof measure, "%s(%.9e*%s)", cases[which].measure, 1e308 * factor,
                  which == 0 ? "(x/1 [m])^2" : "x/1 [m]");
-        const char *words[] = {model_keep(model),
-                               "--over",
-                               "M=1..2 [N*m]:2",
-                               "--start",
-                               "x=1 [m]",
-                               "--step",
-                               "0.1ms",
-                               "--set",
-                               "b=0.0003 [kg]",
-                               "--measure",
-                               measure,
-                               "--measure",
-                               "x",
-                               NULL};
-        command_say(command_sweep, words, &what);
+        COMMAND_SAY(command_sweep, &what, model_keep(model), "--over", "M=1..2 [N*m]:2", "--start",
+                    "x=1 [m]", "--step", "0.1ms", "--set", "b=0.0003 [kg]", "--measure", measure,
+                    "--measure", "x");
         TEST_ASSERT_EQUAL_INT_MESSAGE(fails ? 1 : 0, what.status, measure);
         TEST_ASSERT_NULL_MESSAGE(strstr(strchr(what.out, '\n'), "nan"), what.out);
         TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "inf"), what.out);

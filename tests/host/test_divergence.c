@@ -111,9 +111,8 @@ TEST(divergence, starts_beyond_all_bounds) {
                  "scene s { start x%s = %.17g [%s%s]; step 1 [ms]; until 1 [s] }\n",
                  units[unit], rate ? "'" : "", i % 3 == 0 ? -size : size, units[unit],
                  rate ? "/s" : "");
-        const char *words[] = {model_keep(text), "--quiet", "--number",
-                               dice_one_of(&d, 2) == 0 ? "float" : "double", NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--quiet", "--number",
+                    dice_one_of(&d, 2) == 0 ? "float" : "double");
         TEST_ASSERT_EQUAL_INT_MESSAGE(beyond ? 1 : 0, what.status, text);
         TEST_ASSERT_EQUAL_INT_MESSAGE(
             beyond, strstr(what.err, "a start value is above the limit") != NULL, what.err);
@@ -593,17 +592,8 @@ TEST(trust_kinks, trust_beside_a_kink) {
             "scene s { start x = %.17g [m]; start x' = %.17g [m/s]\nstep %.17g [s]\nuntil %.17g [s] }\n",
             s.soft, s.hard, s.gap_m, s.x_m, s.v_mps, step_s, end_s);
         snprintf(every, sizeof every, "%.17gs", step_s * between);
-        const char *words[] = {model_keep(text),
-                               "--csv",
-                               "-",
-                               "--every",
-                               every,
-                               "--method",
-                               methods[i % 5],
-                               "--number",
-                               i / 5 % 2 == 0 ? "double" : "float",
-                               NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--csv", "-", "--every", every,
+                    "--method", methods[i % 5], "--number", i / 5 % 2 == 0 ? "double" : "float");
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
         double most;
         const double truth_s = right_until_s(&s, what.out, &most);

@@ -110,23 +110,13 @@ static void far_mechanism(far_kind kind, const far_case *c, char *text, size_t s
 /* Runs `whirl run` with a record at the start and the end. `more` is an option or NULL. */
 static void run_with(const char *text, bool is_float, const char *more, const char *every,
                      said *what) {
-    const char *words[] = {model_keep(text),
-                           "--quiet",
-                           "--number",
-                           is_float ? "float" : "double",
-                           "--csv",
-                           "-",
-                           "--every",
-                           every,
-                           more,
-                           NULL};
-    command_say(command_run, words, what);
+    COMMAND_SAY(command_run, what, model_keep(text), "--quiet", "--number",
+                is_float ? "float" : "double", "--csv", "-", "--every", every, more);
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, text);
 }
 
 static void run(const char *text, bool is_float, said *what) {
-    const char *words[] = {model_keep(text), "--number", is_float ? "float" : "double", NULL};
-    command_say(command_run, words, what);
+    COMMAND_SAY(command_run, what, model_keep(text), "--number", is_float ? "float" : "double");
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, text);
 }
 
@@ -245,8 +235,7 @@ static double end_of(const said *what) {
 /* `whirl trust` must not accept a run to its end if the error exceeds a thousandth of the distance moved. */
 static void ask_trust(const char *text, bool is_float, double off) {
     said what;
-    const char *words[] = {model_keep(text), "--number", is_float ? "float" : "double", NULL};
-    command_say(command_trust, words, &what);
+    COMMAND_SAY(command_trust, &what, model_keep(text), "--number", is_float ? "float" : "double");
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, text);
     const bool trusted = strstr(what.out, "trusted to the end") != NULL;
     TEST_ASSERT_TRUE_MESSAGE(trusted ? off < 1.5e-3 : off > 5e-4, what.out);
@@ -427,9 +416,8 @@ static void run_slope(const slope_case *c, const char *text, const char *number,
     char every[40];
     const int stride = c->steps / RECORDS; /* exact, because steps is a multiple of RECORDS */
     snprintf(every, sizeof every, "%.17gs", stride * c->step_s);
-    const char *words[] = {model_keep(text), "--number", number, "--csv", "-",
-                           "--every",        every,      more,   NULL};
-    command_say(command_run, words, what);
+    COMMAND_SAY(command_run, what, model_keep(text), "--number", number, "--csv", "-", "--every",
+                every, more);
 }
 
 static motion_rows rows_of(const slope_case *c, const char *text, double far_m) {

@@ -85,8 +85,7 @@ static void hold(const char *number) {
         char text[600];
         said what;
         write(&r, text, sizeof text);
-        const char *words[] = {model_keep(text), "--number", number, "--csv", "-", NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--number", number, "--csv", "-");
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
         const double off = off_by(&r, what.out);
         const bool warns = strstr(what.err, "warning: ") != NULL;
@@ -134,13 +133,8 @@ TEST(small_told, slow_angles) {
             "scene s { start a' = %.17g [rad/s], x' = 1 [m/s]; step %.17g [s]; until %.17g [s] }\n",
             part * unit_rad / step_s, step_s, step_s * steps);
         for (int compensated = 0; compensated < 2; compensated++) {
-            const char *words[] = {model_keep(text),
-                                   "--quiet",
-                                   "--number",
-                                   "float",
-                                   compensated > 0 ? "--compensated" : NULL,
-                                   NULL};
-            command_say(command_run, words, &what);
+            COMMAND_SAY(command_run, &what, model_keep(text), "--quiet", "--number", "float",
+                        compensated > 0 ? "--compensated" : NULL);
             TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
             if (off_rad < 1.02e-3 * span_rad || off_rad < 3.1e-9 || compensated > 0) {
                 continue;
@@ -179,7 +173,6 @@ TEST(small_told, small_numbers) {
                  "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = %.17g [N/m]*x^2/2\n"
                  "scene s { start x = %.17g [m]; step 10 [ms]; until 2 [s] }\n",
                  n % 2U == 0 ? 1.0 : 9.0, size);
-        const char *words[] = {model_keep(text), "--quiet", "--number", "float", NULL};
         derived d = derived_scene(text, "s");
         derived_expect(&d, text);
         void *run = engine_float.start(d.image);
@@ -193,7 +186,7 @@ TEST(small_told, small_numbers) {
         }
         engine_float.stop(run);
         derived_free(&d);
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--quiet", "--number", "float");
         const bool is_told = strstr(what.err, "[accuracy]") != NULL;
         TEST_ASSERT_TRUE_MESSAGE(off < 0.05 || is_told, what.err);
         TEST_ASSERT_TRUE_MESSAGE(off > 1e-4 || what.err[0] == '\0', what.err);
@@ -214,8 +207,7 @@ TEST(small_told, lost_powers) {
                  "stop y >= -1 [m] restitution 0.5\n"
                  "scene s { start y' = %.3g [m/s]; step 10 [ms]; until 1 [s] }\n",
                  dice_between(&die, 0.05, 0.2), dice_between(&die, 3e-22, 1e-21));
-        const char *words[] = {model_keep(text), "--quiet", "--number", "float", NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--quiet", "--number", "float");
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
     }
     model_drop();
@@ -241,8 +233,7 @@ TEST(sweeps_told, failures) {
         char wanted[200];
         said what;
         snprintf(over, sizeof over, "x=-%u..3:%u", below, below + 4);
-        const char *words[] = {model_keep(made_sweep_floor), "--over", over, "--quiet", NULL};
-        command_say(command_sweep, words, &what);
+        COMMAND_SAY(command_sweep, &what, model_keep(made_sweep_floor), "--over", over, "--quiet");
         const char *at = what.err;
         for (unsigned i = 0; i < 20 && i < below; i++) {
             snprintf(wanted, sizeof wanted,
@@ -310,8 +301,7 @@ static double told_by(unsigned row, double parameter) {
     char text[TEXT];
     char value[100];
     snprintf(text, sizeof text, rows[row].text, parameter);
-    const char *words[] = {model_keep(text), "--json", "--number", rows[row].number, NULL};
-    command_say(command_run, words, &what);
+    COMMAND_SAY(command_run, &what, model_keep(text), "--json", "--number", rows[row].number);
     const int count = json_length(what.out, "findings");
     TEST_ASSERT_TRUE_MESSAGE(count >= 0, what.err);
     for (int i = 0; i < count; i++) {

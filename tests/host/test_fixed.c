@@ -588,8 +588,7 @@ static void derive_pushed(int inputs, const double *start, const char *ranges, s
     }
     snprintf(text + length, sizeof text - (size_t)length,
              "\nscene s { start x = 0.3 [m]; until 1 [s]%s }\n", ranges);
-    const char *words[] = {model_keep(text), "--as", "c", "--number", "fixed", NULL};
-    command_say(command_derive, words, what);
+    COMMAND_SAY(command_derive, what, model_keep(text), "--as", "c", "--number", "fixed");
     model_drop();
 }
 

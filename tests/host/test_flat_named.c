@@ -65,8 +65,7 @@ static void flat_is_named(int before, int behind, bool across_first, dice *d) {
     add_line(&w, "until 1 [s]");
     add_line(&w, "}");
 
-    const char *words[] = {model_keep(w.text), "--quiet", NULL};
-    command_say(command_run, words, &what);
+    COMMAND_SAY(command_run, &what, model_keep(w.text), "--quiet");
     TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, w.text);
     snprintf(line, sizeof line, ":%d:1: error: ", named);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, line), what.err);

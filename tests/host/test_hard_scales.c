@@ -92,8 +92,7 @@ static double power_of_two(dice *d, int most) {
 
 static bool warns(const char *text) {
     static said what;
-    const char *const words[] = {model_keep(text), "--number", "float", "--quiet", NULL};
-    command_say(command_run, words, &what);
+    COMMAND_SAY(command_run, &what, model_keep(text), "--number", "float", "--quiet");
     model_drop();
     return what.status == said_owes(what.err) && strstr(what.err, "float cannot represent") != NULL;
 }

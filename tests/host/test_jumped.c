@@ -150,8 +150,7 @@ TEST(jumped, trust) {
             continue;
         }
         knee_text(text, c % KNEES, v, k, v * dice_between(&die, 1.0, 3.0), step_s);
-        const char *const words[] = {model_keep(text), NULL};
-        command_say(command_trust, words, &jumps_said);
+        COMMAND_SAY(command_trust, &jumps_said, model_keep(text));
         model_drop();
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(jumps_said.err), jumps_said.status, jumps_said.err);
         TEST_ASSERT_NULL_MESSAGE(strstr(jumps_said.out, "trusted to the end"), text);

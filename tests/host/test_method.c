@@ -120,8 +120,7 @@ TEST(first_order, effects_are_told) {
                 snprintf(list + length, sizeof list - length, "%se%u", length > 0 ? "," : "", k);
             }
         }
-        const char *words[] = {file, "--with", list, NULL};
-        command_say(command_derive, words, &what);
+        COMMAND_SAY(command_derive, &what, file, "--with", list);
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
         for (unsigned k = 0; k < EFFECTS; k++) {
             char line[60];

@@ -20,8 +20,7 @@ TEST(mistyped, coordinates) {
             }
             snprintf(text + at, sizeof text - at, "T = 1 [kg]*alpha'^2/2\nQ(%s) = 1 [N]\n",
                      typed[k]);
-            const char *words[] = {model_keep(text), NULL};
-            command_say(command_derive, words, &what);
+            COMMAND_SAY(command_derive, &what, model_keep(text));
             snprintf(hint, sizeof hint, "did you mean '%s'?", names[k]);
             snprintf(place, sizeof place, ":%d:3: error: ", NAMES + 3);
             TEST_ASSERT_EQUAL_INT(2, what.status);

@@ -194,10 +194,9 @@ static void hold(const char *number) {
         char every[40];
         write(&c, text, sizeof text);
         snprintf(every, sizeof every, "%.17gs", 10.0 * c.step_s);
-        const char *words[] = {model_keep(text), "--number", number, "--csv", "-",
-                               "--every",        every,      NULL};
         said what;
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--number", number, "--csv", "-",
+                    "--every", every);
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
         const bool to_the_end = strstr(what.err, "to the end: every") != NULL;
         const double off = off_by(&c, what.out);

@@ -93,13 +93,8 @@ TEST(swings, predator_and_prey) {
             continue; /* diverged runs have another warning */
         }
         said what;
-        const char *words[] = {model_keep(text),
-                               "--method",
-                               wh_methods[p.method].word,
-                               "--number",
-                               p.kind == &engine_float ? "float" : "double",
-                               NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--method", wh_methods[p.method].word,
+                    "--number", p.kind == &engine_float ? "float" : "double");
         char about[sizeof what.err + 600];
         snprintf(about, sizeof about, "%s, %s: H changes by %.3g; it says %s", text,
                  wh_methods[p.method].word, lost, what.err);

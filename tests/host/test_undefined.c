@@ -183,16 +183,9 @@ TEST(undefined, expressions_that_are_numbers_throughout) {
             said what;
             make(&t, &d);
             snprintf(until, sizeof until, "%.6f", 0.9 * t.end_s - 0.1);
-            const char *words[] = {model_keep(t.text),
-                                   "--until",
-                                   until,
-                                   "--number",
-                                   t.is_float ? "float" : "double",
-                                   "--csv",
-                                   "/dev/null",
-                                   NULL};
             if (0.9 * t.end_s - 0.1 > t.step_s) {
-                command_say(command_run, words, &what);
+                COMMAND_SAY(command_run, &what, model_keep(t.text), "--until", until, "--number",
+                            t.is_float ? "float" : "double", "--csv", "/dev/null");
                 TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, t.text);
                 TEST_ASSERT_NULL_MESSAGE(strstr(what.err, "error"), t.text);
             }
@@ -215,8 +208,7 @@ TEST(undefined, expressions_that_end_where_a_stop_is) {
                  "T = 1 [kg]*(x'^2 + y'^2)/2\nV = 9.81 [N]*x\nstop x >= 0 restitution 0.8\n%s\n"
                  "scene s { start x = 1 [m]\n until 4 [s] }\n",
                  effects[i % 3]);
-        const char *words[] = {model_keep(text), "--number", i < 3 ? "double" : "float", NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--number", i < 3 ? "double" : "float");
         TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what.err), what.status, what.err);
     }
     model_drop();
@@ -232,14 +224,12 @@ TEST(undefined, accelerations_that_are_no_numbers) {
         snprintf(text, sizeof text,
                  "mechanism m\ncoordinate x [m]\nparameter u = 1 [m]\nT = 1 [kg]*x'^2/2\n%s\n",
                  terms[i]);
-        const char *words[] = {model_keep(text), "x=0", "x'=1", NULL};
-        command_say(command_accel, words, &what);
+        COMMAND_SAY(command_accel, &what, model_keep(text), "x=0", "x'=1");
         TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, terms[i]);
         TEST_ASSERT_EQUAL_STRING("", what.out);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, ":5:"), what.err);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, terms[i]), what.err);
-        const char *sound[] = {words[0], "x=2", "x'=1", NULL};
-        command_say(command_accel, sound, &what);
+        COMMAND_SAY(command_accel, &what, model_keep(text), "x=2", "x'=1");
         TEST_ASSERT_EQUAL_INT(said_owes(what.err), what.status);
     }
     model_drop();
@@ -262,8 +252,7 @@ TEST(undefined, energies_that_are_no_numbers) {
                  (before + 0.7) * v * h, v, h);
         snprintf(when, sizeof when, "error: at t = %.9g s the stored energy ", (before + 1.0) * h);
         for (int quiet = 0; quiet < 2; quiet++) {
-            const char *words[] = {model_keep(text), quiet != 0 ? "--quiet" : NULL, NULL};
-            command_say(command_run, words, &what);
+            COMMAND_SAY(command_run, &what, model_keep(text), quiet != 0 ? "--quiet" : NULL);
             TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, text);
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, ":5:"), what.err);
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, when), what.err);
@@ -290,8 +279,7 @@ TEST(undefined, angles_beyond_what_a_run_knows) {
                    "scene s { start th = 7e9\n until 1 [s] }\n");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         said what;
-        const char *words[] = {file, "--number", rows[i].number, "--start", rows[i].start, NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, file, "--number", rows[i].number, "--start", rows[i].start);
         TEST_ASSERT_EQUAL_INT_MESSAGE(rows[i].status > 0 ? rows[i].status : said_owes(what.err),
                                       what.status, what.err);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, rows[i].says), what.err);

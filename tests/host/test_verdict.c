@@ -207,13 +207,12 @@ TEST(verdict, json_of_trust_and_map) {
         const char *file = model_keep(text);
         const char *trust[] = {file, "--quiet", NULL};
         expect_rows(command_trust, trust, "columns", columns);
-        const char *json[] = {file, "--quiet", "--json", NULL};
         command_say(command_trust, trust, &what);
         const char *until = strstr(what.out, "trusted until t = ");
         const bool end = strstr(what.out, "trusted to the end, t = ") != NULL;
         const double said_s = until != NULL ? strtod(until + 18, NULL) : 0.0;
         const bool aliased = strstr(what.out, "the steps alias a fast force") != NULL;
-        command_say(command_trust, json, &what);
+        COMMAND_SAY(command_trust, &what, file, "--quiet", "--json");
         const char *value = value_at(&what, "trusted_until_s");
         if (until != NULL && !aliased) {
             TEST_ASSERT_TRUE(fabs(strtod(value, NULL) - said_s) <= 1e-8 * said_s);
@@ -295,8 +294,7 @@ TEST(verdict, json_of_failures) {
                                  "scene s { start x = 0.5 [m], x' = 4 [m/s]; step 1 [ms]; "
                                  "until 2 [s] }\n",
                                  energy);
-        const char *words[] = {model_keep(text), "--json", NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--json");
         const char *error = value_at(&what, "error");
         TEST_ASSERT_EQUAL_INT_MESSAGE(fails, strcmp(error, "null") != 0, energy);
         TEST_ASSERT_TRUE(!fails || (what.status == 1 && strstr(what.err, error) != NULL));
@@ -343,8 +341,7 @@ TEST(verdict, a_limit_is_one_of_the_energy) {
         char limit[40];
         said what;
         draw(&d, 0, text);
-        const char *const plain[] = {model_keep(text), NULL};
-        command_say(command_run, plain, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text));
         const char *at = strstr(what.out, "energy residual ");
         if (at == NULL) {
             continue;
@@ -355,8 +352,7 @@ TEST(verdict, a_limit_is_one_of_the_energy) {
             continue;
         }
         snprintf(limit, sizeof limit, "--strict=%.3e", share * ratio);
-        const char *const words[] = {model_keep(text), limit, NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), limit);
         const char *last = strstr(what.err, "exit status 1 because of");
         const bool energy = last != NULL && strstr(last, "[energy]") != NULL;
         TEST_ASSERT_EQUAL_MESSAGE(share < 1.0, energy, text);
@@ -394,8 +390,7 @@ TEST(verdict, a_point_is_judged_as_its_run) {
         command_say(command_run, run, &ran);
         command_say(command_sweep, sweep, &swept);
         if (shape == 7) { /* this case does not test other findings */
-            const char *trust[] = {file, "--quiet", "--number", number, NULL};
-            command_say(command_trust, trust, &trusted);
+            COMMAND_SAY(command_trust, &trusted, file, "--quiet", "--number", number);
         }
         snprintf(about, sizeof about, "%s--method %s --number %s\n%s\n%s", text, methods[method],
                  number, ran.err, swept.err);
@@ -596,14 +591,14 @@ TEST(verdict, what_was_not_looked_at) {
         said what;
         char line[100];
         const char *run[] = {file, "--until", cases[i].until, NULL, NULL};
-        const char *sweep[] = {file, "--until", cases[i].until, "--over=p=1..1:1", "--json", NULL};
         snprintf(line, sizeof line, "not checked        %s: ", cases[i].names);
         command_say(command_run, run, &what);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.out, line), what.out);
         run[3] = "--json";
         command_say(command_run, run, &what);
         TEST_ASSERT_EQUAL_INT(cases[i].count, json_length(what.out, "not_looked_at"));
-        command_say(command_sweep, sweep, &what);
+        COMMAND_SAY(command_sweep, &what, file, "--until", cases[i].until, "--over=p=1..1:1",
+                    "--json");
         TEST_ASSERT_EQUAL_INT(cases[i].count, json_length(what.out, "rows/0/not_looked_at"));
         snprintf(line, sizeof line, "1 of 1 points were not checked for %s: ", cases[i].names);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, line), what.err);

@@ -38,9 +38,8 @@ TEST(walled, failed_runs_name_a_cure) {
         char text[600];
         said what;
         draw(&d, i, text, sizeof text);
-        const char *words[] = {model_keep(text), "--quiet", "--number",
-                               dice_one_of(&d, 2) == 0 ? "float" : "double", NULL};
-        command_say(command_run, words, &what);
+        const char *number = dice_one_of(&d, 2) == 0 ? "float" : "double";
+        COMMAND_SAY(command_run, &what, model_keep(text), "--quiet", "--number", number);
         if (strstr(what.err, "is not a finite number") == NULL) {
             continue;
         }
@@ -48,8 +47,8 @@ TEST(walled, failed_runs_name_a_cure) {
         TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, what.err);
         named_cure list[NAMED_CURES];
         TEST_ASSERT_TRUE_MESSAGE(named_cures(what.err, list) > 0 && list[0].tried, what.err);
-        const char *again[16] = {words[0], "--quiet"};
-        (void)named_words(&list[0], "rk4", words[3], again, 2);
+        const char *again[16] = {model_keep(text), "--quiet"};
+        (void)named_words(&list[0], "rk4", number, again, 2);
         command_say(command_run, again, &what);
         TEST_ASSERT_EQUAL_STRING_MESSAGE("", what.err, text);
         cured++;
@@ -80,9 +79,8 @@ TEST(walled, flat_linkages_name_no_step) {
             "scene g { start a = turn; start a' = w; start b = -turn; start b' = -w\n"
             "start s = 2*r*cos(turn); start s' = -2*r*w*sin(turn); step %.17g [s]; until 9 [s] }\n",
             side_m, at_rad, rate_radps, dice_between(&d, 0.001, 0.1) / rate_radps);
-        const char *words[] = {model_keep(text), "--quiet", "--number",
-                               dice_one_of(&d, 2) == 0 ? "float" : "double", NULL};
-        command_say(command_run, words, &what);
+        COMMAND_SAY(command_run, &what, model_keep(text), "--quiet", "--number",
+                    dice_one_of(&d, 2) == 0 ? "float" : "double");
         TEST_ASSERT_EQUAL_INT_MESSAGE(1, what.status, text);
         TEST_ASSERT_NOT_NULL_MESSAGE(
             strstr(what.err, "the holds allow more than one motion, because"), what.err);
