@@ -107,7 +107,6 @@ TEST(aliasing, what_is_wrong_is_told) {
     unsigned wrong = 0;
     unsigned by_this = 0;
     unsigned right = 0;
-    unsigned cured = 0;
     for (unsigned i = 0; i < cases; i++) {
         const driven m = drawn(&d, (driven_kind)(i % KINDS), i % 4 == 1);
         const bool is_float = i % 4 == 3;
@@ -142,16 +141,12 @@ TEST(aliasing, what_is_wrong_is_told) {
                 /* the error is below 5 % of the first result plus the true range; if trusted, below 5 % of the range */
                 TEST_ASSERT_TRUE_MESSAGE(left_m < WRONG * fabs(is) + range_of(&m), about);
                 TEST_ASSERT_TRUE_MESSAGE(!all || left_m < WRONG * range_of(&m), about);
-                cured++;
             }
         } else if (off < RIGHT) {
             right++;
             TEST_ASSERT_FALSE_MESSAGE(told(&what), about);
         }
     }
-    printf(
-        "  %u driven in round steps: %u wrong, all warned of, %u as aliased, %u cured; %u right\n",
-        cases, wrong, by_this, cured, right);
     TEST_ASSERT_TRUE(wrong > cases / 5 && 3 * by_this >= wrong && right > cases / 10);
 }
 
@@ -298,7 +293,6 @@ TEST(pulse_trains, pulses_between_stages) {
     dice d = dice_of("pulses", 6301);
     const unsigned cases = dice_cases(few_or_all(usual_or(8, 2), 200));
     unsigned wrong = 0;
-    unsigned told = 0;
     for (unsigned i = 0; i < cases; i++) {
         char text[700];
         const double duty = pow(10.0, dice_between(&d, -2.1, -0.6));
@@ -313,11 +307,8 @@ TEST(pulse_trains, pulses_between_stages) {
         const bool is_off = !(fabs(v.value - right) < 0.1 * right);
         TEST_ASSERT_FALSE_MESSAGE(is_off && !v.warned && v.trusted, text);
         wrong += is_off ? 1U : 0U;
-        told += is_off && v.warned ? 1U : 0U;
     }
     model_drop();
-    printf("  %u pulse trains between stages: %u wrong, %u told, the rest not trusted\n", cases,
-           wrong, told);
     TEST_ASSERT_TRUE(wrong > cases / 3);
 }
 
@@ -351,8 +342,6 @@ TEST(pulse_trains, pulses_that_steps_resolve) {
         TEST_ASSERT_FALSE_MESSAGE(v.too_fast, text);
     }
     model_drop();
-    printf("  %u pulse trains that steps resolve: %u right, %u silent, none told as too fast\n",
-           cases, right, silent);
     TEST_ASSERT_TRUE(silent > cases / 2);
     TEST_ASSERT_EQUAL_UINT(cases, right);
 }

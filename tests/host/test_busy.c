@@ -77,9 +77,7 @@ TEST(busy, busy_contacts_are_told_and_cured) {
     const unsigned cases = dice_cases(few_or_all(usual_or(30, 10), 120));
     unsigned off = 0;
     unsigned right = 0;
-    unsigned cured = 0;
     unsigned without = 0;
-    double worst = 0.0;
     for (unsigned i = 0; i < cases; i++) {
         const rattle r = rattle_drawn(&d, (rattle_kind)(i % KINDS));
         bool is_float = dice_one_of(&d, 4) == 0;
@@ -101,8 +99,6 @@ TEST(busy, busy_contacts_are_told_and_cured) {
                 continue;
             }
             const measured then = run_beside(&r, text, said_step_s(step), is_float);
-            cured++;
-            worst = fmax(worst, then.off);
             say(text, step, is_float, &what);
             const double allowed = CURED + (is_float ? ROUNDED * bounces_of(&r) : 0.0);
             if (then.off >= allowed || what.err[0] != '\0') {
@@ -116,9 +112,6 @@ TEST(busy, busy_contacts_are_told_and_cured) {
         }
     }
     model_drop();
-    printf("  %u runs: %u off for their contacts, all told; %u cured by the step that was named, "
-           "to %.1e of their range, %u without one; %u calm or right, not told\n",
-           cases, off, cured, worst, without, right);
     TEST_ASSERT_TRUE(off > cases / 6 && right > cases / 6);
     TEST_ASSERT_TRUE(without <= off / 10);
 }
@@ -198,9 +191,6 @@ TEST(busy, hybrids_in_coarse_steps) {
     const unsigned cases = dice_cases(few_or_all(usual_or(6, 4), 60));
     uint64_t seed = d.state;
     unsigned tried = 0;
-    unsigned busy_ones = 0;
-    unsigned told = 0;
-    double worst = 0.0;
     for (unsigned i = 0; i < cases; i++) {
         char statements[HYBRID_TEXT];
         char text[LINKAGE_TEXT];
@@ -217,25 +207,20 @@ TEST(busy, hybrids_in_coarse_steps) {
         hybrid_statements(&h, statements);
         linkage_write(&h.of, "hybrid", (linkage_writing){LINKAGE_INSIDE, .more = statements}, text);
         const double off = hybrid_off(&h, &wanted, step_s, text, &is_busy);
-        busy_ones += is_busy ? 1U : 0U;
         say(text, i % 2 == 0 ? "25ms" : "5ms", false, &what);
         if (is_busy && off > OFF) {
             TEST_ASSERT_TRUE_MESSAGE(is_told(&what), text);
         } else if (off < RIGHT) {
             TEST_ASSERT_FALSE_MESSAGE(is_told(&what), what.err);
         }
-        told += is_told(&what) ? 1U : 0U;
         bool is_float = false;
         if (is_told(&what) && step_said(&what, step, &is_float)) {
             const double cured = hybrid_off(&h, &wanted, said_step_s(step), text, &is_busy);
             say(text, step, false, &what);
             TEST_ASSERT_FALSE_MESSAGE(is_told(&what), what.err);
-            worst = fmax(worst, cured);
             TEST_ASSERT_TRUE_MESSAGE(cured < CURED, text);
         }
     }
     model_drop();
-    printf("  %u hybrids in coarse steps: %u busy, %u told, cured to %.1e\n", tried, busy_ones,
-           told, worst);
     TEST_ASSERT_TRUE(tried > cases / 2);
 }

@@ -185,9 +185,6 @@ TEST(busy_beside, a_cure_is_one_of_all) {
         }
     }
     model_drop();
-    printf(
-        "  %u rattles beside a spring or a damper: %u told of their energy, %u of both; %u cures, all silent\n",
-        cases, energies, both, cured);
     TEST_ASSERT_TRUE(energies > cases / 4 && cured > cases / 4 && (both > 0 || cases < 30));
 }
 
@@ -493,8 +490,6 @@ static void check_law(draw_moment *draw, const engine_kind *kind, double bound) 
         }
         motion_close(&m);
     }
-    printf("%s: %ld %s, off by %.1e, their books by %.1e (%d); %d without an answer here\n",
-           kind->name, runs, loaded ? "loads" : "impacts", worst, worst_books, booked, unsolved);
     TEST_ASSERT_TRUE(worst <= bound && worst_books <= 10.0 * bound);
     TEST_ASSERT_TRUE(unsolved <= runs / 20 && booked >= runs / 6);
 }
@@ -771,7 +766,7 @@ static double plate_run(const plate *p, bool falls, const engine_kind *kind, dou
     return most;
 }
 
-static void check_plates(bool falls, const char *words) {
+static void check_plates(bool falls) {
     dice d = dice_of("redundant", falls ? 15005 : 15006);
     const unsigned cases = dice_cases(few_or_all(10, 100));
     double worst[2] = {0.0, 0.0};
@@ -790,11 +785,9 @@ static void check_plates(bool falls, const char *words) {
         worst[0] = fmax(worst[0], plate_run(&p, falls, &engine_double, fmin(until_s, 1.0)));
         worst[1] = fmax(worst[1], plate_run(&p, falls, &engine_float, fmin(until_s, 1.0)));
     }
-    printf("  %s, %u plates: off by at most %.1e in double, %.1e in float\n", words, cases,
-           worst[0], worst[1]);
     TEST_ASSERT_TRUE(worst[0] < 1e-9);
     TEST_ASSERT_TRUE(worst[1] < 1e-5);
 }
 
-TEST(contact_redundant, supports_fall_away) { check_plates(true, "supports that fall away"); }
-TEST(contact_redundant, plates_tip) { check_plates(false, "plates that tip"); }
+TEST(contact_redundant, supports_fall_away) { check_plates(true); }
+TEST(contact_redundant, plates_tip) { check_plates(false); }

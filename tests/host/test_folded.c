@@ -314,11 +314,9 @@ TEST(folded, what_is_lost_is_told) {
     const unsigned cases = dice_cases(usual_or(few_or_all(60, 600), 6));
     unsigned off = 0;
     unsigned told = 0;
-    unsigned ended = 0;
     unsigned right = 0;
     unsigned told_right = 0;
     unsigned ended_right = 0;
-    double worst_trusted = 0.0;
     for (unsigned k = 0; k < cases; k++) {
         const double decades = dice_between(&d, 4.0, 10.5);
         const held h = draw(&d, pow(10.0, decades));
@@ -331,19 +329,12 @@ TEST(folded, what_is_lost_is_told) {
         TEST_ASSERT_FALSE_MESSAGE(s.told && decades < 6.0, words);
         off += s.off > 1e-3 ? 1U : 0U;
         told += s.told ? 1U : 0U;
-        ended += !s.trusted && !s.warned && !s.untold ? 1U : 0U;
         if (!s.refused && s.off < 1e-4) {
             right++;
             told_right += s.told ? 1U : 0U;
             ended_right += !s.trusted && !s.warned && !s.untold ? 1U : 0U;
         }
-        worst_trusted = s.trusted ? fmax(worst_trusted, s.off) : worst_trusted;
     }
-    printf(
-        "  %u bodies that are held: %u off by more than a thousandth; %u told of, trust in %u more ends; "
-        "trusted to the end, off by at most %.1e. %u are right to a ten-thousandth: %u of them told of, trust "
-        "in %u more ends\n",
-        cases, off, told, ended, worst_trusted, right, told_right, ended_right);
     TEST_ASSERT_TRUE(cases < 60 || (off > 0 && told > 0 && right > 0));
     TEST_ASSERT_TRUE(cases < 60 || 10 * (told_right + ended_right) <= right);
 }
@@ -526,10 +517,7 @@ TEST(blurred, what_is_off_is_told) {
     const unsigned cases = dice_cases(usual_or(few_or_all(40, 400), 6));
     unsigned refused = 0;
     unsigned warned = 0;
-    unsigned off = 0;
     unsigned quiet = 0;
-    double worst_quiet = 0.0;
-    double worst_cured = 0.0;
     for (unsigned k = 0; k < cases; k++) {
         line l = draw_line(&d, dice_between(&d, 8.0, 28.0));
         const seen s = see_line(&l);
@@ -544,21 +532,14 @@ TEST(blurred, what_is_off_is_told) {
         TEST_ASSERT_TRUE_MESSAGE(s.singular || s.refused || grain < 2e12, told);
         refused += s.refused ? 1U : 0U;
         warned += s.singular ? 1U : 0U;
-        off += !s.refused && s.off > 1e-3 ? 1U : 0U;
         if (!s.refused && !s.singular) {
             quiet++;
-            worst_quiet = fmax(worst_quiet, s.off_of_all);
         }
         count_from_heavier(&l);
         const seen cured = see_line(&l);
         TEST_ASSERT_FALSE_MESSAGE(cured.refused || cured.singular, told);
         TEST_ASSERT_TRUE_MESSAGE(cured.off_of_all < 1e-9, told);
-        worst_cured = fmax(worst_cured, cured.off_of_all);
     }
-    printf(
-        "  %u lines of bodies: %u refused, %u warned of, %u off by more than a thousandth; %u quiet, off by at most "
-        "%.1e; counted from the heavier body at most %.1e\n",
-        cases, refused, warned, off, quiet, worst_quiet, worst_cured);
     TEST_ASSERT_TRUE(cases < 40 || (refused > 0 && warned > 0 && quiet > 0));
 }
 
@@ -808,7 +789,6 @@ TEST(folded_numbers, what_numbers_lose_is_told) {
     unsigned right = 0;
     unsigned doubted = 0;
     unsigned by_luck = 0;
-    double worst_trusted = 0.0;
     for (unsigned k = 0; k < cases; k++) {
         drawn w;
         said what;
@@ -832,12 +812,7 @@ TEST(folded_numbers, what_numbers_lose_is_told) {
             doubted += trusted ? 0U : 1U;
             by_luck += warned ? 1U : 0U;
         }
-        worst_trusted = trusted ? fmax(worst_trusted, is_off) : worst_trusted;
     }
-    printf(
-        "  %u computed springs: %u off by more than a thousandth, %u of them told of; trusted to the end, off by at "
-        "most %.1e. %u are right to a hundred-thousandth: trust in %u of them ends early, %u are told of\n",
-        cases, off, told, worst_trusted, right, doubted, by_luck);
     TEST_ASSERT_TRUE(cases < 60 || (off > 0 && told > 0 && right > 0));
     TEST_ASSERT_TRUE(20 * doubted <= right && 50 * by_luck <= right);
 }

@@ -108,8 +108,6 @@ TEST(swings, predator_and_prey) {
         }
     }
     model_drop();
-    printf("  %u runs: %u change H by more than %g, all told; %u by less than %g, none is\n", cases,
-           told, TOLD, silent, SILENT);
     TEST_ASSERT_TRUE(told > cases / 8 && silent > cases / 8);
 }
 
@@ -265,9 +263,6 @@ static void hold(const char *number, const char *method) {
         hold_one(&c, number, method, &t);
     }
     model_drop();
-    printf("  %s, %s: of %u forced swings %u right, none warned of; %u off, %u warned of, none "
-           "trusted to the end; %u cures, all silent and right\n",
-           method, number, cases, t.right, t.wrong, t.told, t.cured);
     TEST_ASSERT_TRUE(t.right > cases / 3 &&
                      (t.wrong > 0 || cases < 100 || strcmp(method, "rk4") != 0));
 }
