@@ -106,6 +106,34 @@ static int split(char *text, char *field[FIELDS]) {
     return count;
 }
 
+/* Returns true if the first line of the CSV text has a column of this name. */
+static bool has_column(const char *csv, const char *name, size_t length) {
+    while (*csv != '\0' && *csv != '\r' && *csv != '\n') {
+        const bool quoted = *csv == '"';
+        csv += quoted ? 1 : 0;
+        const size_t size = strcspn(csv, quoted ? "\"" : ",\r\n");
+        if (size == length && strncmp(csv, name, length) == 0) {
+            return true;
+        }
+        csv += size + (quoted && csv[size] == '"' ? 1 : 0);
+        csv += *csv == ',' ? 1 : 0;
+    }
+    return false;
+}
+
+/* Checks that the records have every column {name} of the expression. */
+static bool has_columns(const figure *f, const figure_data *d, const char *text) {
+    for (const char *at = strchr(text, '{'); at != NULL; at = strchr(at + 1, '{')) {
+        const size_t length = strcspn(at + 1, "}");
+        if (!has_column(d->csv, at + 1, length)) {
+            fprintf(stderr, "%s:%d: error: the records '%s' have no column '%.*s'\n", f->where,
+                    f->line, d->name, (int)length, at + 1);
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool take_curve(figure *f, char *words, bool law) {
     char *field[FIELDS] = {NULL};
     const int count = split(words, field);
@@ -121,6 +149,10 @@ static bool take_curve(figure *f, char *words, bool law) {
     }
     if (!law && number == f->count) {
         return is_wrong(f, "there is no run, sweep or table with the name ", field[0]);
+    }
+    if (!law && (!has_columns(f, &f->data[number], field[1]) ||
+                 !has_columns(f, &f->data[number], field[2]))) {
+        return false;
     }
     FILE *to = alloc_text(&text, &length);
     fputs(f->curves > 0 ? ", " : "", to);

@@ -131,8 +131,11 @@ refused() {
 }
 refused "an unknown scene" "title t" "run a no_such_scene" "panel y" "curve a | {time} | {X} | -"
 refused "an unknown run" "title t" "panel y" "curve a | {time} | {X} | -"
-refused "an unknown column" "title t" "run a epicyclic_from_rest --until 1s" "panel y" \
-    "curve a | {time} | {no_such} | -"
+for axes in "{no_such} | {X}" "{time} | {no_such}" "{time} | 2*{X} - {no_such}" "{tim} | {X}"; do
+    refused "an unknown column ($axes)" "title t" "run a epicyclic_from_rest --until 1s" "panel y" "curve a | $axes | -"
+    "$whirl" figure "$scratch/bad.fig" --out "$scratch/none.svg" 2>&1 | grep -qE "bad.fig:4: error: the records 'a' have no column '(no_such|tim)'"
+    verdict $? "and named"
+done
 refused "an unknown statement" "title t" "panle y"
 refused "a sweep of which a point fails" "title t" \
     "sweep a epicyclic_from_rest --over m=0..1:2 --measure X --until 10ms" "panel y" \
