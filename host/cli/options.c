@@ -463,12 +463,16 @@ static void say_unknown(const target_reader *r, const char *word) {
 /* Takes the value of one of the table's options. Returns false, and reports the reason, if the value is wrong. */
 static bool take_value(const char *command, const own_option *o, const char *value) {
     if (o->number == NULL) {
-        const bool full = o->limit > 0 && *o->count == o->limit;
+        const int at = o->count != NULL ? *o->count : 0;
+        const bool full = o->limit > 0 && at == o->limit;
         if (full) {
             fprintf(stderr, "whirl %s: error: more than %d %s options\n", command, o->limit,
                     o->word);
         } else {
-            o->text[o->count != NULL ? (*o->count)++ : 0] = value;
+            o->text[at] = value;
+        }
+        if (o->count != NULL && !full) {
+            *o->count = at + 1;
         }
         return !full;
     }

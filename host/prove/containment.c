@@ -326,8 +326,8 @@ static const char *behind(const containment_found *h, const containment_state *s
                                        [CONTAINMENT_RUN_ENDS] = "; at that time the run fails",
                                        [CONTAINMENT_NO_STEP] = "; at that time the tube ends",
                                        [CONTAINMENT_SPENT] = "; at that time the effort is used up",
-                                       [CONTAINMENT_STOPPED] = "; at that time the proof was "
-                                                               "interrupted"};
+                                       [CONTAINMENT_STOPPED] =
+                                           "; at that time the proof was interrupted"};
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return "";
     case CONTAINMENT_LEFT: return "; proved: the error is larger after that";
