@@ -133,7 +133,11 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
         double *at = i < im->angles ? &angle_rad[i] : &real[i - im->angles];
         const double kept = *at;
         const state_rounding rounding = rounding_of_component(im, kind, run, i, kept);
-        if (rounding.change != 0.0) {
+        const component c = image_component(im, i);
+        /* a rate that never changed, such as a clock's, was never rounded */
+        const spread *rate = &b->rate[c.unknown];
+        const bool still = c.primes == 1 && !rate->pushed && rate->squares == 0.0;
+        if (rounding.change != 0.0 && !still) {
             *at = kept + rounding.change;
             evaluate_now(b, angle_rad, real, b->time_s);
             sum +=
@@ -142,6 +146,23 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
         }
     }
     return isfinite(sum) ? sum : 0.0;
+}
+
+/* Energy change of a step by the round-off of its accelerations and of its powers. A small difference of large
+ * terms, such as balanced forces, has a round-off in proportion to the terms. */
+static double step_rounding_J(const books *b, const engine_kind *kind) {
+    const image *im = b->image;
+    const double *entry = b->value + im->count;
+    double sum_W = 0.0;
+    for (int i = 0; i < im->count; i++) {
+        const double power_W = entry[BOOK_MOMENTA + i] * b->off[i];
+        sum_W += isfinite(power_W) ? unit_rounding(kind) * fabs(power_W) : 0.0;
+    }
+    for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
+        const double off_W = b->off[im->count + k];
+        sum_W += isfinite(off_W) ? 0x1p-53 * off_W : 0.0;
+    }
+    return sum_W * b->step_s;
 }
 
 /* Energy that the entries of a step may lose to underflow. A run with contacts keeps its ledger in its own number type. In
@@ -197,7 +218,7 @@ static void look_at_rounding(books *b, const engine_kind *kind, const void *run)
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     evaluator_rounding(b->evaluator, b->angle_rad, 0.0, b->off);
     const double off_J = energy_of(b->image, b->off);
-    b->rounding_J = number_most(b->rounding_J, state_J);
+    b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
     b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
     b->lost_J = number_most(b->lost_J, step_lost_J(b, kind));
 }
@@ -423,6 +444,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         }
     }
     for (int i = 0; i < im->count; i++) {
+        b->rate[i].pushed = b->rate[i].pushed || b->value[i] != 0.0;
         all += entry[BOOK_MOMENTA + i];
         const double own = entry[BOOK_MOMENTA + i] - b->rateless[i];
         spread_enter(&b->push[i], own, b->entries);

@@ -28,6 +28,7 @@ typedef struct spread {
     double first;
     double mean;    /* mean of (value - first) */
     double squares; /* sum of the squared deviations from the mean */
+    bool pushed;    /* for a rate: its acceleration was nonzero at some step */
 } spread;
 
 typedef struct books {
@@ -86,8 +87,8 @@ book_account books_account(const books *b);
 double books_momentum(const books *b, int unknown);
 /* The largest swing of an energy (energy_residual.h). */
 double books_swing_J(const books *b);
-/* Energy change by the round-off of one step in numbers of this kind. Counts the round-off of the state.
- * *computing_J: the round-off of one evaluation of the energy in double. */
+/* Energy change by the round-off of one step in numbers of this kind. Counts the round-off of the state, of the accelerations
+ * and of the integrated powers. *computing_J: the round-off of one evaluation of the energy in double. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);
 /* Energy lost to underflow over all steps, in the ledger of a float run with contacts. Call books_rounding_J() first. */
 double books_lost_J(const books *b);

@@ -15,7 +15,7 @@
  * time, so that the moment of passing a singular position does not set the measure.
  *
  * Round-off does not count against a step: the largest entry counts as at least 1/ENERGY_RESIDUAL_LIMIT times the round-
- * off. This is the rounding of the state to the run's numbers at each step. The rounding of the
+ * off. This is the rounding of the state and of the accelerations to the run's numbers at each step. The rounding of the
  * energy's own evaluation at the start and at the end is added. Its terms are large if a sum such as V = k (x - b)^2/2 is
  * multiplied out and x is far from the origin.
  *
