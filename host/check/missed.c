@@ -39,11 +39,13 @@ struct taylor_bounds {
     double *input;      /* [inputs] */
     double (*cubic)[4]; /* [coordinates] coefficients of the path */
     double span_s;
-    form *place; /* [coordinates] */
-    form *rate;  /* [coordinates] */
-    form *of;    /* [operations] */
-    bool *needs; /* [results * operations] does the result depend on the operation? */
-    double half; /* half the part's width */
+    form *place;        /* [coordinates] */
+    form *rate;         /* [coordinates] */
+    form *of;           /* [operations] */
+    bool *needs;        /* [results * operations] does the result depend on the operation? */
+    enclosure *natural; /* [operations] bounds on the whole path */
+    bool glanced;       /* natural[] is set */
+    double half;        /* half the part's width */
 };
 
 static const enclosure unknown = {(double)NAN, (double)NAN};
@@ -67,6 +69,7 @@ static taylor_bounds *taylor_bounds_open(const image *im, const op_list *t) {
     a->rate = a->place + n;
     a->of = a->rate + n;
     a->needs = alloc((int64_t)t->results * t->count, sizeof *a->needs);
+    a->natural = alloc(t->count, sizeof *a->natural);
     for (int r = 0; r < t->results; r++) {
         op_list_mark_needed(t, t->result[r], a->needs + (ptrdiff_t)r * t->count);
     }
@@ -79,6 +82,7 @@ static void taylor_bounds_close(taylor_bounds *a) {
         free(a->cubic);
         free(a->place);
         free(a->needs);
+        free(a->natural);
         free(a);
     }
 }
@@ -339,6 +343,49 @@ static form value_of(const taylor_bounds *a, const op *o) {
     return no_form;
 }
 
+static enclosure natural_phase(const taylor_bounds *a, const op *o) {
+    enclosure sum = enclosure_of(o->value);
+    for (int i = 0; i < a->list->angles && o->turns != NULL; i++) {
+        sum = enclosure_add(sum, enclosure_times(a->place[i].value, o->turns[i]));
+    }
+    return o->b >= 0 ? enclosure_add(sum, a->natural[o->b]) : sum;
+}
+
+static enclosure natural_of(const taylor_bounds *a, const op *o) {
+    const int values = op_rows[o->code].values;
+    const enclosure x = values > 0 && o->a >= 0 ? a->natural[o->a] : zero;
+    const enclosure y = values > 1 && o->b >= 0 ? a->natural[o->b] : zero;
+    switch (o->code) {
+    case OP_CONSTANT: return enclosure_of(o->value);
+    case OP_LINEAR: return a->place[a->image->angles + o->a].value;
+    case OP_RATE: return a->rate[o->a].value;
+    case OP_INPUT: return enclosure_of(a->input[o->a]);
+    case OP_PHASE: return natural_phase(a, o);
+    case OP_SIN: return enclosure_sine(a->natural[o->a]);
+    case OP_COS: return enclosure_cosine(a->natural[o->a]);
+    case OP_ADD: return enclosure_add(x, y);
+    case OP_SUB: return enclosure_sub(x, y);
+    case OP_NEG: return enclosure_neg(x);
+    case OP_MUL: return o->a == o->b ? enclosure_square(x) : enclosure_mul(x, y);
+    case OP_DIV: return enclosure_div(x, y);
+    case OP_SQRT: return enclosure_call(FN_SQRT, x, zero);
+    case OP_ABS: return enclosure_call(FN_ABS, x, zero);
+    case OP_SIGN: return enclosure_call(FN_SIGN, x, zero);
+    case OP_MIN: return enclosure_call(FN_MIN, x, y);
+    case OP_MAX: return enclosure_call(FN_MAX, x, y);
+    case OP_POW: return enclosure_power(x, y);
+    case OP_CALL: return enclosure_call(o->function, x, y);
+    case OP_ACCEL:
+    case OP_TIME:
+    case OP_RADIANS:
+    case OP_NOISE:
+    case OP_CELL:
+    case OP_LINE:
+    case OP_CUBIC: break; /* no such operation in this list */
+    }
+    return unknown;
+}
+
 /* Narrows the value by the bounds at the middle and those of the slopes. */
 static void cut(form *f, double half) {
     const enclosure way = {-half, half};
@@ -369,6 +416,7 @@ static void taylor_bounds_way(taylor_bounds *a, const double *from, const double
         c[2] = 3.0 * way - 2.0 * lead - end;
         c[3] = lead + end - 2.0 * way;
     }
+    a->glanced = false;
 }
 
 /* Encloses a function with the values a and b at the ends, which deviates by at most `bend` from the straight line. */
@@ -407,9 +455,22 @@ static void go(taylor_bounds *a, double low, double high) {
     }
 }
 
-/* Costs in operations. WAY: a coordinate on the path. FORM: a form of an operation. CALLED: a form of a function or
- * power. */
-enum { WAY = 10, FORM = 20, CALLED = 200 };
+/* Costs in operations. BOUNDS: natural bounds of an operation. WAY: a coordinate on the path. FORM: a form of an operation.
+ * CALLED: a form of a function or power. */
+enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
+
+/* Natural bounds of one result on the whole path: a quick test. */
+static enclosure taylor_bounds_glance(taylor_bounds *a, int result) {
+    if (!a->glanced) {
+        a->glanced = true;
+        engine_operations += (uint64_t)(BOUNDS * a->list->count + WAY * a->image->coordinates);
+        go(a, 0.0, 1.0);
+        for (int i = 0; i < a->list->count; i++) {
+            a->natural[i] = natural_of(a, &a->list->ops[i]);
+        }
+    }
+    return a->natural[a->list->result[result]];
+}
 
 /* Bounds one result, or all (-1), on the part of the path from `low` to `high`, as shares. */
 static void taylor_bounds_look(taylor_bounds *a, int result, double low, double high) {
@@ -439,13 +500,22 @@ static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
     return a->of[a->list->result[result]].middle;
 }
 
+/* How much the result would change over the whole path, with the slope and curvature of this part. */
+static double taylor_bounds_change(const taylor_bounds *a, int result) {
+    const form *f = &a->of[a->list->result[result]];
+    const double slope = enclosure_size(f->middle_slope);
+    return enclosure_is_finite(f->curve) ? slope + enclosure_size(f->curve) : slope;
+}
+
 /* === what a step passes ========================================================================== */
 
 /* HALVINGS: how often a path is halved at most. PARTS_MOST: most parts of a path that are tested for one contact or
  * coordinate. */
 #define HALVINGS 24
 #define PARTS_MOST 400
-/* A negative margin is round-off if its size is below WIDTHS times the width of the bounds. */
+/* A negative margin is a mere touch if its size is below TOUCH times the larger margin at the ends, and below TOUCH times its
+ * change over the path. It is round-off if its size is below WIDTHS times the width of the bounds. */
+#define TOUCH 1e-9
 #define WIDTHS 64.0
 /* An acceleration between the ends of a path counts as hidden if it exceeds HIDDEN times the sum of those at both ends. It
  * must also be large enough to change the rate by the part TURNS within the path. */
@@ -458,17 +528,18 @@ static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
 struct missed {
     const image *image;
     taylor_bounds *
-        signals; /* bounds of each contact's gap and condition, or of its rate or value; NULL without contacts */
-    taylor_bounds
-        *accel; /* bounds of the accelerations if they contain an exponential function; or NULL */
-    bool edges; /* a gap may have an edge */
-    taylor_bounds *laws; /* bounds of the contacts' laws, if a friction's limits move; or NULL */
-    double *from;        /* [angles + reals] state before the step */
-    double *to;          /* [angles + reals] state after the step */
-    int *mode;           /* [contacts] modes before and after the step */
+        signals; /* bounds of each contact's gap, condition, rate or value; NULL without contacts */
+    taylor_bounds *accel; /* bounds of the accelerations, if one must be tested; or NULL */
+    bool hills;           /* the accelerations contain an exponential function */
+    bool edges;           /* a gap may have an edge */
+    taylor_bounds *laws;  /* bounds of the contacts' laws, if a friction's limits move; or NULL */
+    double *from;         /* [angles + reals] state before the step */
+    double *to;           /* [angles + reals] state after the step */
+    int *mode;            /* [contacts] modes before and after the step */
     int *mode_to;
     double *most;              /* [coordinates] a larger acceleration counts as hidden */
     const engine_piece *piece; /* the present path */
+    double size;               /* the larger of the margins at the ends of the path */
     int parts;                 /* number of parts tested so far */
 };
 
@@ -512,8 +583,9 @@ missed *missed_open(const image *im) {
     const int64_t all = im->angles + im->reals;
     m->image = im;
     m->signals = signals != NULL ? taylor_bounds_open(im, signals) : NULL;
+    m->hills = hills;
     m->edges = has_edges(im);
-    m->accel = hills ? taylor_bounds_open(im, im->list[IMAGE_STEP]) : NULL;
+    m->accel = hills || laws != NULL ? taylor_bounds_open(im, im->list[IMAGE_STEP]) : NULL;
     m->laws = laws != NULL ? taylor_bounds_open(im, laws) : NULL;
     m->from = alloc(2 * all + im->coordinates, sizeof *m->from);
     m->to = m->from + all;
@@ -553,7 +625,9 @@ static int look_contact(missed *m, int k, double low, double high, double beyond
     taylor_bounds_look(m->signals, 2 * k, low, high);
     const enclosure middle = margin(m, k, taylor_bounds_middle(m->signals, 2 * k));
     const enclosure value = margin(m, k, taylor_bounds_value(m->signals, 2 * k));
-    const double touch = number_most(beyond, WIDTHS * (middle.high - middle.low));
+    const double change = number_least(m->size, taylor_bounds_change(m->signals, 2 * k));
+    const double rounding = WIDTHS * (middle.high - middle.low);
+    const double touch = number_most(beyond, number_most(TOUCH * change, rounding));
     if (middle.high < -touch) {
         return 1;
     }
@@ -608,23 +682,76 @@ static missed_found or_this(missed_found found, int passed, int what) {
                : found;
 }
 
+/* A hold that would close has no effect if its expression does not move on this path. */
+static bool is_idle(missed *m, int k) {
+    if (m->image->contact[k].kind != WH_HOLD || m->piece->mode[k] != WH_FREE) {
+        return false;
+    }
+    taylor_bounds_look(m->signals, 2 * k + 1, 0.0, 1.0);
+    const enclosure middle = taylor_bounds_middle(m->signals, 2 * k + 1);
+    return enclosure_size(taylor_bounds_value(m->signals, 2 * k + 1)) <=
+           WIDTHS * (middle.high - middle.low) + DBL_MIN;
+}
+
 /* Does contact k, which has the same mode at both ends, leave this mode on the path? */
 static int contact_passes(missed *m, int k) {
     double beyond = 0.0;
-    if (look_contact(m, k, 0.0, 1.0, 0.0) == 0) {
+    m->size = 0.0;
+    if (is_idle(m, k) || margin(m, k, taylor_bounds_glance(m->signals, 2 * k)).low >= 0.0 ||
+        look_contact(m, k, 0.0, 1.0, 0.0) == 0) {
         return 0;
     }
     for (int end = 0; end < 2; end++) {
         taylor_bounds_look(m->signals, 2 * k, end, end);
         const enclosure value = margin(m, k, taylor_bounds_value(m->signals, 2 * k));
+        m->size = number_most(m->size, value.high);
         beyond = number_most(beyond, -2.0 * value.low);
     }
     m->parts = 0;
     return passes(m, look_contact, k, 0.0, 1.0, beyond, HALVINGS);
 }
 
+static double middle_of(taylor_bounds *a, int result) {
+    const enclosure e = taylor_bounds_middle(a, result);
+    return 0.5 * e.low + 0.5 * e.high;
+}
+
+/* Friction k at the ends of the path: of each number the larger one. */
+typedef struct met {
+    double turns; /* the acceleration by a unit of its force */
+    double load;  /* the force that keeps it stuck; infinite if other contacts act */
+    double rate;  /* the sliding speed */
+} met;
+
+static met met_by(missed *m, int k) {
+    const int n = m->image->coordinates;
+    const int rows = law_of(m->image, k, WH_LAW_ROWS);
+    met of = {0.0, 0.0, 0.0};
+    for (int end = 0; end < 2; end++) {
+        taylor_bounds_look(m->laws, -1, end, end);
+        taylor_bounds_look(m->accel, -1, end, end);
+        double pull = middle_of(m->laws, law_of(m->image, k, WH_LAW_BIAS));
+        double rate = 0.0;
+        double turns = 0.0;
+        for (int i = 0; i < n; i++) {
+            const double row = middle_of(m->laws, rows + i);
+            pull += row * middle_of(m->accel, i);
+            rate += row * (end == 0 ? m->piece->from : m->piece->to)[n + i];
+            turns += row * middle_of(m->laws, rows + n + i);
+        }
+        of.load = number_most(of.load, fabs(pull) / turns);
+        of.rate = number_most(of.rate, fabs(rate));
+        of.turns = number_most(of.turns, turns);
+    }
+    for (int l = 0; l < m->image->forced; l++) {
+        const bool bears = m->image->contact[l].kind == WH_FRICTION || m->piece->mode[l] != WH_FREE;
+        of.load = l != k && bears ? (double)INFINITY : of.load;
+    }
+    return of;
+}
+
 /* Friction k has the same mode at both ends of the path. If it slides, is its limit far larger between them? If it sticks, is
- * its limit far smaller between them? */
+ * its limit too small between them to keep it stuck? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -636,9 +763,16 @@ static int limit_passes(missed *m, int k) {
         drag += enclosure_is_finite(value) ? HIDDEN * enclosure_size(value) : 0.0;
         grip = value.low / HIDDEN < grip ? value.low / HIDDEN : grip;
     }
+    const enclosure glance = taylor_bounds_glance(m->laws, i);
+    if (sticks ? glance.low >= grip : glance.high <= drag) {
+        return 0;
+    }
+    const met of = met_by(m, k);
     m->parts = 0;
-    return sticks ? passes(m, look_grip, i, 0.0, 1.0, grip, HALVINGS)
-                  : passes(m, look_drag, i, 0.0, 1.0, drag, HALVINGS);
+    return sticks ? passes(m, look_grip, i, 0.0, 1.0, number_least(grip, of.load), HALVINGS)
+                  : passes(m, look_drag, i, 0.0, 1.0,
+                           number_most(drag, TURNS * of.rate / (m->piece->span_s * of.turns)),
+                           HALVINGS);
 }
 
 /* --- edges ---------------------------------------------------------------------------------------------*/
@@ -671,11 +805,23 @@ static bool slope_jumps(missed *m, int k) {
     return some;
 }
 
+/* A body that rests on a stop is put back onto the stop's face at the end of each step, even after it slid over an edge. So
+ * the straight path along the rates at the begin is tested, too. */
 static missed_found edge_passed(missed *m) {
-    for (int k = 0; k < m->image->forced; k++) {
-        if (m->image->contact[k].kind == WH_STOP && m->piece->mode[k] != WH_FREE &&
-            slope_jumps(m, k)) {
-            return (missed_found){.what = k, .sure = true, .edge = true};
+    const engine_piece *p = m->piece;
+    const int n = m->image->coordinates;
+    double ahead[2 * IMAGE_COMPONENTS_MAX];
+    memcpy(ahead, p->from, 2 * (size_t)n * sizeof *ahead);
+    for (int i = 0; i < n; i++) {
+        ahead[i] += p->span_s * p->from[n + i];
+    }
+    for (int way = 0; way < 2; way++) {
+        taylor_bounds_way(m->laws, p->from, way == 0 ? p->to : ahead, p->span_s);
+        for (int k = 0; k < m->image->forced; k++) {
+            if (m->image->contact[k].kind == WH_STOP && p->mode[k] != WH_FREE &&
+                slope_jumps(m, k)) {
+                return (missed_found){.what = k, .sure = true, .edge = true};
+            }
         }
     }
     return MISSED_NOTHING;
@@ -701,6 +847,7 @@ static missed_found contact_passed(missed *m) {
 static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;
+    bool open[IMAGE_COMPONENTS_MAX];
     for (int end = 0; end < 2; end++) {
         taylor_bounds_look(m->accel, -1, end, end);
         for (int i = 0; i < n; i++) {
@@ -713,11 +860,12 @@ static missed_found force_passed(missed *m) {
     for (int i = 0; i < n; i++) {
         const double rate = number_most(fabs(m->piece->from[n + i]), fabs(m->piece->to[n + i]));
         m->most[i] = number_most(number_most(m->most[i], TURNS * rate / m->piece->span_s), DBL_MIN);
+        open[i] = !(enclosure_size(taylor_bounds_glance(m->accel, i)) <= m->most[i]);
     }
     for (int i = 0; i < n && !found.sure; i++) {
         m->parts = 0;
-        found = or_this(found, passes(m, look_force, i, 0.0, 1.0, m->most[i], HALVINGS),
-                        m->image->contacts + i);
+        const int passed = open[i] ? passes(m, look_force, i, 0.0, 1.0, m->most[i], HALVINGS) : 0;
+        found = or_this(found, passed, m->image->contacts + i);
     }
     return found;
 }
@@ -736,7 +884,7 @@ static missed_found piece_passed(missed *m, const engine_piece *piece) {
     }
     found = m->signals != NULL ? contact_passed(m) : found;
     found = found.what < 0 && m->edges ? edge_passed(m) : found;
-    return found.what < 0 && m->accel != NULL ? force_passed(m) : found;
+    return found.what < 0 && m->hills ? force_passed(m) : found;
 }
 
 missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful,

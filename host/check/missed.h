@@ -9,7 +9,7 @@
  * Accelerations with an exponential function are bounded in the same way. A step has passed over a force if the acceleration is far
  * above both ends and large enough to turn the rate. An undecided force is reported as undecided. Moving limits of a friction are
  * bounded, too. A step has passed over them if a sliding friction's limits are far larger than at both ends, or a sticking
- * friction's far smaller.
+ * friction's are too small to keep it.
  *
  * A stop's gap with abs, max, min or sign may have edges. The core keeps a resting body on the face that it rests on, and does not
  * release it at an edge. A step is reported if the slope of such a gap jumps while the body rests. */
