@@ -206,14 +206,19 @@ typedef enum remedy_outcome {
 
 enum { REMEDY_TEXT = 120 };
 
+/* A remedy must stay below this part of the limits, because the lists of the user's next run may round differently. */
+#define LEAVES 0.3
 /* The finest step that is tried: the step of the run divided by this. */
 #define PARTS_MOST 20000.0
+/* In float, a remedy with this many times more steps also gets compensated sums. */
+#define COMPENSATED_FROM 10.0
 
 typedef struct search {
     const image *image;
     const image *plain;
     const engine_kind *kind;
     budget *budget;
+    double part;   /* factor of the limits (run_checks.h) */
     double a_step; /* operations of a step of the run, with its checks */
     double stages; /* stages of the run's method */
     bool over_budget;
@@ -290,6 +295,7 @@ static bool try(search *s, const request *w) {
     const engine_kind *kind = w->in_double ? &engine_double : s->kind;
     void *run = kind->start(&with);
     run_checks *v = run_checks_open(&with, s->plain, kind, run, s->budget);
+    v->part = s->part;
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .pays = s->budget, .see = see, .of = v};
     wh_status status = WH_OK; /* without a finer run the error is not known */
@@ -332,10 +338,12 @@ static void write_options(const search *s, const request *w, char text[REMEDY_TE
 }
 
 /* Tries ever finer steps: 1, 2 and 5 times powers of ten. */
-static bool try_steps(search *s, request w, char text[REMEDY_TEXT]) {
-    w.step_s = step_nice_s(0.5 * s->image->step_s);
+static bool try_steps(search *s, request w, double parts, char text[REMEDY_TEXT]) {
+    w.step_s = step_nice_s(s->image->step_s / number_most(parts, 2.0));
     while (w.step_s > 0.0 && w.step_s * PARTS_MOST > s->image->step_s && !s->over_budget) {
         request now = w;
+        now.compensated = w.compensated || (s->kind == &engine_float &&
+                                            w.step_s * COMPENSATED_FROM <= s->image->step_s);
         if (try_either(s, &now)) {
             write_options(s, &now, text);
             return true;
@@ -345,7 +353,7 @@ static bool try_steps(search *s, request w, char text[REMEDY_TEXT]) {
     return false;
 }
 
-static remedy_outcome find(search *s, char text[REMEDY_TEXT]) {
+static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
     const image *im = s->image;
     const wh_method own = im->settings.matrix == MATRIX_RK4 ? WH_RK4 : im->settings.method;
     request w = {im->step_s, own, im->settings.compensated, false};
@@ -368,29 +376,33 @@ static remedy_outcome find(search *s, char text[REMEDY_TEXT]) {
             write_options(s, &usual, text);
             return REMEDY_DOES;
         }
+        parts = 1.0;
     }
-    return try_steps(s, w, text) ? REMEDY_DOES : s->over_budget ? REMEDY_DEAR : REMEDY_NONE;
+    return try_steps(s, w, parts, text) ? REMEDY_DOES : s->over_budget ? REMEDY_DEAR : REMEDY_NONE;
 }
 
-/* Finds options such as "--step 50us" for a finished run, within the budget that its checks left. */
-static remedy_outcome remedy_find(const run_checks *v, char text[REMEDY_TEXT]) {
+/* Finds options such as "--step 50us --compensated" for a finished run, within the budget that its checks left. The first
+ * trial divides the step by `parts`, at least 1. */
+static remedy_outcome remedy_find(const run_checks *v, double parts, char text[REMEDY_TEXT]) {
     const double steps = number_most((double)v->kind->steps(v->run), 1.0);
     budget_begin(v->budget);
     search s = {.image = v->image,
                 .plain = v->plain,
                 .kind = v->kind,
                 .budget = v->budget,
+                .part = LEAVES,
                 .a_step = (double)(v->budget->own + v->budget->spent) / steps,
                 .stages = wh_methods[v->image->settings.method].stages};
     text[0] = '\0';
-    const remedy_outcome found = find(&s, text);
+    const remedy_outcome found = find(&s, parts, text);
     budget_end(v->budget);
     return found;
 }
 
 bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind) {
     budget all = {0};
-    search s = {.image = im, .plain = plain, .kind = kind, .budget = &all, .stages = 1.0};
+    search s = {
+        .image = im, .plain = plain, .kind = kind, .budget = &all, .part = 1.0, .stages = 1.0};
     const request own = {im->step_s, im->settings.method, im->settings.compensated, false};
     budget_begin(&all);
     return try(&s, &own);
@@ -432,6 +444,13 @@ static bool say_cause(FILE *out, const run_checks *v) {
     return hint != NULL;
 }
 
+/* The divisor of the step for the first trial, from the order of the method. */
+static double first_parts(const run_checks *v) {
+    const wh_method_row *row = &wh_methods[v->image->settings.method];
+    const double ratio = v->found[FINDING_ENERGY].value;
+    return ratio > 0.0 ? number_power(number_least(ratio, 1.0) / 3e-4, 1.0 / row->order) : 1.0;
+}
+
 static void say_remedy(FILE *out, const run_checks *v) {
     char options[REMEDY_TEXT];
     const image *im = v->image;
@@ -442,7 +461,7 @@ static void say_remedy(FILE *out, const run_checks *v) {
         }
         fprintf(out, "hint: try %sno --tables: the tables may be too coarse\n", cells);
     }
-    switch (remedy_find(v, options)) {
+    switch (remedy_find(v, first_parts(v), options)) {
     case REMEDY_DOES: fprintf(out, "hint: %s cures this (tried)\n", options); return;
     case REMEDY_DEAR:
         fputs("hint: try a smaller --step (Whirl's own search for one would take more than a "
@@ -519,7 +538,7 @@ bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]
 
 void findings_say_failed(FILE *out, const run_checks *v) {
     char options[REMEDY_TEXT];
-    if (remedy_find(v, options) == REMEDY_DOES) {
+    if (remedy_find(v, 2.0, options) == REMEDY_DOES) {
         fprintf(out, "hint: %s cures this (tried)\n", options);
     }
 }

@@ -15,6 +15,7 @@ run_checks *run_checks_open(const image *im, const image *plain, const engine_ki
     v->image = im;
     v->kind = kind;
     v->run = run;
+    v->part = 1.0;
     v->plain = plain;
     v->budget = of != NULL ? of : &v->own;
     v->books = books_open(im);
@@ -125,17 +126,18 @@ static bool is_right(const run_checks *v) {
 static void judge_energy(run_checks *v) {
     const energy_residual *b = &v->balance;
     if (!b->known || b->exact) {
-        if (energy_residual_lost(b, finding_rows[FINDING_ENERGY].limit)) {
+        if (energy_residual_lost(b, v->part * finding_rows[FINDING_ENERGY].limit)) {
             tell(v, FINDING_ENERGY, b->ratio, -1.0, -1);
         }
         return;
     }
     const double way_J = v->image->contacts == 0 ? v->books->most_J : 0.0;
-    const bool on_the_way = way_J > RUN_CHECKS_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
+    const bool on_the_way =
+        way_J > v->part * RUN_CHECKS_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
     const bool in_doubt = v->kind->steps(v->run) % 2U == 1U || /* the last step is a trapezoid */
                           number_most(fabs(b->left_J), way_J) <= v->books->rule_J;
     const bool by_the_rule = v->image->contacts == 0 && in_doubt && is_right(v);
-    const bool is_lost = energy_residual_lost(b, finding_rows[FINDING_ENERGY].limit);
+    const bool is_lost = energy_residual_lost(b, v->part * finding_rows[FINDING_ENERGY].limit);
     const bool is_reported = (is_lost || on_the_way) && !by_the_rule;
     if (is_reported) {
         tell(v, FINDING_ENERGY, number_most(b->ratio, on_the_way ? way_J / b->largest_J : 0.0),
@@ -208,8 +210,8 @@ static int first_with(const run_checks *v, double tolerance, double early_tolera
                       bool (*is)(const run_checks *v, int k, double until_s, double early_s),
                       double *until_s) {
     int found = -1;
-    horizon h = horizon_of(v->doubling, tolerance);
-    horizon early = horizon_of(v->doubling, early_tolerance);
+    horizon h = horizon_of(v->doubling, v->part * tolerance);
+    horizon early = horizon_of(v->doubling, v->part * early_tolerance);
     for (int k = 1; k < v->doubling->columns; k++) {
         const horizon_column *c = &h.column[k];
         if (c->verdict == HORIZON_UNTIL && is_asked(v, k) && !is_of_units(v, k, c) &&

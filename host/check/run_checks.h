@@ -25,8 +25,9 @@ typedef struct run_checks {
     void *run;
     const image *plain; /* image of the finer run */
     budget own;
-    budget *budget;        /* shared by all checks: &own, or the caller's */
-    books *books;          /* NULL for a system given by its equations */
+    budget *budget; /* shared by all checks: &own, or the caller's */
+    double part;    /* factor of the limits of energy and accuracy: 1, and less for a remedy */
+    books *books;   /* NULL for a system given by its equations */
     pole_crossing *jumped; /* search for poles; NULL: the scene needs none */
     /* the comparison with a finer run; NULL: it would take too long */
     step_doubling *doubling;

@@ -129,7 +129,7 @@ fi
 
 # --- messages ----------------------------------------------------------------------------------------------------------
 "$whirl" run two_mass_relative --number fixed --until 0.1s >"$scratch/out" 2>"$scratch/err"
-grep -q "note: range X' = .*not declared, taken from a run in double" "$scratch/err" && grep -q '^0 values saturated' "$scratch/out"
+grep -q "note: range X' = .*not declared, taken from the results of a run in double" "$scratch/err" && grep -q '^0 values saturated' "$scratch/out"
 verdict $? "a range that is not declared is told, and how many values were saturated"
 "$whirl" derive two_mass_relative --as c --number fixed 2>/dev/null | grep -q "^ \* range X' = .*not declared"
 verdict $? "and in generated code"

@@ -78,7 +78,7 @@ static ending end_of(const wh_scene *scene, uint32_t some, uint32_t more, wh_rea
     return end;
 }
 
-TEST(ahead, multi_steps_are_steps) {
+TEST(multi_step, multi_steps_are_steps) {
     /* Three inputs: a usual one; one that accelerates the shaft to half a turn per step; NaN. */
     const wh_real inputs[] = {WH_R(2.0), WH_R(300.0), (wh_real)__builtin_nan("")};
     length[0] = WH_R(0.0625);
@@ -182,7 +182,7 @@ static void speed_up(const void *model, const wh_phase *phase, const wh_real *re
     given[2] = WH_R(0.0);
 }
 
-TEST(ahead, a_matrix_moves_angles) {
+TEST(multi_step, a_matrix_moves_angles) {
     for (unsigned k = 0; k < 2; k++) {
         wh_angle angle[1] = {wh_angle_from_rad(WH_R(0.0))};
         wh_real real[1] = {WH_R(1.0)};
@@ -213,7 +213,7 @@ static void spoil(const void *model, const wh_phase *phase, const wh_real *real,
     wh_copy(spoilt, 6, given);
 }
 
-TEST(ahead, what_a_matrix_spoils_is_refused) {
+TEST(multi_step, what_a_matrix_spoils_is_refused) {
     const wh_real bad[] = {WH_R(2e15), WH_R(-1e30), (wh_real)__builtin_nan(""),
                            (wh_real)__builtin_inf()};
     for (unsigned k = 0; k < 4 * 3 * 3; k++) {
@@ -285,7 +285,7 @@ static void test_a_length_in_two_parts_lasts_as_long_as_it_should(void) {
 
 #endif
 
-SUITE(ahead) {
+SUITE(multi_step) {
 #if HAS_REFERENCE
     RUN_TEST(test_a_matrix_turns_as_far_as_its_power);
     RUN_TEST(test_a_length_in_two_parts_lasts_as_long_as_it_should);
