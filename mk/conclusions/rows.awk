@@ -17,7 +17,7 @@ BEGIN {
         "FNR == 1 { run++; rows = 0 }\n" \
         "/^  [A-Za-z]/ && $3 ~ /^[-+]?[0-9]/ { v[run, $2] = $3; names[$2] } # a run's summary\n" \
         "/^  (param|input|angle|real) / { p[$4] = $6 } # of `whirl describe`, in SI\n" \
-        "/drift at most/ { d = $0; sub(/.*drift at most /, \"\", d); drift = most(drift, d + 0) }\n" \
+        "/drifts by at most/ { d = $0; sub(/.*drifts by at most /, \"\", d); drift = most(drift, d + 0) }\n" \
         "/^[-0-9.e+]+,/ { rows++; n = split($0, part, \",\"); for (i = 1; i <= n; i++) cell[run, rows, i] = part[i] }\n"
 }
 function fail(why) { print "error: " FILENAME ":" NR ": " why > "/dev/stderr"; bad = 1; exit 1 }
