@@ -60,7 +60,7 @@ static uint32_t ticks_of(const fault_plan *plan, double time_s) {
 /* Changes one pulse. Returns false if the pulse is lost or comes later. */
 static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_edge *edge) {
     fault_pending later = {.at_s = time_s + f->size, .is_edge = true, .edge = *edge};
-    switch ((int)f->kind) {
+    switch (f->kind) {
     case FAULT_EDGE_DEAD: return false;
     case FAULT_EDGE_LOST:
         if (f->left > 0) {
@@ -75,7 +75,14 @@ static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_
         later.edge.ticks += ticks_of(plan, f->size);
         tell_later(f, later);
         break;
-    default: break;
+    case FAULT_EDGE_INVENTED:
+    case FAULT_EDGE_STORM:
+        FAULT_SENSOR_ROWS(FAULT_CASE)
+        FAULT_SAMPLE_ROWS(FAULT_CASE)
+        FAULT_PLANT_ROWS(FAULT_CASE)
+        FAULT_ORDER_ROWS(FAULT_CASE)
+        FAULT_LINE_ROWS(FAULT_CASE)
+        break;
     }
     return true;
 }
@@ -136,7 +143,7 @@ static void set_value(const fault_plan *plan, wh_sample *s, double value, bool a
 
 static void change_value(const fault_plan *plan, fault_case *f, double time_s, wh_sample *s) {
     const double hum = f->size * number_sine(TURN_RAD * HUM_HZ * time_s);
-    switch ((int)f->kind) {
+    switch (f->kind) {
     case FAULT_CELL_PICKUP: set_value(plan, s, hum, false); break;
     case FAULT_CELL_HUM: set_value(plan, s, hum, true); break;
     case FAULT_CELL_NOISE:
@@ -156,7 +163,16 @@ static void change_value(const fault_plan *plan, fault_case *f, double time_s, w
         s->raw = f->held;
         s->status = WH_SAMPLE_GOOD;
         break;
-    default: break;
+    case FAULT_CELL_DEAD:
+    case FAULT_CELL_LOST:
+    case FAULT_CELL_REPEATED:
+    case FAULT_CELL_LATE:
+        FAULT_EDGE_ROWS(FAULT_CASE)
+        FAULT_SENSOR_ROWS(FAULT_CASE)
+        FAULT_PLANT_ROWS(FAULT_CASE)
+        FAULT_ORDER_ROWS(FAULT_CASE)
+        FAULT_LINE_ROWS(FAULT_CASE)
+        break;
     }
 }
 
@@ -428,7 +444,7 @@ static uint32_t times(uint32_t count, double size) {
 }
 
 static void take_time(fault_case *f, wh_orders *orders, double *late_s) {
-    switch ((int)f->kind) {
+    switch (f->kind) {
     case FAULT_SLOW:
         orders->acted_timer = times(orders->acted_timer, f->size);
         orders->busy_timer = times(orders->busy_timer, f->size);
@@ -439,8 +455,15 @@ static void take_time(fault_case *f, wh_orders *orders, double *late_s) {
         f->left = 0;
         break;
     case FAULT_UNKICKED: orders->flags &= (uint8_t)~WH_ORDER_ALIVE; break;
-    case FAULT_UNWATCHED: orders->watchdog_ticks = 0; break;
-    default: break;
+    case FAULT_UNWATCHED:
+        orders->watchdog_ticks = 0;
+        break;
+        FAULT_EDGE_ROWS(FAULT_CASE)
+        FAULT_SENSOR_ROWS(FAULT_CASE)
+        FAULT_SAMPLE_ROWS(FAULT_CASE)
+        FAULT_PLANT_ROWS(FAULT_CASE)
+        FAULT_LINE_ROWS(FAULT_CASE)
+        break;
     }
 }
 

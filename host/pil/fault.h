@@ -23,7 +23,7 @@ typedef enum fault_place {
 } fault_place;
 
 /* X(which, word, place, default size, least, most, unit, words). If least equals most, the fault has no size. */
-#define FAULT_ROWS(X) \
+#define FAULT_EDGE_ROWS(X) \
     X(FAULT_EDGE_DEAD, "edge-dead", FAULT_EDGES, 0, 0, 0, "", "no pulses come") \
     X(FAULT_EDGE_LOST, "edge-lost", FAULT_EDGES, 1, 1, 1e6, "", "this number of pulses is lost") \
     X(FAULT_EDGE_DOUBLE, "edge-double", FAULT_EDGES, 1e-3, 1e-6, 10, "s", \
@@ -38,10 +38,12 @@ typedef enum fault_place {
     X(FAULT_EDGE_STAMP, "edge-stamp", FAULT_EDGES, 1e-6, -10, 10, "s", \
       "time stamps have this error; positive: too late") \
     X(FAULT_EDGE_LATE, "edge-late", FAULT_EDGES, 5e-3, 0, 10, "s", \
-      "pulses arrive late, with correct stamps") \
+      "pulses arrive late, with correct stamps")
+#define FAULT_SENSOR_ROWS(X) \
     X(FAULT_EDGE_PLACE, "edge-place", FAULT_SENSORS, 2, -180, 180, "deg", "a sensor is displaced") \
     X(FAULT_EDGE_JITTER, "edge-jitter", FAULT_SENSORS, 60e-6, 0, 1, "s", \
-      "random errors of the pulses' times with this standard deviation") \
+      "random errors of the pulses' times with this standard deviation")
+#define FAULT_SAMPLE_ROWS(X) \
     X(FAULT_CELL_DEAD, "cell-dead", FAULT_SAMPLES, 0, 0, 0, "", "no samples come") \
     X(FAULT_CELL_LOST, "cell-lost", FAULT_SAMPLES, 0.1, 0, 1, "", \
       "this share of the samples is lost") \
@@ -61,7 +63,8 @@ typedef enum fault_place {
     X(FAULT_CELL_REPEATED, "cell-repeated", FAULT_SAMPLES, 0, 0, 0, "", "each sample comes twice") \
     X(FAULT_CELL_LATE, "cell-late", FAULT_SAMPLES, 10e-3, 0, 10, "s", \
       "samples arrive late, with correct stamps") \
-    X(FAULT_READS, "reads", FAULT_SAMPLES, 0, -1e6, 1e6, "SI", "all samples have this value") \
+    X(FAULT_READS, "reads", FAULT_SAMPLES, 0, -1e6, 1e6, "SI", "all samples have this value")
+#define FAULT_PLANT_ROWS(X) \
     X(FAULT_CELL_TURNED, "cell-turned", FAULT_INPUT, 0, 0, 0, "", "the polarity is reversed") \
     X(FAULT_CELL_GAIN, "cell-gain", FAULT_INPUT, 0.5, -100, 100, "", \
       "the gain is multiplied by this factor") \
@@ -87,18 +90,27 @@ typedef enum fault_place {
     X(FAULT_RESET, "reset", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
       "the controller is reset, and starts again after this time") \
     X(FAULT_WATCHDOG_RESETS, "watchdog-resets", FAULT_PROCESSOR, 0.01, 0, 10, "s", \
-      "without kicks the watchdog resets the controller, which starts again after this time") \
+      "without kicks the watchdog resets the controller, which starts again after this time")
+#define FAULT_ORDER_ROWS(X) \
     X(FAULT_SLOW, "slow", FAULT_ORDERS, 20, 0, 1e6, "", "computing is slower by this factor") \
     X(FAULT_LATE, "late", FAULT_ORDERS, 3e-3, 0, 10, "s", "every answer is late by this time") \
     X(FAULT_HANG, "hang", FAULT_ORDERS, 0.1, 0, 100, "s", "one answer is late by this time") \
     X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", \
       "the firmware's kicks do not reach " \
       "the watchdog") \
-    X(FAULT_UNWATCHED, "unwatched", FAULT_ORDERS, 0, 0, 0, "", "the watchdog never cuts") \
+    X(FAULT_UNWATCHED, "unwatched", FAULT_ORDERS, 0, 0, 0, "", "the watchdog never cuts")
+#define FAULT_LINE_ROWS(X) \
     X(FAULT_READINGS_LOST, "readings-lost", FAULT_LINE, 0.1, 0, 1, "", \
       "this share of the readings arrives empty") \
     X(FAULT_ORDERS_LOST, "orders-lost", FAULT_LINE, 0.1, 0, 1, "", \
       "this share of the commands to the outputs is lost")
+#define FAULT_ROWS(X) \
+    FAULT_EDGE_ROWS(X) \
+    FAULT_SENSOR_ROWS(X) \
+    FAULT_SAMPLE_ROWS(X) \
+    FAULT_PLANT_ROWS(X) \
+    FAULT_ORDER_ROWS(X) \
+    FAULT_LINE_ROWS(X)
 
 #define FAULT_NAME(which, word, place, size, least, most, unit, words) which,
 typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;
@@ -106,6 +118,8 @@ typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;
 #define FAULT_ONE(which, word, place, size, least, most, unit, words) +1
 enum { FAULT_KINDS = FAULT_ROWS(FAULT_ONE) };
 #undef FAULT_ONE
+/* For a switch over some groups of kinds: the compiler then names a new kind that the switch forgets. */
+#define FAULT_CASE(which, word, place, size, least, most, unit, words) case which:
 
 typedef struct fault_row {
     const char *word;
