@@ -7,10 +7,10 @@ FIGURES := build/figures
 BY_HAND := naive_epicyclic naive_thomson careful_thomson
 # On the board, some scenes also run with many steps per call. On this machine, the instructions of a function are
 # counted without those of the functions that it calls.
-AHEAD := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
+MULTI_STEP := epicyclic_from_rest epicyclic_conserved thomson_a thomson_a_conserved rig_fixed
 again_matrix := --matrix exact
 again_c = $(patsubst %,build/$(1)/%.c,scenes $($(2)))
-MULTI_STEP_C := $(call again_c,ahead,AHEAD)
+MULTI_STEP_C := $(call again_c,multi_step,MULTI_STEP)
 MATRIX_C := $(call again_c,matrix,MATRIX)
 # The flags that are stored beside a figure.
 TOLD = $(filter -O% -m%,$(1))
@@ -42,7 +42,7 @@ build/$(1)/scenes.c: mk/count/index.sh $(2:%=build/$(1)/%.c)
 	$$(say) GEN $$@
 	$$(Q)$$< $(2) >$$@
 endef
-$(eval $(call scenes_again,ahead,$(AHEAD)))
+$(eval $(call scenes_again,multi_step,$(MULTI_STEP)))
 $(eval $(call scenes_again,matrix,$(MATRIX)))
 .SECONDARY: $(MULTI_STEP_C) $(MATRIX_C)
 
