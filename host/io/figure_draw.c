@@ -125,6 +125,9 @@ static bool has_column(const char *csv, const char *name, size_t length) {
 static bool has_columns(const figure *f, const figure_data *d, const char *text) {
     for (const char *at = strchr(text, '{'); at != NULL; at = strchr(at + 1, '{')) {
         const size_t length = strcspn(at + 1, "}");
+        if (at[1 + length] == '\0') {
+            return is_wrong(f, "there is no } after ", at);
+        }
         if (!has_column(d->csv, at + 1, length)) {
             fprintf(stderr, "%s:%d: error: the records '%s' have no column '%.*s'\n", f->where,
                     f->line, d->name, (int)length, at + 1);

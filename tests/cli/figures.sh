@@ -136,6 +136,9 @@ for axes in "{no_such} | {X}" "{time} | {no_such}" "{time} | 2*{X} - {no_such}" 
     "$whirl" figure "$scratch/bad.fig" --out "$scratch/none.svg" 2>&1 | grep -qE "bad.fig:4: error: the records 'a' have no column '(no_such|tim)'"
     verdict $? "and named"
 done
+refused "a brace that nothing closes" "title t" "run a epicyclic_from_rest --until 1s" "panel y" "curve a | {time} | {X | -"
+"$whirl" figure "$scratch/bad.fig" --out "$scratch/none.svg" 2>&1 | grep -q "bad.fig:4: error: there is no } after {X"
+verdict $? "and named"
 refused "an unknown statement" "title t" "panle y"
 refused "a sweep of which a point fails" "title t" \
     "sweep a epicyclic_from_rest --over m=0..1:2 --measure X --until 10ms" "panel y" \
