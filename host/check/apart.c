@@ -1,5 +1,5 @@
-/* apart.c: start values that satisfy the holds: positions by Newton's method with the smallest change, rates by one
- * such step. A coordinate whose start the scene sets changes only if changing the others does not suffice. */
+/* apart.c: start values that satisfy the holds. Newton's method finds the positions, one linear step the rates, each with
+ * the smallest change. A coordinate whose start the scene sets changes only if the others do not suffice. */
 #include "apart.h"
 
 #include <math.h>
@@ -15,10 +15,9 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* A hold's expression counts as meant to be zero if its value is below this part of the sum of its terms' sizes. A value
- * above the part APART_LEAST is reported. */
+/* A hold's expression is meant to be zero at the start if its value is below this part of the sum of its terms' sizes. */
 #define OFF_MOST 0.5
-/* "A moment later" is this share of a step after the start. */
+/* A condition at its limit is evaluated again at this share of a step after the start. */
 #define SOON 1e-6
 
 typedef struct apart {
@@ -53,7 +52,7 @@ static double along(const apart *a, int h, const double *x) {
     return sum;
 }
 
-/* The sum of the sizes of the terms of a hold's expression at positions x; if not `places`, of its rate at rates x. */
+/* The sum of the sizes of the terms of a hold's expression (`places`: x has positions) or of its rate (x has rates). */
 static double terms(const apart *a, int h, const double *x, bool places) {
     double sum = 0.0;
     for (int i = 0; i < a->n; i++) {
@@ -62,8 +61,8 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* The error of a curved hold whose value is meant to be zero; else 0. If one of several holds is meant to be zero, all
- * are, whatever their errors, because they close one linkage. */
+/* The error of a curved hold whose expression is meant to be zero; else 0. Holds close one linkage: if one of them is
+ * meant to be zero, all are, whatever their values. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
@@ -177,7 +176,7 @@ static bool fit_rates(apart *a, const bool *may) {
     return move(a, may, by, a->rate);
 }
 
-/* First changes only the coordinates whose start the scene does not set. If that fails, it may change all. */
+/* First changes only coordinates whose start the scene does not set. If that fails, changes all coordinates. */
 static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     const apart before = *a;
     for (int all = 0; all < 2; all++) {
@@ -283,7 +282,7 @@ static void say(FILE *out, const char *who, apart *a) {
     }
 }
 
-/* The error or rate of a hold, as a part of its terms; 0: the start satisfies it. */
+/* The error or the rate of a hold, divided by the sum of its terms' sizes; 0: the start satisfies the hold. */
 static double part_of(const apart *a, int h) {
     const double off = fabs(off_zero(a, h));
     const double speed = fabs(moving(a, h));

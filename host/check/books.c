@@ -80,7 +80,7 @@ double books_swing_J(const books *b) {
 #define FLOAT_LEAST 0x1p-126
 #define SUMS_OF_A_STEP 8.0
 
-/* A component of the state is changed by this part of its value, to see how much the energy changes. */
+/* To measure how the energy changes with a component of the state, the component is changed by this part of its value. */
 #define SLOPE_SHARE 0x1p-20
 
 static void evaluate_now(const books *b, const double *angle_rad, const double *real,
@@ -93,7 +93,7 @@ static void evaluate_now(const books *b, const double *angle_rad, const double *
     }
 }
 
-/* The balanced energy in the results of the books list, or in their error bounds. */
+/* The balanced energy. `value`: the results of the books list, or their error bounds. */
 static double energy_of(const image *im, const double *value) {
     const double *entry = value + im->count;
     return im->has_integral ? entry[BOOK_MOMENTA + im->count]
@@ -233,16 +233,15 @@ double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
-/* Error bound of the work of two steps. If the powers are smooth, it is the difference between Simpson's and the trapezoidal
- * rule. Otherwise it is the work of the change of the powers. */
+/* Error bound of the work of two steps. If the powers are smooth, it is the difference between Simpson's and the
+ * trapezoidal rule. Otherwise it is half a step times the changes of the power in both steps. */
 static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
     const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
     const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
     return rules_J > 0.1 * change_J ? change_J : rules_J;
 }
 
-/* Simpson's rule needs pairs of steps. After an odd number of steps the last one counts as a trapezoid, which the
- * next entry removes. */
+/* Simpson's rule needs pairs of steps. A single last step counts as a trapezoid until the next entry completes the pair. */
 static void add_work(books *b, const double power_W[2]) {
     double *work[2] = {&b->input_J, &b->loss_J};
     for (int k = 0; k < 2; k++) {
@@ -312,10 +311,10 @@ static bool find_rateless(books *b) {
 
 /* --- momenta that every motion conserves ---------------------------------------------------------------*/
 
-/* Mechanisms with more coordinates are not tested. */
+/* Conserved sums of momenta are not searched in mechanisms with more coordinates. */
 enum { FRAME_MOST = 24 };
-/* FRAME_ASIDE_S: the changes of the momenta are taken over this time of motion before and after a state, s. FRAME_LEAST: a
- * smaller part of the largest change is round-off. */
+/* FRAME_ASIDE_S: a short motion lasts this time before and after its state, s. FRAME_LEAST: a smaller part of the
+ * largest change of a momentum is round-off. */
 #define FRAME_ASIDE_S 1e-5
 #define FRAME_LEAST 1e-6
 
@@ -353,8 +352,8 @@ static bool momenta_change(books *b, int draw, double *change) {
     return finite;
 }
 
-/* Finds sums of momenta that are conserved, by elimination: null vectors of the changes of the momenta at random states,
- * twice as many as there are momenta. frame[] is set for each momentum in such a sum. */
+/* Finds conserved sums of momenta. A matrix has the changes of the n momenta at 2 n random states. Elimination finds its
+ * null vectors: these are the sums. frame[] is set for each momentum in such a sum. */
 static void find_frame(books *b) {
     const int n = b->image->count;
     const int rows = 2 * n;
@@ -378,7 +377,7 @@ static void find_frame(books *b) {
     }
     for (int c = 0; c < n && known; c++) {
         for (int r = -1; r < rank && !leads[c];
-             r++) { /* the null vector whose entry is 1 at column c, which has no pivot (r = -1) */
+             r++) { /* column c has no pivot: in its null vector, entry c is 1 (r = -1) */
             const int i = r < 0 ? c : lead[r];
             const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
             b->frame[i] = b->frame[i] || share > FRAME_LEAST;

@@ -1,11 +1,11 @@
 /* books.h: the energy and momentum balance of a run, integrated in double during the run.
  *
  * The balanced energy is kinetic + stored energy, or the energy integral if that differs from the sum
- * (host/derive/equations.h). The powers are sums of those that the ledger (core/ledger.h) has for each statement. The
- * integration differs from the ledger's on purpose. A ledger is part of the scene: it is computed on the board, in the
- * run's number type, with the method's own stages. This balance is a check of the run and of its ledger. So it uses
- * double and Simpson's rule on the ends of the steps, which has the same order as RK4. The inputs keep their start
- * values. The residual is the numerical error of the run (and of that rule). */
+ * (host/derive/equations.h). The powers are sums of those in the ledger (core/ledger.h). The ledger is part of the
+ * scene: the board computes it, in the run's number type, with the method's own stages. This balance checks the run and
+ * its ledger, so it is integrated differently: in double, with Simpson's rule on the ends of the steps. That rule has
+ * the same order as RK4. The inputs keep their start values. The residual is the numerical error of the run and of
+ * Simpson's rule. */
 #ifndef CHECK_BOOKS_H
 #define CHECK_BOOKS_H
 
@@ -43,7 +43,7 @@ typedef struct books {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
-    double moving_J[2];  /* kinetic_J without its part of odd order in the rates */
+    double moving_J[2];  /* kinetic_J without terms of odd order in the rates */
     double stored_J[2];
     double energy_J[2];   /* balanced: kinetic + stored, or the energy integral */
     double input_J;       /* work of the inputs so far */
@@ -67,11 +67,11 @@ typedef struct books {
     double kept_J;      /* residual at the last even step */
     double most_J;      /* largest size of the residual at an even step */
     double jump_J;      /* largest change of the residual between two even steps */
-    double jump_s;      /* the end of those two steps */
+    double jump_s;      /* end of the two steps with that change, s */
     bool negative;      /* the kinetic energy was negative, which no masses allow */
     double negative_s;  /* when the kinetic energy was first negative, s */
     bool undefined;     /* an energy, a power or a momentum was not a finite number */
-    double undefined_s; /* when one was first not finite, s */
+    double undefined_s; /* time of the first such number, s */
     uint64_t entries;
     double time_s; /* time of the last entry, s */
     double step_s;
@@ -83,7 +83,7 @@ void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
 book_account books_account(const books *b);
-/* Root mean square of a momentum over the run. If a common speed may have added to its mean, the mean is subtracted. */
+/* Root mean square of a momentum over the run. If the momentum is part of a conserved sum (frame[]), its mean is subtracted. */
 double books_momentum(const books *b, int unknown);
 /* The largest swing of an energy (energy_residual.h). */
 double books_swing_J(const books *b);

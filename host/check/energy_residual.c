@@ -7,8 +7,8 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 
-/* The allowance for round-off, after N steps, is this many times the energy change of one step's rounding, times the
- * root of N. Up to a thousand steps this also covers N errors of one sign, as for an evenly growing rate. */
+/* After N steps the allowance for round-off is the energy change by the rounding of one step, times ROUNDINGS, times the
+ * root of N. Up to a thousand steps it covers N errors of the same sign, as those of an evenly growing rate. */
 #define ROUNDINGS 32.0
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
@@ -21,19 +21,19 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
         const kept_entry *e = &kept.entry[i];
         account_enter(&made->energy, e->given);
         switch (e->by) {
-        case GIVER_ENERGIES: break; /* no entry of the energy */
+        case GIVER_ENERGIES: break; /* only momenta have such entries */
         case GIVER_FORCE:
         case GIVER_INPUT: made->inputs_J += e->given; break;
         case GIVER_DAMPER: made->losses_J += e->given; break;
         case GIVER_CONTACT: made->contacts_J += e->given; break;
-        case GIVER_STEPS: break; /* not possible with contacts */
+        case GIVER_STEPS: break; /* a scene with contacts cannot be --stabilized */
         }
     }
     kept_account_free(&kept);
 }
 
-/* Steps that give energy back (--stabilized) had lost it, or they give back too much. The larger of the two residuals counts:
- * the one without the energy that was given back, or the one with it. */
+/* With --stabilized, steps give back energy that earlier steps have lost, or too much of it. So the larger of two
+ * residuals counts: without the returned energy, or with it. */
 static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
                              energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);
@@ -149,7 +149,6 @@ void kept_account_free(kept_account *k) { free(k->entry); }
 
 /* === the books in words ========================================================================== */
 
-/* Width of the text column. */
 #define ACCOUNT_WIDTH 44
 
 static void account_print_level(FILE *out, const char *text, const double level[2]) {
@@ -161,7 +160,6 @@ static void account_print_entry(FILE *out, const char *text, double given, const
     fprintf(out, "  %-*s %+.9g%s\n", ACCOUNT_WIDTH, text, number_shown(given), more);
 }
 
-/* The last two lines: the change and the residual. */
 static void account_print_end(FILE *out, double change, double left) {
     account_print_entry(out, "change", change, "");
     fprintf(out, "  %-*s %+.2e (numerical)\n", ACCOUNT_WIDTH, "residual", left);

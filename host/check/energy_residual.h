@@ -1,27 +1,27 @@
 /* energy_residual.h: the energy residual of a run: its definition, its limit and its words.
  *
- * The residual is the change of the energy (T + V, or the energy integral if that differs) less the work of inputs, losses and
- * contacts. It is zero for an exact solution. It is divided by the largest entry of the balance:
+ * The residual is the change of the energy (T + V, or the energy integral if that differs) less the work of inputs, losses
+ * and contacts. It is zero for an exact solution. The ratio is the residual divided by the largest entry of the balance:
  *   - The net changes of the kinetic and of the stored energy, the work of the inputs, the losses, and each contact's work.
- *   - The swing of the kinetic and of the stored energy: sqrt(8) times their standard deviation over the steps, the
- *     range of a sine.
- *   - For each coordinate, half the root mean square of its momentum times the swing of its rate. This is the energy that
- *     its changes of speed pass on if kinetic energy only moves between coordinates.
+ *   - The swing of the kinetic and of the stored energy: sqrt(8) times the standard deviation over the steps, the range of a
+ *     sine.
+ *   - For each coordinate, half the root mean square of its momentum times the swing of its rate. This is the energy that the
+ *     coordinate exchanges if kinetic energy only moves between coordinates.
  *
- * Terms of the kinetic energy linear in the rates, such as those of a magnetic field, and their momenta do not count, because
- * they depend on the origin.
+ * Terms of the kinetic energy linear in the rates, such as those of a magnetic field, and their momenta do not count,
+ * because they depend on the origin.
  *
  * All entries are changes: neither a constant in V nor a heavy clock that turns evenly counts. They are sums or means over
  * time, so that the moment of passing a singular position does not set the measure.
  *
- * Round-off does not count against a step: the largest entry counts as at least 1/ENERGY_RESIDUAL_LIMIT times the round-
- * off. This is the rounding of the state and of the accelerations to the run's numbers at each step. The rounding of the
- * energy's own evaluation at the start and at the end is added. Its terms are large if a sum such as V = k (x - b)^2/2 is
- * multiplied out and x is far from the origin.
+ * Round-off is not an error of the step: the largest entry counts as at least 1/ENERGY_RESIDUAL_LIMIT times the round-off.
+ * At each step the state and the accelerations are rounded to the run's numbers. The evaluation of the energy at the start
+ * and at the end is rounded, too. This rounding is large if a sum such as V = k (x - b)^2/2 is multiplied out and x is far
+ * from the origin.
  *
- * With --matrix exact a step of any length is the motion itself, but the integration of the powers is not. The difference
- * of two rules of integration then counts as round-off does. With --stabilized the residual is the larger of two: without
- * the energy that the steps gave back, because they had lost it, or with it. A zero residual has the ratio 0. */
+ * With --matrix exact a step of any length is the motion itself, but the integration of the powers is not exact: the
+ * difference of two integration rules then counts as round-off. With --stabilized the residual is the larger of two: with
+ * the energy that the steps gave back, or without it. A zero residual has the ratio 0. */
 #ifndef CHECK_ENERGY_RESIDUAL_H
 #define CHECK_ENERGY_RESIDUAL_H
 
@@ -62,7 +62,7 @@ void energy_residual_print(FILE *out, const energy_residual *b);
 
 /* The source of an entry. */
 typedef enum giver {
-    GIVER_ENERGIES, /* dL/dq, of a momentum */
+    GIVER_ENERGIES, /* the term dL/dq in a momentum's account */
     GIVER_FORCE,    /* a statement Q */
     GIVER_DAMPER,   /* a statement F */
     GIVER_CONTACT,
@@ -73,11 +73,11 @@ typedef enum giver {
 typedef struct kept_entry {
     giver by;
     place at;     /* the statement; unused for GIVER_ENERGIES and GIVER_STEPS */
-    double given; /* energy given back since the start, SI */
+    double given; /* energy or momentum given to the account since the start, SI */
 } kept_entry;
 
 typedef struct kept_account {
-    kept_entry *entry; /* [entries] in the order of the file: statements, inputs, contacts, steps */
+    kept_entry *entry; /* [entries] statements, inputs, contacts, then steps; each in file order */
     int entries;
     double left; /* residual, as reported by the core in the run's numbers */
 } kept_account;

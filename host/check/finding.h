@@ -26,8 +26,8 @@ typedef enum finding_id {
  * note the status is 0. run_checks.c reports a small FINDING_MASS as a note. */
 typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
 
-/* --strict: STRICT_OFF keeps exit status 0, STRICT_FINDINGS depends on the findings. A positive value is a
- * limit of the energy residual, in place of FINDING_ENERGY. */
+/* --strict: with STRICT_OFF the exit status stays 0. With STRICT_FINDINGS it is 1 if there are warnings. A positive
+ * value is the limit of the energy residual, and replaces the limit of FINDING_ENERGY. */
 #define STRICT_OFF (-1.0)
 #define STRICT_FINDINGS 0.0
 
@@ -43,21 +43,21 @@ typedef struct finding_row {
 
 extern const finding_row finding_rows[FINDINGS];
 
-/* FINDING_ACCURACY: an error of RUN_CHECKS_TOLERANCE, as a part of a coordinate's range, is reported if it comes too early in
- * the run. It is not reported if it grew as in a chaotic motion, for which no step helps: RUN_CHECKS_EARLY_TOLERANCE came
- * after the part RUN_CHECKS_BEGIN of the run, and RUN_CHECKS_TOLERANCE in less than RUN_CHECKS_GROWS times as long. */
+/* FINDING_ACCURACY reports an error of RUN_CHECKS_TOLERANCE, as a part of a coordinate's range, if it comes early in the
+ * run. An error as in a chaotic motion is not reported, because no step helps: it reaches RUN_CHECKS_EARLY_TOLERANCE after
+ * the part RUN_CHECKS_BEGIN of the run, and RUN_CHECKS_TOLERANCE in less than RUN_CHECKS_GROWS times that time. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
 #define RUN_CHECKS_BEGIN 0.02
-/* FINDING_ACCURACY: a position's error is reported at any time if it grows RUN_CHECKS_SUDDEN-fold, to HORIZON_TOLERANCE,
- * within RUN_CHECKS_SUDDEN_STEPS steps. The first 2 RUN_CHECKS_SUDDEN_STEPS steps do not count. */
+/* FINDING_ACCURACY also reports a sudden error of a position: it grows RUN_CHECKS_SUDDEN-fold, to HORIZON_TOLERANCE,
+ * within RUN_CHECKS_SUDDEN_STEPS steps. Twice as many steps at the begin of the run do not count. */
 #define RUN_CHECKS_SUDDEN 30.0
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
-/* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry. A plot does not show this much. */
+/* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry. A plot does not show it. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* Steps with too many events, as for the last bounces before a rest, are not reported below both limits: RUN_CHECKS_RESTS of
- * the largest energy entry, RUN_CHECKS_RESTS_STEPS of all steps. */
+/* FINDING_EVENTS ignores the last bounces before a rest: steps with too many events that change the energy by less than
+ * RUN_CHECKS_RESTS of the largest entry, and are less than RUN_CHECKS_RESTS_STEPS of all steps. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

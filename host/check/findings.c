@@ -249,8 +249,8 @@ static bool image_with(const image *im, const request *w, image *made) {
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
 }
 
-/* Is a trial inaccurate almost from its begin on? A chaotic motion stays accurate for longer. A trial in float must be
- * accurate to its end; if it is not, the same settings are tried in double. */
+/* A trial in float must be accurate to its end; if it is not, the same settings are tried in double. A trial in double is
+ * inaccurate only if its error comes near its begin: the error of a chaotic motion comes later. */
 static bool is_off_at_once(const run_checks *v) {
     if (v->doubling == NULL) {
         return false;
@@ -579,7 +579,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     diags_flush(errors, out);
     diags_free(errors);
     if (known) {
-        /* A linkage has several motions that lead out of its flat position, so a step past it would choose one. */
+        /* no remedy: a step past the flat position of a linkage would choose one of several motions */
         if (status != WH_E_SINGULAR) {
             findings_say_failed(out, v);
         }

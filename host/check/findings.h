@@ -10,8 +10,8 @@
 /* One line for each finding, "whirl run: warning: ... [word]", then hints with remedies that have been tried. `fails`: the
  * energy finding is printed as an error. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
-/* The text of a reported finding, without its word. findings_where() gives the coordinate or contact; false if the finding is
- * about the whole run. */
+/* findings_message(): the text of a reported finding, without its word. findings_where(): its coordinate or contact;
+ * false: the finding is about the whole run. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const run_checks *v, finding_id id);
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);

@@ -16,16 +16,16 @@
  * of the variation. Positions have no such least range, because their origin is arbitrary. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
-/* A position counts as constant if it moves by less than the part STAYS of its distance from the origin, or of one metre or
- * radian. It also does if it moves by less than BESIDE_OTHERS of the largest range of the positions with its unit. */
+/* A position counts as constant if its range is at most STAYS times its distance from the origin, or STAYS metres or
+ * radians. It is also constant if its range is at most BESIDE_OTHERS of the largest range of positions with its unit. */
 #define STAYS 1e-9
 /* In float, a position that moves by less than this part of its distance from the origin is constant. */
 #define FLOAT_STAYS 3e-7
 #define BESIDE_OTHERS 1e-3
 /* A start that is computed by sums counts as zero if it is at most this part of a metre or radian. */
 #define STARTS 1e-12
-/* The round-off bound divided by the round-off of the finer run. It is about 20, but only 8 if the round-off is the same at
- * all states, as for a root of a nearly constant value. In that case both runs have the same round-off. */
+/* The round-off bound is about 20 times the round-off of the finer run. It is only 8 times as large if the round-off is
+ * the same at all states, as for a root of a nearly constant value. In that case both runs have the same round-off. */
 #define BOUND_OVER 8.0
 
 static double size_of(const step_doubling_column *c) {
@@ -53,9 +53,8 @@ static double least_size(const step_doubling_column *c) {
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* May both runs have the same round-off in this column? `least`: the error to be detected. A constant column has no range to
- * compare the round-off with. It may be constant only for lack of digits, if round-off might change it by more than its size,
- * or by one metre or radian if it starts at zero. */
+/* May both runs have the same round-off in this column? `least`: the error to be detected. In a constant column the
+ * round-off bound must also exceed the column's size, or one metre or radian if the column starts at zero. */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
@@ -280,7 +279,7 @@ static void print_head(FILE *out, const horizon *h) {
             image_sums(finer), finer->step_s);
 }
 
-/* Why it is unknown until when this column is accurate. */
+/* Prints why the accuracy of this column is unknown. */
 static void say_untold(FILE *out, const horizon *h, int k) {
     const horizon_column *c = &h->column[k];
     if (h->of->unwrapped && c->until_s >= h->of->cut_s) {
@@ -355,7 +354,7 @@ static void print_invariants(FILE *out, const horizon *h) {
     print_momenta(out, h);
 }
 
-/* The reason why nothing is known after cut_s: that which came first. */
+/* The reason why nothing is known after cut_s. If there are several, the earliest is the reason. */
 static const char *cut_by(const step_doubling *t) {
     if (t->finer_failed_s >= 0.0 && t->finer_failed_s <= t->cut_s) {
         return "after that the run with half the step fails";

@@ -26,7 +26,7 @@ typedef struct horizon_column {
     double range;
     double rounding; /* bound on the round-off in the finer run */
     double off;      /* largest difference of both runs, plus the finer run's own error */
-    double until_s;  /* last comparison within the tolerance; the run's end if all are */
+    double until_s;  /* last comparison within the tolerance, or the end of the run */
 } horizon_column;
 
 typedef struct horizon {

@@ -153,7 +153,7 @@ static bool *nodes_that_turn(const image *im) {
     return turning;
 }
 
-/* The expressions at the state that the derivatives at the last good state lead to in the time `ahead_s`. */
+/* Evaluates the expressions `ahead_s` after the last good state, with the derivatives at that state. */
 static blamed look(const nonfinite_at *at, double ahead_s) {
     const image *im = at->image;
     blamed v = blamed_open(im);
@@ -212,7 +212,7 @@ static const char *hint_of(const blamed *v, int i, const nonfinite_at *at) {
     return sine ? hint : hint_domain;
 }
 
-/* Reports the first of these expressions that is not finite. */
+/* Reports the first expression that is not finite, of the `count` questions from `first` on. */
 static bool find(const blamed *v, const nonfinite_at *at, int first, int count, diags *errors) {
     const image_blame *b = &v->image->blame;
     for (int i = first; i < first + count; i++) {
@@ -228,7 +228,7 @@ static bool find(const blamed *v, const nonfinite_at *at, int first, int count, 
     return false;
 }
 
-/* Tries these questions at the state and at some states that its rates lead to. */
+/* Searches these questions at the last good state, and at some states that its rates lead to. */
 static bool look_ahead(const nonfinite_at *at, int first, int count, diags *errors) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     bool found = false;

@@ -16,20 +16,21 @@
 enum { HALVINGS = 56 };
 /* Factor by which the distance is increased if round-off hides the growth of a value. */
 #define FARTHER 2.5
-/* A smooth expression has few zeros between a state and a pole. Its values are round-off if their sign alternates TURNS_MOST
- * times, at distances that grow by FURTHER up to the part NEAR of the path on that side. */
+/* A smooth expression has few zeros between a state and a pole. If its sign alternates TURNS_MOST times, its values are
+ * round-off. The tested distances grow by FURTHER, up to the part NEAR of the path on that side. */
 enum { TURNS_MOST = 4 };
 #define NEAR 0.2
 #define FURTHER 1.4
-/* A value touches zero if its minimum is at most this part of its values at both ends. */
+/* A value may touch zero if the tangents at both ends cross below this part of the smaller of the values at the ends. */
 #define TOUCHES 1e-3
-/* A value that touches zero is least there. The place is found by SECTIONS golden sections, to its last digit. */
+/* SECTIONS golden sections find the minimum of a value to its last digit. */
 #define GOLDEN 0.6180339887498949
 enum { SECTIONS = 72 };
 /* Most parts into which rejected points split the path of a step. */
 enum { PARTS_MOST = 16 };
 
-/* Number of sampled distances, each GROWTH_CLOSER times nearer than the one before. */
+/* Number of sampled distances, each GROWTH_CLOSER times nearer than the one before. GROWTH_CLOSER is no power of two: numbers
+ * with the same digits have the same round-off, which would look like steady growth. */
 enum { GROWTH_POINTS = 10 };
 #define GROWTH_CLOSER 1.7099759466766968 /* the third root of 5 */
 /* The farthest distance, relative to the nearest. */
@@ -40,13 +41,12 @@ enum { GROWTH_POINTS = 10 };
 typedef enum growth {
     /* the growth is not steady, because of round-off or a zero; from a greater distance it may be steady */
     GROWTH_ROUGH,
-    GROWTH_NONE, /* steady growth, but no pole: a limit, or one over a root */
+    GROWTH_NONE, /* steady growth, but no pole: a limit, or growth like one over a root */
     GROWTH_POLE  /* steady growth, as at a pole */
 } growth;
 
-/* Least growth from one distance to the next that counts as a pole. One over the distance grows by 1.71, the distance to the
- * power -9/10 by 1.62. The ratio of distances is no power of two: numbers with the same digits have the same round-off, which
- * would look like steady growth. */
+/* Least growth from one distance to the next that counts as a pole. One over the distance grows by 1.71, the distance to
+ * the power -9/10 by 1.62. */
 #define GROWS 1.64
 /* Growth is steady if its ratios differ by less than this factor. */
 #define EVEN 1.1
@@ -189,8 +189,8 @@ static bool is_rounding(const looker *l, int i, double zero_at, double from, dou
     return turns >= TURNS_MOST;
 }
 
-/* Expression i overflows at the distance `from` from the place. Was it very large where it did not overflow yet? A difference
- * that cancels to zero was not. */
+/* Expression i overflows at the distance `from`. True: it is very large at the nearest greater distance where it is
+ * finite. False: a difference that cancels to zero causes the overflow. */
 static bool overflows(const looker *l, int i, double zero_at, double from) {
     const double most = from < 0.0 ? zero_at : 1.0 - zero_at;
     double off = from;
@@ -205,7 +205,7 @@ static bool overflows(const looker *l, int i, double zero_at, double from) {
 typedef struct spot {
     part in;
     double zero_at;
-    double nearest; /* smallest distance from the place that the arguments resolve */
+    double nearest; /* smallest tested distance from the place */
     int of;         /* the value that changes its sign at the place */
     bool touches;   /* the value only touches zero */
 } spot;
@@ -216,8 +216,8 @@ enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
 /* Relative tolerance of the extrapolated value at the place. */
 #define LEFT 0.05
 
-/* Does the value stay above zero at the place, as y^2 + x^2 does? It does if its samples near the place, without their part in
- * the square of the distance, equal the value at the place. */
+/* Does the value stay above zero at the place, as y^2 + x^2 does? Then its samples near the place, minus their quadratic
+ * part, equal the value at the place. */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -295,8 +295,8 @@ static int pole_at(const looker *l, const spot *s) {
     return found >= 0 ? found : pole_on_side(l, s, 1.0);
 }
 
-/* The expression with a pole at a sign change in this part, or where a value may touch zero, or -1. *at is the located
- * interval, from `low` to `high`; it is the end of the part if nothing was located. */
+/* Searches this part for a sign change, else for a value that may touch zero. Returns the expression with a pole there,
+ * or -1. *at: the located interval; the end of the part if nothing was located. */
 static int pole_in(const looker *l, part p, part *at) {
     l->way->at(l->way->of, p.low, l->sign, l->value);
     l->way->at(l->way->of, p.high, l->then, l->value);
@@ -354,9 +354,9 @@ int pole_on(const pole_way *w) {
 /* === divisors ==================================================================================== */
 /* Expressions with a sign change at a pole, and expressions that may grow there.
  *
- * Watched are divisors, and bases of negative powers, down to their factors. If a system has moving factors of a highest
- * derivative, as in (k + s)*s' = -v*s, the divisors of its solution are watched, too. Values that depend on anything
- * outside the state, such as a rate recovered from a momentum, are not watched. */
+ * Divisors and bases of negative powers are tested for a sign change, down to their factors. If a system has moving
+ * factors of a highest derivative, as in (k + s)*s' = -v*s, the divisors of its solution are tested, too. Values that
+ * depend on anything outside the state, such as a rate recovered from a momentum, are not tested. */
 
 typedef struct divisor {
     /* index in the list of diagnostic expressions; if `derived`, an operation of the list for the energy balance */
@@ -378,7 +378,7 @@ typedef struct denominators {
     divisor *divisor; /* [count] */
     int count;
     bool some_bend;
-    int *asked; /* [questions] the image's questions that may grow */
+    int *asked; /* [questions] indices of the image's expressions that may grow */
     int questions;
     vector_field *field; /* for derived denominators; NULL if there are none */
     double *slope;       /* [field->n] */
@@ -468,7 +468,7 @@ static void find_factors(denominators *d) {
         const bool has_factors = n->code == DIAGNOSTICS_MUL || n->code == DIAGNOSTICS_DIV ||
                                  n->code == DIAGNOSTICS_NEG || n->code == DIAGNOSTICS_SAME ||
                                  n->code == DIAGNOSTICS_POW || is_size_or_root(n);
-        if (has_factors) { /* its own divisor has been marked above */
+        if (has_factors) { /* the divisor of a quotient has been marked above */
             d->is[i] &= (unsigned char)~DIVIDES;
             mark(d, n->a, DIVIDES);
             if (n->code == DIAGNOSTICS_MUL) {
@@ -536,7 +536,7 @@ static bool has_factors_that_move(const denominators *d) {
     return false;
 }
 
-/* The factors of denominators in the list that solves for the slopes. */
+/* The divisors of the list that solves for the slopes, down to their factors. */
 static void find_derived(denominators *d) {
     const op_list *t = d->at.image->list[IMAGE_BOOKS];
     bool *divides = alloc(t->count, sizeof *divides);
@@ -571,7 +571,7 @@ static denominators denominators_open(const image *im) {
     find_order(&d);
     find_questions(&d);
     if (has_factors_that_move(&d)) {
-        d.field = vector_field_open(im, &engine_float); /* engine_float: wraps angles always */
+        d.field = vector_field_open(im, &engine_float); /* engine_float, because it wraps angles */
         find_derived(&d);
         d.slope = alloc(d.field->n, sizeof *d.slope);
     }
@@ -624,7 +624,6 @@ static int denominators_values(const denominators *d) {
     return d->questions + (d->field != NULL ? d->field->n : 0);
 }
 
-/* The value of a divisor at the last state. */
 static double denominators_value(const denominators *d, const divisor *of) {
     if (of->derived) {
         return evaluator_value(d->field->evaluator, of->node);
@@ -646,7 +645,7 @@ static bool has_highest(const image *im, int node, int unknown) {
     return has;
 }
 
-/* The expression in the image that corresponds to one of the values; for a slope, the first equation with it. */
+/* The image's expression that corresponds to a value; for a slope, the first equation with its highest derivative. */
 static int denominators_question(const denominators *d, int value) {
     const image *im = d->at.image;
     if (value < d->questions) {
@@ -663,7 +662,7 @@ static int denominators_question(const denominators *d, int value) {
 
 /* === step by step ================================================================================ */
 
-/* No test if the distance to a pole is less than this part of the value: there only round-off grows. */
+/* At distances below this part of a component's value, expressions are only round-off, and are not tested. */
 #define RESOLVED 2e-13
 
 struct pole_crossing {

@@ -3,8 +3,8 @@
  * not evaluate the expression near it. Nor does a step of half the length, so the run and its finer run agree.
  *
  * Values that change their sign at a pole are evaluated after each step. After a sign change the path between the two
- * states is tested for a pole. In steps with events only denominators that depend on positions alone are tested,
- * because an impact changes rates without passing through a pole. So do the assignments of a crossing. */
+ * states is tested for a pole. In a step with events, divisors that an event may change abruptly are not tested: an
+ * impact changes rates, and a crossing assigns values, without passing through a pole. */
 #ifndef CHECK_POLE_H
 #define CHECK_POLE_H
 
@@ -17,8 +17,8 @@ pole_crossing *pole_crossing_open(const image *im);
 void pole_crossing_close(pole_crossing *j); /* NULL is fine */
 /* Enters the state after each step, the start included. The search ends at the first pole. */
 void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *run);
-/* Call pole_crossing_pass() in place of pole_crossing_enter() to skip a step. The next step is then not tested either,
- * because its begin is unknown. pole_crossing_unseen(): number of steps that were not tested. */
+/* pole_crossing_pass(): skips a step, in place of pole_crossing_enter(). The next step is not tested either, because its
+ * begin is unknown. pole_crossing_unseen(): number of steps that were not tested. */
 void pole_crossing_pass(pole_crossing *j);
 uint64_t pole_crossing_unseen(const pole_crossing *j);
 /* Has the run jumped over a pole or missed a contact? */
@@ -46,7 +46,8 @@ typedef struct pole_way {
     void *of;
     int signs;
     int values;
-    const double *nearest; /* [signs] smallest share of the path that a value's arguments resolve */
+    const double
+        *nearest; /* [signs] smallest tested distance from a zero, as a share of the path */
     /* Evaluates sign[signs] and value[values] at this share of the way, 0 to 1. */
     void (*at)(void *of, double share, double *sign, double *value);
 } pole_way;

@@ -145,7 +145,7 @@ static void judge_energy(run_checks *v) {
     }
 }
 
-/* In float, a speed with a smaller part of all energy than this is smaller than the round-off of the other speeds. */
+/* In float, a coordinate with less than this part of the energy has a rate below the round-off of other rates. */
 #define FAINT 0x1p-48
 
 static bool is_faint(const run_checks *v, int unknown) {
@@ -155,7 +155,7 @@ static bool is_faint(const run_checks *v, int unknown) {
         return false;
     }
     double own = 0.0;
-    double fastest = 0.0; /* includes the finer run's rates, because float's may be zero */
+    double fastest = 0.0; /* includes the finer run's rate, because the rate in float may be zero */
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
         const step_doubling_column *at = &t->column[k];
@@ -205,7 +205,7 @@ static bool is_sudden(const run_checks *v, int k, double until_s, double early_s
            early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
 }
 
-/* The column that keeps the tolerance for the shortest time, among those with such an error, or -1; *until_s: that time. */
+/* The column whose error comes first, among those with an error for which is() is true; -1: none. *until_s: its time. */
 static int first_with(const run_checks *v, double tolerance, double early_tolerance,
                       bool (*is)(const run_checks *v, int k, double until_s, double early_s),
                       double *until_s) {
@@ -226,7 +226,7 @@ static int first_with(const run_checks *v, double tolerance, double early_tolera
     return found;
 }
 
-/* Errors after an early end of the comparison, as after too many events, are not reported: other findings report the end. */
+/* An error is not reported if the comparison ended there, as after too many events: another finding reports that end. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->doubling;
     double until_s = 0.0;

@@ -109,7 +109,7 @@ static void put_hints(json *j, const char *said) {
     json_close(j, ']');
 }
 
-/* Writes the reason of a failure: the line with "error: ", from after this word. */
+/* Writes the reason of a failure: the text after "error: ". */
 static void put_error(json *j, const char *said) {
     const char *at = said != NULL ? strstr(said, "error: ") : NULL;
     if (at == NULL) {

@@ -24,7 +24,7 @@ void horizon_json(FILE *out, const horizon *h, int status);
 /* The first keys of every command's object. `kind` is NULL for commands that compare number types and methods. */
 void json_begin(json *j, const char *command, const char *scene, const char *title,
                 const engine_kind *kind, wh_method method);
-/* "not_looked_at": the words of these findings. */
+/* Writes the key "not_looked_at", with the words of the findings in `ids`. */
 void json_unlooked(json *j, unsigned ids);
 /* A time, or null below zero. */
 void json_time(json *j, const char *key, double time_s);

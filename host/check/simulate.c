@@ -100,7 +100,7 @@ static void tell_energies(simulation *sim) {
     }
 }
 
-/* Undefined outputs end the run in the same way. They are checked when they are recorded or drawn, and at the end. */
+/* Undefined outputs make a run fail at its end, too. They are checked when they are recorded or drawn, and at the end. */
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
@@ -270,7 +270,7 @@ static void say_failure(simulation *sim, wh_status status) {
 static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     const simulation_settings *s = sim->settings;
     records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
-    if (status != WH_OK) { /* a failed step, which also explains undefined energies */
+    if (status != WH_OK) { /* the failure of a step is reported instead of undefined energies */
         say_failure(sim, status);
         diags_free(sim->undefined);
         sim->undefined = diags_new();

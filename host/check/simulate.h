@@ -44,7 +44,6 @@ typedef struct simulation_trust {
     double until_s; /* the run is accurate until this time; below 0: unknown */
 } simulation_trust;
 
-/* The exit status (host/base/exit.h). */
 int simulation_status(simulation_result result, const simulation_trust *trust);
 
 simulation_result simulate(const image *im, const simulation_settings *s, simulation_trust *trust);

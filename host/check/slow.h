@@ -2,9 +2,9 @@
  *
  * A float turn angle moves by whole units of 2^-32 turn, 1.5e-9 rad. If an angle should move by less than half a unit
  * per step, it does not move; slightly above that, its rate is wrong. In fixed point all components move by units of
- * their ranges. A component is reported if the round-off of its steps, summed since the start, ever exceeded SLOW_SHARE
- * of its span and a few units. A component that is slow only now and then is not reported, because it loses little of
- * its span. */
+ * their ranges. A component is reported if the round-off of its steps, summed since the start, has exceeded both
+ * SLOW_SHARE of its span and a few units. A component that is slow only now and then is not reported, because it loses
+ * little of its span. */
 #ifndef CHECK_SLOW_H
 #define CHECK_SLOW_H
 
@@ -14,7 +14,7 @@
 
 #define SLOW_SHARE 1e-3
 #define SLOW_LEAST_RAD 3e-9  /* two units: the round-off of an angle that hardly moves, rad */
-#define SLOW_LEAST_UNITS 4.0 /* in fixed point, with accelerations in whole units, too */
+#define SLOW_LEAST_UNITS 4.0 /* in fixed point, which also rounds accelerations to units */
 
 /* Is component i, angles first, too slow? */
 bool slow_component(const engine_kind *kind, const void *run, int i);
@@ -22,7 +22,7 @@ bool slow_component(const engine_kind *kind, const void *run, int i);
 /* The number of slow components. *share: their largest round-off, as a part of its component's span; 0 if there are none. */
 int slow_count(const engine_kind *kind, const image *im, const void *run, double *share);
 
-/* Prints a note for each slow component, and the remedies; or only the text of the first note. */
+/* slow_say() prints a note for each slow component, and the remedies. slow_message() prints the text of the first note. */
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run);
 void slow_message(FILE *out, const image *im, const engine_kind *kind, const void *run);
 

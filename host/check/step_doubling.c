@@ -15,8 +15,8 @@
 /* Sensitivity of a scene's accelerations to the round-off of its folded constants. Compares the scene's lists with
  * variants whose constants are folded with other roundings (host/number/folding.h). Most scenes need no variants. */
 
-/* Adds to share[ways] the errors off[ways * count] of each variant, relative to the largest error of the same
- * component. Components have different units. */
+/* Adds the errors off[ways * count] of each variant to share[ways]. Components have different units, so each error is
+ * divided by the largest error of the same component. */
 static void add_shares(const double *off, int ways, int count, double *share) {
     for (int i = 0; i < count; i++) {
         double most = 0.0;
@@ -68,8 +68,8 @@ static void compare_starts(const image *im, double *share) {
     free(off);
 }
 
-/* The variant with the largest difference near the scene's start; NULL if there are no variants. Evaluates at the
- * start, and with each component moved by one unit, because a component that is zero at the start may hide a factor. */
+/* The variant that differs most near the scene's start; NULL if there are no variants. Evaluates at the start, and with
+ * one SI unit added to each component, because a component that is zero may hide a factor. */
 static const image *constant_sensitivity_furthest(const image *im) {
     static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     const int n = im->angles + im->reals;
@@ -405,7 +405,7 @@ static bool step_finer(pair *p) {
     return good;
 }
 
-/* Is an angle beyond the range of double's sine? A float's wraps around. */
+/* Is an angle beyond the range of double's sine? The angles of a float run wrap around. */
 static bool is_unwrapped(const pair *p) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -417,7 +417,7 @@ static bool is_unwrapped(const pair *p) {
     return found;
 }
 
-/* After this time nothing is known: every column counts as above every level. */
+/* After time_s nothing is known: the difference of every column counts as infinite. */
 static void end_passages(step_doubling *t, double time_s) {
     for (int k = 1; k < t->columns; k++) {
         passages_enter(&t->column[k].off, time_s, (double)INFINITY);

@@ -50,9 +50,9 @@ void passages_free(passages *p);
 double passages_until_s(const passages *p, double level);
 
 typedef struct step_doubling_column {
-    double start; /* start to high: of the finer run, in the column's unit; see `otherwise` */
-    double low;
-    double high;
+    double start;    /* first value of the finer run, in the column's unit */
+    double low;      /* least value of the finer run, or of the run if `otherwise` */
+    double high;     /* largest value of the finer run, or of the run if `otherwise` */
     double rounding; /* bound on the column's round-off in the finer run */
     double last;     /* difference at the last comparison */
     /* the rate of this column is in the state, so the column's origin is arbitrary */
@@ -66,7 +66,7 @@ typedef struct step_doubling_column {
 
 /* Forcing that aliases with the step (horizon.h). */
 typedef struct step_doubling_aliased {
-    int column;   /* the one with the largest difference; 0: no aliasing */
+    int column;   /* the column with the largest difference; 0: no aliasing */
     double at_s;  /* the time of that difference */
     double part;  /* the difference, divided by the column's range */
     double value; /* the run's value, in the column's unit */
@@ -80,8 +80,9 @@ typedef struct step_doubling {
     uint64_t operations; /* operations of all steps of the finer run */
     double left_out;     /* factor on the difference that adds the finer run's own error */
     records *shape;      /* names and units of the columns: 0 is the time, outputs come last */
-    bool otherwise;      /* constants of the finer run are folded otherwise; ranges are the run's */
-    int columns;         /* the time and those that follow: coordinates and rates, no outputs */
+    bool
+        otherwise; /* the finer run's constants have other roundings, so low and high are the run's */
+    int columns;   /* number of columns without outputs: the time, coordinates and rates */
     step_doubling_column *column; /* [columns] */
     double end_s;                 /* end of the run's last completed step */
     wh_status status;             /* of the run's last step */
@@ -91,20 +92,20 @@ typedef struct step_doubling {
     double finer_failed_s;
     double overrun_s; /* begin of a step of either run with too many events; below 0: none */
     double jumped_s;  /* begin of a step of either run over a pole (pole.h); below 0: none */
-    bool missed;      /* at jumped_s it was a contact or force (missed.h), not a pole */
+    bool missed;      /* true: a missed contact or force at jumped_s (missed.h); false: a pole */
     double cut_s;     /* after this time nothing is known (failure, overrun, jump); below 0: none */
     const double *finer_end;       /* [columns] the finer run's values at the last comparison */
     step_doubling_aliased aliased; /* set by aliasing_find() */
     bool unaliased;                /* the budget was too small for aliasing's third run */
-    budget looks; /* of the checks of step_doubling_run(): the operations of both runs */
+    budget looks; /* for checks after step_doubling_run(); `own` has the operations of both runs */
     bool stopped;
     books *books; /* NULL: no balance */
     bool jumps;   /* does the finer run search for poles and missed contacts now? */
     struct pair *pair;
 } step_doubling;
 
-/* The settings of the finer run's image, if it cannot use the run's: no tables, and compensated sums with a matrix.
- * False: the run's settings fit. */
+/* *plain: the settings of the finer run's image, without tables, and with compensated sums for a matrix. Returns false
+ * if the run's settings are the same. */
 bool step_doubling_plain(const image_settings *of, image_settings *plain);
 
 /* The method of the finer run, and the order by which its error falls as the step gets shorter. */
@@ -113,8 +114,8 @@ int step_doubling_order(const image *im);
 
 /* Runs both from the start to the end, or until one fails. The images must outlive the result. */
 step_doubling *step_doubling_run(const step_doubling_request *w);
-/* As above, for a run that the caller steps: call step_doubling_enter() at its start and after each step. `w` is
- * copied. */
+/* Like step_doubling_run(), for a run that the caller steps: call step_doubling_enter() at its start and after each
+ * step. `w` is copied. */
 step_doubling *step_doubling_open(const step_doubling_request *w, void *run);
 void step_doubling_enter(step_doubling *t);
 /* The run has ended; `status` is that of its last step. */

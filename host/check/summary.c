@@ -140,7 +140,7 @@ static bool moves(const opening *o, const records *r, int i, bool is_output) {
            (is_output ? c->unknown < 0 && strcmp(c->unit->si, "m") == 0 : c->unknown >= 0);
 }
 
-/* The next marked column in the order of names, or -1. By names, the result does not depend on the file's order. */
+/* The marked column whose name comes first, or -1. So the text does not depend on the order in the file. */
 static int next_by_name(const records *r, const bool *marked) {
     int next = -1;
     for (int i = 1; i < r->columns; i++) {

@@ -33,13 +33,12 @@ char *about_tables(const image *im);
 typedef struct opening {
     uint64_t each; /* steps between sampled rows */
     double *first; /* [columns of the records] at the start */
-    double *low;   /* [columns] least value of the sampled rows, */
-    double *high;  /* and largest value */
+    double *low;   /* [columns] least of the sampled values */
+    double *high;  /* [columns] largest of the sampled values */
 } opening;
 
 opening opening_begin(const records *r, uint64_t steps);
 void opening_end(opening *o);
-/* Enters the records' current row. */
 void opening_enter(opening *o, const records *r);
 /* Has a coordinate moved? For a run that has ended. */
 bool opening_moves(const opening *o, const records *r);
