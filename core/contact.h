@@ -7,10 +7,10 @@
  *
  * A step looks for events at its end. It locates the first event with a bounded number of probes on cubics through the
  * step's ends. Then it steps again, to just past the event, and changes the modes. An impact is an impulse through the
- * mass matrix with Newton's restitution. The step goes on with its remaining time, for at most WH_EVENTS_MAX moments.
- * At the last of these moments stops come to rest instead of bouncing, and the step is completed. If that changed the
- * motion, the state counts an overrun. So the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth
- * Mechanics, chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
+ * mass matrix with Newton's restitution. A step has at most WH_EVENTS_MAX such moments. At the last moment stops come
+ * to rest instead of bouncing, and later events are not located. If this may have changed the motion, the state counts
+ * an overrun. So the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth Mechanics, chapters 1 and
+ * 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
  *
  * Contacts are numbered stops first, then holds, frictions and crossings, each kind in order of declaration. Events of
  * one instant are resolved together, kind by kind (contact_resolve.h). Friction's normal force is finite, so friction
@@ -44,10 +44,10 @@
 #define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
-/* The search for an event takes at most WH_PROBES probes and shrinks the searched interval at least to WH_BRACKET times
- * its length. Halving alone would need four probes fewer. These spare probes let better guesses be up to four halvings
- * late: after n probes the interval is at most WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes reach
- * WH_BRACKET_FINE, the limit of round-off. */
+/* The search for an event takes at most WH_PROBES probes: four more than halving needs to shrink the interval to
+ * WH_BRACKET times its length. With the spare probes the search can try better guesses than the middle: after n probes
+ * the interval is at most WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes reach WH_BRACKET_FINE, the limit of
+ * round-off. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)
@@ -80,12 +80,13 @@
 enum {
     WH_FORCED = 1,     /* the contact has a force, and a row of the Jacobian */
     WH_UNILATERAL = 2, /* the contact pushes and does not pull */
-    WH_LIMITED = 4     /* the force has a limit: at the limit the contact slides; no impulse */
+    /* the force has a limit, at which the contact slides; the contact gives no impulse */
+    WH_LIMITED = 4
 };
 
-/* The kinds, in the order in which contacts are numbered: X(name, traits). Each kind has its own events. If you add
- * a kind, the compiler reports only the switch of contact_locate.h. Some sixty lines of contact_*.h test for one
- * kind and skip a new one: CONTRIBUTING.md says how to find them. The language's row is in host/lang/words.h. */
+/* The kinds, in the order in which contacts are numbered: X(name, traits). Each kind has its own events. If you add a
+ * kind, the compiler reports only the switch of contact_locate.h. Some seventy other lines of contact_*.h test for a
+ * kind; CONTRIBUTING.md says how to find them. The language's row is in host/lang/words.h. */
 #define WH_CONTACT_KINDS(X) \
     X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
     X(WH_HOLD, WH_FORCED) \
@@ -114,8 +115,8 @@ typedef struct wh_contact {
     uint8_t sets;
 } wh_contact;
 
-/* Indices into the numbers that `forces` gives for each contact with a force: WH_LAW_ROWS numbers, then J_k[n] and
- * (M^-1 J_k^T)[n]. */
+/* Indices into the numbers that `forces` gives for a contact: the numbers of this enum, then J_k[n] and (M^-1
+ * J_k^T)[n]. */
 enum {
     WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: value */
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
@@ -123,12 +124,13 @@ enum {
     WH_LAW_ROWS    /* index of J_k[0] */
 };
 
-/* Most evaluations of the accelerations in one step, each with at most one evaluation of `forces`.
+/* Most evaluations of the accelerations in one step. Each has at most one evaluation of `forces`.
  *
- * Each of WH_EVENTS_MAX rounds has two trial steps, to the step's end and to the event, of `stages` evaluations each.
- * After each trial step up to three evaluations project the slip, and one evaluates its end. The search evaluates at
- * its begin; if no event depends on a force, it evaluates only at both ends. An impact takes two evaluations, a capture
- * one, assignments three. A release of contacts takes one evaluation more than their number.
+ * In each of WH_EVENTS_MAX rounds:
+ * - Two trial steps, to the step's end and to the event: `stages` evaluations each, up to three to project the slip,
+ * and one at the end.
+ * - The search: one at its begin and one for each probe. If no event depends on a force: only one at each end.
+ * - An impact takes two, a capture one, assignments three, and a release of contacts one more than their number.
  *
  * Once per step: the last trial step, its three projections, the settling of the modes, and the update of coordinates
  * that follow inputs with rates. */
@@ -137,9 +139,9 @@ enum {
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
-/* Most evaluations of `signals` in one step: one with each evaluation above, except for the stages and the search's
- * two ends. One more compares a step's end with its begin, and a capture takes one. Each crossing takes two, and two
- * more if standing crossings move away. One more finds the crossings that stand at zero when the step begins. */
+/* Most evaluations of `signals` in one step. Each evaluation above has one, except for the stages and the search's two
+ * ends. One more compares a trial step's begin with its end. A capture takes one, a crossing two, and crossings that may
+ * turn back two. One more finds the crossings that stand at zero when the step begins. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 

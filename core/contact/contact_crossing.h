@@ -1,4 +1,4 @@
-/* contact_crossing.h: crossings: their assignments, and the sides of zero on which their values are afterwards.
+/* contact_crossing.h: the assignments of crossings, and the side of zero on which each crossing's value is.
  *
  * A crossing's mode is the sign of its value, +1 or -1. The time of a crossing is located with an error, so after the
  * event the value is not exactly zero. If the value then turns back or stands still, it may pass zero again because of
@@ -43,7 +43,7 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
         }
     }
     wh_books_levels(of, w, s, input, k, WH_R(1.0));
-    /* the signals after the assignment show which contacts it moved */
+    /* the change of the signals shows which contacts the assignment moved */
     wh_contact_point_of(of, s, &at);
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
     w->mover = k;
@@ -63,10 +63,10 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->stands |= onto | (w->located || after[2 * k] == WH_R(0.0) ? 1U << k & ~sides : 0U);
 }
 
-/* Decides the signs of the crossings in work->stands, whose values are past zero by the error of location. If the
- * value's first derivative leads back, the crossing has turned back: its return over zero is no second crossing. If the
- * first derivative is zero, the second one decides. If both are zero, the crossing stands still and its sign is
- * undecided. */
+/* Sets the signs of the crossings in work->stands. Their values are zero, or past zero by the error of location. If the
+ * value moves back towards its old side, the crossing has turned back: its return over zero is no second crossing. The
+ * first derivative of the value decides, or the second if the first is zero. If both are zero, the crossing stands
+ * still and its sign is undecided. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -87,9 +87,9 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                 w->stands &= ~(1U << k);
                 if (gain > WH_R(0.0) ? w->mode[k] < 0 : w->mode[k] > 0) {
                     w->mode[k] = (int8_t)-w->mode[k];
-                    /* zero would mean: has not turned back */
+                    /* never 0, because 0 means that the crossing has not turned back */
                     w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30);
-                    /* a second derivative may end at once, for example when friction starts to stick */
+                    /* larger for a second derivative, which may vanish at once, for example if friction sticks */
                     w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
             }
@@ -125,10 +125,9 @@ WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
     w->stands &= ~sides;
 }
 
-/* Without an event, the sign changes for crossings that went against their direction, and for crossings whose value
- * left the point at which it stood. The sign of a crossing that turned back stays undecided until its value is
- * work->due from zero at the end of a step. The sign of a crossing that stands stays undecided until its value has
- * moved by more than its distance from zero. */
+/* Sets the sign of each crossing without an event to the sign of its value. Two kinds of crossings stay undecided: a
+ * crossing that turned back, until its value is more than work->due from zero; and a crossing that stands, until its
+ * value has moved by more than |work->stood|. */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;

@@ -10,7 +10,7 @@ typedef struct wh_contact_attempt {
     wh_contact_state next;
     wh_real span;       /* length of the trial step, s; wh_contact_attempt_dipped() sets it */
     wh_margins margins; /* at `next` */
-    /* Bits: free stops whose gap grows at the end, if it would have been zero within the trial step at this rate. */
+    /* Bits: free stops that open at the end. Extrapolated back at this rate, the gap is negative at the begin. */
     unsigned leaving;
     unsigned dips; /* subset of `leaving`, as bits: open at both ends, perhaps closed in between */
     int fault;     /* if !sound: the component that left its bounds */
@@ -28,9 +28,9 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
     return share;
 }
 
-/* Finds stops that were hit although they open again at the end of the trial step. A stop that is closed at the end was
- * hit if it was open or closing at the begin; its margin is made negative. A stop that is open at both ends, and closes
- * and then opens, may have been hit in between: a->dips gets it. */
+/* Finds stops that a body hit although they open at the end of the trial step. If the gap is negative at the end, and
+ * was open or closing at the begin, the stop was hit: its margin becomes negative. If the gap is open at both ends, but
+ * closes at the begin, the stop may have been hit in between: a->dips gets it. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -64,11 +64,11 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
 }
 
 /* Returns the share of the trial step at which the first of a->dips is found closed, or 1 if all stay open. Each probe
- * is a point of the cubic through two ends. The probe replaces the end whose rate has the same sign, until the tangents
- * meet above zero. Odd probes are at the point where the tangents meet, which is the lowest point of a gap shaped like
- * a square root. Even probes are at the zero of a linear rate, which is the lowest point of a parabola. After a probe
- * inside the obstacle, the next one is halfway back to the surface, because the gap of a round post may be undefined at
- * its centre. */
+ * is a point of the path, and replaces the end whose rate has the same sign. The search ends if the tangents meet above
+ * zero. Odd probes are at the point where the tangents meet, which is the lowest point of a gap shaped like a square
+ * root. Even probes are at the zero of a linear rate, which is the lowest point of a parabola. After a probe inside the
+ * obstacle, the next one is halfway back to the surface, because the gap of a round post may be undefined at its
+ * centre. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;
@@ -77,7 +77,8 @@ WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt 
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real first = WH_R(1.0);
     wh_contact_path_of(of, &a->now, &a->next, h, &path);
-    for (unsigned i = 0; i < of->coordinates; i++) { /* makes the rates linear in time */
+    /* with these accelerations the rates are linear in time */
+    for (unsigned i = 0; i < of->coordinates; i++) {
         path.a0[i] = path.gain[i] / h;
         path.a1[i] = path.gain[i] / h;
     }

@@ -4,10 +4,10 @@
 
 #include "contact_lcp.h"
 
-/* Gives a share of the load to the redundant contacts `repeats` (bits of indices in member[]), which have no force so
- * far. This happens only if another contact would be overloaded, or if the redundant contacts contradict the others.
- * work->force gets the shares. A contact that gives way gets its limit plus the excess. The accelerations change only
- * after a contradiction; otherwise their bits stay the same. */
+/* Shares the load with the redundant contacts `repeats` (bits of indices in member[]), which have no force so far. Does
+ * nothing unless another contact is overloaded, or the redundant contacts contradict the others. work->force gets the
+ * shares; for a contact that gives way, the limit plus the excess. The accelerations change only after a
+ * contradiction. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -40,7 +40,7 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
         if ((giving >> k & 1U) != 0) {
             w->force[k] -= left[i] / wh_delassus_diagonal(of, w, k);
             if (!wh_contact_exceeds(of, w, k, w->force[k])) {
-                /* otherwise the excess was only round-off */
+                /* round-off hides the excess: replace it by a larger one */
                 w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(lambda[i])
                                                    : -WH_CONTACT_SHOWS * WH_ABS(lambda[i]);
             }
@@ -110,10 +110,10 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
-/* Solves for all impulses at once. Each contact in `set` (bits) gets the impulse that leaves J_k q' = target[k]; a stop
- * may end faster if others push it. Active contacts keep their rates. Resting stops, and the stops in `beside`, push
- * but do not pull. work->law must have been evaluated at this position. The impulses are added to impulse[forced].
- * Returns, as bits, the stops that would have to pull. */
+/* Solves for all impulses at once. After them J_k q' is target[k] for the contacts in `set` (bits), and zero for active
+ * contacts other than frictions and for the free stops in `beside` (bits). Stops push and do not pull, so a gap may
+ * open faster than that. work->law must have been evaluated at this position. The impulses are added to
+ * impulse[forced]. Returns, as bits, the stops that would have to pull. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {

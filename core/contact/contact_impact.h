@@ -4,8 +4,7 @@
 
 #include "contact_project.h"
 
-/* After an impact a rate counts as zero if it is at most this share of the rate that the impact passes on: it is then
- * round-off. */
+/* A rate counts as zero if it is below this share of the change of rates by an impact or by friction. */
 #define WH_CONTACT_STILL (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4))
 
 /* Two gaps close at the same moment if they differ by at most this share of the sum of their terms' magnitudes. */
@@ -136,10 +135,9 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Returns, as bits, the free stops without restitution that touch and are at rest, compared with the change of rates
- * along `hits`. They join the same impact although no force presses on them, because they block the motion after it. As
- * separate plastic impacts, two such stops could cause each other's impact for ever. Impacts with restitution end, so
- * they are resolved one after the other. */
+/* Returns, as bits, the free stops without restitution that touch and are at rest, compared with the rate that the
+ * impact of `hits` passes on to them. Such stops join the impact, because they block the motion after it. As separate
+ * plastic impacts, two such stops could cause each other's impact for ever. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -178,9 +176,9 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
 }
 
 /* Resolves the impact of all stops that are hit: each bounces, or rests if its next flight would be too short. A stop
- * that comes to rest gets one impulse: a bounce and a second impulse back would release stops that the single impulse
- * keeps. Stops that the impact releases stay at rest if their own flight would be too short. Otherwise a body in a
- * corner would bounce for ever. */
+ * that comes to rest gets a single impulse: a bounce and an impulse back would release other stops. A stop that the
+ * impact releases stays at rest if its own flight would be too short. Otherwise a body in a corner would bounce for
+ * ever. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -250,7 +248,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* without an impulse the rates of these stops would open them */
+    if ((gone | leaving) != 0) { /* at their rates these stops would open */
         wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
@@ -357,9 +355,9 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 
 /* --- conditions that depend on the held expression --------------------------------------------------------------- */
 
-/* A hold whose condition depends on the held expression captures at the condition's limit. To find this dependence, the
- * expression is perturbed by this share of its terms. The condition's round-off is the same share of the resulting
- * change. */
+/* The condition of a hold may depend on the held expression. Such a hold captures at the condition's limit. To find the
+ * dependence, the expression is perturbed by WH_EDGE_PROBE of its terms. The condition's round-off is WH_EDGE times the
+ * resulting change. */
 #define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
@@ -384,8 +382,8 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* Returns the round-off of hold k's condition `now` if the condition is at its limit (zero within that round-off), else
- * 0. The result is negative if the condition falls when the expression rises. */
+/* Returns 0 unless the condition `now` of hold k is at its limit, which means zero within round-off. Then returns this
+ * round-off, with a negative sign if the condition falls when the expression rises. */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {
@@ -393,9 +391,9 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
     return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
-/* Corrects holds (bits) that have captured slightly before their condition's limit, because of the error of location.
- * Each held expression is moved to the same distance beyond the limit. signal[] must have been evaluated at the state;
- * rates[] are the signals before the capture. */
+/* If the error of location let a hold (`holds`, bits) capture slightly before its condition's limit, moves the held
+ * expression to the same distance beyond the limit. signal[] must have been evaluated at the state; rates[] are the
+ * signals before the capture. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
                                    const wh_real *input, wh_contact_state *s) {
@@ -412,7 +410,7 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
             if (WH_ABS(by) <= WH_ABS(rates[2 * k + 1]) * h / 64) {
-                /* a larger move would mean that the condition is not at a limit of this hold's expression */
+                /* if the move is larger, the limit does not come from the held expression */
                 wanted[i] = by;
                 mover = k;
             }

@@ -34,11 +34,11 @@
  * unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* A path counts as straight if its curvature term J' q' is below this share of the largest acceleration. After friction
- * has stopped a motion, a small rate remains, and this term contains its square. */
+/* A path counts as straight if its curvature term J' q' is below this share of the largest acceleration. The term is
+ * quadratic in the rates, and after friction has stopped a motion, a small rate remains. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* A force that exceeds its limit by less than round-off is set to exceed it by this share of the limit. */
+/* If round-off hides the excess of a force over its limit, the force gets an excess of this share of the limit. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
 /* Round-off of a sum with terms of the sizes a, b and c. */
@@ -55,10 +55,10 @@ typedef struct wh_contact_set {
 /* Finds redundant contacts that contradict the others. Examples: at a dead centre two rows are parallel, but only one
  * of the paths bends; in an impact two stops on one path have different restitutions.
  *
- * For each of `repeats` (bits of indices in member[]) push[] gets the sign of the missing push: 1, -1, or 0 without a
- * contradiction. way[] is the change of the accelerations by all forces; if impulse[] is not NULL, the change of the
- * rates by all impulses. The path's curvature J' q' is also tested by itself, because in a slow passage it would drown
- * in the round-off of the accelerations. */
+ * For each contact in `repeats` (bits of indices in member[]), push[] gets the sign of the missing push: 1, -1, or 0
+ * without a contradiction. If impulse[] is NULL, way[] is the change of the accelerations by all forces; otherwise it
+ * is the change of the rates by all impulses. The curvature term J' q' is also tested by itself: in a slow motion the
+ * round-off of the accelerations would hide it. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -153,10 +153,10 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Finds the contact that gives way to member[i], which is redundant and must push in direction `push`. If member[i] is
- * a friction at its limit, or a stop that would have to pull, it gives way itself. Otherwise (a hold, or a stop that
- * must push more) the relieved contact that first reaches a limit gives way. Returns the contact's index in member[]
- * and its limit, or `count` if no contact gives way. */
+/* Finds the contact that gives way if the redundant contact member[i] must push in direction `push`. A friction, or a
+ * stop that would have to pull, gives way itself. If member[i] is a hold, or a stop that must push more, the contact
+ * whose force first reaches a limit gives way. Returns the contact's index in member[] and its limit, or `count` if no
+ * contact gives way. */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -164,7 +164,8 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
     int8_t fixed[WH_CONTACTS_MAX];
     wh_real less[WH_CONTACTS_MAX];
-    wh_real share[WH_CONTACTS_MAX]; /* change of each force by a unit force of i */
+    /* decrease of each force if contact i gets a unit force */
+    wh_real share[WH_CONTACTS_MAX];
     wh_real soonest = WH_LIMITLESS;
     unsigned first = count;
     *limit = push;
@@ -257,8 +258,9 @@ typedef struct wh_contact_pivot {
     unsigned giving;
 } wh_contact_pivot;
 
-/* Moves the contact at index i to its limit `to` (-1: low, 1: high), or frees it (0). A contact that becomes free is
- * eliminated last. So if it is redundant, it is the contact that is tested for a contradiction. */
+/* Moves the contact at index i to its limit `to` (-1: low, 1: high), or frees it (0). A freed contact becomes the last
+ * one in the elimination. If its row depends on earlier rows, it is the redundant contact, and is tested for a
+ * contradiction. */
 WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsigned i, int8_t to) {
     const uint8_t k = p->member[i];
     const wh_real wanted = p->wanted[i];
@@ -277,8 +279,8 @@ WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsign
     p->wanted[i] = wanted;
 }
 
-/* Returns the index of the contact that violates its complementarity condition, and its new limit; `count` if there is
- * none. If several contacts violate theirs, the one with the least number is returned. */
+/* Returns the index of a contact that violates its complementarity condition, and the contact's new limit; `count` if
+ * there is none. If there are several, the contact with the least number is chosen. */
 static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const wh_contact_work *w,
                                               wh_contact_pivot *p, unsigned count, bool forces,
                                               const wh_real *way, int8_t *to) {

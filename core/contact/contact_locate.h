@@ -8,7 +8,7 @@
 typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
-    wh_real accel[WH_COORDS]; /* only if an event depends on a force: wh_contact_watched() */
+    wh_real accel[WH_COORDS]; /* accelerations, only if wh_contact_watched() */
     /* The sum of all contacts' values: it is finite only if every value is. */
     wh_real all;
 } wh_margins;
@@ -185,7 +185,7 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
 }
 
 /* A hold that began the trial step at the limit of its condition is released only if the condition falls below zero by
- * more than its slack. If the condition is true at the end, the hold is not released in between either: a smaller value
+ * more than work->slack. If the hold has no event at the trial step's end, it has none in between: a lower condition
  * there would be an error of the cubic. `events` are the contacts with an event at the end. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
@@ -223,8 +223,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     const unsigned at_end_events = wh_contact_happened(of, at_end);
     *events = at_end_events;
 
-    /* If a force is already beyond its limit, or a gap is already negative, the event happens at once. Sliding is
-     * different, because it starts at rate zero. */
+    /* If a margin is negative at the begin, the event happens at once. Sliding friction is an exception, because its
+     * rate starts at zero. */
     wh_contact_path_of(of, from, to, h, &path);
     wh_contact_margins(of, w, &path.begin, input, &probe);
     wh_contact_slacken(of, w, *events, &probe);
@@ -273,8 +273,8 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         const wh_real width = high - low;
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
-            /* A margin that is already zero is the begin of an event. For a force at its limit this is true only at the
-             * begin of the search: later, other contacts may bear part of the load. */
+            /* A margin of zero at `low` may be the start of an event. Exceptions: a sliding friction; and, after the
+             * begin of the search, a force at its limit, because other contacts may bear part of the load. */
             const bool begins =
                 (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&

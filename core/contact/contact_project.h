@@ -18,8 +18,8 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
     }
 }
 
-/* Adds a b to the sum of *sum and *rest. *rest collects the round-off of the products, which would otherwise add up
- * over the steps. */
+/* Adds the product a b to *sum, and the product's round-off to *rest. Otherwise the round-off would add up over the
+ * steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
     *sum += a * b; /* exact if opposite rotations cancel */
@@ -31,7 +31,7 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
                                        unsigned k, const wh_contact_state *from,
                                        const wh_contact_state *to) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
-    wh_real turns = WH_R(0.0); /* part of the angles, in phase units */
+    wh_real turns = WH_R(0.0); /* contribution of the angles, in phase units */
     wh_real ways = WH_R(0.0);
     wh_real rests[2] = {WH_R(0.0), WH_R(0.0)};
     for (unsigned i = 0; i < of->angles; i++) {
@@ -40,7 +40,7 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
 #else
         const uint64_t turned = (uint64_t)to->angle[i] - (uint64_t)from->angle[i];
         const int32_t way =
-            /* less than half a turn; the next lines split it into two exact parts */
+            /* less than half a turn; the next lines split `way` into two parts that are exact in float */
             (int32_t)(uint32_t)turned;
         wh_contact_add_product(row[i], (wh_real)(way >> 8) * WH_R(256.0), &turns, &rests[0]);
         rests[0] += row[i] * (wh_real)(way & 255);
@@ -114,7 +114,8 @@ typedef struct wh_contact_place {
     const wh_contact_state *from; /* begin of the trial step, or NULL */
     wh_real h;                    /* length of the trial step, s */
     unsigned but;                 /* contacts that are left out, as bits */
-    /* The crossing or contact whose ledger entry gets the energy; WH_CONTACTS_MAX: the first contact with an error. */
+    /* The crossing or contact whose entry in the ledger gets the change of energy; WH_CONTACTS_MAX: the first contact
+     * that is off its constraint. */
     unsigned mover;
 } wh_contact_place;
 
@@ -239,8 +240,8 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* WH_CONTACT_FAR: a body has passed a stop, or left it, if the gap exceeds this share of the gap's terms. Both can
- * happen in a step with too many events. Friction does not keep a body beyond a stop. */
+/* If a gap is below minus WH_CONTACT_FAR times the sum of the magnitudes of its terms, the body is beyond the stop. If
+ * the gap is above that share, the body has left the stop. Both can happen in a step with too many events. */
 #define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {

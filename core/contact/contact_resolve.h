@@ -3,10 +3,11 @@
  * wh_contact_resolve() takes all contacts with an event at once, so the order in which contacts are declared does not
  * matter, except for the assignments of crossings:
  *
- * 1. Velocities: stops that are hit get their impulses, then holds that capture. Each of the two is one linear
- * complementarity problem with the active contacts. Friction's normal force is finite and gives no impulse.
+ * 1. Velocities: stops that are hit get their impulses, then holds that capture. The hits are one linear
+ * complementarity problem with the active contacts, the captures another. Friction's normal force is finite and gives
+ * no impulse.
  *
- * 2. Crossings assign, and contacts that this disturbs are revised.
+ * 2. Crossings assign their values, and the contacts that an assignment disturbs are revised.
  *
  * 3. Accelerations: resting stops that would have to pull give way, and so do frictions beyond their limit, until all
  * forces are within their limits.
@@ -15,12 +16,12 @@
  *
  * The law of impacts is Newton's, for all stops that are hit together. J v are the rates of their gaps:
  *
- *      v+ = v- + M^-1 J^T Lambda, 0 <= Lambda_k, J_k v+ >= -e_k J_k v-, with equality in one of both.
+ *      v+ = v- + M^-1 J^T Lambda, 0 <= Lambda_k, J_k v+ >= -e_k J_k v-.
  *
- * Resting and held contacts take part with J_k v- = 0 and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy
- * changes by 1/2 sum Lambda_k (1 - e_k) J_k v-. That is never positive, because only closing stops take part, even with
- * different restitutions. A touching stop that closes because of an impact is hit in the next round of the same moment.
- * So an impact runs through a row of balls. */
+ * For each k one of both inequalities is an equality. Resting and held contacts take part with J_k v- = 0 and e_k = 0
+ * (Moreau; Pfeiffer & Glocker, chapter 8). The energy changes by 1/2 sum Lambda_k (1 - e_k) J_k v-. That is never
+ * positive, because only closing stops take part, even with different restitutions. A touching stop that closes because
+ * of an impact is hit in the next round of the same moment. So an impact runs through a row of balls. */
 #ifndef WH_CONTACT_RESOLVE_H
 #define WH_CONTACT_RESOLVE_H
 
@@ -77,10 +78,9 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
 }
 
-/* Returns, as bits, the contacts of `giving` (bits) that give way first: all stops, if there are any. Otherwise it is
- * the friction whose load exceeds its limit by the largest factor: it would be the first to reach its limit if the load
- * grew from zero. Sliding friction takes less than sticking friction, so it may relieve the others. Frictions with
- * equal factors slide together. */
+/* Returns, as bits, the contacts of `giving` (bits) that give way first: all stops, if there are any. Otherwise the
+ * friction whose load exceeds its limit by the largest factor: if the load grew from zero, this friction would slide
+ * first. The caller then tests the other frictions again. Frictions with equal factors slide together. */
 WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned giving) {
     const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);
@@ -100,11 +100,13 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Sets the direction of each sliding friction from the sign of its rate, with two exceptions. If the error of location
- * left the rate on its old side of zero, the old direction stays. If the rate has just come to zero, the forces decide
- * later. This is the case for the frictions in `zeros` (bits), unless an impact of the same moment changed their rate,
- * and for rates within the round-off of other contacts. `h` is the length of the step; if it is not 0, work->law must
- * have been evaluated at this position. */
+/* Sets the direction of each sliding friction to the sign of its rate, with two exceptions:
+ * - If the error of location left the rate on its old side of zero, the old direction stays.
+ * - If the rate has just come to zero, the friction is stuck until wh_contact_give_way() decides. This concerns the
+ * frictions in `zeros` (bits) whose rate no impulse of this moment changed. It also concerns rates that are negligible
+ * compared with the change by friction in the time h.
+ *
+ * If h is not 0, work->law must have been evaluated at this position. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
     unsigned stick = 0;
@@ -134,9 +136,9 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
-/* Returns, as bits, resting stops without load (within round-off) that push in the direction of a stop in `gone`. They
- * are released together with that stop. Redundant supports all lose their load at one moment: if some stayed, round-off
- * would hit and release the others again. */
+/* Returns, as bits, resting stops without load (within round-off) that push in the direction of a stop in `gone`. The
+ * caller releases them together with that stop: redundant supports lose their load at the same moment, and round-off
+ * would hit and release any support that stayed. */
 WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned gone) {
     unsigned bits = 0;
@@ -153,9 +155,9 @@ WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact
     return bits;
 }
 
-/* Releases resting stops that would have to pull, and stuck coordinates beyond their limits. A released contact pushes
- * less, so others may follow: each round releases at least one. At least one of `must` (bits) is released, even if only
- * round-off exceeds its limit, because the search found its force beyond the limit. */
+/* Releases resting stops that would have to pull, and stuck coordinates beyond their limits. After each release the
+ * forces are computed again, because other contacts may then have to give way. If all forces are within their limits, a
+ * contact of `must` (bits) is released nevertheless, because the search found its force beyond the limit. */
 static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned must, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -197,9 +199,9 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Lets a rate that has just come to zero stick if the forces keep it there: friction would remove a small remaining
- * rate at once. These rates are set to zero together with those of all active contacts, so that two frictions do not
- * release each other. Other rates slide in the direction of the push, even if their sign is opposite. */
+/* Sets the rates of the stuck frictions in work->turned to zero, together with those of all active contacts, so that
+ * two frictions do not release each other. The other frictions in work->turned slide in the direction of the push, even
+ * if their small remaining rate has the opposite sign. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -266,7 +268,7 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
         wh_contact_stick(of, w, rate);
     }
     for (unsigned k = 0; k < of->forced; k++) {
-        /* no event, because the release of another contact has relieved this one */
+        /* no event if the release of another contact has relieved contact k */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
     return events;
@@ -347,9 +349,9 @@ static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_c
     return but;
 }
 
-/* Adapts contacts to an input that has moved a resting stop. The body is put back onto the stop, or it falls if the
- * pressing force cannot close the gap within the step. Holds are projected, too. The contact's entry in the ledger gets
- * the energy. */
+/* Adapts contacts to inputs that have moved between two steps. The body on a moved stop is put back onto it, or falls
+ * if the pressing force cannot close the gap within the step. Holds are projected, too. The contact's entry in the
+ * ledger gets the energy. */
 static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];

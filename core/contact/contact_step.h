@@ -90,8 +90,8 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Computes a trial step over the remaining time `left` to `next`. On entry `next` is a copy of `now`; only holds that
- * can slip need `now`. */
+/* Computes a trial step of length `left` from `now` to `next`. On entry `next` is a copy of `now`; only holds that can
+ * slip need `now`. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -116,8 +116,8 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Finds the closed holds whose conditions were zero within round-off when the trial step began, and gives them slack:
- * they stay closed while their conditions stay that small. */
+/* Gives slack to each closed hold whose condition was zero within round-off when the trial step began: the hold stays
+ * closed while its condition stays that small. */
 WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -257,8 +257,7 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
     return wh_contact_flat(of, w, span, from, to, input);
 }
 
-/* A step with events in progress. It consists of trial steps from attempt->now to the step's end or to the next events.
- * The numbers are scalars, which compilers keep in registers. */
+/* A step with events in progress: trial steps from attempt->now to the step's end or to the next events. */
 typedef struct wh_contact_progress {
     wh_contact_attempt *attempt;
     const wh_contact_state *end; /* the state at the step's end, once the step has reached it */
@@ -276,8 +275,8 @@ typedef struct wh_contact_progress {
     bool done;
 } wh_contact_progress;
 
-/* Begins a step with events. If a first trial step was already made, the modes are known, and no input has moved the
- * contacts. */
+/* Begins a step with events. If no trial step was made yet, finds the modes at the start of a run, or adapts the
+ * contacts to inputs that have moved. */
 static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_state *state, wh_contact_progress *p) {
     wh_contact_state *now = &p->attempt->now;
@@ -307,8 +306,8 @@ static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_con
     }
 }
 
-/* Ends a step in which the trial step of length `span` from `from` left its bounds. A hold that loses rank may be the
- * reason; wh_contact_lost() tests for that. */
+/* Ends a step in which the trial step of length `span` from `from` left its bounds, and looks for a contact that
+ * becomes undefined. */
 static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_contact_work *w,
                                                 wh_real span, wh_contact_state *from,
                                                 wh_contact_progress *p) {
@@ -338,7 +337,7 @@ static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_cont
     if (p->round == WH_EVENTS_MAX) {
         p->overran = p->overran || !p->calm;
         wh_contact_overrun(of, w, p->h, p->input, &a->next);
-        p->calm = false; /* the values after the repair must be finite, too */
+        p->calm = false; /* the values after the repair must also be finite */
     }
     p->end = &a->next;
     p->done = true;

@@ -30,24 +30,25 @@ typedef struct wh_contact_work {
     /* Bits: stops whose gap was closed when the trial step began; they may now open. */
     unsigned inside;
     unsigned hit_next; /* bits: touching stops that close because of an impact of this moment */
-    /* bits: frictions whose rate has just come to zero; whether they stick is open */
+    /* bits: frictions whose rate has just come to zero, and which may stick or slide on */
     unsigned turned;
-    /* Sliding friction: the error of the located rate, rad/s or m/s. Crossing that turned back: the distance beyond
-     * zero within which a passage is no second crossing. Hold that began a trial step at the limit of its condition:
-     * the distance beyond the limit at which the condition still counts as true. Otherwise 0. */
+    /* 0, except in three cases:
+     * - sliding friction: the error of the located rate, rad/s or m/s
+     * - crossing that turned back: the distance beyond zero within which a passage is no second crossing
+     * - hold whose condition was at its limit at the begin: the distance beyond the limit that still counts as true */
     wh_real slack[WH_CONTACTS_MAX];
-    /* distance from zero at which a crossing that turned back has a sign again */
+    /* Crossing that turned back: distance from zero beyond which the crossing has a sign again. */
     wh_real due[WH_CONTACTS_MAX];
     /* Crossing whose sign is undecided: its value when the trial step began, or when it came to stand. */
     wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates at the begin of the present moment */
-    wh_real held[WH_CONTACTS_MAX]; /* values of the holds, by wh_contact's first_set */
+    wh_real held[WH_CONTACTS_MAX]; /* values of the holds, indexed by wh_contact.first_set */
     unsigned moved; /* bits: contacts whose signals a crossing's assignments changed */
     unsigned mover; /* the crossing whose assignments changed w->moved */
     /* bits: crossings of this moment whose values are zero or next to zero */
     unsigned stands;
-    /* True if time has passed since an assignment moved a value across zero: a value past zero is then an error of
-     * location. */
+    /* True if the present moment was located in time, and no contact has been moved since: a value past zero is then an
+     * error of location. */
     bool located;
     bool capped;   /* the pivoting reached its limit of rounds */
     int fault;     /* component that was assigned a value beyond its range, or -1 */
@@ -63,9 +64,8 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* WH_CONTACTS_HERE is the scene's contacts in a function that is not inlined. In code for size, possibly with
- * -fno-ipa-cp, the compiler passes no constants into functions, and gcc warns of loops without a bound. So such code
- * refers to the constant itself. Code for speed keeps the argument. */
+/* WH_CONTACTS_HERE is the scene's contacts in a function that is not inlined. In code for size the compiler may pass no
+ * constants into functions, and gcc then warns of loops without a bound. So such code refers to the constant itself. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
