@@ -388,7 +388,7 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
         print_bytes(out, made, &c->larger);
         print_options(out, t, &made->row[c->larger.row]);
     }
-    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* both clock and memory must grow */
+    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* clock and memory are both too small */
         print_clock(out, w, &c->any);
         print_bytes(out, made, &c->any);
         print_options(out, t, &made->row[c->any.row]);

@@ -16,12 +16,11 @@ typedef enum choice_limit {
 } choice_limit;
 
 typedef struct choice_request {
-    table_request table; /* includes the error, in the unit of the trial's errors, and the rate */
+    table_request table; /* has the allowed error, in trial_unit(), and the rate of calls */
     double clock_Hz;     /* 0: not known, and no limit */
     double flash_bytes;  /* 0: no limit */
     double ram_bytes;    /* limit of the RAM with the stack; 0: no limit */
-    bool
-        counts; /* chosen rows will be counted, so a prediction may exceed a limit by the prediction's own error */
+    bool counts; /* chosen rows will be counted, so a prediction may exceed a limit by its error */
     const char *prices;                           /* the source of the prices, in words */
     void (*counting)(void *context, int counted); /* may be NULL */
 } choice_request;
@@ -30,8 +29,8 @@ typedef struct choice_request {
  * rate the period is a second. */
 typedef struct choice_row {
     int row; /* index of the row in the table, or -1 */
-    double
-        worst; /* upper bound on the cycles (or instructions) per simulated second, if each step is a longest one */
+    /* upper bound on cycles (or instructions) per simulated second, if every step is as long as the longest */
+    double worst;
     double load; /* 0: unknown */
     double load_most;
     bool fails[CHOICE_LIMITS];
@@ -55,11 +54,11 @@ choice choice_make(const trials *t, const table *made, const choice_request *w);
 measured_end choice_counted(trials *t, table *made, const choice_request *w,
                             const table_words *words, choice *c);
 
-/* Prints both answers. If no row is within the limits, says so, and prints limits that a row would keep. */
+/* Prints the fastest and the smallest row. If no row is within the limits, prints limits that a row would keep. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
                   const choice *c, const table_words *words);
-/* The same as one JSON object (docs/warnings.md has the schema), without the hint of limits that would fit;
- * `status`: exit status. */
+/* Prints the rows as one JSON object (docs/warnings.md has the schema), without limits that a row would keep; `status`:
+ * exit status. */
 void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
                  const choice *c, const table_words *words, int status);
 

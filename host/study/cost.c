@@ -18,8 +18,8 @@
 const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
 const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
-/* Cycles per instruction of boards without counted cycles. The least holds for a core that always issues as many instructions
- * at once as it can. The most is two to three times the value of such steps on a Cortex-M4 by Arm's timing (1.2 to 1.7). */
+/* Boards without counted cycles have a range of cycles per instruction. Least: the core always issues as many instructions
+ * at once as it can. Most: two to three times the value on a Cortex-M4, 1.2 to 1.7 by Arm's timing. */
 const cost_board cost_boards[] = {
     {"atmega328p", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 32768, 2048},
     {"atmega2560", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 262144, 8192},
@@ -45,11 +45,11 @@ const cost_board *cost_board_named(const char *name) {
 
 /* === the operations of a step, by class ======================================================= */
 
-/* Longer lists become functions of their own (host/emit/c_list.c, host/fixed/c_fixed.c). */
+/* Lists with more operations become functions of their own (host/emit/c_list.c, host/fixed/c_fixed.c). */
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
-/* Values of the state and its stages beyond these lie in memory, not in registers of the FPU. */
+/* If the state and its stages have more values than this, the rest lies in memory, not in registers of the FPU. */
 enum { REGISTERS = 16 };
-/* With compensated sums, additions for each number that a matrix moves. */
+/* With a matrix, compensated sums take this many additions for each real of the state. */
 enum { SUMS_CARRIED = 9 };
 
 static void add(cost_counts *c, cost_class class, double run, double code) {
@@ -91,7 +91,7 @@ static cost_class class_of(const op *o) {
     return COST_CLASS_MOVE;
 }
 
-/* A pair of sine and cosine is one operation: its phase. */
+/* Sine and cosine of an angle are counted as one operation, OP_PHASE. */
 static bool is_part_of_pair(const op *o) { return o->code == OP_SIN || o->code == OP_COS; }
 static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
 
@@ -103,8 +103,8 @@ typedef struct times {
     double once;
 } times;
 
-/* Dependence of operation i: 0 the same at every stage, 1 on places, 2 on rates as well; depth[] has those of earlier
- * operations. */
+/* 0: operation i has the same value at every stage; 1: it depends on positions; 2: on rates. depth[]: these numbers of
+ * earlier operations. */
 static int depth_of(const op_list *t, int i, const int *depth) {
     const op *o = &t->ops[i];
     int operand[2];
@@ -178,8 +178,8 @@ static void add_libraries(cost_counts *c, const image *im) {
 typedef struct work {
     int stages;
     int places; /* distinct positions of the stages */
-    int shares; /* nonzero weights of the method's tableau, those of the end of the step among them */
-    int turns; /* rotations of a sine-cosine pair in a step */
+    int shares; /* nonzero weights of the method's tableau, for stages and for the step's end */
+    int turns;  /* rotations of a sine-cosine pair in a step */
 } work;
 
 /* Is stage s at the same place as an earlier stage? */
@@ -382,7 +382,7 @@ static const cost_row *row_of(const cost_board *board, cost_number number, cost_
     return NULL;
 }
 
-/* The mean of a quantity, and *worst of the longest step. */
+/* The predicted mean of a quantity. *worst: its value in the longest step. */
 static cost_figure sum_of(const cost_row *row, const cost_counts *c, cost_figure *worst,
                           const char **why) {
     double sum = 0.0;
@@ -424,7 +424,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     if (number != COST_FIXED && !cost_takes_method(im)) {
         return (cost){.why = "this method is not possible for this scene"};
     }
-    if (im->contacts > 0) { /* the board's compiler decides about the layout of their memory */
+    if (im->contacts > 0) { /* the board's compiler lays out the memory of contacts */
         return (cost){.why = "the cost of contacts depends on the motion, so whirl must count it "
                              "in a run"};
     }

@@ -43,7 +43,7 @@ enum { COST_BASES = COST_BASIS_ROWS(COST_BASIS_ONE) };
 #undef COST_BASIS_ONE
 extern const char *const cost_basis_words[COST_BASES];
 
-/* The number that a scene computes in. */
+/* The number type of a scene. */
 typedef enum cost_number { COST_FLOAT, COST_DOUBLE, COST_FIXED, COST_NUMBERS } cost_number;
 extern const char *const cost_number_words[COST_NUMBERS]; /* "float", "double", "fixed" */
 
@@ -52,7 +52,7 @@ typedef struct cost_board {
     const char *name;
     const char *core; /* "Cortex-M4F" */
     bool fpu;         /* it computes float in hardware */
-    /* How its cycles are known: COST_ESTIMATED, COST_SIMULATED, or COST_RANGE: cycles an instruction, least and most. */
+    /* the source of its cycles; with COST_RANGE an instruction takes cycles_least to cycles_most */
     cost_basis cycles;
     double cycles_least; /* COST_RANGE only, else 0 */
     double cycles_most;
@@ -126,7 +126,7 @@ typedef struct cost_row {
     cost_quantity quantity;
     double within;  /* nine of ten counted steps are within this factor of the prediction */
     double longest; /* the longest step divided by the mean step; 1 for bytes */
-    double figure[COST_CLASSES]; /* of one operation; COST_UNSEEN: no counted step has it */
+    double figure[COST_CLASSES]; /* of one operation; COST_UNSEEN: in no counted step */
 } cost_row;
 
 #define COST_UNSEEN (-1.0)

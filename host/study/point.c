@@ -126,8 +126,8 @@ static size_t parenthesized(const char *text, bool *has_comma) {
     return 0;
 }
 
-/* The kind of a measure. That of "amplitude(x)" is its function, with x in inner[length]. "max(x, y)" and "2*max(x, y)" are
- * plain expressions: MEASURE_FINAL. */
+/* The kind of a measure. For "amplitude(x)" it is MEASURE_AMPLITUDE, and inner[length] is x. Plain expressions, such as
+ * "max(x, y)" and "2*max(x, y)", are MEASURE_FINAL. */
 static measure_kind kind_of(const char *text, const char **inner, size_t *length) {
     *inner = text;
     *length = strlen(text);
@@ -150,7 +150,7 @@ static measure_kind kind_of(const char *text, const char **inner, size_t *length
     return MEASURE_FINAL;
 }
 
-/* Reports a name with more primes than its order, which the equations do not define. Each let is walked only once. */
+/* Reports a name with more primes than the order of its equation. Each let is walked only once. */
 static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     if (tree == NULL) {
         return true;
@@ -191,8 +191,8 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
-/* The expression with each noisy output replaced by its record, which includes the noise. As in the records, noise does
- * not enter other outputs that use a noisy one. */
+/* The expression with each noisy output replaced by its record, which includes the noise. As in the records, other outputs
+ * are computed without that noise. */
 static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
     if (tree == NULL) {
         return NULL;
@@ -518,7 +518,7 @@ bool sweep_ends_are_alike(const sweep *s, double until_s) {
         return true;
     }
     double *value = alloc(s->grid->count, sizeof *value);
-    double off_s = 0.0; /* the step whose end is furthest from the requested end */
+    double off_s = 0.0; /* the step of the run that ends furthest from the requested end */
     double most_s = ENDS_ALIKE * until_s;
     uint64_t steps_off = 0;
     for (uint64_t point = 0; point < s->grid->points; point++) {

@@ -54,8 +54,8 @@ typedef struct gauge {
 
 gauge gauge_start(measure_kind kind);
 void gauge_enter(gauge *g, double value);
-/* `epsilon`: relative round-off of a sample. The result is nan if the measure has no value, or for a period without a swing.
- * If finite samples are so large that the computation overflows, it is infinite or nan, and a period is infinite. */
+/* `epsilon`: relative round-off of a sample. The result is nan if there is no value, as for the period of a constant. If
+ * large samples overflow in the computation, the result is infinite or nan, and a period is infinite. */
 double gauge_result(const gauge *g, double step_s, double epsilon);
 void gauge_end(gauge *g);
 
@@ -72,8 +72,7 @@ typedef struct measures {
     struct arena *arena;
     measure *list; /* [count] */
     int count;
-    /* The mechanism with only the measured expressions as outputs. So measures are derived and
-     * computed as outputs are, without any others. */
+    /* The mechanism with the measured expressions as its only outputs: measures are derived and computed as outputs. */
     mechanism mechanism;
 } measures;
 
@@ -88,7 +87,7 @@ void measures_free(measures *m);
 typedef struct gauged {
     measure_kind kind;
     const char *name;
-    int component; /* number of the image's component; -1: the output with this measure's number */
+    int component; /* component of the image; -1: the output with the index of this measure */
 } gauged;
 
 typedef struct measuring {
@@ -116,7 +115,7 @@ bool stepping_measure(const measuring *w, const image *im, double *value, diags 
 /* A sweep in numbers. Everything in it outlives the runs and is not changed by them. */
 typedef struct sweep {
     const grid *grid;
-    const mechanism *mechanism; /* with the measures as its outputs, if there are any */
+    const mechanism *mechanism; /* if there are measures, they are its outputs */
     const measures *measures;   /* NULL if the sweep is a map */
     const scene *scene;         /* NULL for a bare mechanism */
     const overrides *changes;   /* the changes of the command line, without the swept values */

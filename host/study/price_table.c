@@ -64,7 +64,7 @@ typedef struct climbed {
     table_row row[SUBSTEPS];
 } climbed;
 
-/* With contacts rows are sorted by the evaluations of their runs. */
+/* If the scene has contacts, the rows are sorted by the evaluations of their runs. */
 static void price_by_evaluations(table_row *row) {
     const double each = row->result.evaluations;
     row->price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, each, each, each};
@@ -227,8 +227,7 @@ void table_free(table *made) {
 enum { FIGURE_TEXT = 64 };
 /* RECORDS_MOST: most records of the run. SPACING: a record's spacing is a multiple of this many steps. */
 enum { RECORDS_MOST = 20000, SPACING = 2 };
-/* Steps for each step of the run. ROWS_STEPS: of the three rows together. REFERENCE_STEPS: of the reference's two runs
- * together. */
+/* Computed steps for each step of the run: ROWS_STEPS in the three rows, REFERENCE_STEPS in the reference's two runs. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
@@ -359,7 +358,7 @@ static void figure_legend(FILE *out, const cost *c) {
     }
 }
 
-/* Does a column count (reference_run.h) at any place? */
+/* Does this column count (reference_run.h) at any point? */
 static bool counts(const trials *t, int column) {
     for (int p = 0; p < t->points; p++) {
         if (t->reference[p]->column[column].counts) {
@@ -475,7 +474,7 @@ const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
                                    [PRICE_INSTRUCTIONS] = "instr./s",
                                    [PRICE_EVALUATIONS] = "eval./s"};
 
-/* Marks the shown rows of the front: the error falls by at least `factor` from one to the next. Returns their number. */
+/* Marks rows of the front, each with an error at least `factor` times smaller than the marked row before. Returns their number. */
 static int shown(const table *made, double factor, bool *show) {
     double before = 0.0;
     int count = 0;

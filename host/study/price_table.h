@@ -65,8 +65,8 @@ typedef struct table_request {
     void *context;
 } table_request;
 
-/* *pace: the pace of trial number `rung`, from 0 on. Each is finer than the one before by a factor of 2 to 2.5. With a rate
- * they are 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
+/* *pace: the pace of trial number `rung`, from 0 on. Without a rate, each trial's step is 2 to 2.5 times shorter than the
+ * step before. With a rate, the trials have 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
 bool table_pace(const table_request *w, int rung, deviation_pace *pace);
 /* Returns the number of steps in a period of the calls; 0 if no rate of calls is given. */
 uint64_t table_substeps(const table_request *w, const table_row *row);
@@ -107,9 +107,8 @@ typedef struct three_rows {
     cost cost[THREE_ROWS];
 } three_rows;
 
-/* Estimated operations of all rows. */
 double three_rows_operations(const three_rows_request *w, const image *im);
-/* Check trial.stopped, then trial.reliable. At least two steps; three_rows_end() in any case. */
+/* The run must have at least two steps. Check trial.stopped, then trial.reliable. Call three_rows_end() in any case. */
 void three_rows_make(three_rows *t, const three_rows_request *w);
 void three_rows_print(FILE *out, const three_rows *t);
 void three_rows_end(three_rows *t);
@@ -141,7 +140,7 @@ void table_csv(FILE *out, const trials *t, const table *made, const table_words 
 /* One JSON object (docs/warnings.md has the schema) with every row, or without a table; `status`: exit status. */
 void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
                 int status);
-/* Write the first keys of that object, and the keys of a row. */
+/* table_json_begin() writes the first keys of table_json()'s object, table_json_row() the keys of a row. */
 void table_json_begin(json *j, const char *command, const trials *t);
 void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words);
 

@@ -32,7 +32,7 @@ static bool enter(const reference *r, const records *now, int record, deviation_
     return d->error <= what.give_up;
 }
 
-/* Evaluations so far. With contacts, reading a record is also an evaluation, but not one of a step. */
+/* Evaluations in the steps so far. With contacts, reading a record is also an evaluation, which does not count. */
 typedef struct counted {
     double in_steps;
     double most; /* most evaluations in one step */
@@ -273,7 +273,7 @@ reference *reference_new(const reference_request *w) {
         other = best;
     }
     for (int k = 1; k < r->columns && fixed;
-         k++) { /* from the difference to the error of the finer run */
+         k++) { /* `off` was the difference of two runs, and becomes the error of the finer run */
         r->column[k].off /= number_scaled(1.0, w->by.order) - 1.0;
     }
     r->stopped = interrupted != 0;

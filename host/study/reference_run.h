@@ -10,8 +10,8 @@
 /* === the reference ============================================================================ */
 /* A reference with a method and steps of its own, for the three rows of a run. */
 typedef struct reference_steps {
-    uint64_t
-        steps; /* steps in a record's spacing, even; 0: nystroem5, with steps that follow from its agreement */
+    /* even number of steps in a record's spacing; 0: nystroem5, with steps so short that two runs agree */
+    uint64_t steps;
     wh_method method;
     int order;    /* order of the method's error */
     double limit; /* trusted while both runs differ by less than this part of the largest value */
@@ -27,7 +27,7 @@ typedef struct reference_request {
 
 /* The size of a column's values. */
 typedef struct reference_column {
-    /* its error counts among those of all components: it is a value or rate that the reference knows */
+    /* a coordinate or rate that is more than round-off, so that its error counts */
     bool counts;
     double largest; /* largest size over the records */
     double off;     /* largest difference of the two runs */
@@ -43,10 +43,9 @@ typedef struct reference {
     reference_column *column; /* [columns] */
     double limit; /* trusted while columns differ by less than this part of the largest value */
     char *how;    /* the two runs, in words */
-    char
-        *why; /* the reason for an early end of the trust, or for no reference at all; NULL: none */
+    char *why;    /* why the trust ends early, or why there is no reference; NULL: neither */
     bool still;   /* no quantity moves, so there is no reference */
-    bool stopped; /* interrupted: it is of no use */
+    bool stopped; /* interrupted: the result must not be used */
 } reference;
 
 /* Always succeeds; check `reliable` and `stopped`. The image must outlive it. */
@@ -62,25 +61,24 @@ int reference_find(const reference *r, const char *name, bool *noisy);
 
 /* === the deviation of a run =================================================================== */
 
-/* The length of a run's step: `steps` steps take as long as the spacing of the records times `records`. If a step is longer than a spacing, only the records at its
- * ends are compared. */
+/* The length of a run's step: `steps` steps take as long as `records` spacings of the records. If a step is longer than a
+ * spacing, only the records at its ends are compared. */
 typedef struct deviation_pace {
     uint64_t steps;
     uint64_t records;
 } deviation_pace;
 
-/* The compared columns. */
 typedef struct deviation_of_what {
     int column; /* a column of the reference, compared in its unit; or -1: all that count, each as a part of its largest value */
     double give_up; /* a run with a larger error is stopped as useless */
 } deviation_of_what;
 
 typedef struct deviation {
-    /* the reference reached the end with errors below give_up and without clamped values */
+    /* the run reached the end with errors below give_up and without clamped values */
     bool usable;
     double error; /* largest error of all records; if unusable, of the records before the stop */
     int column;   /* the column with that error */
-    double known; /* the reference's own error in that column: errors near it are only bounds */
+    double known; /* the reference's error in that column; a deviation near it is only a bound */
     double operations;  /* operations of the lists that were evaluated */
     double evaluations; /* evaluations of the accelerations or the matrix, per simulated second */
     double evaluations_most; /* most evaluations in one step */

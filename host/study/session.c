@@ -585,7 +585,7 @@ static void swept(const void *context, uint64_t row, FILE *out) {
     sweep_swept_fields(s->sweep, s->first + row, out);
 }
 
-/* Prints the findings of the points that ran in this session. The file's earlier rows do not contain theirs. */
+/* Prints the findings of the points that ran in this session. Findings of earlier points are not in the file's rows. */
 static void say_found(const sitting *s) {
     for (int id = 0; id < FINDINGS; id++) {
         if (s->found[id] > 0) {

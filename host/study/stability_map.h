@@ -8,8 +8,8 @@
 
 #include "host/study/point.h"
 
-/* A run is out of bounds if the error of a rate exceeds this many times its range in the finest run of the row.
- * Growing errors pass that long before overflow. */
+/* A run is out of bounds if the error of a rate exceeds this many times its range in the finest run of the row. A growing
+ * error exceeds this bound long before overflow. */
 #define MAP_BOUND 100.0
 
 /* The verdicts, from good to bad. X(id, mark, word, words) */
@@ -34,7 +34,7 @@ typedef struct map_verdict_row {
 extern const map_verdict_row map_verdicts[MAP_VERDICTS];
 
 typedef struct map_cell {
-    map_verdict verdict; /* MAP_NONE and MAP_UNTRIED have no other values */
+    map_verdict verdict; /* with MAP_NONE and MAP_UNTRIED the other fields are not set */
     double end_s;        /* the run's last time */
     double until_s;      /* the run is accurate to the tolerance until this time */
     double left_over;    /* energy residual as a part of the largest entry; NAN: unknown */
@@ -62,11 +62,10 @@ typedef struct stability_map {
 stability_map map_make(const map_request *w);
 void map_free(stability_map *m);
 
-/* How many cells have this verdict. */
 uint64_t map_count(const stability_map *m, map_verdict verdict);
 /* The grid's point for value number `at` of the axis m->along, in rising order, and for value number `row` of the other axis. */
 uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
-/* The values with these numbers, SI. */
+/* The values of the axes with these numbers, SI. */
 double map_along(const stability_map *m, uint64_t at);
 double map_row(const stability_map *m, uint64_t row);
 
@@ -74,7 +73,7 @@ double map_row(const stability_map *m, uint64_t row);
 void map_print(FILE *out, const stability_map *m, const char *words);
 /* A row for each completed pair: both values, verdict, times, energy residual. */
 void map_csv(FILE *out, const stability_map *m);
-/* The same as one JSON object (docs/warnings.md has the schema). `status`: exit status. */
+/* Writes the map as one JSON object (docs/warnings.md has the schema). `status`: exit status. */
 void map_json(FILE *out, const stability_map *m, const image *of, const map_request *w, int status);
 /* A rectangle for each pair, to .svg or .png, drawn by gnuplot, with `words` as the title. False: reported on standard error. */
 bool map_plot(const char *file, const stability_map *m, const char *words);

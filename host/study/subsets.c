@@ -150,8 +150,8 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Do the missing terms change a slope by more than round-off, at the state of the full run? The two lists may have their
- * components in different orders. */
+/* Do the missing terms change a slope by more than round-off, at the state of the full run? The images of `all` and `less`
+ * may have different orders of components. */
 static bool terms_act(const lane *all, vector_field *less) {
     enum { MOST = 3 * IMAGE_COMPONENTS_MAX };
     vector_field *full = all->field;
@@ -238,8 +238,8 @@ static void lane_stop(lane *l, const char *why) {
     l->run = NULL;
 }
 
-/* Steps the full run, together with the subsets from list[first] on. Subsets other than those without one effect stop as soon
- * as they exceed the limits. */
+/* Steps the full run, side by side with the subsets from list[first] on. If first > 1, a subset stops when its error
+ * exceeds a limit. */
 static bool run_from(subsets *s, int first, diags *errors) {
     const int count = 1 + s->count - first;
     const int columns = s->columns->columns;

@@ -1,7 +1,7 @@
 /* subsets.h: runs of a scene without some of its effects, compared with the run that has all of them.
  *
- * All runs step side by side, in double, so no motion is stored. Terms act if leaving them out changes a slope by more
- * than round-off; stops, holds and crossings if they have an event or are closed. */
+ * All runs step side by side, in double, so no motion is stored. A term acts if leaving it out changes a slope by more
+ * than round-off. A stop, hold or crossing acts if it has an event or is closed. */
 #ifndef STUDY_SUBSETS_H
 #define STUDY_SUBSETS_H
 

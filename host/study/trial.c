@@ -214,7 +214,7 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 
 /* === trials =================================================================================== */
 
-/* Limit on the operations of a reference's finest run, for all points together. They take some seconds. */
+/* Limit on the operations of a reference's finest run, for all points together: some seconds. */
 #define REFERENCE_OPERATIONS 6e8
 /* An error below this many times the reference's own is only a bound. */
 #define SURELY 10.0

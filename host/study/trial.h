@@ -34,8 +34,8 @@ const char *setting_word(const setting *s, setting_axis axis);
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
-/* Is its method requested? NULL: the default ones, rk4 and nystroem3 to 5. Over the points of docs/figures/price.csv
- * the others save nothing in the median. A matrix replaces the default method. */
+/* Is the method of this setting requested? `method` NULL requests rk4 and nystroem3 to 5: over the points of
+ * docs/figures/price.csv the others save nothing in the median. A matrix replaces the default method. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
 /* The index of the setting among all settings, and that of its number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
@@ -46,8 +46,8 @@ cost_number setting_cost_number(const setting *s);
 /* May a scene refuse this form without an error? A matrix requires a linear scene, tables one turn angle. */
 bool setting_may_be_refused(const image_settings *s);
 
-/* Does this setting give another step than the earlier ones? `im` was made with it. Returns false if the method does
- * not take the system, or if the sines cannot be rotated and are looked up in any case. */
+/* Does this setting give a step that no earlier setting gives? `im` was made with it. False: the method does not take the
+ * system, or sines are looked up in any case because they cannot be rotated. */
 bool setting_is_own(const setting *s, const image *im);
 /* Is the number type fixed point? Then a scene may have no step, or no step of this length (host/fixed). */
 bool setting_is_fixed(const setting *s);
@@ -135,7 +135,7 @@ double trial_operations(const trials *t, const setting *s, deviation_pace pace);
 /* The setting's cost at the most expensive point. *own: false if the setting equals another (setting_is_own()), or the scene
  * refuses it. */
 cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
-/* The same, with the first finer step that the scene accepts if it refuses this one, as in fixed point. */
+/* Like trial_cost(); but if the scene refuses this step, as in fixed point, takes the first finer step that it accepts. */
 cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
 /* Would the search for the ranges of fixed point take more than t->planned_most operations? */
 bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace);
