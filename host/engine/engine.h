@@ -34,7 +34,7 @@ typedef struct engine_piece {
 
 typedef struct engine_kind {
     const char *name; /* "float", "double" or "fixed" (host/fixed) */
-    /* significant digits with which text keeps each number of this kind exactly */
+    /* a number written with this many significant digits is read back exactly */
     int digits;
     void *(*start)(const image *im); /* the image must outlive the run */
     void (*stop)(void *run);
@@ -57,10 +57,10 @@ typedef struct engine_kind {
     uint64_t (*evaluations)(const void *run, uint64_t *most);
     /* The ledger so far: total[entries], error[accounts] (the numerical drift); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* Round-off of component i, angles first, whose increments are rounded to whole units. Returns the largest size,
-     * since the start, of the sum of these round-offs. *span: the range that the component would have covered without
-     * round-off. Both are SI. If unit() is NULL, only turn angles are rounded, in float to 2^-32 turn. The result is 0
-     * in double, and with compensated sums. */
+    /* The increments of component i, angles first, are rounded to whole units. Returns the largest size since the start of
+     * the sum of these round-offs. *span: the range that the component would have covered without round-off. Both are SI.
+     * If unit() is NULL, only turn angles are rounded, in float to 2^-32 turn. The result is 0 in double, and with
+     * compensated sums. */
     double (*component_off)(const void *run, int i, double *span);
     /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);
@@ -80,7 +80,7 @@ uint64_t engine_evaluation(const image *im);
 extern const engine_kind engine_float;
 extern const engine_kind engine_double;
 
-/* Evaluates a list in double, repeatedly. Arrays may be NULL if the list has no such leaves. */
+/* Evaluates a list in double, repeatedly. An array may be NULL if the list does not read it. */
 typedef struct evaluator evaluator;
 evaluator *evaluator_new(const op_list *t);
 void evaluator_free(evaluator *ev);

@@ -61,7 +61,7 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_NOISE: return 0.0;
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
     case OP_CELL: return 0.0;
-    /* as for a sine: the bound contains the effect of the argument, but not the interpolation error */
+    /* the bound contains the round-off of the position in the table, but not the interpolation error */
     case OP_LINE:
     case OP_CUBIC: *rounds = true; return fabs(v);
     case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);

@@ -31,7 +31,7 @@ const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]) {
     return text;
 }
 
-/* Writes the methods that support only these systems. */
+/* Appends the methods that support only the systems `takes`, and then the text `what`. */
 static void put_only(char text[METHODS_TEXT_SIZE], uint8_t takes, const char *what) {
     const char *before = "; ";
     for (int i = 0; i < WH_METHODS; i++) {

@@ -1,9 +1,9 @@
-/* vector_field.h: a scene's right-hand side in double, whatever the number type of the run: slopes at any state.
- * Contact forces are not included.
+/* vector_field.h: a scene's right-hand side in double, whatever the number type of the run: slopes at any state. Contact
+ * forces are not included.
  *
- * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep their start values, as in
- * the balance. Slopes and energies do not depend on time. Only a place recovered from its momentum does
- * (host/derive/conserve.c), and they must not contain such a place. */
+ * A state is x[n]: angles first, then reals, as engine_kind.state() gives them. Inputs keep their start values, as in the
+ * balance. Slopes and energies must not contain a place that is recovered from its momentum (host/derive/conserve.c):
+ * such a place depends on time. */
 #ifndef ENGINE_VECTOR_FIELD_H
 #define ENGINE_VECTOR_FIELD_H
 

@@ -93,10 +93,10 @@ typedef enum image_role {
     /* The highest derivatives, by unknown. If the mechanism has energies, then BOOK_KINETIC to BOOK_LOSS_POWER, the
      * momenta by unknown, and the energy integral if it is not T + V. */
     IMAGE_BOOKS,
-    IMAGE_SIGNALS, /* this and the next two lists: for contacts (core/contact.h) */
+    IMAGE_SIGNALS, /* IMAGE_SIGNALS to IMAGE_SETS: for contacts (core/contact.h) */
     IMAGE_FORCES,
     IMAGE_SETS,
-    IMAGE_POWERS, /* this and the next list: for the ledger (core/ledger.h) */
+    IMAGE_POWERS, /* IMAGE_POWERS and IMAGE_LEVELS: for the ledger (core/ledger.h) */
     IMAGE_LEVELS,
     IMAGE_MATRIX, /* a whole step, for core/step/matrix_step.h */
     IMAGE_TABLES, /* the exact functions of a step's tables: result[k] is that of table k */
@@ -178,11 +178,9 @@ typedef struct image_range {
 /* --- contacts and ledger ---------------------------------------------------------------------------*/
 
 typedef struct image_contact {
-    int kind;         /* wh_contact_kind */
-    const char *word; /* word of the statement: "stop", "hold", ... */
-    const char *
-        /* parts that may be undefined: "the condition of this hold, or its expression," */
-        undefined;
+    int kind;              /* wh_contact_kind */
+    const char *word;      /* word of the statement: "stop", "hold", ... */
+    const char *undefined; /* for messages: "the condition of this hold, or its expression," */
     int direction;
     int pin;
     int first_set;
@@ -255,7 +253,7 @@ typedef struct diagnostics_question {
     int node;
     /* a derivative: a message can name only the statement, not a part of it */
     bool derived;
-    int power; /* highest degree in the state that a linear mechanism allows; of terms only */
+    int power; /* for terms only: highest degree in the state that a linear mechanism allows */
     const char *what;
     place where;
 } diagnostics_question;
@@ -263,7 +261,7 @@ typedef struct diagnostics_question {
 typedef struct image_blame {
     diagnostics_node *node; /* [nodes] */
     int nodes;
-    diagnostics_question *question; /* [questions]: those of terms, of sets, then of contacts */
+    diagnostics_question *question; /* [questions] of terms first, then of sets, then of contacts */
     int questions;
     int terms; /* number of energies, losses, forces, equations, and their derivatives */
     int sets;  /* number of values that crossings set */
@@ -318,8 +316,7 @@ typedef struct image {
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
     component *real;        /* [reals] */
-    int *
-        place; /* [count] unknown -> coordinate number in the scene's order, or -1 (second order) */
+    int *place; /* [count] each unknown's coordinate number in the scene, or -1 (second order) */
     int *from_momentum;    /* [recovered] unknown */
     image_quantity *input; /* [inputs] with the value at the start */
     image_drive *drive;    /* [drives] */
@@ -384,8 +381,8 @@ bool image_calls(const image *im);
 double image_out_of_float(const image *im);
 
 /* === memory =================================================================================== */
-/* The memory of a scene for each number type, in bytes of this machine: WH_MEMORY_BYTES(). On a board that aligns
- * 64-bit integers to eight bytes it is the same, unless pointers matter. */
+/* The memory of a scene for each number type, in bytes of this machine: WH_MEMORY_BYTES(). On a board it may differ, by
+ * the size of pointers and the alignment of 64-bit integers. */
 
 size_t memory_float_bytes(const image *im);
 size_t memory_double_bytes(const image *im);

@@ -123,7 +123,7 @@ typedef struct op {
     const double *parts;
 } op;
 
-/* The tables of a list as in core/step/table.h, but without the scale of float: the position y is in cells. */
+/* The tables of a list as in core/step/table.h. But a position y is in cells, without the scale of float. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */

@@ -63,7 +63,7 @@ typedef struct unknowns {
     const op_list *of;
     /* [2 * count] column of operand a (at 2 i) and b (at 2 i + 1) of operation i; 0: none */
     int *column;
-    int *place; /* [columns] place in column[] of each column */
+    int *place; /* [columns] index in column[] of each column that belongs to an operand */
     int columns;
 } unknowns;
 
@@ -98,8 +98,8 @@ static int column_of(const unknowns *u, int i, int which) {
     return column != 0 ? column : operand_of(&u->of->ops[i], which);
 }
 
-/* Adds an equation: `own` times the exponent of i equals `a` times that of operand a, plus `b` times that of operand
- * b. Constants accept any exponent. */
+/* Adds the equation own * e(i) = a * e(operand a) + b * e(operand b) between exponents e. A constant accepts any exponent,
+ * so it has no term. */
 static void equation(const unknowns *u, matrix *m, double own, int i, double a, double b) {
     const op *o = &u->of->ops[i];
     double *row = row_of(m, m->rows++);
@@ -182,7 +182,7 @@ typedef struct chosen {
     int count;
 } chosen;
 
-/* Returns true if the solution e[] has a nonzero exponent at each chosen use, and for an operation that absorbs no factor. */
+/* Is the solution e[] nonzero at each chosen use, and at an operation without a constant that could absorb the factor? */
 static bool tells(const op_list *t, const double *e, const chosen *c) {
     bool all = true;
     bool changes = false;
@@ -321,7 +321,8 @@ typedef struct multiplied {
     const op_list *from;
     const double *times; /* [3 * from->count] */
     op_list *to;
-    int *made; /* [from->count] operations of `to`: all multiplied except raw values */
+    int *
+        made; /* [from->count] the operation in `to` for each of `from`; raw values are not multiplied */
 } multiplied;
 
 /* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
@@ -379,8 +380,8 @@ static double times_of(const multiplied *m, int i, int which) {
                                                   : m->times[operand];
 }
 
-/* Enters operation i, a product or quotient, with operands that carry their own factors, and the factor that then
- * remains. No call has two arguments that enter operations, because C does not fix their order. */
+/* Enters operation i, a product or quotient. Its operands have factors of their own; a constant corrects the factor of the
+ * result. C does not fix the order of arguments, so no call has two arguments that enter operations. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);
@@ -404,7 +405,7 @@ static int make(const multiplied *m, int i) {
     double number;
     int second;
     switch (o->code) {
-    case OP_CONSTANT: return -1; /* entered at each use */
+    case OP_CONSTANT: return -1; /* a constant is entered at each use */
     case OP_LINEAR:
     case OP_RATE:
     case OP_INPUT:
@@ -422,7 +423,7 @@ static int make(const multiplied *m, int i) {
         second = taken(m, o->b, times);
         return op_list_sub(m->to, taken(m, o->a, times), second);
     case OP_MUL:
-        /* entered at each use */
+        /* a product with a constant is entered at each use */
         return op_list_is_constant(m->from, o->a, &number) ? -1 : make_product(m, i);
     case OP_DIV: return make_product(m, i);
     case OP_NEG:
@@ -465,8 +466,7 @@ op_list *op_list_multiplied(const op_list *t, const double *times) {
 
 enum { SIZES = 3, STATES = 6 };
 
-/* Sizes of rates and of other leaves except positions: at rest forces and torques matter, at high speed only the
- * rates. */
+/* Sizes of rates. At rest, forces and torques matter; at high speed, only the rates. */
 static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
 
 /* Returns an artificial value, from -1 to 1, of this leaf in this state. */
@@ -539,8 +539,8 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
  * The error of such a result does not grow; that of other results grows with the motion. */
 #define UNREAD (1.0 / 64.0)
 
-/* For each result: does the list depend on the component that it changes? Results and components have the same
- * order: angles, then reals. */
+/* Sets the weights of all results: 1 if the list reads the component that a result changes, else UNREAD. Results and
+ * components have the same order: angles, then reals. */
 static void weigh_results(const op_list *t, double *weight) {
     for (int i = 0; i < t->results; i++) {
         weight[i] = UNREAD;
@@ -713,7 +713,7 @@ static void try_reals(scaling_search *s, const double *exponent) {
     }
 }
 
-/* Is the number of operations acceptable for an arbitrary number, which turns no constant into one? */
+/* Is the number of operations acceptable for an arbitrary factor? Such a factor turns no constant into one. */
 static bool affordable(const scaling_search *s, const double *exponent) {
     for (int i = 0; i < 3 * s->from->count; i++) {
         s->times[i] = power(1.2345678901, exponent[i]);

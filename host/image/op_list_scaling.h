@@ -19,8 +19,8 @@ int op_list_scaling_price(const op_list *t);
  * there is no such list with at most `price` additional operations, *t stays unchanged. */
 void op_list_scale(op_list **t, int price);
 
-/* Vectors of exponents. A value may be multiplied by x to its exponent, for any x > 0. A vector begins with an exponent
- * for each operation. Then come two for each operation, for its raw operands, which may be used as they are or
+/* Vectors of exponents. A value may be multiplied by x to the power of its exponent, for any x > 0. A vector has an
+ * exponent for each operation. Then come two for each operation, for its operands: nonzero if an operand is raw and
  * multiplied. */
 typedef struct op_list_freedoms {
     double *exponent; /* [count * length] */
@@ -28,8 +28,8 @@ typedef struct op_list_freedoms {
     int length; /* 3 * operations of the list */
 } op_list_freedoms;
 
-/* Returns the possible scalings. First come those without an additional product. Then, for each raw value, come those
- * that multiply it at some or all of its uses, and those that also multiply an earlier raw value. */
+/* Returns the possible scalings. First come those without an additional product. Then, for each raw value, come scalings
+ * that multiply it at some or all of its uses, alone or together with an earlier raw value. */
 op_list_freedoms op_list_freedoms_of(const op_list *t);
 void op_list_freedoms_free(op_list_freedoms *f);
 

@@ -152,7 +152,7 @@ typedef struct registers {
 } registers;
 
 /* Gives value v a register. If none is free, the value whose next use is latest loses its register. An operand of the
- * current operation is used now, so it keeps its own. */
+ * current operation keeps its register, because it is used now. */
 static void hold(const wanted *w, registers *r, int v) {
     if (r->count == OP_LIST_REGISTERS) {
         int last = 0;
@@ -250,7 +250,7 @@ typedef struct schedule {
     const op_list_needs *needs;
     int *waits; /* [ops]: dependencies not yet computed */
     int *uses;  /* [ops]: remaining users; a result counts as two more */
-    int *ends;  /* [ops]: number of values whose last use it is */
+    int *ends;  /* [ops]: number of values that the operation is the last to use */
     int *until; /* [ops]: last user of the operation's value */
     int *ready; /* operations without pending dependencies, unordered */
     int count;  /* number of ready operations */
