@@ -75,14 +75,14 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) { return angle * facto
 
 wh_angle wh_angle_from_rad(wh_real rad) { return wh_angle_of_rad(rad); }
 
-/* Computed in integers up to the one rounding to float. A float has fewer bits than an angle, and a product of two
- * rounded factors would have an error of more than one unit in the last place. */
+/* All arithmetic is in integers, up to the final rounding to float. A product of two rounded floats would have an error
+ * of more than one unit in the last place. */
 wh_real wh_angle_to_rad(wh_angle angle) {
     if (angle == 0) {
         return 0.0f;
     }
     uint64_t size = angle < 0 ? 0U - (uint64_t)angle : (uint64_t)angle;
-    float scale = 8.0f; /* radians per unit of `bits` below, when the top bit of size is set */
+    float scale = 8.0f; /* radians per unit of `bits`, halved for each shift of `size` */
     while (size >> 63 == 0) {
         size <<= 1;
         scale *= 0.5f;
@@ -95,8 +95,8 @@ wh_real wh_angle_to_rad(wh_angle angle) {
     return angle < 0 ? -magnitude : magnitude;
 }
 
-/* Returns the low 32 bits, before the point, of a rounded product of 64 by 64 bits. factor.part has 64 bits after the
- * point. A negative angle, read as unsigned, is too large by 2^64. */
+/* Returns the rounded product modulo 2^32. factor.part has 64 bits after the point. If the angle is negative, its
+ * product as an unsigned number is too large by factor.part. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
     const uint64_t size = (uint64_t)angle;
     const uint64_t size_low = size & UINT32_MAX;

@@ -3,7 +3,8 @@
  * An angle that appears only inside sine and cosine is stored as a 64-bit integer. The low 32 bits are the phase within
  * the turn, the high 32 bits count whole turns. Such an angle needs no range reduction and is as precise after a
  * million turns as in the first. Sums and integer multiples of phases are integer operations. (Radians in float lose a
- * digit every ten turns. Near 512 rad, a slow motion in steps of 1 ms no longer changes them.)
+ * decimal digit with each factor of ten in the number of turns. Near 512 rad, a slow motion in steps of 1 ms no longer
+ * changes them.)
  *
  * The double reference build uses radians, so it does not share the integer arithmetic and can check it. */
 #ifndef WH_ANGLE_H

@@ -32,7 +32,7 @@ void wh_cobs_put(wh_cobs *cobs, uint8_t byte) {
 }
 
 unsigned wh_cobs_end(wh_cobs *cobs) {
-    close_block(cobs); /* the head of the new block is the final zero */
+    close_block(cobs); /* this also opens a block, whose head is the final zero */
     return cobs->full ? 0 : cobs->at;
 }
 
@@ -66,7 +66,7 @@ unsigned wh_cobs_short(uint8_t *bytes, unsigned count) {
     return count + 2U;
 }
 
-/* Processes all eight bits at once: a bit that leaves at the top comes back at the places of the polynomial's ones. */
+/* Processes eight bits at once. `out` has the bits that the polynomial feeds back. */
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
         unsigned out = (crc >> 8 ^ bytes[i]) & 0xFFU;

@@ -23,7 +23,7 @@ enum {
     WH_FRAME_HELLO = 1,
     WH_FRAME_ORDERS = 2,
     WH_FRAME_READINGS = 3,
-    /* wh_reset, to a controller that has restarted, before its first readings */
+    /* the cause of a reset (wh_reset), to a restarted controller before its first readings */
     WH_FRAME_RESET = 4,
     /* From the controller, before its orders: 0 to WH_REMEMBER_MAX bytes that shall survive a reset. */
     WH_FRAME_REMEMBER = 5,
@@ -40,8 +40,7 @@ enum {
 
 typedef enum wh_signal_kind {
     WH_SIGNAL_OUTPUT, /* a value that the controller sets, in `low`..`high` */
-    /* a converter's counts: every period_ticks the integer nearest to value / per_count, within the converter's range
-     * `low` to `high` */
+    /* counts of a converter with the range `low`..`high`: in every period_ticks, value / per_count, rounded */
     WH_SIGNAL_SAMPLE,
     WH_SIGNAL_EDGE, /* a pulse when the value (angle: modulo a turn) enters `low`..`high` */
     WH_SIGNAL_NOTE  /* a value that the controller reports about itself: no signal of the plant */
@@ -68,7 +67,7 @@ typedef struct wh_hello {
     unsigned signals;
 } wh_hello;
 
-/* Size of a hello payload whose strings have this many characters together. */
+/* Size of a hello payload with `signals` signals and strings of `words` characters together. */
 #define WH_HELLO_BYTES(signals, words) (15U + 19U * (signals) + (words))
 
 enum { WH_ORDER_ALIVE = 1 }; /* wh_orders.flags: the watchdog is kicked */

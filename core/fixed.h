@@ -49,8 +49,8 @@ WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
     return (int32_t)(((int64_t)a * b) >> 32);
 }
 
-/* 16-bit products: uu of two unsigned numbers, su of a signed and an unsigned one, ss of two signed ones. (If one of
- * the operands is used again, avr-gcc makes a 32-bit product of the C expression.) */
+/* 16-bit products: uu of two unsigned numbers, su of a signed and an unsigned one, ss of two signed ones. (For a C
+ * expression whose operand is used again, avr-gcc would compute a 32-bit product.) */
 #if WH_FIXED_AVR
 WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) {
     uint32_t product;
@@ -239,12 +239,11 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     const int32_t y = (int32_t)(phase << WH_FIXED_SECTOR_BITS);
 #endif
     const int16_t upper = (int16_t)(y >> 16);
-    /* -(upper + 1/2)^2, scaled so that 1 is 2^15. The added half is the mean of the digits of y below `upper`. */
+    /* -(upper + 1/2)^2, scaled so that 1 is 2^15. The half is the mean value of the digits that `upper` lacks. */
     const int16_t square = (int16_t)wh_fixed_down(wh_fixed_ss(upper, (int16_t)~upper), 15);
     const int16_t cos_less_1 =
         (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* 2^26 */
-    /* sin_r is y times a factor. Its main part is 25735 2^16; `rest` is the remainder, including the third-order term
-     * of the sine. */
+    /* sin_r is y times 25735 2^16, plus a small part that includes the sine's third-order term. */
     const int16_t rest = (int16_t)((wh_fixed_ss(square, 1323) >> 11) + 7594);
     const int32_t sin_r =
         wh_fixed_high(y, INT32_C(25735) * 65536) + (wh_fixed_ss(upper, rest) >> 13);

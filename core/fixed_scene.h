@@ -90,9 +90,8 @@ wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
 /* Conversions in floating point; no step calls them. wh_fixed_of() gives the nearest number of this format, halves away
- * from zero. A value beyond the range gives the nearest end, and NaN the low end; both increment *saturated. If an end
- * of the range lies between two numbers of the format, values up to one unit beyond that end (in float plus its last
- * place) count as inside. */
+ * from zero. A value beyond the range gives the nearest end, and NaN the low end; both increment *saturated. Values up
+ * to one unit beyond an end (in float plus its last place) count as inside, because the end may have been rounded. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 

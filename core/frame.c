@@ -90,7 +90,7 @@ bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame) {
         return false;
     }
     const unsigned length = reader->length;
-    /* two zeros in succession, because a sender may begin with one */
+    /* A zero directly after a zero is no bad frame: a sender may begin with a zero. */
     const bool nothing = length == 0;
     const bool good =
         !reader->too_long && parse(reader->bytes, wh_cobs_decode(reader->bytes, length), frame);

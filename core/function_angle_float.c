@@ -4,11 +4,12 @@
 
 #if !WH_DOUBLE
 
-/* Angles in Q30; the smallest angles have an exponent of their own. */
+/* In radians, Q30. */
 #define QUARTER_TURN UINT32_C(1686629713)
 #define HALF_TURN UINT32_C(3373259425)
 
-/* Returns base + angle, or base - angle if `minus`, with this sign. If base is 0, returns the angle. base is in Q30. */
+/* Returns base + angle, or base - angle if `minus`, with the sign `sign`. base is in Q30; if it is 0, returns the
+ * angle. */
 static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle) {
     if (base == 0U) {
         return wh_float_round(sign, angle.size, angle.exponent);
@@ -76,9 +77,9 @@ static uint32_t root_of(uint32_t size) {
     return ((root + ratio) << 15) + (behind >> 1);
 }
 
-/* Returns the arc whose sine is the magnitude x, if x is at most one half. For larger x, returns half of the arc that
- * remains to a quarter turn, whose sine is sqrt((1 - x)/2). The relative error is at most 5e-10. A magnitude of 0 or
- * one gives size 0. */
+/* Returns the arc whose sine is the magnitude x, if x is at most 1/2. If x is larger, returns half of the arc's
+ * complement to a quarter turn: the arc whose sine is sqrt((1 - x)/2). The relative error is at most 5e-10. If the
+ * result is zero, its size is 0. */
 static wh_digits arc_of_sine(uint32_t magnitude) {
     static const uint32_t series[] WH_FLASH = {161131133U, 62013972U,  136612917U,
                                                191198894U, 322144200U, 715827596U}; /* Q32 */

@@ -1,7 +1,7 @@
-/* function_atan_double.c: angles from ratios in double. For a point (x, y) with 0 <= y <= x, a table of pairs has the
- * angles of rays whose slope c is a multiple of 1/64. From the nearest ray, the remaining angle has the tangent (y - c
- * x)/(x + c y), at most 1/128, so a short series suffices. The other functions use such angles: the arc sine of s is
- * the angle of the point (root(1 - s^2), s). */
+/* function_atan_double.c: angles from ratios in double. A table has the angles of rays whose slope c is a multiple of
+ * 1/64, as pairs. For a point (x, y) with 0 <= y <= x, the angle from the nearest ray has the tangent (y - c x)/(x + c
+ * y), at most 1/128, so a short series suffices. The other functions use such angles: the arc sine of s is the angle of
+ * the point (root(1 - s^2), s). */
 #include "function_double.h"
 #include "root.h"
 

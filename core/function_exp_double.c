@@ -46,8 +46,8 @@ static const wh_pair fraction[64] = {
     /* clang-format on */
 };
 
-/* Returns a pair times 2^exponent. If the result is subnormal, adding a large number rounds off the excess bits once,
- * and the remainder is counted in units of 2^-1074. */
+/* Returns a pair times 2^exponent, rounded once. If the result is subnormal, the pair is first added to a number so
+ * large that its last place stands for 2^-1074. */
 WH_INLINE double scaled(wh_pair x, int exponent) {
     if (exponent > 1023) {
         return exponent > 1024 ? WH_INFINITY : x.high * 2.0 * 0x1p1023;

@@ -29,12 +29,11 @@ static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift 
 
 /* Returns the logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
  *
- * Multiplied by a 7-bit number near 1/size, the size is within 1/16 of one, without rounding. The logarithm of the
- * remainder 1 + z is the polynomial log2(e) z - z^2 (...). Between 31/32 and 17/16 no other term is added, so that
- * small logarithms have the same relative precision as large ones. */
+ * The size times a 7-bit number near 1/size is 1 + z, without rounding, with |z| at most 1/16. The logarithm of 1 + z
+ * is the polynomial log2(e) z - z^2 (...); that of the 7-bit number is subtracted. For numbers between 31/32 and 17/16
+ * all other terms cancel, so small logarithms have the same relative precision as large ones. */
 static int64_t log2_of(uint32_t magnitude) {
-    /* In the upper 8 bits: the number near 1/size of each sector, in Q7. In the other bits: minus its logarithm, in
-     * Q55. */
+    /* In the upper 8 bits: each sector's 7-bit number, in Q7. In the other bits: minus its logarithm, in Q55. */
     static const uint32_t inverses[] WH_FLASH = {
         UINT32_C(0x80000000), UINT32_C(0x00000000), UINT32_C(0x751097e3), UINT32_C(0x8ce60649),
         UINT32_C(0x6f1a5094), UINT32_C(0xb54d2828), UINT32_C(0x6924939a), UINT32_C(0x56279ad9),

@@ -13,7 +13,7 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
     uint32_t drop = 8U; /* number of digits beyond a float's precision */
     uint32_t start = 0U;
     if (exponent >= -126) {
-        /* the leading digit, added below, increments the exponent by one */
+        /* one less than the biased exponent, because the leading digit of `kept` adds one */
         start = (uint32_t)(exponent + 126) << 23;
     } else if (exponent > -151) {
         drop = (uint32_t)(-118 - exponent);
@@ -45,7 +45,7 @@ wh_digits wh_float_inverse(wh_digits x) {
     const uint32_t size = x.size << zeros;
     const uint32_t first = size & ~UINT32_C(255);
     const bool power_of_two = first == WH_TOP_BIT;
-    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q31; Q32 if below one */
+    const uint32_t inverse = wh_float_ratio(WH_TOP_BIT, first); /* Q32, or Q31 if it is one */
     const uint32_t others = (size - first) << (power_of_two ? 2 : 1);
     return (wh_digits){inverse - wh_high(inverse, wh_high(inverse, others)),
                        (int32_t)zeros - x.exponent - (power_of_two ? 0 : 1)};

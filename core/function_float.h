@@ -100,8 +100,8 @@ WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
  * largest float become infinite, very small results subnormal or zero. `sign` is WH_BITS_SIGN or 0. */
 float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent);
 
-/* The quotient num/den in Q31, rounded down; if the quotient is below one, twice the quotient. In num and in den, the
- * top bit is set and the 8 lowest bits are clear. */
+/* The quotient num/den, rounded down, in Q31, or in Q32 if it is below one. In num and in den, the top bit is set and
+ * the 8 lowest bits are clear. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den);
 
 /* 1/x for x > 0. The relative error is at most 1e-9. */

@@ -87,7 +87,7 @@ static turned reduced(double rad) {
     word[1] = (word[1] << 2) | (word[2] >> 62);
     word[2] <<= 2;
     const bool over = word[0] >> 63 != 0;
-    if (over) { /* negation without the unit of the lowest bit, which is negligible */
+    if (over) { /* negation; the missing unit of the lowest bit is negligible */
         quarters++;
         word[0] = ~word[0];
         word[1] = ~word[1];

@@ -37,17 +37,17 @@ struct wh_ledger_form {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *powers;  /* result[smooth]: rate of change of each entry's account */
     wh_levels_fn *levels; /* result[1 + all coordinates] */
-    /* Replaces `powers` if an entry needs a turn angle in radians; otherwise NULL. Accelerations never need the angle
-     * in radians: a total derivative in the energies, such as th^2 th', drops out of the equations, but not out of
-     * dL/dth. */
+    /* Replaces `powers` if an entry needs a turn angle in radians; otherwise NULL. A total derivative in the energies,
+     * such as th^2 th', drops out of the accelerations, but not out of dL/dth. */
     wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] account of each smooth entry */
-    /* [inputs] inputs that the energies name: each has one of the last entries */
+    /* [inputs] the inputs that the energies name, in the order of their entries */
     const uint8_t *input;
     /* number of smooth entries: those of inputs, dampers and generalized forces */
     uint16_t smooth;
     uint16_t entries; /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
-    uint8_t accounts; /* stored words: two levels for each account, the inputs, one if stabilized */
+    /* number of stored words: two for each account, one for each input, one if stabilized */
+    uint8_t accounts;
     uint8_t coordinates; /* number of integrated coordinates */
     uint8_t angles;      /* number of coordinates that are stored as turn angles */
     uint8_t inputs;

@@ -6,39 +6,39 @@
 
 #include "real.h"
 
-/* X(name in C, word of command lines, title, order, systems that it takes, stages, its tableau). Enumerators count from 0
- * in this order; generated code uses their names.
+/* X(name in C, word of command lines, title, order, systems that it takes, stages, its tableau). Enumerators count from
+ * 0 in this order; generated code uses their names.
  *
  * A step evaluates the right-hand side once a stage. Stage i is evaluated at
  *
  *     begin + h/parts * sum_j share[j] * (rate of stage j),        .stage[i] = {parts, {share...}}
  *
- * with j before i: a row of Butcher's A, with a common denominator. A share of zero costs nothing in generated code. At the
- * end of the step, with h/parts * sum_i share[i] * (derivative of stage i),
+ * with j before i: a row of Butcher's A, with a common denominator. A share of zero costs nothing in generated code. At
+ * the end of the step, with h/parts * sum_i share[i] * (derivative of stage i),
  *
  *     x' = f(x):        x moves by .rates                             (Butcher's b)
  *     q'' = f(q, q'):   q' moves by .rates, and q by h times q' moved by .positions
  *
  * so a method may have its own weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has
- * .positions = b A; only such a method takes systems of first order. Both have the same .parts: the sum for positions is
- * part of the sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
+ * .positions = b A; only such a method takes systems of first order. .positions and .rates share .parts, because the
+ * sum for positions is a part of the sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
  *
  * Nystroem's methods use that rates move positions. Their .places gives the position of stage i:
  *
  *     begin + c h q' + h^2/parts * sum_j share[j] a_j,     .places->reach[i] = {parts, {share...}}, c = .places->node[i],
  *
- * where a_j are the accelerations of the earlier stages; a Runge-Kutta method's reach is A A. The rates of stage i follow
- * from .stage[i]. Two stages with the same node and reach have the same position: a compiler that has inlined a list
- * computes its terms of positions alone (sines, mass matrix, divisions) once. First-order systems, if the row takes them,
- * use .stage alone.
+ * where a_j are the accelerations of the earlier stages; a Runge-Kutta method's reach is A A. The rates of stage i
+ * follow from .stage[i]. Two stages with the same node and reach have the same position. If the list is inlined, the
+ * compiler computes the terms that depend on positions alone (sines, mass matrix, divisions) once for both. First-order
+ * systems, if the row takes them, use .stage alone.
  *
  * Compositions of kicks and drifts are rows of the same columns. With kicks b_i at nodes c_i, .positions = b (1 - c),
  * .rates = b, and .reach[i] has shares b_j (c_i - c_j). They have no .stage, and so no rates at a stage: systems whose
  * accelerations depend on rates cannot use them (WH_NO_RATES). Their first stage need not be at the step's begin.
  *
  * A row of several stages may rotate the sines of the step's begin (stage_turn.h). Its .turns gives the distance of
- * stage i as a multiple of that of stage 1, both extrapolated by the rates at the begin. They follow from the shares
- * (tests/core/test_stage_turn.c). Without .turns, the sines of each stage come from the sine table. */
+ * stage i as a multiple of that of stage 1, both extrapolated by the rates at the begin. These multiples follow from
+ * the shares (tests/core/test_stage_turn.c). Without .turns, the sines of each stage come from the sine table. */
 /* clang-format off */
 #define WH_SHORT_METHOD_ROWS(X) \
     X(WH_EULER, "euler", "explicit Euler", 1, WH_ANY_SYSTEM, 1, \
@@ -119,8 +119,8 @@ extern const wh_method_row wh_methods[WH_METHODS];
 }
 #else
 
-/* The available rows. A generated scene defines WH_STAGES, its method's number of stages. Up to four stages, the longer
- * rows are dropped: otherwise, if the compiler stores any of a row, 8-bit chips need 200 bytes more RAM. */
+/* The available rows. A generated scene defines WH_STAGES, its method's number of stages. If that is at most four, the
+ * longer rows are omitted, because they can cost an 8-bit chip 200 bytes of RAM. */
 #if defined(WH_STAGES) && WH_STAGES <= 4
 #define WH_TABLEAUS(X) WH_SHORT_METHOD_ROWS(X)
 #define WH_NO_TABLEAUS(X) WH_LONG_METHOD_ROWS(X)

@@ -4,8 +4,8 @@
 #define WORDS 3U      /* each word gives four uniform numbers */
 #define MEAN 0x5fffaU /* 12 * 65535 / 2 */
 
-/* The ratio of the deviate x to the sum z, in powers of z^2, in units of 2^-40: Teichroew's a_1 to a_9 over 4, 4^3, ...
- * 4^9. */
+/* The ratio of the deviate x to the sum z, in powers of z^2, in units of 2^-40. The coefficients are Teichroew's a_1,
+ * a_3, ... a_9, divided by 4, 4^3, ... 4^9. */
 static const uint64_t polynomial[] = {UINT64_C(1085725439164), UINT64_C(4336349890),
                                       UINT64_C(82187326), UINT64_C(560760), UINT64_C(125409)};
 enum { TERMS = sizeof polynomial / sizeof polynomial[0] };
@@ -30,8 +30,8 @@ int32_t wh_noise_raw(uint32_t seed, uint64_t index) {
     const bool below = sum < MEAN;
     const uint64_t size = below ? MEAN - sum : sum - MEAN; /* at most 6 * 2^16 */
     const uint64_t square = (size * size) >> 16;
-    uint64_t slope =
-        polynomial[TERMS - 1]; /* below 2^41; the product with the square is below 2^63 */
+    /* `slope` stays below 2^41, and its product with the square below 2^63 */
+    uint64_t slope = polynomial[TERMS - 1];
     for (unsigned k = TERMS - 1; k > 0; k--) {
         slope = polynomial[k - 1] + ((slope * square) >> 16);
     }

@@ -93,9 +93,9 @@ typedef float wh_real;
 #define WH_REALS_IN_REGISTERS 0
 #endif
 
-/* WH_CALLED marks a function that is not inlined if flash is scarcer than time (-DWH_SMALL=1). The compiler's estimate
- * of the cost of a copy would be too low. WH_SHARED marks such a function in a header; it is inlined if flash is not
- * scarce. */
+/* WH_CALLED marks a function that is not inlined if flash is scarcer than time (-DWH_SMALL=1). The compiler
+ * underestimates the flash that an inlined copy takes. WH_SHARED marks such a function in a header; it is inlined if
+ * flash is not scarce. */
 #ifndef WH_SMALL
 #define WH_SMALL 0
 #endif

@@ -96,7 +96,7 @@ wh_real wh_sqrt(wh_real x) {
         }
     }
     fraction |= ONE;
-    if (exponent % 2 == 0) { /* the bias is odd */
+    if (exponent % 2 == 0) { /* without the bias, which is odd, the exponent is odd */
         fraction <<= 1;
     }
     /* the root's leading bit increments the exponent */

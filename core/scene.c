@@ -185,11 +185,11 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
     return status;
 }
 
-/* Returns part / of, rounded to the nearest real, for 0 <= part < of < 2^63. The result may be one. It is a long
- * division, with one bit more than a real has and a sticky bit for the lower ones. */
+/* Returns part / of, rounded to the nearest real, for 0 <= part < of < 2^63. The result may be one. This is a long
+ * division: the quotient has one bit more than a real, and a sticky bit stands for the lower bits. */
 static wh_real rounded(uint64_t part, uint64_t of) {
     const unsigned bits = sizeof(wh_real) == sizeof(float) ? 25 : 54;
-    wh_real unit = WH_R(1.0); /* at the end the unit of the sticky bit */
+    wh_real unit = WH_R(1.0); /* at the end: the value of the sticky bit */
     uint64_t quotient = 0;
     if (part == 0) {
         return WH_R(0.0);

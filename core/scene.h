@@ -154,8 +154,8 @@ wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned a
  * a fraction, the result is wh_scene_time_s(), split. */
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
 
-/* Time of the state as one real: steps * step_s. The error is at most 1.5 U of the result plus the error of step_s. (U
- * = 2^-24 in float: 1 U of 4.7 h is 1 ms.) The outputs of generated scenes use this time. */
+/* Time of the state as one real: steps * step_s. The error is at most 1.5 U of the result plus the error of step_s. (In
+ * float U is 2^-24: 1.5 U of 3 h is 1 ms.) The outputs of generated scenes use this time. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
 /* Returns a hash of step count, angles, reals, holds' values and contact modes, or 0 for a state that was not started.

@@ -36,10 +36,11 @@ extern const wh_probes wh_probe;
 typedef enum wh_probed {
     WH_PROBED_PRODUCT, /* not 0 if products are not rounded before a sum: contraction, x87 */
     WH_PROBED_ORDER,   /* not 0 if a sum is reordered */
-    /* not a unit in the last place of 1 if sums are rounded otherwise, or twice */
+    /* differs from a unit in the last place of 1 if sums are rounded twice, or in another mode */
     WH_PROBED_ROUNDING,
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
-    WH_PROBED_FIVE, /* 5/3, 7/3, 10/3: they differ if division is a product with a reciprocal */
+    /* 5/3, and below 7/3 and 10/3: wrong if division is a product with a reciprocal */
+    WH_PROBED_FIVE,
     WH_PROBED_SEVEN,
     WH_PROBED_TEN,
     WH_PROBED_THIRD,   /* the same check with a divisor that the compiler knows */

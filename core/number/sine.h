@@ -85,9 +85,9 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     uint64_t bits;
     __builtin_memcpy(&bits, &sum, sizeof bits);
 
-    /* pi/64 in three parts (Cody & Waite, Software Manual for the Elementary Functions, chapter 8). The first two have 18
-     * and 16 bits, so their products with up to 2^34 sectors are exact, and so are the differences. They are 0x1.921f8p-5,
-     * 0x1.aa22p-24 and 0x1.68c234c4c6629p-44; C++11 has no such literals, and 17 decimal digits give the same numbers. */
+    /* pi/64 in three parts (Cody & Waite, Software Manual for the Elementary Functions, chapter 8). The first two have
+     * 18 and 16 bits, so the first two lines are exact for up to 2^34 sectors. The parts are 0x1.921f8p-5, 0x1.aa22p-24
+     * and 0x1.68c234c4c6629p-44; C++11 has no such literals, and 17 decimal digits give the same numbers. */
     double r = angle - sectors * 0.049087285995483398;
     r = r - sectors * 9.9216777016408741e-08;
     r = r - sectors * 8.0104504737328716e-14;
@@ -127,9 +127,9 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
-/* The method of wh_angle_from_rad(), inline because a phase needs only the low half and the compiler drops the rest. A
- * radian has 2^32/(2 pi) phase units: 683565276 - 1819212470/2^32 for the whole radians, 1367130551/2^33 * 2^31 for the
- * fraction. The products are of integers, because float products would round. */
+/* Converts radians to a stored angle. The function is inline: for a phase, the compiler drops the high half. One radian
+ * is 2^32/(2 pi) phase units. As factors of integers these are 683565276 - 1819212470/2^32 for whole radians, and
+ * 1367130551/2^32 for units of 2^-31 rad. Float products would round. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */
