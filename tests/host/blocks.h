@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* Memory blocks allocated and not freed. Always 0 with another C library or with the address sanitizer, which finds
- * leaks itself; then blocks_are_counted() returns false. */
+/* Number of memory blocks that are allocated and not freed. The result is always 0 with the address sanitizer, which
+ * finds leaks itself, and with a C library other than glibc; then blocks_are_counted() is false. */
 long blocks_in_use(void);
 bool blocks_are_counted(void);
 

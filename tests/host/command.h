@@ -15,7 +15,7 @@ typedef struct said {
 /* Runs `command`, such as command_run(), with the arguments `words`, which end with NULL. *what: exit status and
  * output. */
 void command_say(int (*command)(int count, char **words), const char *const *words, said *what);
-/* The same with the arguments themselves. The first NULL ends them. */
+/* command_say() with the words as arguments of the macro. The first NULL ends the words. */
 #define COMMAND_SAY(command, what, ...) \
     command_say(command, (const char *const[]){__VA_ARGS__, NULL}, what)
 

@@ -14,7 +14,7 @@ typedef struct derived {
     equations *equations; /* NULL if the derivation was refused */
     image *image;         /* NULL if the derivation was refused */
     char *errors;         /* errors as text, "" if there are none */
-    char *text;           /* the text of derived_file(), to which source places point; else NULL */
+    char *text;           /* text of the file, for source places; NULL without derived_file() */
 } derived;
 
 /* Parses `text` without deriving it and returns the errors, "" if there are none. The next call overwrites the
@@ -37,7 +37,7 @@ void derived_free(derived *d);
 void derived_expect(const derived *d, const char *what);
 derived derived_surely(derived d, const char *what);
 
-/* Capacity of state_values: coordinates, and for each coordinate its value and derivatives. */
+/* Capacity of state_values: UNKNOWNS coordinates, each with its value and ORDERS_MAX - 1 derivatives. */
 enum { UNKNOWNS = 16, ORDERS_MAX = 6 };
 
 /* A value for every symbol, by kind and index. Both sides of a comparison are evaluated with these values. */

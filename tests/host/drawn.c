@@ -63,8 +63,8 @@ static void pushed(const drawn *b, const double *lambda, const double *from, dou
     }
 }
 
-/* Do the contact laws hold with these cases? A contact of case 0 reaches its target. A contact of case 1 or -1
- * pushes with its limit in that direction; the limit of a stop is zero. */
+/* Do the contact laws hold if which[k] is the case of contact k? In case 0 the contact reaches its target. In case 1
+ * or -1 its force is the limit with this sign; a stop's limit is zero. */
 static bool meets(const drawn *b, const int *which, const double *from, double *lambda, double *x) {
     double a[DRAWN_CONTACTS][DRAWN_CONTACTS + 1] = {{0.0}};
     double tight[DRAWN_CONTACTS];

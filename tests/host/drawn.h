@@ -9,7 +9,6 @@
 
 enum { DRAWN_MOST = 4, DRAWN_CONTACTS = 6 };
 
-/* The step of these scenes in seconds. */
 #define DRAWN_STEP_S (1.0 / 1024.0)
 
 typedef struct drawn_contact {
@@ -47,10 +46,11 @@ void drawn_inverse(const drawn *b, const double *y, double *x);
 
 void drawn_open(motion *m, const drawn *b, const engine_kind *kind);
 
-/* Solves x = from + M^-1 J^T lambda for x (rates or accelerations) and lambda. Conditions: for a hold, J x = target.
- * For a stop, lambda >= 0 and J x >= target, with equality in one of the two. For a friction, |lambda| <= limit; if
- * |lambda| is at the limit, J x - target has the opposite sign. Returns false if the contact rows are linearly
- * dependent. */
+/* Solves x = from + M^-1 J^T lambda for x (rates or accelerations) and lambda, with these conditions:
+ * - a hold: J x = target;
+ * - a stop: lambda >= 0 and J x >= target, with equality in one of the two;
+ * - a friction: |lambda| <= limit; if |lambda| is at the limit, J x - target has the opposite sign.
+ * Returns false if the contact rows are linearly dependent. */
 bool drawn_solved(const drawn *b, const double *from, double *lambda, double *x);
 /* Are the contact rows linearly independent? Only then are the forces unique. */
 bool drawn_independent(const drawn *b);

@@ -19,7 +19,7 @@ typedef struct drawn_image {
 } drawn_image;
 
 /* Draws an image of second order: unknowns, some of which are angles, with their rates. In half of the cases, the
- * last column of a `matrix` step is zero. The scene's start is the first entries of the matrix. The texts are string
+ * last column of a `matrix` step is zero. The start values are the first entries of the matrix. The texts are string
  * literals: do not free them. */
 void drawn_image_draw(drawn_image *d, dice *die, image_matrix_of matrix);
 

@@ -151,7 +151,7 @@ void drawn_scene_list(drawn_scene *d, dice *die, image_role role, int results, u
         if (drawn && op_rows[l->ops[l->list.count - 1].code].kind == OP_IS_PHASE) {
             l->ops[l->list.count] = (op){.code = dice_one_of(die, 2) == 0 ? OP_SIN : OP_COS,
                                          .a = l->list.count - 1,
-                                         /* the phase that was just drawn must be used */
+                                         /* the next operation always uses the phase */
                                          .b = -1};
             l->list.count++;
         }

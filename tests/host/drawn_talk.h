@@ -22,7 +22,7 @@ typedef struct drawn_talk {
     uint32_t ticks[TURNS_MOST];
     wh_readings readings[TURNS_MOST];
     wh_orders orders[TURNS_MOST];
-    /* number of bytes in the frame of remembered values before the orders; 99 if there is no such frame */
+    /* size in bytes of the remembered values that precede the orders; 99: no such frame */
     unsigned remembers[TURNS_MOST];
     uint8_t remembered[TURNS_MOST][WH_REMEMBER_MAX + 8];
 } drawn_talk;
@@ -60,7 +60,7 @@ void talk_close_line(stream *heard);
 /* Hash of the orders of the first `turns` turns, without counts and remembered values. */
 uint64_t talk_hash_of(unsigned turns);
 
-/* Fails the test if talk_report does not have this end and `turns` turns. */
+/* Fails the test unless talk_report has this end and this number of turns. */
 void talk_expect_report(lockstep_end end, unsigned turns);
 
 #endif

@@ -60,7 +60,7 @@ typedef enum outcome {
     OUTCOME_DOUBTFUL,
     OUTCOME_REFUSED,
     OUTCOME_NONE, /* the run ended without a result and without a trip */
-    /* the firmware is silent, or the end of the run was not reached in time while the motor could drive */
+    /* the firmware is silent, or it still drives the motor when the time of the run is over */
     OUTCOME_HANG,
     OUTCOMES
 } outcome;
@@ -73,22 +73,21 @@ typedef struct run_checks {
     bool happened;
     outcome outcome;
     int trip;
-    /* the run ended with the enable line on although the motor must not drive, or with a driven motor above the
-     * speed limit */
+    /* at the end of the run the motor was driven above the speed limit, or the enable line was on although the motor
+     * must not drive */
     bool runs_on;
-    /* the enable line stayed on for more than a second although the rotor's turns showed a drive when none was
-     * allowed */
+    /* the motor must not drive, but turns showed a drive, and the enable line stayed on for another second */
     bool stays_on;
-    /* no trip within a second although successive turns showed a rising speed with the motor off */
+    /* turns with the motor off became faster, and there was no trip within a second */
     bool untold;
     bool overspeed;  /* over-speed although the plant drives no harder than ordered */
     bool cut;        /* the watchdog cut the power although nothing was late or lost */
     double turn_rpm; /* speed of the fastest turn */
     double peak_rpm; /* greatest instantaneous speed */
-    /* error of the worst result of good quality: how far it is outside its own interval plus 1 % (amplitude relative
-     * to the true one, phase in rad) */
+    /* error of the worst result of good quality, beyond the result's own interval and another 1 %; an error of the
+     * amplitude is relative to the true one, an error of the phase is in rad */
     double lie;
-    /* the drive ignored the voltage for at least the time in which the controller must stop the motor */
+    /* the drive ignored the voltage for at least LASTING_S, and this was the only fault */
     bool lasting;
     double target_rpm;
     double began_rpm; /* speed when the fault began */
@@ -104,8 +103,8 @@ typedef struct run_checks {
     uint64_t overruns;
     uint32_t steps[STEP_BINS]; /* histogram of instructions per control step; zero if not counted */
     double most;               /* largest number of instructions in a control step */
-    double most_s;             /* time of the longest control step */
-    /* largest number of instructions between two waits: HAL, control steps and printing */
+    double most_s;             /* time at which this step was reported */
+    /* largest number of instructions from one wait to the next: HAL, control step and printing */
     double loop;
     double start; /* number of instructions before the control loop */
 } verdict;

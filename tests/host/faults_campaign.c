@@ -51,10 +51,8 @@ static bool rig_may_drive(const float *note) {
     return stage >= PHASE(WH_PHASE_SPIN_UP) && stage <= PHASE(WH_PHASE_RAMP_DOWN);
 }
 
-/* The controller detects a drive that ignores the voltage after two slot pulses that come too early. These pulses
- * come within a turn of the fault's begin, except that a pulse in the first sixth of the turn is not early enough
- * (docs/rig.md): 7/6 turns. Until then, and for one control period more, full voltage drives the rotor. Gravity can
- * add speed within a turn. */
+/* The controller must stop a drive that ignores the voltage within TURNS and one control period: then two slot pulses
+ * have come too early. A pulse in the first sixth of a turn does not count as early (docs/rig.md). */
 #define CAUGHT_RPM 470.0
 #define TURNS (7.0 / 6.0)
 #define LAG_S 0.23 /* time constant of the rotor at full voltage */
@@ -64,7 +62,7 @@ static bool rig_may_drive(const float *note) {
 #define INERTIA_KGM2 5.77e-3
 
 /* The greatest speed that is allowed before the enable line is off, if the drive ignores the voltage in a run at
- * target_rpm. The result is not below CAUGHT_RPM. */
+ * target_rpm: full voltage for that time, plus the speed that gravity adds. At least CAUGHT_RPM. */
 static double rig_caught_rpm(double target_rpm) {
     const double weight_Nm = (double)(WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2);
     double rpm = target_rpm;
@@ -103,7 +101,7 @@ enum {
     AFTER_TRIP = 32, /* the fault acts only after another fault has tripped the rig */
     STARVED = 64,    /* the watchdog resets the controller and does not cut the power */
     DELAYS = 128,    /* the watchdog may cut the power */
-    FED = 256,       /* every run has gravity compensation; with `dials`, from the start */
+    FED = 256,       /* with gravity compensation and a fault from the start; needs dials */
     TURNED = 512,    /* gravity compensation with the wrong sign */
     /* the size is a share of the supply; half of the runs have stop pressed, half have a dead sensor */
     SHARE = 1024
@@ -452,7 +450,7 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
 #define HAND_RPM 61.0 /* a hand can turn the rotor at most this fast */
 /* with the motor off, three turns with this total ratio of speeds show a drive */
 #define RISE 1.05
-/* number of turns by which the turns of a result may lag behind the last turn */
+/* a result may be for turns that ended 0, 1 or 2 turns ago */
 #define SHIFTS 3
 enum { GOOD, DOUBTFUL, REFUSED }; /* the values of wh_quality */
 
@@ -636,8 +634,8 @@ static void watch(void *of, double time_s, const plant *p) {
     watch_off(j, time_s, p);
 }
 
-/* How far a result is outside its interval plus 1 %: the amplitude relative to the true one, or the phase in rad,
- * whichever is larger. The result may be for turns that ended up to SHIFTS - 1 turns ago; the smallest error counts. */
+/* How far a result is outside its interval plus 1 %: relative for the amplitude, in rad for the phase, whichever is
+ * larger. The result may be for turns that ended 0 to SHIFTS - 1 turns ago; the smallest value counts. */
 static double off_by(const judge *j, unsigned turns) {
     const double amplitude = (double)j->told[HAL_NOTE_AMPLITUDE];
     const double phase = (double)j->told[HAL_NOTE_PHASE];
@@ -663,7 +661,7 @@ static double off_by(const judge *j, unsigned turns) {
     }
     return isfinite(least)
                ? least
-               : 1.0; /* 1.0 is far off: the result covers more turns than were kept to compare with */
+               : 1.0; /* the judge does not have all turns of the result: a large error */
 }
 
 /* --- the controller's messages -------------------------------------------------------------------------------- */
@@ -718,8 +716,8 @@ static void take_notes(judge *j, const wh_orders *orders) {
     }
 }
 
-/* Counts the control step that this message reports. A message without a step is the first: its time counts as the
- * start. */
+/* Counts the control step that this message reports. The first message reports no step; its instructions are those of
+ * the start. */
 static void count_step(judge *j, double time_s, const wh_orders *orders) {
     const double instructions = (double)orders->step_timer * j->per_count;
     const double loop = (double)orders->busy_timer * j->per_count;
@@ -735,7 +733,7 @@ static void count_step(judge *j, double time_s, const wh_orders *orders) {
     }
 }
 
-/* Ends the run some time after a trip, because the controller could watch the rotor for long. */
+/* Ends the run WATCHED_S after a trip if the motor is off. The controller alone might go on for long. */
 static void let_go(judge *j, double time_s) {
     if (!rig_is_tripped(j->told) || j->driven) {
         j->off_since_s = -1.0;
@@ -843,7 +841,7 @@ static const struct {
     const char *what;
     bool (*is)(const verdict *v);
     double (*by)(const verdict *v); /* the worst run has the largest value */
-    double share;                   /* of the runs; more is a failure */
+    double share;                   /* allowed share of the runs */
 } violations[] = {
     {"Does not end, or is silent", is_hang, by_speed, 0.0},
     {"Ends with the motor on", runs_on, by_speed, 0.0},
@@ -1071,7 +1069,7 @@ static void print_halts(FILE *out, const verdict *all, unsigned count) {
 }
 
 static bool takes_time(const verdict *v) {
-    /* "two faults" is listed because one of the two may be a hang with resets */
+    /* one of "two faults" may be a hang with resets */
     static const char *const words[] = {"slow", "late", "hang", "two faults"};
     const char *word = campaign_row_word(v->row);
     bool takes = false;

@@ -1,8 +1,9 @@
-/* horizons.h: the time until which a run is accurate, from a comparison with a reference. Tests compare this true time
- * with the estimate of `whirl trust`.
+/* horizons.h: the time until which a run is accurate, from a comparison with a reference. Tests compare this true
+ * time with the estimate of `whirl trust`.
  *
- * The reference is a run in double with compensated sums and a 32nd of the run's step, checked by one of a 16th. Until
- * the run fails the tolerance, their difference must be far below it. */
+ * The reference runs in double, with compensated sums and a 32nd of the run's step. A second reference with a 16th of
+ * the step checks the first: until the run fails the tolerance, the difference of the two references must be far
+ * below the tolerance. */
 #ifndef TESTS_HORIZONS_H
 #define TESTS_HORIZONS_H
 

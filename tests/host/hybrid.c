@@ -21,7 +21,7 @@ typedef struct runner {
     hybrid_motion *motion;
 } runner;
 
-/* The gap of a stop; of a friction only the rate is used. rate = row . q', and its derivative is row . q'' + bend. */
+/* A stop has a gap and a rate, a friction only a rate. The rate is row . q', its derivative row . q'' + bend. */
 typedef struct gauge {
     long double gap;
     long double rate;
@@ -169,7 +169,7 @@ static bool ended(const runner *r, const long double *state) {
     return false;
 }
 
-/* Gaps (m) and rates (m/s) below this count as zero at an event, which the bisection finds only to round-off. */
+/* At an event, smaller gaps (m) and rates (m/s) are zero: bisection finds the event only to round-off. */
 #define NEAR 1e-9L
 
 /* The contacts with numbers member[count], as a problem for drawn_solved(). */
@@ -283,7 +283,7 @@ static bool settle(runner *r, const linkage_numbers *at, const gauge *g) {
     for (int c = 0; c < count; c++) {
         const int k = member[c];
         const double off = drawn_along(&b, c, to) - b.contact[c].target;
-        /* an active contact reaches its target to the last bit */
+        /* drawn_solved() gives a sliding friction exactly its limit, and an open stop exactly zero */
         const bool slides = fabs(lambda[c]) >= b.contact[c].limit;
         const bool up = lambda[c] < 0.0 || (lambda[c] == 0.0 && off > 0.0);
         if (b.contact[c].kind == 's') {

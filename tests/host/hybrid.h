@@ -43,7 +43,6 @@ typedef struct hybrid_motion {
     /* there is no reference: impacts on one stop accumulate (Zeno), or no case of the contact laws fits */
     bool aside;
 } hybrid_motion;
-/* The step of most of these runs, s. */
 #define HYBRID_STEP_S (1.0 / 4096.0)
 
 /* Moves the linkage until until_s with this step. If a flight between two impacts is shorter than least_flight_s,

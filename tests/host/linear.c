@@ -16,7 +16,7 @@ typedef struct drawing {
     quad mass[LINEAR_STATES][LINEAR_STATES];
     /* force on each coordinate, per column of `linear` */
     quad force[LINEAR_STATES][LINEAR_COLUMNS];
-    /* the part of gravity, per mass, that acts on each coordinate */
+    /* mass of body i, which gravity may pull, kg */
     double weight[LINEAR_STATES];
 } drawing;
 

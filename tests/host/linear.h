@@ -22,7 +22,7 @@ typedef struct linear {
 } linear;
 
 typedef struct linear_kind {
-    int stiff;    /* springs and dampers are up to 2^stiff times stronger */
+    int stiff;    /* springs and dampers have a factor from 1 to 2^stiff */
     bool coupled; /* the mass matrix is full, and its inverse is not exact in double */
 } linear_kind;
 

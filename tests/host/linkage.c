@@ -17,7 +17,7 @@ static bool one_in(uint64_t *seed, unsigned n) { return next(seed) % n == 0; }
 
 static linkage_body body_draw(uint64_t *seed, int number) {
     linkage_body b = {.parent = number - 1};
-    /* to have trees, not only chains: the parent is any earlier body, or the ground */
+    /* the parent is any earlier body or the ground, so that trees occur, not only chains */
     if (one_in(seed, 4)) {
         b.parent = (int)(next(seed) % (uint64_t)(number + 1)) - 1;
     }
@@ -48,7 +48,7 @@ linkage linkage_draw(uint64_t *seed) {
     for (int k = 0; k < of.springs; k++) {
         of.spring[k] = (linkage_spring){.body = (int)(next(seed) % (uint64_t)of.bodies),
                                         .x_m = eighths(seed, -16, 16),
-                                        /* so far up that the body's end seldom reaches it */
+                                        /* so high that the body seldom reaches this point */
                                         .y_m = eighths(seed, 17, 40),
                                         .stiffness_Npm = eighths(seed, 8, 80),
                                         .length_m = one_in(seed, 2) ? 0.0 : eighths(seed, 2, 8)};

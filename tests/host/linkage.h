@@ -24,7 +24,7 @@ typedef struct linkage_body {
     double rest;
     double damping; /* damping at the joint, N m s/rad or N s/m */
     double drive;   /* amplitude of the force or torque drive cos(wave q), N m or N */
-    double wave;    /* 1, 2, ...; per metre on a rail */
+    double wave;    /* 1, 2, ... per rad of a hinge or per metre of a rail */
     /* drag coefficient at the body's end, which is 2 centre_m from the joint; loss function drag/2 v^2 */
     double drag_Nspm;
 } linkage_body;

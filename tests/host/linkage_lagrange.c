@@ -26,7 +26,6 @@ static int most(int a, int b) { return a > b ? a : b; }
 
 static int pairs(int variables) { return variables * (variables + 1) / 2; }
 
-/* The second derivative by variables i and j. */
 static long double jet_curve(const jet *a, int i, int j) {
     return i >= j ? a->curve[i * (i + 1) / 2 + j] : a->curve[j * (j + 1) / 2 + i];
 }

@@ -19,7 +19,7 @@ static named_cure read_options(const char *piece, bool tried) {
     return cure;
 }
 
-/* Reads a list such as "A1 or A2, or A3", which is split at each "or --". Changes the text. Returns the new count. */
+/* Splits a list such as "--step 1ms, or --number double" at each "or --". Changes the text. Returns the new count. */
 static int read_alternatives(char *piece, bool tried, named_cure *list, int count) {
     while (piece != NULL && count < NAMED_CURES) {
         char *next = strstr(piece, "or --");

@@ -1,5 +1,4 @@
-/* priced.h: scenes from texts, and the settings for which they have an image, for quick suites of `whirl price`
- * (host/study). */
+/* priced.h: trials of scenes that are given as text, for quick suites of `whirl price` (host/study). */
 #ifndef TESTS_HOST_PRICED_H
 #define TESTS_HOST_PRICED_H
 
@@ -14,8 +13,7 @@ typedef struct priced {
     overrides changes;
     grid grid;
     diags *errors;
-    /* Returns true if there is an image for the setting and this step (0: the scene's own step). If the pointer is
-     * NULL, there always is. */
+    /* Is there an image for the setting with this step (0: the scene's own step)? NULL: there always is. */
     bool (*takes)(const setting *s, double step_s);
     int asked; /* number of images requested so far */
     char place[32];

@@ -2,8 +2,7 @@
 
 enum { TERMS = 16 };
 
-/* The series of the sine (`from` = 1: without the factor x) or the cosine (`from` = 0) of an angle below an eighth
- * turn. */
+/* The Taylor series of sin(x) (`from` = 1) or cos(x) (`from` = 0) for |x| below an eighth turn. */
 static quad series(quad x, int from) {
     quad sum = 1;
     for (int i = TERMS; i > 0; i--) {
@@ -29,8 +28,8 @@ static quad wave(quad rad, int quarters) {
 quad quad_sine(quad rad) { return wave(rad, 0); }
 quad quad_cosine(quad rad) { return wave(rad, 1); }
 
-/* Derivatives of a body's position by each coordinate (x, y), and the part of its acceleration that comes from the
- * rates alone. */
+/* x[j], y[j]: derivatives of a body's position by coordinate j. bend_x, bend_y: the body's acceleration if all
+ * coordinates have constant rates. */
 typedef struct moving {
     quad x[QUAD_COORDINATES];
     quad y[QUAD_COORDINATES];

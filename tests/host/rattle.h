@@ -26,8 +26,8 @@ typedef struct rattle {
 
 rattle rattle_drawn(dice *d, rattle_kind kind);
 void rattle_write(const rattle *r, char text[static LINKAGE_TEXT]);
-/* Writes the mechanism together with a second body, which is on a spring or is slowed down by a damper, and with the
- * energy balance. The step may be too coarse for the second body. */
+/* Writes the mechanism with the energy balance and a second body. The second body is slowed down by a damper if
+ * `damped`, else it is on a spring. The step may be too coarse for the second body. */
 void rattle_write_beside(const rattle *r, bool damped, double rate_radps, double size_m,
                          char text[static LINKAGE_TEXT]);
 /* The true position at time t. The times of successive calls must rise. */

@@ -4,11 +4,9 @@
 
 #include "derived.h"
 
-/* Symbols of every kind, and random expressions in normal form. */
-
 enum { FORM_SYMBOLS = 7, FORM_PRIMES = 3 };
 
-/* These two symbols have the same kind and number, but belong to different mechanisms. */
+/* The parameters n and a have the same number, but belong to different mechanisms. */
 static const symbol form_symbols[FORM_SYMBOLS] = {
     {.kind = SYM_COORDINATE, .name = "q", .text = "", .unit = "", .index = 0},
     {.kind = SYM_COORDINATE, .name = "r", .text = "", .unit = "", .index = 1},
@@ -21,7 +19,6 @@ static const symbol form_symbols[FORM_SYMBOLS] = {
 
 static int form_place(const symbol *sym) { return (int)(sym - form_symbols); }
 
-/* Returns -1, 0 or 1 for x < y, x = y or x > y. */
 static int form_order(double x, double y) { return x < y ? -1 : x > y ? 1 : 0; }
 
 static bool is_tame(const poly *p) {
@@ -317,8 +314,8 @@ static double variable_value(void *context, const symbol *sym, int primes) {
     return ((const double *)context)[sym->index];
 }
 
-/* Returns false if the value is not finite or not smooth around the point. *scale: the size by which errors are
- * judged; differences between neighbouring points show the loss by cancellation. */
+/* Computes the value and the scale by which errors are judged: the value, or 1e6 times its change if a variable
+ * changes by 1e-9, whichever is larger. Returns false if the value is not finite or not smooth around the point. */
 static bool smooth_value(const tree *t, int top, const double at[VARIABLES], double *value,
                          double *scale) {
     *value = value_of(t, top, at);
@@ -440,8 +437,8 @@ static void random_values(double at[FORM_SYMBOLS * FORM_PRIMES], uint64_t *seed)
     }
 }
 
-/* The magnitude that poly.h defines, computed independently: the size of each term without its sine or cosine. A
- * power of a sum counts the larger of the sum and its parts. */
+/* The magnitude that poly.h defines, computed independently: the sum of the absolute terms, without sines and
+ * cosines. For a power of a sum, the sum or its own magnitude counts, whichever is larger. */
 static double expected_magnitude(const poly *p, double *at) {
     double sum = 0.0;
     for (int i = 0; i < p->count; i++) {
@@ -668,16 +665,16 @@ TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     before = a->work;
     poly_symbol(a, &form_symbols[1], 0); /* the symbol exists already: no work */
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
-    const poly *sum = poly_add(a, q, r); /* two terms, and a new sum of two terms */
+    const poly *sum = poly_add(a, q, r); /* work for two terms and for a new sum of two terms */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM + POLY + 2 * PART, a->work - before);
     before = a->work;
-    /* a new product, which is remembered as a list of one term */
+    /* work for a new product of two factors, for a sum of this one term, and for a table entry of the pair */
     const poly *product = poly_mul(a, q, r);
     TEST_ASSERT_EQUAL_UINT64(MONO + 2 * PART + POLY + PART + 2 * TERM + PAIR, a->work - before);
     before = a->work;
     TEST_ASSERT_TRUE(poly_mul(a, r, q) == product);
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
-    poly_each_number(a, sum, grown, 0.0); /* two terms and no new object */
+    poly_each_number(a, sum, grown, 0.0); /* work for two terms, without a new object */
     TEST_ASSERT_EQUAL_UINT64(2 * TERM, a->work - before);
     algebra_free(a);
 }

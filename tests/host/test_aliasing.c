@@ -138,7 +138,7 @@ TEST(aliasing, what_is_wrong_is_told) {
                 const double left_m = fabs(x_of(&then) - truth(&m, m.until_s));
                 const bool all = trusted(&then);
                 TEST_ASSERT_TRUE_MESSAGE(!told(&then), about);
-                /* the error is below 5 % of the first result plus the true range; if trusted, below 5 % of the range */
+                /* below the true range plus 5 % of the first result; if trusted, below 5 % of the range */
                 TEST_ASSERT_TRUE_MESSAGE(left_m < WRONG * fabs(is) + range_of(&m), about);
                 TEST_ASSERT_TRUE_MESSAGE(!all || left_m < WRONG * range_of(&m), about);
             }
@@ -312,7 +312,7 @@ TEST(pulse_trains, pulses_between_stages) {
     TEST_ASSERT_TRUE(wrong > cases / 3);
 }
 
-/* The true final speed: the sum of what remains of the effect of each pulse. */
+/* The true final speed: each pulse adds a speed, which decays after the pulse. */
 static double driven_mps(double pulses_hz, double duty, double phase, double end_s) {
     double sum = 0.0;
     for (int k = 0; (k - 0.5 * duty - phase) / pulses_hz < end_s; k++) {

@@ -22,7 +22,7 @@ static const struct {
     const char *text;
     int list;
     bool sine;
-    /* true if the result is a derivative, which has the number of the multiple as a factor */
+    /* true: the result is a derivative, so the number of the multiple is a factor of it */
     bool scaled;
     double offset;
 } places[] = {
@@ -51,7 +51,7 @@ static void check_place(const derived *d, size_t which, double times, const char
         s.value[0][0] = th;
         derived_run(in_step ? d->image->list[IMAGE_STEP] : d->image->list[IMAGE_SIGNALS], d, &s,
                     result);
-        /* if th is an angle, it is the only one, and its acceleration is found through `place` */
+        /* th is the only angle, if it is one; `place` says which result is its acceleration */
         const double got = result[in_step ? d->image->place[0] : 0];
         const double trig_value = places[which].sine ? sin(times * th) : cos(times * th);
         const double wanted =
@@ -195,7 +195,7 @@ TEST(angle_places, systems_and_large_multiples) {
         const int64_t units = (int64_t)rint(th * (4294967296.0 / two_pi));
         const uint32_t phase = (uint32_t)((uint64_t)units * UINT64_C(3000000000));
         TEST_ASSERT_TRUE(fabs(output[2] - sin((double)phase / 4294967296.0 * two_pi)) < 7e-8);
-        /* 2^32 + 3 + 1/4 times the angle, in quarters of a unit */
+        /* expected phase of (2^32 + 3 + 1/4) th, in quarters of a unit */
         const uint64_t quarters = (uint64_t)units * (4 * UINT64_C(4294967299) + 1);
         const double turns = (double)(quarters & UINT64_C(0x3ffffffff)) / 17179869184.0;
         TEST_ASSERT_TRUE(fabs(output[3] - cos(turns * two_pi)) < 7e-8);
@@ -226,8 +226,8 @@ TEST(angle_places, books_of_a_part) {
     derived_free(&d);
 }
 
-/* The equations do not contain the fraction, but the momentum changes with it. So the powers of the energy balance
- * need the angle with its turns. */
+/* The momentum depends on th/2, although the equations of motion do not. So the powers of the energy balance need the
+ * angle with its turns. */
 TEST(angle_places, ledger_takes_a_part) {
     char text[1024];
     snprintf(text, sizeof text, "%sscene s { start th = 1000, th' = 3 [rad/s]; until 5 [s] }\n",
@@ -432,7 +432,7 @@ TEST(angle_parts, float_sines_of_parts) {
         engine_float.outputs(run, output);
         for (int i = 0; i < OUTPUTS; i++) {
             const wave_piece *p = &drawn.expr[i].term[0].factor[0].argument.piece[0];
-            /* sines of whole multiples may be computed from each other */
+            /* not tested: sines of whole multiples, which the program may compute from each other */
             if (p->number != rintl(p->number)) {
                 const long double value = wave_expr_value(&drawn.expr[i], state, true).value;
                 worst = fmax(worst, fabs((double)((long double)output[i] - value)));

@@ -503,7 +503,7 @@ TEST(linkages, the_energy_is_accounted_for) {
         double least = fine;
         double step_s = 5e-4;
         while (!(least < 1e-7 * turnover)) {
-            /* a motion too fast for the step has an error of the method, which falls with the step */
+            /* if the step is too long for the motion, the residual is the method's error */
             const double coarser = least;
             step_s /= 4.0;
             fast += coarser == fine ? 1U : 0U;

@@ -49,7 +49,7 @@ static derived with_statement(const char *statement) {
     return d;
 }
 
-/* T is listed itself, without derivatives, because these always exist. */
+/* Number of listed expressions of T: only T itself, because its derivatives always exist. */
 enum { OF_T = 1 };
 
 /* Losses have derivatives by the rates only. */

@@ -15,9 +15,9 @@ static double told(const char *summary, const char *words) {
     return strtod(at + strlen(words), NULL);
 }
 
-/* A ball with a constant force P bounces in the middle of steps; beside it a body slides with damping. The work
- * P (z - h) and the loss of the slide have closed forms. With the stop's entry they sum to the change of energy. A
- * ledger that integrated only from one step's end to the next would miss a part of the step with the impact. */
+/* A ball with a constant force P bounces in the middle of steps, and a second body slides with damping. The work
+ * P (z - h) and the loss of the slide have closed forms. Work, loss and the stop's entry must sum to the change of
+ * energy. A ledger that integrated only from one step's end to the next would miss a part of the step with the impact. */
 TEST(account, entries_across_impacts_are_closed_forms) {
     dice d = dice_of("pushed bounces", 4005);
     for (unsigned i = 0; i < dice_cases(10); i++) {
@@ -47,9 +47,9 @@ TEST(account, entries_across_impacts_are_closed_forms) {
 }
 
 /* === suite ledger_turns ======================================================================= */
-/* Adding the total derivative dG/dt of a function of the coordinates to L does not change the motion, but it changes
- * the momenta by dG/dq, and each dL/dq. Then the energy balance needs the angles themselves, while the equations
- * need only their sines. Checked by closed forms and by random mechanisms. */
+/* If the total derivative dG/dt of a function of the coordinates is added to L, the motion stays the same, but each
+ * momentum changes by dG/dq, and each dL/dq changes, too. Then the energy balance needs the angles themselves, while
+ * the equations need only their sines. Checked by closed forms and by random mechanisms. */
 
 static const stepping booked = {.kind = &engine_double, .method = WH_RK4, .ledger = true};
 static const stepping booked_float = {.kind = &engine_float, .method = WH_RK4, .ledger = true};

@@ -46,7 +46,6 @@ static own_bodies drawn(dice *d) {
     return m;
 }
 
-/* The names are in reverse alphabetical order: z, y, x, ... */
 static char name_of(unsigned i) { return (char)('z' - (int)i); }
 
 /* Writes the sum over all bodies of one kind after the words `begins`, such as "V = 2 [N/m]*z^2/2 + 3 [N/m]*y^2/2".
@@ -90,7 +89,6 @@ static void mechanism_text(const own_bodies *m, char text[2500]) {
     (void)snprintf(text + at, (size_t)(2500 - at), "; step 1 [ms]; until %.3f [s] }\n", m->until_s);
 }
 
-/* The change of the momentum m x' over the run. */
 static double change_Ns(const own_body *b, double time_s) {
     const double w = sqrt(b->law / b->mass_kg);
     double end_mps = b->speed_mps;
@@ -179,7 +177,7 @@ TEST(books_told, conserved_momenta) {
     TEST_ASSERT_TRUE(none > 3U);
 }
 
-/* Checks for each coordinate the named causes of its momentum's change, this change, and its mean over the run. */
+/* Checks each momentum balance: the named cause, the change, and the change divided by the run's duration. */
 TEST(books_told, ledgers) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",
@@ -323,7 +321,6 @@ typedef struct remainders {
     double change_J;  /* change of the energy integral that was derived by hand */
 } remainders;
 
-/* The residual of the ledger's energy balance, J. */
 static double ledger_left_J(const motion *m) {
     const image_ledger *l = &m->image->ledger;
     double *total = calloc((size_t)(l->entries + l->accounts), sizeof *total);
@@ -477,8 +474,8 @@ TEST(energy_integral, impacts_of_fast_bodies_are_refused) {
     }
 }
 
-/* The hoop's rate w is an input, which is changed after every step, as a joystick would. The energy balance has only
- * the entry of these changes: each gives -m R^2 sin^2(th) (w2^2 - w1^2)/2. */
+/* The hoop's rate w is an input that changes after every step, as with a joystick. The energy balance must have only
+ * one entry: a change from w1 to w2 adds -m R^2 sin^2(th) (w2^2 - w1^2)/2. */
 static void change_the_hoop(const char *text, bool stops) {
     motion m;
     double w = 10.0;
@@ -522,8 +519,8 @@ TEST(energy_integral, a_hoop_whose_rate_is_changed) {
     }
 }
 
-/* The stiffness of two springs is an input each. Each spring has an entry of (k2 - k1) x^2/2. A change before a
- * refused step must not be lost. */
+/* The stiffnesses of two springs are inputs. A change from k1 to k2 adds (k2 - k1) x^2/2 to the spring's entry. A
+ * change before a refused step must not be lost. */
 TEST(energy_integral, springs_whose_rates_are_changed) {
     static const char text[] =
         "mechanism springs\ncoordinate x [m]\ncoordinate y [m]\ninput a = 9 [N/m]\n"

@@ -70,7 +70,6 @@ TEST(c_names, compilers_have_nothing_to_say_of_what_is_free) {
     TEST_ASSERT_EQUAL_INT(0, complaints);
 }
 
-/* Names that mechanisms are likely to have, and that are close to names of the C library, are free. */
 TEST(c_names, ordinary_names_are_free) {
     char names[] =
         "spring strut string_pendulum memory_wheel isolator tower torsion top sling logger "

@@ -59,8 +59,9 @@ static void close_request(request *q) {
     derived_free(&q->d);
 }
 
-/* Does this setting, with this number of steps per period, meet all limits? *worst: cycles per second if every step
- * were the longest, from the largest stated figure. Computed independently of host/study/choice.c. */
+/* Does this setting, with this number of steps per period, meet all limits? Computed independently of
+ * host/study/choice.c. *worst: cycles per second by the largest stated number per step (of instructions if cycles are
+ * unknown). */
 static bool keeps(request *q, const setting *s, uint64_t substeps, double *worst) {
     bool own;
     const deviation_pace pace = {substeps, 1};

@@ -103,14 +103,14 @@ TEST(counts, counts_are_exact) {
         }
         const duration step =
             duration_of(1 + random_below(most), (int)random_below(4), units[k].name, units[k].per);
-        /* an end after any number of steps, within 50 years */
+        /* the number of steps is log-uniform, and the end is within 50 years */
         const double span_s = (double)step.digits / (double)step.in;
         const double count = exp(log(1.6e9 / span_s) * (double)random_below(1000) / 1000.0);
         const double end_s = floor(count + 1.0) * span_s;
         if (end_s > 1.6e9 && count > 2.0) {
             continue;
         }
-        int places = 0; /* up to 13 digits, which a double can represent */
+        int places = 0; /* the end has up to 13 digits, which a double represents exactly */
         double digits = end_s;
         while (places < 12 && digits < 1e12) {
             digits *= 10.0;
@@ -118,7 +118,7 @@ TEST(counts, counts_are_exact) {
         }
         const duration until = duration_of((uint64_t)digits, places, "s", 1);
         expect_count(&step, &until);
-        if (step.digits < 1000 && count < 1e9) { /* also a span of exactly this many steps */
+        if (step.digits < 1000 && count < 1e9) { /* also an end after whole steps */
             const duration whole =
                 duration_of((uint64_t)floor(count + 1.0) * step.digits, 0, "s", step.in);
             int behind = 0;
@@ -148,7 +148,7 @@ TEST(counts, times_are_rounded_once) {
             have <<= places;
             half <<= places;
         } else {
-            want = exact == 0 ? 0 : exact << -places; /* about denominator * 2^53 */
+            want = exact == 0 ? 0 : exact << -places; /* about digits * denominator, below 2^94 */
         }
         const wide off = have > want ? have - want : want - have;
         TEST_ASSERT_TRUE(exact == 0 ? !(time > 0.0) : 2 * off <= half);

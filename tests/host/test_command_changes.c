@@ -78,8 +78,8 @@ TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
 TEST(command_changes, measures_that_overflow_fail_their_points) {
     static const struct {
         const char *measure; /* a measure of x, which swings between -1 and 1 */
-        double most;         /* largest factor of x / 1e308 for which the measure is finite */
-        double least;        /* least factor / 1e308 for which the measure is infinite */
+        double most;         /* the measure of factor * 1e308 * x is finite up to this factor */
+        double least;        /* the measure is infinite from this factor on */
     } cases[] = {{"mean", 1e-8, 0.1}, {"amplitude", 0.8, 1.5}, {"period", 1e-8, 1.5}};
     dice d = dice_of("overflows", 4302);
     for (unsigned i = 0; i < 30; i++) {
@@ -89,7 +89,7 @@ TEST(command_changes, measures_that_overflow_fail_their_points) {
                                     : dice_between(&d, 0.0, cases[which].most);
         char measure[80];
         said what;
-        /* a swing takes 4.1 ms; the square of x has a mean above zero, so the sum of its samples grows */
+        /* for the mean, the square of x: all samples have one sign, so their sum overflows */
         snprintf(measure, sizeof measure, "%s(%.9e*%s)", cases[which].measure, 1e308 * factor,
                  which == 0 ? "(x/1 [m])^2" : "x/1 [m]");
         COMMAND_SAY(command_sweep, &what, model_keep(model), "--over", "M=1..2 [N*m]:2", "--start",

@@ -142,7 +142,7 @@ TEST(commands, built_in_names) {
                {"lever:rest", "two.whirl", "rest"},
                {"lever", "two.whirl", "lever"},
                {"lever:lever", "two.whirl", "lever"},
-               {"rod", "one.whirl", "rod"}, /* the scene, as in a file of models */
+               {"rod", "one.whirl", "rod"}, /* scene rod, not mechanism rod */
                {"rod:falls", "one.whirl", "falls"},
                {"rest", NULL, "hint: choose one of: gear:rest (one.whirl) lever:rest (two.whirl)"},
                {"gear", NULL, "hint: choose one of: gear:gear (one.whirl) gear:gear (three.whirl)"},
@@ -193,8 +193,8 @@ static void write_file(const char *path, const char *text) {
     fclose(out);
 }
 
-/* Finds for every pair of names whether they are one file. Network file systems and WASI have no inodes; the test
- * leaves them out of one or both. */
+/* Finds for every pair of names whether they are one file. Network file systems and WASI have no inodes, so the test
+ * also sets the inode of one or both files to zero. */
 TEST(commands, one_file_or_two) {
     char folder[] = "/tmp/whirl_files_XXXXXX";
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
@@ -227,7 +227,7 @@ TEST(commands, one_file_or_two) {
                 right.st_ino = (without & 2) != 0 ? 0 : right.st_ino;
                 TEST_ASSERT_TRUE_MESSAGE(files_are_one(&left, path[i], &right, path[k]) == same,
                                          path[k]);
-                /* the file behind standard input has no name, so it must be compared itself */
+                /* standard input has no name, so the attributes of the file must decide */
                 if (same || one.st_size != other.st_size) {
                     TEST_ASSERT_TRUE(files_are_one(&left, NULL, &right, path[k]) == same);
                 }

@@ -28,8 +28,8 @@ __attribute__((format(printf, 2, 3))) static void put(writing *w, const char *fo
     }
 }
 
-/* A function of a, b and c that is zero on a surface, and its value at the start: `f(a) - other coordinate`, a
- * circle or a square. */
+/* A surface: the text of a function that is zero on it, and the function's value at the start. The function is
+ * `f(a) - other coordinate`, a circle or a square. */
 typedef struct surface {
     char text[160];
     double value;
@@ -155,7 +155,7 @@ TEST(busy_beside, a_cure_is_one_of_all) {
     unsigned both = 0;
     unsigned cured = 0;
     for (unsigned i = 0; i < cases; i++) {
-        /* runs with damping may agree and still miss most of the loss */
+        /* two runs with damping may agree although both miss most of the loss */
         const bool damped = i % 2 == 1;
         const rattle r = rattle_drawn(&d, damped ? HOLD : (rattle_kind)(i / 2 % KINDS));
         const double rate_radps =
@@ -269,8 +269,8 @@ static outcome run(uint64_t seed, double step_s, const engine_kind *kind) {
     return o;
 }
 
-/* If the inertia along a curve changes within a few steps, RK4 itself has a larger residual. Its residual falls with
- * the fourth power of the step; the contacts' residual is tested here. */
+/* Is a large residual RK4's own? RK4 has a large residual if the inertia along a curve changes within a few steps.
+ * This residual falls with the fourth power of the step. */
 static bool is_the_methods(uint64_t seed, double share) {
     const outcome fine = run(seed, 0.25e-3, &engine_double);
     printf("  seed %llu leaves %.1e, with a quarter of the step %.1e\n", (unsigned long long)seed,
@@ -279,7 +279,7 @@ static bool is_the_methods(uint64_t seed, double share) {
 }
 
 /* A residual above `most` is allowed only if the step is too coarse for the method, in up to `coarse_share` of the
- * runs. In float, the run in double decides: the two motions may differ, but float must not lose energy. */
+ * runs. In float, the run in double shows this: the motions may differ, but float must not lose energy. */
 static void check_energy(const engine_kind *kind, double most, double coarse_share) {
     const long runs = (long)dice_cases(few_or_all(100, 300));
     double worst = 0.0;
@@ -438,13 +438,13 @@ static double state_apart(const motion *m, const drawn *b, const double *at, con
 
 typedef bool draw_moment(uint64_t *seed, double impact_s, drawn *b);
 
-/* An impact changes the rates at a moment within the step. Constant loads give constant accelerations; after the
- * time h: rates a h, positions a h^2/2, impulses lambda h. */
+/* Checks impacts within the step, or constant loads from the start of the step. Loads give constant accelerations a
+ * and forces lambda: after the time h the rates are a h, the positions a h^2/2, the impulses lambda h. */
 static void check_law(draw_moment *draw, const engine_kind *kind, double bound) {
     const long runs = (long)dice_cases(few_or_all(12, 40));
     const bool loaded = draw == draw_rest;
     const double h = DRAWN_STEP_S;
-    const double unit = loaded ? h : 1.0; /* errors are relative to it */
+    const double unit = loaded ? h : 1.0; /* errors are divided by this */
     uint64_t seed = loaded ? 72 : 79;
     double worst = 0.0;
     double worst_books = 0.0;
@@ -523,7 +523,6 @@ static void check_sticks(const char *name, stepping how) {
     motion_close(&m);
 }
 
-/* The block on the incline must stick for ten minutes. */
 TEST(contact_friction, blocks_stick) {
     static const char *const scenes[] = {"incline_sticks", "table_sticks"};
     for (int i = 0; i < 2; i++) {
@@ -655,7 +654,7 @@ TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
         const double height = dice_between(&d, 0.1, 2.0);
         const double speed = sqrt(2.0 * G * height);
         const double e = dice_between(&d, -0.6, 1.6);
-        /* the body starts with the speed that a restitution of e at this impact gives */
+        /* the restitution is begin + slope speed, which is e at this impact */
         const double slope = dice_between(&d, -0.2, 0.2);
         const double begin = e - slope * speed;
         snprintf(text, sizeof text,
@@ -774,7 +773,7 @@ static void check_plates(bool falls) {
         plate p = plate_drawn(&d);
         double until_s = 0.0;
         if (falls) {
-            /* the plate leaves the supports at sin c = share and flies until shortly after the top of their swing */
+            /* the plate leaves the supports (at height sin c) at sin c = share; the run ends at c = 1.7 rad */
             const double share = dice_between(&d, 0.3, 0.9);
             p.height = G / (share * p.rate * p.rate);
             until_s = 1.7 / p.rate;

@@ -290,7 +290,7 @@ typedef struct held {
     const char *coordinates;
     const char *kinetic;
     double yields; /* acceleration of the expression by a force of 1; 0: not constant */
-    /* $v: value of the expression; $r: its rate; $c, $w: a position and a rate that change neither */
+    /* $v: value of the expression; $r: its rate; $c and $w: a position and its rate that change neither */
     const char *start;
 } held;
 
@@ -360,17 +360,17 @@ TEST(contact_holds, a_hold_stays_at_its_own_limit) {
         char filled[2][600];
         const held *of = &helds[i % HELDS];
         const unsigned form = dice_one_of(&d, of->yields > 0.0 ? EDGES : LET_GO);
-        /* in float, the expansion loses the square of a small limit */
+        /* in float, the expanded square of a small number loses its digits, so the limit is larger */
         const double least = strchr(edges[form], '^') != NULL ? 0.5 : 0.02;
         const double limit = exp(dice_between(&d, log(least), log(2.0)));
-        /* start at the limit: 0: moves out; 1: rests; 2: moves in */
+        /* 0 to 2: starts at the limit and moves out (0), rests (1) or moves in (2); 3 to 5: starts beyond it */
         const unsigned begins = dice_one_of(&d, 6);
         const double gap = begins < 3 ? 0.0 : exp(dice_between(&d, log(0.01), log(0.5)));
         const double force = dice_between(&d, 0.1, 5.0);
         const double across = dice_between(&d, -2.0, 2.0) * limit / (limit + gap);
         const double turns =
             of->yields > 0.0 ? 0.0 : across * across * (pow(1.0 + gap / limit, 2.0) - 1.0);
-        /* a potential curves the motion within a step, so that the located event is before or beyond the limit */
+        /* this potential bends the motion within a step, so the located event lies before or beyond the limit */
         const double bends = gap > 0.0 && form < LET_GO ? dice_between(&d, 0.0, 2.0) : 0.0;
         const double work = force * gap + bends * gap / (limit + gap);
         const double speed =
@@ -552,7 +552,7 @@ TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     expect_between("z'", 1.0 - 1e-15, 1.0 + 1e-15, motion_value(&m, "z'"));
     m.kind->ledger(m.run, total, left);
     expect_between("energy residual", -1e-14, 1e-14, left[0]);
-    bool booked = false; /* has the capture taken half of the energy? */
+    bool booked = false; /* does an entry have the lost 1 J, half of the energy? */
     for (int i = 0; i < 64; i++) {
         booked = booked || fabs(total[i] + 1.0) < 1e-14;
     }

@@ -275,12 +275,13 @@ static void test_inputs_must_be_in_range_at_the_start(void) {
     refuse(3, &(overrides){.sets = infinite, .set_count = 1},
            "error: the restitution is not a finite number (infinity)");
     TEST_ASSERT_NOT_NULL(instance_of(2, &(overrides){.sets = bouncy, .set_count = 1}));
-    TEST_ASSERT_NOT_NULL(instance_of(4, NULL)); /* accepted: known only at the impact */
+    /* in scene 4, the restitution is known only at the impact */
+    TEST_ASSERT_NOT_NULL(instance_of(4, NULL));
 }
 
 static void test_how_many_values_one_run_sets(void) {
     char text[12000] = BASE;
-    /* 42 further coordinates beside x, y and phi, so 90 values each time */
+    /* each `when` sets 42 coordinates and their 42 rates */
     for (int i = 0; i < 42; i++) {
         char line[80];
         snprintf(line, sizeof line, "coordinate z%d [m]\n", i);

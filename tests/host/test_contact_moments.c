@@ -664,8 +664,8 @@ TEST(crossings, what_is_set_onto_another) {
     TEST_ASSERT_TRUE(passed > 5);
 }
 
-/* Each bounce without loss reverses the rate across a crossing's level, and then the rate falls back through the
- * level: two crossings per bounce. */
+/* Each elastic bounce reverses the rate and so crosses the level upwards. Then gravity lowers the rate through the
+ * level again: two crossings per bounce. */
 TEST(crossings, what_impacts_throw_across) {
     dice d = dice_of("thrown across", 5523);
     unsigned bounced = 0;

@@ -147,9 +147,9 @@ static void expect_speeds(const motion *m, const double *speed, double bound) {
     printf("\n");
 }
 
-/* Newton's cradle: as many balls leave as arrive, because each touched stop is hit in the next round of the same
- * moment. If impacts at 2 and 1 m/s meet in the middle ball, both of its stops are hit at once, which gives -4/3,
- * 2/3 and 5/3 m/s. Without restitution, all touching balls move on together. */
+/* Newton's cradle: as many balls leave as arrive, because a ball that is hit hits its neighbour at the same moment,
+ * in the next round of impacts. If impacts at 2 and 1 m/s meet in the middle ball, both of its stops are hit at once,
+ * which gives -4/3, 2/3 and 5/3 m/s. Without restitution, all touching balls move on together. */
 TEST(contact_together, newtons_cradle) {
     static const struct {
         double restitution;
@@ -181,7 +181,6 @@ TEST(contact_together, newtons_cradle) {
 #define STEP_S 0.25e-3
 #define UNTIL_S 0.5
 
-/* Bound on the error of each motion. */
 #define OFF_MOST 1e-6
 
 /* Error of the program's motion at until_s. */
@@ -208,9 +207,9 @@ static double off_at_end(const hybrid *h, const hybrid_motion *wanted, double st
     return off_at(UNTIL_S, h, wanted, step_s, text);
 }
 
-/* If a motion is too fast for the step, both programs have errors, which are 4096 times smaller with an eighth of
- * the step. This comparison is slightly later, because an impact exactly at the end may have happened in one program
- * only. */
+/* The error with an eighth of the step. If a motion is too fast for the step, both programs have errors, which become
+ * 4096 times smaller. The finer runs end slightly later than the first run: an impact exactly at its end may have
+ * happened in one program only. */
 static double off_in_finer(const hybrid *h, const char *text) {
     const double later_s = UNTIL_S + 8.0 * STEP_S;
     const hybrid_motion wanted = hybrid_move(h, HYBRID_STEP_S / 8.0, later_s, STEP_S);

@@ -18,7 +18,7 @@ TEST(devices, figure_19_force_on_the_load_frame) {
     expect_between("fig 19: peak / (m r w^2)", 1.0 - 1e-6, 1.0 + 1e-6, r[0].most / (S * w * w));
     /* dissertation: the force fully reverses; samples are 12 degrees of the arm's turn apart */
     expect_between("fig 17, 19: -least / peak", 0.9999, 1.0001, -r[0].least / r[0].most);
-    /* the load cell also carries a weight of 12 lb and of the masses */
+    /* the load cell also carries 12 lb and the weight of the masses */
     expect_between("fig 19: tare, lbf", 12.604 - 1e-3, 12.604 + 1e-3,
                    (r[1].most + r[1].least) / 2.0 / LBF_N);
 }

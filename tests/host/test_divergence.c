@@ -123,9 +123,9 @@ TEST(divergence, starts_beyond_all_bounds) {
 }
 
 /* === suite horizon ============================================================================ */
-/* The time until which each column of a run is accurate. Passages of a level are compared with all entered
- * differences; verdicts on random columns with their definition; step doubling of growth and decay with powers of
- * the known factor of a step. Words and rows of the report are read back. */
+/* The time until which each column of a run is accurate. Passages of a level are compared with a search through all
+ * entered differences. Verdicts on random columns are compared with their definition. Step doubling of growth and
+ * decay is compared with powers of one step's factor. Words and rows of the report are read back. */
 
 enum { ENTERED = 300 };
 
@@ -139,8 +139,8 @@ static double first_above_s(const double *time_s, const double *size, int count,
     return (double)INFINITY;
 }
 
-/* Sizes that rise, fall or stay, or become NaN. The reported passage of a level must lie between the first size
- * above the level and the first size that exceeds it by PASSAGE_GRAIN. */
+/* Sizes that rise, fall or stay, or become NaN. The reported time of passing a level must lie between the first size
+ * above the level and the first size above (1 + PASSAGE_GRAIN) times the level. */
 TEST(horizon, levels_and_when_they_were_passed) {
     dice d = dice_of("horizon passages", 2312);
     for (unsigned k = 0; k < 60; k++) {
@@ -310,7 +310,7 @@ TEST(horizon, verdicts_on_drawn_columns) {
         TEST_ASSERT_EQUAL_DOUBLE(until_s, h.until_s);
         TEST_ASSERT_EQUAL_INT(to_the_end, h.to_the_end);
         TEST_ASSERT_TRUE(to_the_end ? h.first == -1 : h.column[h.first].until_s == until_s);
-        /* h.first is the first of the columns that fail */
+        /* no column before h.first fails at this time */
         for (int k = 1; !to_the_end && k < h.first; k++) {
             TEST_ASSERT_TRUE(!ends_it(&h.column[k]) || h.column[k].until_s > until_s);
         }
@@ -481,9 +481,9 @@ static void expect_words(const horizon *h) {
         "after that no single coordinate is accurate; only the balances are meaningful, to t = 4 s:\n  energy: "));
 }
 
-/* The fast spring has w h = 1/2 and an amplitude of 1 m. Its phase lags by w (w h)^4/120 = 0.026 rad per second.
- * After 0.77 s the lag is 0.02 rad. Then the error can be 0.02 m, a hundredth of the range, and reaches this half a
- * swing later at the latest. */
+/* The fast spring has w h = 1/2 and an amplitude of 1 m. Its phase lags by w (w h)^4/120 = 0.026 rad per second, so
+ * after 0.77 s the error can be 0.02 m, a hundredth of the range. The error reaches this value half a swing later
+ * at the latest. */
 TEST(horizon, words_and_rows) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);
@@ -784,8 +784,8 @@ TEST(doubling, plain_settings) {
     }
 }
 
-/* The lowest and highest values must be those of the motion, and the difference at the end that of two separate
- * runs. The round-off of a rate must count in its coordinate for the whole time. */
+/* The reported lowest and highest values must be those of the motion. The reported difference at the end must be that
+ * of two separate runs. The round-off of a rate must count in its coordinate for the whole time. */
 TEST(doubling, what_is_told) {
     static const struct {
         const char *name;
@@ -821,8 +821,7 @@ TEST(doubling, what_is_told) {
         const double v_size = fmax(fabs(v->low), fabs(v->high));
         TEST_ASSERT_DOUBLE_WITHIN(1e-6 * x->rounding, v->rounding * t->end_s + unit * x_size,
                                   x->rounding);
-        /* the acceleration is one product: with its factors, the round-off is some units in the last place of the
-         * largest value */
+        /* the rest is the acceleration's round-off: some units in the last place of its largest value */
         const double pull = v->rounding - unit * v_size;
         TEST_ASSERT_TRUE(pull > 0.5 * unit * a * w * w * per_m * t->end_s);
         TEST_ASSERT_TRUE(pull < 20.0 * unit * a * w * w * per_m * t->end_s);

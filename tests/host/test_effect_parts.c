@@ -136,7 +136,6 @@ TEST(effect_parts, a_scene_sets_what_it_names) {
     }
 }
 
-/* If a scene has a `set` for something of effect E, `--without E` must still be possible. */
 TEST(effect_parts, a_scene_without_an_effect_that_it_sets) {
     static const char text[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "effect drag { parameter b = 1 [kg/s]; F += b*x'^2/2 }\n"

@@ -344,8 +344,8 @@ static const balance balances[] = {
     {"driven_hinge.whirl", "driven_hinge", "motor_line", "start theta1' = 3 [rad/s]", hinge_J,
      motor_W}};
 
-/* E(t) - E(0) must be the work, by Simpson's rule over every step. Simpson and RK4 have order 4. With 0.125 ms and 1
- * s, the bound has a margin of ten. */
+/* E(t) - E(0) must be the work, which Simpson's rule integrates over every step. With steps of 0.125 ms for 1 s, the
+ * error of Simpson's rule and RK4, both of order 4, is a tenth of the bound. */
 TEST(effect_work, energy_changes_by_the_work_of_the_effect) {
     for (size_t i = 0; i < sizeof balances / sizeof balances[0]; i++) {
         const balance *b = &balances[i];

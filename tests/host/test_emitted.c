@@ -107,7 +107,7 @@ TEST(emitted, comments_stay_comments) {
         TEST_ASSERT_EQUAL_STRING("", want + strspn(want, " "));
         free(got);
     }
-    for (int i = 0; i < PLAIN; i++) { /* alone, no character may change */
+    for (int i = 0; i < PLAIN; i++) { /* a piece by itself must stay unchanged */
         char *got = commented(plain[i]);
         TEST_ASSERT_EQUAL_STRING(plain[i], got);
         free(got);
@@ -176,7 +176,7 @@ static void expect_banner(const image *im) {
     }
 }
 
-/* Long lists must keep their sequence; longer ones must be called instead of inlined. */
+/* More than 99 operations must keep their sequence. More than 150 must be in a function that is not inlined. */
 static void expect_sizes(const image *im) {
     const int operations = op_list_operations(moving(im));
     const bool is_long = operations > 99;

@@ -127,7 +127,7 @@ static void expect_whole_range(double x, double y) {
     expect_holds_or_large("a square", enclosure_square(a), (quad)x * (quad)x);
     const enclosure both = {fmin(x, y), fmax(x, y)};
     const enclosure parts[] = {enclosure_mul(both, a), enclosure_times(both, x)};
-    for (int i = 0; i < 2; i++) { /* the interval must contain both products, or one is too large */
+    for (int i = 0; i < 2; i++) { /* if infinite, only the larger product is checked */
         const bool finite = enclosure_is_finite(parts[i]);
         expect_holds_or_large("all products", parts[i],
                               finite || fabs(x) > fabs(y) ? (quad)x * (quad)x : (quad)x * (quad)y);

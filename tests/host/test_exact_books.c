@@ -94,7 +94,7 @@ TEST(exact_books, long_exact_steps_are_believed) {
 
 typedef struct free_scene {
     const char *name;
-    bool drifts; /* drifts by the method's error; else only by round-off */
+    bool drifts; /* true: drifts by the method's error; false: only by round-off */
 } free_scene;
 
 static const free_scene FREE[] = {
@@ -247,7 +247,7 @@ static drifts drifts_of(const char *name) {
             centres++;
         }
     }
-    /* only momenta are read here, so the balance needs no entry for every step */
+    /* this test reads only momenta, so the ledger need not be told of every step */
     books *b = books_open(m.image);
     const double own_step_s = m.instance->step_s;
     const uint64_t steps = (uint64_t)floor(m.instance->until_s / own_step_s + 0.5);

@@ -8,8 +8,8 @@
 #include "host/cli/commands.h"
 #include "named_cures.h"
 
-/* Kinds of motion about a distant place or speed. The oscillations have the angular frequency omega, SOFT and WAVE
- * only at small amplitudes. */
+/* Kinds of motion about a distant place or speed. Oscillations have the angular frequency omega; those of SOFT and
+ * WAVE only if their amplitude is small. */
 typedef enum far_kind {
     SPRING,
     APART,
@@ -147,9 +147,9 @@ static far_case case_of(dice *d, double far) {
     return c;
 }
 
-/* Decimal logarithm of the largest tested distance in amplitudes. An expanded square under a root has an error of
- * 1e-16 far^2, or 6e-8 far^2 in float, and may become negative. A phase has the same relative error; a wave is lost
- * if the phase is wrong by a radian. Such runs are wrong, and Whirl may say so. */
+/* Decimal logarithm of the largest tested distance in amplitudes, `far`. Beyond this distance runs are wrong, and
+ * Whirl may say so. SOFT has an expanded square under a root: its error is 1e-16 far^2, or 6e-8 far^2 in float, and
+ * it may become negative. The phase of WAVE is wrong by 6e-8 far in float; at a radian, the wave is lost. */
 static double far_most(far_kind kind, bool is_float) {
     return kind == SOFT ? (is_float ? 2.0 : 6.0) : kind == WAVE && is_float ? 5.0 : 8.0;
 }
@@ -361,7 +361,7 @@ typedef struct slope_case {
     int steps;
 } slope_case;
 
-/* Beyond this distance, in units of length_m, two runs in double may both stand still. */
+/* Beyond this distance, in units of length_m, two runs in double may agree because both stand still. */
 #define TOLD_MOST 4e7
 
 enum { RECORDS = 40, COLUMNS = 5 };
@@ -372,8 +372,8 @@ typedef struct motion_rows {
     double value[RECORDS + 2][COLUMNS];
 } motion_rows;
 
-/* Writes the mechanism in units of energy_J, length_m and 1 kg. Far away are both carts of STRUT, or x of the other
- * kinds. */
+/* Writes the mechanism in units of energy_J, length_m and 1 kg. far_m is added to both coordinates of STRUT, and to x
+ * of the other kinds. */
 static void slope_mechanism(const slope_case *c, double far_m, char *text, size_t size) {
     const double l = c->length_m;
     const double e = c->energy_J;
@@ -463,8 +463,8 @@ static slope_case draw(dice *d, unsigned i, double tens) {
                     .energy_J = pow(10.0, dice_between(d, -2.0, 2.0)),
                     .far = pow(10.0, tens),
                     .steps = RECORDS * 2 * (5 + (int)dice_one_of(d, 20))};
-    /* The step is 1, 2 or 5 times a power of ten, so that an even number of steps is also a multiple of a smaller
-     * such step. */
+    /* The step is 1, 2 or 5 times a power of ten, as are the steps of remedies. The number of steps is even, so the
+     * run is a whole number of any smaller such step. */
     static const double digits[] = {1.0, 2.0, 5.0};
     const double most_s = 0.015 * c.length_m / sqrt(c.energy_J);
     const double decade_s = pow(10.0, floor(log10(most_s)));
@@ -538,7 +538,7 @@ static void hold(bool is_float) {
                                      what.err);
         }
         TEST_ASSERT_FALSE_MESSAGE(to_the_end && off > 5e-3 && c.far < TOLD_MOST, text);
-        if (off < (is_float ? 3e-3 : 5e-4)) { /* as accurate as the reference */
+        if (off < (is_float ? 3e-3 : 5e-4)) { /* accurate, so there must be no warning */
             fine++;
             lucky += is_luck(&c, is_float, what.err) ? 1U : 0U;
             TEST_ASSERT_TRUE_MESSAGE(!warns || is_luck(&c, is_float, what.err), what.err);

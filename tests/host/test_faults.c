@@ -565,8 +565,8 @@ static double time_of(unsigned turn) {
     return (double)(talk_drawn.ticks[turn] - talk_drawn.hello.start_ticks) / 1e6;
 }
 
-/* The replay ends with the tape, with the firmware, or after the tape's last message, to which the tape has no
- * answer. */
+/* The replay ends when the tape ends, when the firmware ends, or after the tape's last readings, to which the tape
+ * has no answer. */
 TEST(replay, replayed) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         talk_draw();

@@ -15,15 +15,15 @@ static dice die;
 
 /* === suite short_runs ========================================================================= */
 /* Runs of one to nine steps, compared with closed forms: a force or a spring pulls a body back, with or without a
- * stop that is not reached. An odd number of steps leaves the balance's last step without a pair; a single step
- * beside a contact has no successor. Accurate runs must cause no warning, and wrong runs must not be trusted. */
+ * stop that is not reached. The energy balance integrates pairs of steps, and an odd number leaves the last step
+ * without a pair. Accurate runs must cause no warning, and wrong runs must not be trusted. */
 
 typedef struct short_run {
     double swing_radps;
     double start_m;
     double step_s;
     int steps;
-    bool by_force; /* a force, which does work; else a spring */
+    bool by_force; /* true: a force pulls, and does work; false: a spring */
     bool stop;
     double beside_N; /* force on a second, falling body, which may have most of the energy */
 } short_run;
@@ -114,7 +114,7 @@ static void expect_figure(double wanted, double is, const char *text) {
     TEST_ASSERT_TRUE_MESSAGE(fabs(is - wanted) <= 0.06 * wanted, text);
 }
 
-/* In each step, an angle moves by a whole number of units of 2^-32 turn, which is the nearest one. */
+/* In each step, the run rounds the angle's motion to a whole number of units of 2^-32 turn. */
 TEST(small_told, slow_angles) {
     for (unsigned n = 0; n < dice_cases(usual_or(16, 6)); n++) {
         char text[400];

@@ -33,7 +33,7 @@ static fixed_plan *plan_of(const image *im, char **report) {
     return p;
 }
 
-/* Makes the plan of the image and stores it there. drop() removes it. */
+/* Makes the plan of the image and stores it in image->fixed. drop() removes the plan. */
 static fixed_plan *planned(const derived *d) {
     char *report;
     fixed_plan *p = plan_of(d->image, &report);
@@ -116,7 +116,7 @@ TEST(fixed_loss, lost_steps_are_told) {
     for (int kind = 0; kind < 3; kind++) {
         for (int power = 0; power <= 6; power++) {
             for (int n = 0; n < 4; n++) {
-                /* an angle has a fixed unit, so the rotor is slow in the cases in which other kinds have wide ranges */
+                /* an angle has a fixed unit, so a slow rotor takes the place of a wide range */
                 const double value = kind == 1 ? pow(10.0, -power) : 1.0;
                 try_even_motion(kind, value * random_between(&seed, 0.5, 2.0),
                                 kind == 1 ? 1.0 : pow(10.0, power), step_us[n], &told, &quiet);
@@ -251,8 +251,8 @@ static void write_ranges(char *text, const image *im, const double *far, double 
     }
 }
 
-/* Bound on the round-off of real i at the end. A step adds one unit of the stored number and two units of each list
- * result. Constants can make each of the latter errors have the same sign. Positions integrate the errors of rates.
+/* Bound on the round-off of real i at the end. Each step adds one unit of the stored number, at random, and two units
+ * of each list result, which constants can give the same sign in every step. Positions integrate the errors of rates.
  * The mechanisms are damped, so an error does not grow; the factor PASSED_ON allows for swings between bodies. */
 static double bound_of(const fixed_plan *p, int i) {
     enum { PASSED_ON = 12 };
@@ -330,7 +330,7 @@ static void try_one(int which, uint64_t seed) {
     derived beyond = derived_scene(text, "s");
     derived_expect(&beyond, text);
     for (int i = beyond.image->reals; i < beyond.image->reals + beyond.image->inputs; i++) {
-        beyond.image->range[i].low *= 2.0; /* only the states shall leave their ranges */
+        beyond.image->range[i].low *= 2.0; /* the inputs shall not leave their ranges */
         beyond.image->range[i].high *= 2.0;
     }
     check_saturation(&beyond, text);
@@ -511,7 +511,6 @@ static double range_bound_of(const fixed_plan *p, int at, int rate, double until
     return 0.51 * (double)p->image->steps * unit + until_s * of_rate;
 }
 
-/* Uniform motions, compared with closed forms. */
 TEST(fixed_ranges, what_has_no_acceleration_moves) {
     static const struct {
         const char *text;
@@ -605,7 +604,7 @@ TEST(fixed_ranges, inputs_must_declare_ranges) {
         said what;
         for (int i = 0; i < inputs; i++) {
             start[i] = dice_one_of(&d, 4) == 0 ? 0.0 : dice_between(&d, -2.0, 2.0);
-            if ((declared >> i & 1U) != 0) { /* a range around the start, perhaps with zero */
+            if ((declared >> i & 1U) != 0) { /* a range around the start value, which may be zero */
                 length += (size_t)snprintf(
                     ranges + length, sizeof ranges - length, "; range u%d = %.17g .. %.17g [N]", i,
                     start[i] - dice_between(&d, 0.1, 3.0), start[i] + dice_between(&d, 0.1, 3.0));
@@ -687,7 +686,7 @@ static void engine_write_mechanism(char *text, int which) {
             "output o = v*q\noutput e = d\nscene s { range d = -2 .. 2 [V], v = -4 .. 4 [V], q = -4 .. 4, q' = -30 .. 30 [1/s]; %s",
             some(0.2, 1), some(1, 4), some(0.5, 3), some(0.1, 0.4), rest);
         break;
-    default: /* a negative denominator, and one with a wide range */
+    default: /* divides by a negative number, and by a number with a wide range */
         snprintf(
             text, ENGINE_TEXT_SIZE,
             "mechanism m\nstate x\nstate y\ninput d = %.6f\n"

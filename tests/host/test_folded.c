@@ -348,8 +348,8 @@ static int ways_of(const char *text) {
     return ways;
 }
 
-/* A mass on an arm on a carriage. The arm's zero is a multiple of a quarter turn, whose cosine has round-off in the
- * last digit. So have the decimals of a spring. The term with `k` must not be lost beside this round-off. */
+/* A mass on an arm on a carriage. A cosine of the arm's angle zero, a multiple of a quarter turn, is only round-off.
+ * So is one spring, a sum of decimals. The spring `k` must not be lost beside this round-off. */
 static void arm_text(dice *d, double k, char *text, size_t size) {
     static const char *const angle[] = {"90 [deg]",  "pi/2",      "180 [deg]",
                                         "-90 [deg]", "270 [deg]", "pi"};
@@ -384,11 +384,11 @@ TEST(folded, rounding_alone_is_nothing_lost) {
         TEST_ASSERT_TRUE_MESSAGE(ways_of(text) > 0, text);
     }
     printf("  %u arms with last digits alone: %u derived in other ways\n", cases, asked);
-    TEST_ASSERT_TRUE(20 * asked <= cases); /* few cases: their round-off adds up */
+    TEST_ASSERT_TRUE(20 * asked <= cases); /* in a few cases round-off alone adds up to a loss */
 }
 
-/* Numbers smaller than such round-off are lost, which must be reported. Round-off that is smaller than the numbers
- * must not be reported. */
+/* The cosine of a quarter turn is only round-off. A number that is smaller than this round-off is lost, which must be
+ * reported. Round-off that is smaller than the number must not be reported. */
 TEST(folded, numbers_beside_a_rest) {
     dice d = dice_of("folded", 3);
     for (unsigned k = 0; k < dice_cases(200); k++) {
@@ -706,7 +706,6 @@ static void put_motion(FILE *out, const drawn *w, const char *soft) {
     }
 }
 
-/* The true position and rate at the end. */
 static void wanted_of(const drawn *w, double *x_m, double *v_mps) {
     const double turn = w->rate_radps * w->end_s;
     switch (w->use) {

@@ -925,7 +925,7 @@ TEST(reader, refused) {
             snprintf(formula, sizeof formula, inside[k], refused[i][0]);
             const bool is_other = strstr(formula, refused[i][1]) != strstr(formula, refused[i][0]);
             if (!is_other) {
-                /* else the name may be found at another call of the function */
+                /* no other call of the function comes before this one */
                 expect_refused(formula, refused[i][1]);
             }
         }

@@ -22,8 +22,7 @@ static void open_hard(motion *m, const char *file, const char *name, const engin
 #define P0 15.0
 #define LIFTS_N 10.0 /* half the beam's weight, and the static friction of both blocks */
 
-/* The motion that begins when P0 sin(rate t) reaches LIFTS_N, with the acceleration factor (P0 sin(rate t) -
- * against). */
+/* The motion that begins when P0 sin(rate t) reaches LIFTS_N. Its acceleration is factor (P0 sin(rate t) - warned). */
 static double moved_m(double rate, double t, double factor, double warned) {
     const double t0 = asin(LIFTS_N / P0) / rate;
     const double s = t - t0;
@@ -37,8 +36,7 @@ typedef struct breaking {
     double at_rest_m; /* largest motion before P0 sin(rate t) reaches LIFTS_N */
 } breaking;
 
-/* Runs until 0.3 s after P0 sin(rate t) reaches LIFTS_N. Both coordinates must move together. The phase of the force
- * advances by `rate`, in rad/s. */
+/* Runs until 0.3 s after P0 sin(rate t) reaches LIFTS_N; `rate` in rad/s. Both coordinates must move together. */
 static void run_breaking(const char *name, const char *second, stepping how, double rate,
                          double factor, double warned, breaking *most) {
     const char *first = second[0] == 's' ? "y" : "x";
@@ -337,7 +335,7 @@ TEST(hard_origin, past_the_origin_by_crude_methods) {
         }
         const double step_s = strstr(hint, "--step ") != NULL ? said_named_step_s(hint) : 1e-3;
         const wh_method method = method_named(hint, own);
-        /* at 1 m/s the passage takes about d/u; the proposed step must not be much shorter than that requires */
+        /* at 1 m/s the passage takes about d_m seconds; the proposed step must not be below a 200th of this time */
         TEST_ASSERT_TRUE_MESSAGE(step_s >= d_m / 200.0 && step_s <= 1e-3, about);
         const double now_m = passage_by(method, d_m, step_s, &engine_double, false);
         snprintf(about + strlen(about), 40, " -> %.3g m", now_m);
@@ -518,7 +516,6 @@ static double reference_after(double torque_Nm) {
     return (double)wanted.state[LINKAGE_BODIES + 1];
 }
 
-/* The rotor's speed after 12 s in the program. */
 static double speed_after(double torque_Nm, stepping how) {
     char stall[40];
     motion m;
@@ -598,7 +595,7 @@ static void open_table(motion *m, double A_m, double w_radps, double height_m, d
 
 TEST(hard_cases, hops_on_a_moving_floor_end) {
     motion m;
-    open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* 5 m/s^2: a body on the table stays */
+    open_table(&m, 0.05, 10.0, 0.3, 0.5, 1e-3); /* at most 5 m/s^2: bodies rest on the table */
     motion_to(&m, 2.0);
     for (int k = 0; k < 3000; k++) {
         TEST_ASSERT_EQUAL_INT(WH_OK, motion_step(&m, 1));

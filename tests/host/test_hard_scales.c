@@ -224,7 +224,7 @@ static double carried(const linkage *of, const moved *wanted, double share) {
  * divided by the smallest ratio of a pivot to its diagonal entry. */
 typedef struct unequal {
     double worst; /* largest relative error of runs whose pivot ratios all exceed 1e-4 */
-    /* runs with an error above 100 times the expected one, and above the effect of such an error in the start */
+    /* runs whose error exceeds 100 times the expected one, and the effect of an equal change of the start */
     unsigned beyond;
     unsigned plain; /* number of runs that count in `worst` */
 } unequal;
@@ -243,7 +243,7 @@ static unequal of_unequal(const engine_kind *kind, double decades, double last) 
         const double largest = largest_of(&wanted);
         const double off = apart(&wanted, &found);
         if (!(largest < GROWN)) {
-            /* the run must diverge, too, or reach such sizes */
+            /* the run must diverge, too, or agree with the reference within a half */
             grown++;
             TEST_ASSERT_TRUE(found.status != WH_OK || (isfinite(largest) && off < 0.5 * largest));
             continue;

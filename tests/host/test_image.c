@@ -177,7 +177,7 @@ static int check_again(const scene *s) {
     }
     int compared = 0;
     if (d.image->recovered == 0) {
-        /* else the lists contain the momentum, which depends on the start */
+        /* a recovered coordinate is left out: its momentum, which depends on the start, is in the lists */
         equations *e = equations_derive(other, errors);
         image *fresh = image_make(e, other->conserve, &plainly, IMAGE_TO_RUN, errors);
         image *again = image_again(d.image, other, errors);

@@ -286,8 +286,8 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
 /* After a refused step, the run must go on as if the step had not been requested, whatever inputs caused the
  * refusal. */
 TEST(input_rates, a_refused_step_leaves_no_trace) {
-    static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20,
-                                 1e30}; /* finite: holds may bear it as force */
+    /* input 6, a force, never becomes 1e20 or 1e30, which holds may bear */
+    static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20, 1e30};
     dice d = dice_of("input_rates", 4603);
     for (unsigned i = 0; i < dice_cases(56); i++) {
         char text[900];

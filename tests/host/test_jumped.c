@@ -157,7 +157,7 @@ TEST(jumped, trust) {
     }
 }
 
-/* The force of this brake is zero at rate zero, and its energy balance is right on both sides of the pole. */
+/* The force of this brake is zero at rest. Its energy balance is right on both sides of the pole and shows no jump. */
 TEST(jumped, forces) {
     static const char *const forces[] = {"-B*x'/(v0 + x')", "-B*x'*(v0 + x')^(-1)",
                                          "-B*(1 - v0/(v0 + x'))"};

@@ -105,8 +105,9 @@ static wh_quality check_no_lie(const rig_noise *noise, uint64_t seed) {
     return measured.quality;
 }
 
-/* The scatter may be 1.3 times that of the cell's noise over as many samples. Jitter adds to the phase the error of
- * the mean of TURNS pulses. Jitter also changes the measured speed ripple E by dE, and so the amplitude by 3/2 E dE. */
+/* The scatter may be 1.3 times the effect of the cell's noise and of jitter. Jitter adds to the phase the error of
+ * the mean of TURNS pulses. Jitter also changes the measured speed ripple E by dE, and so the amplitude by
+ * 3/2 E dE. */
 static void check_scatter(const rig_noise *noise) {
     const double samples = TURNS * orbit.turn_s / 0.002;
     const double cells = 1.3 * noise->cell_N * sqrt(2.0 / samples) / orbit.amplitude_N;
@@ -117,9 +118,9 @@ static void check_scatter(const rig_noise *noise) {
     check_below(fabs(bias(1)) + few * hypot(cells, marks), rms(1));
 }
 
-/* A cell with noise, or a 12-bit converter (STM32F405): 64 conversions in 2 ms, 109 mN a count, noise of half a
- * count. Without noise, a crest repeats one value for longer than a working cell would. The result must still be
- * right. */
+/* A cell with noise, and one with a 12-bit converter (STM32F405): 64 conversions in 2 ms, 109 mN a count, noise of
+ * half a count. A converter without noise repeats one value at a crest for longer than a working cell would; the
+ * result must still be right. */
 TEST(lockin_truth, bias_and_scatter) {
     static const double rpm[] = {170.0, 200.0, 260.0, 330.0, 360.0};
     static const rig_noise cells[] = {
@@ -178,7 +179,7 @@ TEST(lockin_truth, intervals_where_floors_rule) {
         measure_many(&noise, runs, 200000U + 2000U * i);
         print_row(330.0, &noise);
         for (unsigned what = 0; what < 2; what++) {
-            /* with jitter, the errors of the pulses widen the interval of the phase */
+            /* with jitter, the interval of the phase is wider than its least width */
             const double least = !full() ? 0.85 : i == 1 && what == 1 ? 0.93 : 0.95;
             TEST_ASSERT_TRUE((double)found.covered[what] / runs >= least);
         }

@@ -13,7 +13,6 @@ static int cases(int usual) {
                         : (int)usual_or((unsigned)usual, (unsigned)usual / 4);
 }
 
-/* Solves M x = b, with partial pivoting. */
 static void solve(const long double *mass, const long double *b, int n, long double *x) {
     long double a[MOST][MOST + 1];
     for (int i = 0; i < n; i++) {

@@ -82,7 +82,7 @@ static void check_form(FILE *out, int count) {
     }
     TEST_ASSERT_EQUAL_INT(2 * count, all);
     TEST_ASSERT_EQUAL_INT(all, slopes);
-    for (int i = 0; i < count; i++) { /* no name is this letter and a number */
+    for (int i = 0; i < count; i++) { /* no component is named by this letter and a number */
         TEST_ASSERT_EQUAL_INT(0, number_behind(letter, part[i]));
     }
 }
@@ -178,7 +178,7 @@ TEST(method_rows, rows_are_explicit) {
     }
 }
 
-/* If the position weights are b A, the method must be the row's Runge-Kutta method applied to x' = f(x). */
+/* The position weights of a method for any system must be b A: the Runge-Kutta method applied to x' = f(x). */
 TEST(method_rows, runge_kutta_methods_have_the_positions_of_their_rates) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);

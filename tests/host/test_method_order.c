@@ -71,7 +71,7 @@ static weights weights_of(int method) {
     return w;
 }
 
-/* Returns the tree `now` with one more branch, whose values are summed with the weights `by`. */
+/* Returns `now` with one more branch: its value at stage i is multiplied by the sum of by[i][j] branch->at[j]. */
 static tree branched(const forest *f, tree now, long double (*by)[STAGES], const tree *branch,
                      bool to_position) {
     const int stages = f->of.stages;

@@ -34,7 +34,6 @@ static int some_wave(dice *d, op_list *t, const int *value, int values) {
     return op_list_unary(t, dice_one_of(d, 2) > 0 ? OP_SIN : OP_COS, phase);
 }
 
-/* Draws any function of the language. */
 static int some_call(dice *d, op_list *t, int a, int b) {
     const function_id function = (function_id)dice_one_of(d, FUNCTIONS);
     return op_list_call(t, function, a, function_arguments(function) == 2 ? b : -1);
@@ -76,7 +75,7 @@ static op_list *some_list(dice d) {
         t->result[i] = some_value(&d, value, values);
     }
     free(value);
-    if (dice_one_of(&d, 4) > 0) { /* leaves some operations unused in other lists */
+    if (dice_one_of(&d, 4) > 0) { /* one list in four keeps its unused operations */
         op_list_prune(t);
     }
     return t;
@@ -88,7 +87,7 @@ static int by_size(const void *x, const void *y) {
     return (left > right) - (left < right);
 }
 
-/* Returns a hash of each operation with its operands, sorted, so that another order has the same hashes. *phases: one hash of all OP_PHASE operations, which depends on their order. */
+/* Returns the sorted hashes of the operations with their operands. *phases: a hash of all OP_PHASE in their order. */
 static uint64_t *computed_by(const op_list *t, uint64_t *phases) {
     uint64_t *sum = alloc((int64_t)t->count + 1, sizeof *sum);
     int operand[2];
@@ -274,7 +273,7 @@ TEST(pieces, other_rows_stay_as_they_are) {
         poly_add(a, poly_sub(a, poly_scale(a, one, 3.0), poly_scale(a, two, 4.0)), four);
     piece pieces[8];
     TEST_ASSERT_EQUAL_INT(1, pieces_of(a, row, pieces));
-    /* another small term remains at the pole, so nothing cancels below that term */
+    /* 1e-12 remains where the other terms cancel, so the sum is not made a product */
     const poly *more = poly_add(a, row, poly_number(a, 1e-12));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, more, pieces));
     /* 3 - 4 cos a + cos 2a = 8 sin(a/2)^4, but a turn angle has no half */
@@ -288,7 +287,7 @@ TEST(pieces, other_rows_stay_as_they_are) {
     for (int i = 0; i < 3; i++) {
         TEST_ASSERT_TRUE(pieces[i].sines + pieces[i].cosines <= 1);
     }
-    /* products would cancel elsewhere, or there would be more of them */
+    /* these sums stay: products would cancel at other angles, or there would be more of them */
     const poly *tall = poly_sub(a, poly_cos(a, poly_scale(a, u, 16.0)), one);
     const poly *few = poly_add(a, tall, poly_scale(a, poly_sub(a, two, one), 1e-3));
     TEST_ASSERT_EQUAL_INT(3, pieces_of(a, few, pieces));

@@ -127,7 +127,7 @@ static void one_case(dice *d) {
     TEST_ASSERT_EQUAL_STRING(r.refuses_rate ? "tel rate 125: ERR 116 not so many" : "",
                              link.refused);
     TEST_ASSERT_EQUAL(10, link.asked);
-    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* is for another program */
+    TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* an answer to another program */
 }
 
 TEST(dialogue, it_comes_to_its_end_whatever_was_in_the_line) {
@@ -311,7 +311,7 @@ TEST(fault, edges) {
     run_with("edge-stamp:1=-0.01", &ill);
     TEST_ASSERT_EQUAL_UINT32(well.edge[2].ticks - 10000U, ill.edge[2].ticks);
     TEST_ASSERT_EQUAL_UINT32(well.edge[3].ticks, ill.edge[3].ticks);
-    run_with("edge-place:2=36@state=3", &ill); /* a tenth of a turn, 50 ms, from 0.6 s on */
+    run_with("edge-place:2=36@state=3", &ill); /* from 0.6 s on, a tenth of a turn: 50 ms */
     TEST_ASSERT_EQUAL_UINT32(well.edge[1].ticks, ill.edge[1].ticks);
     TEST_ASSERT_UINT32_WITHIN(1, well.edge[3].ticks + 50000U, ill.edge[3].ticks);
     run_with("edge-jitter=1ms", &ill);
@@ -336,7 +336,7 @@ TEST(fault, pulses_of_nothing) {
         TEST_ASSERT_TRUE((int32_t)(ill.edge[i].ticks - ill.edge[i - 1].ticks) >= 0);
         TEST_ASSERT_TRUE(ill.edge_s[i] >= second_of(ill.edge[i].ticks));
     }
-    run_with("edge-storm=1e6", &ill); /* as many as the buffer takes */
+    run_with("edge-storm=1e6", &ill); /* the buffer limits the number of edges */
     TEST_ASSERT_TRUE(ill.edges > 4000 && ill.edges <= READS * (int)WH_EDGES_MAX);
 }
 

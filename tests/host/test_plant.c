@@ -271,8 +271,8 @@ static void add_push(void) {
         .kind = WH_SIGNAL_OUTPUT, .name = "push", .unit = "N", .low = -2.0F, .high = 2.0F});
 }
 
-/* A push of 1 N on 1 kg acts from the first step that does not begin before its delay. The speed at the end lacks
- * the time before. */
+/* A push of 1 N on 1 kg acts from the first step that does not begin before its delay. The speed at the end is
+ * 1 m/s^2 times the time since then. */
 TEST(plant, late_orders) {
     for (int late = 0; late <= 1000; late += 125) {
         const plant_request request = {.seed = 1};

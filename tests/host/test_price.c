@@ -110,7 +110,6 @@ TEST(price, sines_of_multiples_follow_from_one) {
         }
         expect(price_of("%s", sum), 40, 1, sum);
     }
-    /* sines inside other functions */
     expect(price_of("exp(sin(a)) + 3*exp(cos(2*a))"), 40, 1, "sines inside functions");
     expect(price_of("atan2(sin(2*a), x0 + cos(a)) + x1*sqrt(3 + sin(3*a))"), 40, 1, "sines inside");
     expect(price_of("sin(x0*sin(2*a)) + x1*cos(a)"), 40, 2, "a sine inside a sine");
@@ -177,8 +176,8 @@ TEST(price, equations_are_eliminated_one_by_one) {
     }
 }
 
-/* If a coefficient of two equations is a number, it must be the pivot, wherever it is. No determinant is needed.
- * Forward: a quotient, a product and a difference twice, a quotient; back: a product, a difference, a quotient. */
+/* If a coefficient of two equations is a number, it must be the pivot, wherever it is, and no determinant is needed.
+ * Forward: a quotient, two products with a difference each, a quotient. Back: a product, a difference, a quotient. */
 TEST(price, a_number_is_the_pivot) {
     for (int at = 0; at < 4; at++) {
         TEST_ASSERT_LESS_OR_EQUAL_INT(9, price_of_system(2, at));
@@ -295,7 +294,7 @@ static bool none_longer(const setting *s, double step_s) {
     return step_s <= longest_s;
 }
 
-/* If fixed point is not possible with a step, the trial must try up to three times a tenth of the step. */
+/* If fixed point is not possible with a step, the trial must try a tenth, a hundredth and a thousandth of it. */
 TEST(price_dearest, finer_steps_are_asked_for) {
     static const struct {
         deviation_pace from;
@@ -321,7 +320,7 @@ TEST(price_dearest, finer_steps_are_asked_for) {
         TEST_ASSERT_EQUAL_INT(rows[i].asked, p.asked - asked);
         TEST_ASSERT_EQUAL_INT(rows[i].own, own);
         if (own) {
-            /* the result is stored under the step of the plan, so that step is not run again */
+            /* the trial has kept the result of this step, so it does not run the step again */
             asked = p.asked;
             const trial_result r = trial_run(&p.trial, &in_fixed, rows[i].at);
             TEST_ASSERT_TRUE(r.ran);

@@ -89,7 +89,7 @@ TEST(price_front, the_ladder_goes_down_by_one_two_five) {
     TEST_ASSERT_TRUE(table_pace(&w, 28, &p) && p.steps == 50000000);
 }
 
-/* With a record rate, the number of steps in 1/rate_Hz begins with 1, 2, ..., 10 and rises with each pace. */
+/* With a record rate, the number of steps in 1/rate_Hz must be 1, 2, ..., 10, and then rise by half at most. */
 TEST(price_front, substeps_rise_as_they_are_told) {
     for (uint64_t periods = 1; periods < 6; periods++) {
         const table_request w = {.rate_Hz = 7.0, .periods = periods};
@@ -441,7 +441,7 @@ TEST(price_motion, deviations_are_the_largest_of_all_records) {
             im->settings.method = methods[n / 4 % 3];
             im->step = (whole_ratio){pace.records, 20 * pace.steps};
             im->step_s = (double)pace.records / (20.0 * (double)pace.steps);
-            /* the same steps, and the error at each record; ends early if the error is too large to be useful */
+            /* takes the same steps, and computes the error at each record; ends early if the error is useless */
             const double give_up = column < 0 ? 0.3 : 90.0;
             void *run = kind->start(im);
             double worst = -1.0;
@@ -512,7 +512,7 @@ TEST(price_motion, the_step_with_most_evaluations_is_told) {
     const deviation d = deviation_measure(r, of.image, &engine_double, (deviation_pace){5, 1},
                                           (deviation_of_what){-1, 1.0});
     TEST_ASSERT_TRUE(d.usable && d.evaluations_most == most && most > 4.0);
-    /* 20 evaluations more: accelerations at 19 records, contacts at the first; d.evaluations leaves them out */
+    /* d.operations has 20 evaluations more than d.evaluations: accelerations at 19 records, contacts at the first */
     const double evaluations = d.operations / of.image->list[IMAGE_STEP]->count;
     TEST_ASSERT_TRUE(evaluations == (double)before + 20.0);
     TEST_ASSERT_TRUE(fabs(d.evaluations - (double)before / 0.9) < 1e-6);

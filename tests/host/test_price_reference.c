@@ -124,7 +124,7 @@ static double true_error(priced *p, const oscillator *o, const setting *s, devia
     return (double)fmaxl(off[0] / largest[0], off[1] / largest[1]);
 }
 
-/* An error is within a tenth of the closed form's, or printed as a bound that is not below it. */
+/* A reported error must be within a tenth of the true error. A reported bound must not be below the true error. */
 TEST(price_reference, errors_are_those_of_closed_forms_or_bounds) {
     static const wh_method methods[] = {WH_HEUN, WH_RK4, WH_NYSTROEM5, WH_EULER};
     dice d = dice_of("price_reference errors", 75);
@@ -187,7 +187,7 @@ TEST(price_reference, pendulums_keep_their_energy) {
         derived_free(&d);
     }
     printf("  pendulums: energy off by %.2e of itself over 10 s\n", worst);
-    TEST_ASSERT_TRUE(worst <= 1e-14); /* 1e-13 without compensated sums */
+    TEST_ASSERT_TRUE(worst <= 1e-14); /* without compensated sums it would be 1e-13 */
 }
 
 /* A double pendulum that is thrown high is chaotic. The horizon must be shorter if it is thrown higher. */

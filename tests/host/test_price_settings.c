@@ -431,7 +431,7 @@ TEST(price_trials, errors_are_the_worst_of_all_places) {
                 priced_setting(methods[dice_one_of(&d, 4)],
                                dice_one_of(&d, 2) == 0 ? &engine_float : &engine_double);
             const deviation_pace pace = {1, i % 3 == 0 ? 5 : 1};
-            /* sets larger errors in the references than they have */
+            /* replaces the errors of the references by larger ones */
             for (int k = 0; k < 3; k++) {
                 reference *r = p.trial.reference[k];
                 for (int c = 1; c < r->columns; c++) {

@@ -151,7 +151,7 @@ static void print_answers(FILE *out) {
     }
 }
 
-/* Prints answers for requests that no setting meets. Bit i of there[n] says whether near answer i exists. */
+/* Prints answers for requests that no setting meets. Bit i of there[n] says whether the answer rows[i] exists. */
 static void print_remedies(FILE *out) {
     static const unsigned there[] = {15, 14, 13, 11, 9, 8, 0, 4};
     for (int n = 0; n < 8; n++) {

@@ -268,7 +268,7 @@ TEST(prove_drawn, drawn_linkages) {
     double widest = 0.0;
     unsigned to_the_end = 0;
     const bool all = few_or_all(0, 1) == 1;
-    const double until_s = all ? 0.5 : 0.05; /* 500 steps with all cases */
+    const double until_s = all ? 0.5 : 0.05; /* 500 steps if all cases are tested */
     const unsigned cases = dice_cases(few_or_all(usual_or(1, 1), 8));
     for (unsigned k = 0; k < cases; k++) {
         uint64_t seed = first + 1000003U * k;

@@ -119,7 +119,7 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
         TEST_ASSERT_EQUAL_INT(k < 2 ? 1 : 2, rank_of(m, error, 2, symmetric));
     }
     for (int k = 0; k < 4; k++) {
-        /* a pivot counts as zero below n times the largest error of an entry; here, with n = 2, below 1.4 or 1.6 */
+        /* a pivot counts as zero below n = 2 times the largest error: 1.4 or, if blurred, 1.6, times `size` */
         const double size = k % 2 == 0 ? 1.0 : 0x1p80;
         const bool blurred = k >= 2;
         double m[4] = {2.0 * size, size, size, 2.0 * size}; /* its pivots are 2 and 1.5 */

@@ -59,12 +59,12 @@ static void draw_error(error kind) {
 
 typedef struct tally {
     unsigned off;  /* runs with an error above the interval plus 1 % */
-    unsigned lies; /* of these, runs that are called good although the error shows */
-    /* of these, runs that are called good and in which no run could show the error (docs/rig.md, errors that a good
-     * result can hide) */
+    unsigned lies; /* of these, runs that are called good although the error shows (see `seen`) */
+    /* of these, runs that are called good and do not show the error (docs/rig.md, errors that a good result can
+     * hide) */
     unsigned hidden;
-    /* `seen`: runs in which, with almost no noise, the repeating value exceeds the noisy run's limit by half.
-     * `missed`: of these, runs that are called good. */
+    /* `seen`: runs that show the error: with almost no noise, the repeating value exceeds 1.5 times the limit of the
+     * noisy run. `missed`: of these, runs that are called good. */
     unsigned seen;
     unsigned missed;
 } tally;

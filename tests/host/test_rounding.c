@@ -319,9 +319,9 @@ static double gained(const swinging *s, const char *text, stepping how) {
     return sum / LOOKS;
 }
 
-/* A stage length that is wrong by a relative 4.8e-8, as with steps of 1 ms, would change the energy by half of (h
- * w)^2 times that in each step. The random part is h w times one unit in the last place of a float, divided by the
- * square root of the number of steps. With a small h w, the methods themselves lose less. */
+/* If the length of a stage is wrong by a relative 4.8e-8, as with steps of 1 ms, each step changes the energy by
+ * 4.8e-8 (h w)^2/2. The random part is h w times one unit in the last place of a float, divided by the square root of
+ * the number of steps. With a small h w, the methods themselves lose less. */
 TEST(energy_kept, energy_does_not_leak_by_rounding) {
     static const struct {
         wh_method method;

@@ -124,7 +124,7 @@ static void define(const drawn_list *l, double least, double part, double *error
         } else if (o->code == OP_PHASE) {
             error[i] = phase_error(l, o, error);
         } else if (o->code == OP_SIN || o->code == OP_COS) {
-            /* relative to 1, not to the result, as for a value from a table */
+            /* one unit relative to 1, not to the result, as for a sine from a table */
             error[i] += 1.0;
         } else if (!is_exact(o->code)) {
             error[i] += fmax(fabs(l->value[i]), least);
@@ -207,7 +207,7 @@ TEST(running_error, drawn_lists) {
             rounding_of(l.list, &at, got);
             for (int i = 0; i < 4; i++) {
                 const double error = wanted[l.list->result[i]];
-                /* else the difference would reach a sharp bend or the end of a function's range */
+                /* not compared if the difference reaches a sharp bend or the end of a function's range */
                 if (fabs(coarser[l.list->result[i]] - error) < 1e-4 * error) {
                     TEST_ASSERT_DOUBLE_WITHIN(1e-3 * error, error, got[i]);
                     held++;

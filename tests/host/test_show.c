@@ -79,7 +79,7 @@ static int check_batch(uint64_t *seed, int depth, int tame) {
         count++;
     }
     int kept = 0;
-    const bool overflowed = algebra_overflow(a); /* before printing, which may overflow as well */
+    const bool overflowed = algebra_overflow(a); /* printing may overflow, too */
     for (int i = 0; i < count && !overflowed; i++) {
         if (!is_ever_finite(p[i], seed)) {
             continue;
@@ -410,7 +410,8 @@ static int check_scene(const scene *of) {
     derived d = derived_builtin(of->name);
     const mechanism *m = d.instance->mechanism;
     int all = 0;
-    for (int form = 0; form < 4; form += m->is_system ? 2 : 1) { /* not the steps of a system */
+    /* a system is not printed as steps */
+    for (int form = 0; form < 4; form += m->is_system ? 2 : 1) {
         char *text_of = printed(&d, forms[form]);
         const bool latex = form >= 2;
         all = 0;

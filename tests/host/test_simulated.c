@@ -159,7 +159,7 @@ TEST(simulated, outputs_that_end) {
                 count++;
             }
         }
-        if (count == 0 && ends < 1000) { /* else the rows were checked */
+        if (count == 0 && ends < 1000) { /* if nothing is recorded, the report is about the end */
             first = 1000;
             count = 1;
         }

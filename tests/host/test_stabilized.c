@@ -289,8 +289,8 @@ TEST(stabilized, coarse_steps_are_told) {
     }
 }
 
-/* Two masses have a slow common oscillation, and a relative one that is too fast for the step. --stabilized returns
- * the energy that the fast oscillation loses to both. The warning must be that of a run without --stabilized. */
+/* Two masses have a slow common oscillation, and a relative one that is too fast for the step and loses energy.
+ * --stabilized gives this energy to both oscillations. The warning must be that of a run without it. */
 TEST(stabilized, what_others_lost_is_told) {
     dice d = dice_of("stabilized pairs", 20261202);
     const unsigned cases = usual_or(16, 3);
@@ -334,9 +334,9 @@ static double apart(const char *text, const char *name, stepping plain, double e
     return fabs(end[0] - end[1]);
 }
 
-/* First case: an oscillation that is too fast even for half the step loses energy. --stabilized gives this energy to
- * another oscillation, whose period depends on its energy. Second case: a heavy pendulum beside a light one, for
- * which the last digits of the heavy one's energy matter. Such runs must not be trusted. */
+/* Two cases that must not be trusted. First, an oscillation that is too fast even for half the step loses energy, and
+ * --stabilized gives it to another oscillation, whose period depends on its energy. Second, a light pendulum beside a
+ * heavy one depends on the last digits of the heavy one's energy. */
 TEST(stabilized, what_is_made_wrong_is_not_trusted) {
     dice d = dice_of("stabilized wrongly", 20261203);
     const unsigned cases = usual_or(few_or_all(4, 16), 2);

@@ -136,7 +136,7 @@ TEST(stepping, failed) {
     w.from_s = 1.5;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
                   "--from 1.5 s is after the last step", "");
-    list.kind = MEASURE_FINAL; /* accepts any begin: needs no series */
+    list.kind = MEASURE_FINAL; /* needs no series, so any begin is accepted */
     derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
     measured_point p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
@@ -194,7 +194,7 @@ static double wanted(int measure_stepping, double a, double v, double from_s, do
     case 3: return 2.0 * fmin(first, last);
     case 4: return first + last;
     case 5: return 0.5 * fabs(last - first);
-    /* the mean over chords of the parabola is v^2 h^2/6 above that of the curve */
+    /* the mean over the chords of the parabola exceeds that over the curve by v^2 h^2/6, with h = 0.125 s */
     case 6:
         return (first * first + first * last + last * last) / 3.0 +
                (n > 0.0 ? v * v * 0.125 * 0.125 / 6.0 : 0.0);
@@ -259,8 +259,8 @@ static const char settings_text[] =
     "F += b*x'^2/2 }\n"
     "effect tug { F += 1 [N*s/m]*x'^2 }\nscene s { step 1 [ms]; until 3 [s] }\n";
 
-/* The stored settings, in which those of the bits in `changed` differ. A number differs by at least one unit in the
- * last place. */
+/* The stored settings of a sweep. If bit k of `changed` is set, setting k differs: a number by one unit in the last
+ * place. */
 enum { SETTINGS = 18 };
 static char *fingerprint_of(unsigned changed) {
     static const char *const axes[2][2] = {{"x=1..9:9", "m=0.1..7:70,log"},

@@ -286,7 +286,7 @@ TEST(forced_swing, nearly_whole_turns) {
         const double more = pow(10.0, dice_between(&d, -2.5, -0.05));
         c.summed = true;
         c.steps = RECORDS * 10 *
-                  /* each record is a whole number of the remedies' steps */
+                  /* so that records are a whole number of any remedy's steps apart */
                   (1 + (int)dice_one_of(&d, 3));
         c.clock_radps = (6.283185307179586 * turns[dice_one_of(&d, 9)] +
                          (dice_one_of(&d, 2) == 0 ? more : -more)) /

@@ -111,7 +111,7 @@ static void enter_some(void) {
                        : what == 1
                            ? entered_wave(what % 2 == 0 ? -1 : pool[p], meant[p], &value)
                            : entered_operation(pool[p], meant[p], pool[q], meant[q], &value);
-        /* operations without a value, digits or a sign are not used again, and only one zero is */
+        /* values that are not finite, too large or too small are not used again; a constant zero is */
         const bool is_zero = value == 0.0 && list->ops[at].code == OP_CONSTANT;
         if (isfinite(value) && ((fabs(value) < 1e6 && fabs(value) > 1e-3) || is_zero)) {
             keep(at, is_zero ? 0.0 : value);

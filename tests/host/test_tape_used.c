@@ -14,7 +14,7 @@ static op_list_cost counted(const op_list *t) {
         const op_code code = t->ops[i].code;
         c.arithmetic += code == OP_ADD || code == OP_SUB || code == OP_MUL || code == OP_NEG ||
                         code == OP_ABS || code == OP_SIGN || code == OP_MIN || code == OP_MAX;
-        /* a product and a sum for a linear table, and so on */
+        /* a linear table costs a product and a sum, a cubic one three of each */
         c.arithmetic += code == OP_LINE ? 2 : code == OP_CUBIC ? 6 : 0;
         c.look_ups += code == OP_LINE || code == OP_CUBIC;
         c.divisions += code == OP_DIV;
@@ -26,8 +26,7 @@ static op_list_cost counted(const op_list *t) {
 }
 
 static bool is_operation(op_code code) {
-    return code >= OP_SIN &&
-           code != OP_CELL; /* in the sequence of the rows, after leaves and phases */
+    return code >= OP_SIN && code != OP_CELL; /* these rows come after leaves and phases */
 }
 
 static void check_counts(const op_list *t) {
@@ -236,8 +235,8 @@ TEST(tape_used, a_hash_is_of_everything) { each_list(60, check_hash); }
 
 enum { PAIRS_MOST = 6, WAYS = 8 };
 
-/* Enters two sums of two leaves each. In one of them, a part is doubled. Returns whether one sum can be computed from the
- * other with one product less. */
+/* Enters two sums of two leaves each, of which one has a doubled part. Returns whether one sum can be computed from
+ * the other with one product less. */
 static bool enter_pair(op_list *t, int k, unsigned way) {
     const int a = op_list_leaf(t, OP_LINEAR, 2 * k);
     const int b = op_list_leaf(t, OP_RATE, 2 * k + 1);
@@ -262,7 +261,7 @@ static bool enter_pair(op_list *t, int k, unsigned way) {
     }
     t->result[3 * k] = half;
     t->result[3 * k + 1] = whole;
-    t->result[3 * k + 2] = way == 3 ? times : other; /* way 3: the double itself */
+    t->result[3 * k + 2] = way == 3 ? times : other; /* way 3: the doubled part itself */
     return way < 3 || way == 7;
 }
 

@@ -40,7 +40,7 @@ typedef struct trial {
     double end_s;        /* time at which the run must end */
     double step_s;
     bool is_float;
-    bool is_infinite; /* infinite instead of NaN after end_s; an event may end that step first */
+    bool is_infinite; /* infinite instead of NaN after end_s, which is seen up to a step later */
     bool ends_later;  /* a restitution is evaluated later, at the hit */
 } trial;
 
@@ -89,9 +89,9 @@ static void make(trial *t, dice *d) {
     const double c = dice_between(d, 0.2, 1.5) * v; /* then x reaches c after 0.2 to 1.5 s */
     unsigned form = dice_one_of(d, t->is_float ? FORMS_IN_FLOAT : FORMS);
     if (t->victim == CONDITION_AND || t->victim == CONDITION_OR) {
-        form += form == 1; /* `and` and `or` allow infinity */
+        form += form == 1; /* a condition may compare with infinity */
     } else if (t->victim == HELD && (form == 1 || form == 2 || form == 6)) {
-        form = 0; /* a hold uses only the rate, which is defined everywhere for a logarithm */
+        form = 0; /* a hold uses only the rate, which log(d) has after end_s, too */
     }
     t->is_infinite = form == 1;
     const bool slides = t->victim == NORMAL_SLIDING || t->victim == KINETIC;
@@ -103,7 +103,7 @@ static void make(trial *t, dice *d) {
     state(t, named ? "e" : forms[form], d);
     const int blank = (int)dice_one_of(d, 4);
     char around[200];
-    if (t->victim == SETTING) { /* evaluated at a time after the end */
+    if (t->victim == SETTING) { /* a `set` is evaluated at its crossing */
         snprintf(around, sizeof around, "when x crosses c + 0.1 [m] { %s }", t->statement);
         t->end_s = (c + 0.1) / v;
     } else {

@@ -83,8 +83,8 @@ TEST(undefined_where, the_innermost_part_is_named) {
     }
 }
 
-/* A term is undefined within a window of the step. The term must be found if a sampled place is in the window and
- * within the range. */
+/* A term is undefined in a window of the step. The term must be found if a sampled place is in the window and not
+ * beyond the range `ahead`. */
 TEST(undefined_where, the_places_on_the_way) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     for (unsigned c = 0; c < dice_cases(usual_or(150, 40)); c++) {
@@ -150,7 +150,8 @@ TEST(undefined_where, angles_that_it_is_made_of) {
         }
         bool none = false;
         const double ahead =
-            c % 2U == 0 ? 0.0 : 0.25; /* in steps of 0.5 s; places reach twice as far */
+            c % 2U == 0 ? 0.0
+                        : 0.25; /* in steps of 0.5 s; the tested places reach up to 2 * ahead */
         const double shares[] = {0.0, 0.25, 0.5};
         for (int i = 0; i < 3 && shares[i] <= 2.0 * ahead; i++) {
             const double t = 0.5 * shares[i];

@@ -47,7 +47,6 @@ static const definition definitions[] = {
     {"rev", TURN_RAD, 0, 0, 0, 0, 0, false},
     {"rpm", TURN_RAD / 60, 0, 0, -1, 0, 0, false},
     {"bar", 1e5, -1, 1, -2, 0, 0, false},
-    /* units of the inch and the pound */
     {"in", INCH_M, 1, 0, 0, 0, 0, false},
     {"ft", FOOT_M, 1, 0, 0, 0, 0, false},
     {"lb", POUND_KG, 0, 1, 0, 0, 0, false},

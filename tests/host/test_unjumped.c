@@ -58,8 +58,8 @@ TEST(unjumped, what_has_limits) {
     }
 }
 
-/* Losses of one body while another body passes s = a. Losses with an even number can be integrated across a and only
- * slow the body down; those with an odd number are poles. */
+/* Losses of one body while another body passes s = a. laws[0], laws[2], ... can be integrated across a and only slow
+ * the body down; laws[1], laws[3], ... are poles. */
 TEST(unjumped, losses) {
     static const char *const laws[] = {
         "/sqrt(abs(s - a))", "/abs(s - a)",          "/(1 - cos(s - a))^0.25", "/(s - a)^2",

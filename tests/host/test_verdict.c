@@ -401,7 +401,6 @@ TEST(verdict, a_point_is_judged_as_its_run) {
             char id[20];
             snprintf(id, sizeof id, "[%s]", finding_rows[k].word);
             const bool told = strstr(ran.err, id) != NULL;
-            /* notes are not counted */
             const bool is_note = finding_rows[k].severity == FINDING_NOTE;
             TEST_ASSERT_TRUE_MESSAGE(is_note || told == (strstr(swept.err, id) != NULL), about);
             TEST_ASSERT_TRUE_MESSAGE(k != FINDING_APART || shape != 7 ||

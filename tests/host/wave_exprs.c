@@ -138,7 +138,7 @@ typedef struct reckoned {
     long double value;
     long double error;
     long double size;
-    long double beside; /* error of the angles from whose sines this one may come */
+    long double beside; /* error of the angles whose sines may give this sine */
     /* the argument contains a fraction of a turn angle, so its sine is not computed from other sines */
     bool evaluated;
 } reckoned;
@@ -154,7 +154,7 @@ static reckoned reckon(const wave_argument *of, const long double *state, const 
         r.size += fabsl(p->number) * (turns ? 1.0L : 3.0L);
         r.evaluated = r.evaluated || (turns && p->number != rintl(p->number));
         if (turns && in->phase_rad > 0.0L) {
-            /* the multiple may be any integer, so the error is up to 0.75 units; the number is a double */
+            /* one unit for the product with any integer, whose error is up to 0.75 units; the number is a double */
             r.error += in->phase_rad + 0x1p-53L * fabsl(part);
         } else {
             added += fabsl(part);
