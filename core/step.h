@@ -30,8 +30,8 @@
 #include "step/multi_step.h"
 #include "step/step_end.h"
 
-/* Computes the angle at a stage whose shares of the rates add up to `sum`. A stage in the middle of the step moves the
- * angle by half of the whole step's change. Returns false if wh_phase_move() does. */
+/* Computes the angle at a stage: the step's begin plus h / parts times `sum`, the sum of the rates with the stage's
+ * shares. Returns false if wh_phase_move() does. */
 WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real parts,
                               wh_phase *phase) {
     return parts == WH_R(2.0)
@@ -82,7 +82,7 @@ typedef struct wh_stepped_second {
     wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
 } wh_stepped_second;
 
-/* Computes the positions of stage s, for a method whose rows have a reach. Returns as wh_step_second_stage() does. */
+/* Computes the positions of stage s, for a method with .places. Returns as wh_step_second_stage() does. */
 WH_INLINE unsigned wh_step_reach(const wh_stepping *to, unsigned s, wh_given accels,
                                  wh_stepped_list *list, const wh_stepped_second *k) {
     const unsigned angles = to->angles;

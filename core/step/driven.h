@@ -20,7 +20,7 @@
 #define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
-/* Indices of an input and of its rate among the inputs, and of the numbers in state->real[] that they set. */
+/* Indices of an input and of its rate (among the inputs), and of the components in state->real[] that they set. */
 typedef struct wh_driven {
     uint8_t input;
     uint8_t rate;

@@ -20,8 +20,8 @@ typedef struct wh_ledger_work {
     unsigned stage;
 } wh_ledger_work;
 
-/* Returns the weight of stage `stage` in the method's quadrature. The loop over all stages leaves no table in the code,
- * even if `stage` is not constant. */
+/* Returns the weight of stage `stage` in the method's quadrature. Because of the loop the code needs no table, even if
+ * `stage` is not constant. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];

@@ -15,8 +15,8 @@
 #include "multi_step.h"
 #include "step_end.h"
 
-/* Returns what wh_all_believable() returns. Without floating-point hardware it compares magnitudes by their bits: on an
- * ATmega328P that takes a tenth of the time of three sums and a comparison. */
+/* Returns what wh_all_believable() returns. Without floating-point hardware it first compares the bits of the
+ * magnitudes, which takes a tenth of the time on an ATmega328P. */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
     /* the upper byte of 2^39: the sum of smaller numbers is below WH_ABSURD */
@@ -51,9 +51,9 @@ WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_st
     return WH_OK;
 }
 
-/* Returns value + increment + *carry; *carry becomes the round-off of both sums. *carry is usually many units of the
- * increment's last place. The error of the rounded constants is less than half such a unit, and wh_sum() would lose it
- * in every step: 2.5e-5 rad in 1e6 steps of an oscillator. The sum here loses 5e-8 rad. */
+/* Returns value + increment + *carry; *carry becomes the round-off of both sums. *carry contains the error of the
+ * rounded constants, which is less than half a unit of the increment's last place. wh_sum() would round it away in
+ * every step: 2.5e-5 rad in 1e6 steps of an oscillator. The sum here loses 5e-8 rad. */
 WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry) {
     const wh_real wanted = increment + *carry;
     const wh_real of_carry = wanted - increment;

@@ -12,8 +12,8 @@
 #include "unroll.h"
 
 /* With ira-loop-pressure, gcc loads as many constants before the loop as fit into registers: up to 5 % fewer
- * instructions in a small scene. gcse is off for small scenes only: there it needs more registers for constants than it
- * saves. */
+ * instructions in a small scene. In small scenes gcse needs more registers for constants than it saves, so it is
+ * off. */
 #if defined(WH_MULTI_STEP) && WH_MULTI_STEP && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1

@@ -21,8 +21,8 @@
 #define WH_HAS_LONG_ROWS 1
 #endif
 
-/* Calls stage(s); for all stages except the first. If the compiler has no pragma for unrolling, this macro unrolls the
- * loop: a loop would read shares, and multiply by them, at run time. */
+/* Calls stage(s); for all stages except the first. A loop would read the shares, and multiply by them, at run time. So
+ * the compiler unrolls it; if there is no pragma for that, the macro has one line for each stage. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \

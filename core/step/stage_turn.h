@@ -54,9 +54,9 @@
 #endif
 #endif
 
-/* True if a step tests whether d is small before its first accelerations. Then the function call that may follow has
- * few registers to save. But the rotation's variables must survive the accelerations. The 16 registers of a PC are too
- * few for that: the early test would cost 3 % more instructions. */
+/* True if a step tests whether d is small before its first accelerations. Then the function call that may follow saves
+ * few registers. But the variables of the rotation must survive the accelerations. The 16 registers of a PC are too few
+ * for that: the early test would cost 3 % more instructions in double. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
 /* Like wh_accel_fn and wh_slope_fn, but with the sine-cosine pairs of the waves instead of the angles' phases. */
@@ -85,11 +85,12 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 
 /* The sine-cosine pairs of a step in progress. */
 typedef struct wh_turning {
-    /* Pairs at the begin; if increments are summed precisely, the increments. */
+    /* Pairs at the begin, as sums of two parts. If `precise`, the second parts include the increments. */
     wh_sine_parts parts[WH_WAVES];
-    wh_wave at[WH_WAVES];   /* pairs rotated by the rates at the begin alone */
-    wh_wave way[WH_WAVES];  /* increment of the next rotation, or of the last one */
-    wh_real bend[WH_WAVES]; /* 2 (cos d - 1) */
+    wh_wave at[WH_WAVES]; /* pairs rotated by the rates at the begin alone */
+    /* if `precise`, the increment of the last rotation; otherwise the pair before `at` */
+    wh_wave way[WH_WAVES];
+    wh_real bend[WH_WAVES]; /* 2 (cos d - 1) if `precise`, otherwise 2 cos d */
     unsigned turns;         /* number of rotations done */
 } wh_turning;
 
@@ -201,8 +202,8 @@ WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise
     }
 }
 
-/* Computes the shear angles at a stage, times parts / h. gained[j][angle] is the change of the angle's rate from the
- * begin to stage j + 1. Returns false if the shear angles are zero at this stage. */
+/* Computes the shear angles at a stage, in units of h / parts. gained[j][angle] is the change of the angle's rate from
+ * the begin to stage j + 1. Returns false if the shear angles are zero at this stage. */
 WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*gained)[WH_COORDS],
                                 unsigned angles, wh_real *lean) {
     bool leans = false;

@@ -15,8 +15,8 @@
 #include "stage_sums.h"
 
 /* Moves *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size. The move is rounded to nearest: truncation
- * would slow every angle down by half a unit per step. If compensated, *carry is added and becomes the round-off. It is
- * added separately, because a sum with a large move would lose it. */
+ * would slow every angle down by half a unit per step. If compensated, *carry is added to the move's rounded-off part,
+ * and becomes the round-off. Added to a large move, it would be lost. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -26,7 +26,7 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
         const float left = (steps - (float)whole) + *carry;
         const int32_t more = wh_whole(left);
         *carry = left - (float)more;
-        whole += more; /* no overflow: if `steps` is large, it is whole and `more` is 0 */
+        whole += more; /* no overflow: a large `steps` is whole, and then `more` is 0 */
     }
     /* A turn count beyond 2^31 wraps, without undefined behaviour. */
     *angle = (wh_angle)((uint64_t)*angle + (uint64_t)(int64_t)whole);
@@ -50,8 +50,8 @@ WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     return n == 0 || all < WH_ABSURD;
 }
 
-/* Refuse the step because one of value[n], the components from number `first` on, is not believable. The fault is the
- * first component that exceeds the limit by itself; if only the sum does, the last component. */
+/* Refuse the step: the sum of the magnitudes of value[n], the components from number `first` on, is not believable. The
+ * fault is the first component beyond the limit; if only the sum is beyond the limit, the last component. */
 WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     WH_UNROLL
@@ -137,9 +137,10 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
     }
 }
 
-/* Computes trial->angle[] of a step of length h: the state's angles, each moved by move[] times rad_a_move. If
- * compensated, trial->carry[] is added and becomes the round-off. Returns the first angle that would move by NaN, or by
- * half a turn or more; or `angles`. Such moves are rare, so one check of the sum of all magnitudes comes first. */
+/* Computes trial->angle[], the angles after a step of length h. Each angle moves by move[] times rad_a_move. If
+ * compensated, trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a
+ * turn or more, or by NaN; `angles` if there is none. One check of the sum of all magnitudes comes first, because such
+ * moves are rare. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -173,10 +174,9 @@ WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, w
     return angles;
 }
 
-/* Returns value + by * factor, summed as by wh_sum(). `product` is by.high * factor. The part by.low * factor is less
- * than half a unit in the product's last place, so adding it to the product would have no effect. It is added to the
- * small carry instead, and the round-off is computed from the product alone. A step `h` without a low part, as in
- * scenes with contacts, leaves the round-off to wh_sum(). */
+/* Returns value + by * factor, summed as by wh_sum(). `product` is by.high * factor. The product by.low * factor is
+ * less than half a unit in the last place of `product`, so it is added to *carry instead. If the step h has no low
+ * part, as in scenes with contacts, wh_sum() computes the round-off. */
 WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, wh_real product,
                                  wh_two_part h, bool compensated, wh_real *carry) {
     if (!compensated || WH_DOUBLE) {
@@ -192,21 +192,19 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* Returns the error of h^2 divided by the row's parts, in s^2; the caller multiplies it by the sum of accelerations in
- * the change of positions. Its causes are two roundings, and stages that use h.high because rounding would lose h.low.
- * So the distance of a stage is too short by the share e. This changes the rates as if h/2 e times the change of the
- * forces were missing. In every step the energy then has an error of the same size and sign: 5e-13 of a pendulum's
- * energy in a step of a millisecond. If the positions also lack the share e of h^2/2 times the accelerations, both
- * errors together are the derivative of a small quantity. The energy then stays constant if the mass matrix is
- * constant, and otherwise most of the error vanishes (docs/dev/numerics.md). A method whose only stage is at the step's
- * begin has no such error. */
+/* Returns the error of h^2 divided by the row's parts, in s^2. The caller multiplies it by the sum of accelerations in
+ * the change of positions. One cause of the error is rounding. The other is that stages use h.high alone, so they are
+ * too far from the begin by a share e. This would change the energy by the same amount in every step: 5e-13 of a
+ * pendulum's energy in a step of a millisecond. So the accelerations in the change of positions are reduced by the share
+ * e. The energy then stays constant if the mass matrix is constant, and otherwise most of the error vanishes
+ * (docs/dev/numerics.md). A method whose only stage is at the step's begin has no such error. */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
 }
 
-/* Returns wh_square_short() for angles, in phase units times s^2. Stages that rotate sines (stage_turn.h) use h.high
- * alone. Other stages multiply by the rounded product of h.high and WH_PHASE_PER_RAD, or by one after the other. */
+/* Returns wh_square_short() for angles, in phase units times s^2. The three cases match the rounding in the stages:
+ * with rotated sines or all at the begin, with .places, and by wh_stage_angle(). */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
@@ -218,12 +216,11 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
         return WH_PHASE_PER_RAD * wh_square_short(by, h, part) +
                h.high * part.high * WH_PHASE_PER_RAD_REST;
     }
-    /* the same rounding as in wh_stage_angle() */
     return phases.high * part.low + part.high * phases.low;
 }
 
 /* Adds this step's error of the positions to their carries. pulled[] are the sums of accelerations that move the
- * positions. A step without a low part skips this, as in wh_sum_product(), except for angles. */
+ * positions. If h has no low part, only angles need this, because phase units are not exact either. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
                                   wh_two_part h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {

@@ -80,12 +80,13 @@ WH_INLINE double wh_table_whole(double x, uint32_t *low) {
 }
 
 /* The method is that of wh_sincos_parts(): with up to 128 cells per turn, pi/64 has three parts whose products are
- * exact. With more cells, each cell is a fraction of one of those. */
+ * exact. With more cells, a cell is a part of one of 128 coarse cells. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y) {
     const unsigned coarse = bits < 7U ? bits : 7U;
     const unsigned finer = bits - coarse;
-    const double size = (double)(1U << (7U - coarse)); /* size of a coarse cell, in pi/64 */
+    /* size of a coarse cell, in units of pi/64 */
+    const double size = (double)(1U << (7U - coarse));
     const double angle = WH_ABS(phase) <= 5e8 ? phase : __builtin_nan("");
     uint32_t number;
     uint32_t part;
@@ -117,8 +118,8 @@ WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsi
 WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y, bool *back) {
 #if WH_TABLE_FOLD
-    /* The one's complement, unlike the negative, keeps a phase on the border of two cells in the same cell as without
-     * folding. */
+    /* The one's complement keeps a phase on the border of two cells in the cell that it has without folding; the
+     * negative would not. */
     const bool beyond = (int32_t)phase < 0;
     const wh_real *row = wh_table_cell(cells, bits, width, beyond ? ~phase : phase, y);
     const wh_real way = (wh_real)(int32_t)(phase << bits);
