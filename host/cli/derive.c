@@ -15,8 +15,8 @@
 #include "host/show/show.h"
 #include "options.h"
 
-/* The properties of a form. A form that shows prints the equations of each mechanism of a file in turn, and their derivation
- * (--steps); another form prints code. */
+/* The properties of a form. SHOWS: prints the equations of each mechanism of a file in turn, and their derivation
+ * (--steps); without it, prints code. */
 enum {
     SHOWS = 1,
     FOLDS = 2,  /* prints values instead of names (--folded) */
@@ -100,8 +100,8 @@ static void print(const derive_options *o, const loaded *made, const char *file)
     }
 }
 
-/* Returns true if the option, such as "--header", is not given or valid for this form; else reports the forms `with`
- * which it is valid. */
+/* Returns true if the option, such as "--header", is not given, or this form takes it. Otherwise reports that only the
+ * forms `with` take it. */
 static bool goes_with(bool given, const char *option, const char *value, unsigned of,
                       const char *with, const form_row *as) {
     const bool goes = !given || (as->is & of) != 0;
@@ -250,7 +250,7 @@ static bool options_fit(derive_options *o) {
     /* Matlab runs the same function file as Octave */
     const char *form = options_same("matlab", o->form) ? "octave" : o->form;
     const int chosen = options_choose("derive", "form", form, forms, sizeof forms[0], FORMS);
-    const char *name = o->common.change.name; /* with the rules of names in a .whirl file */
+    const char *name = o->common.change.name; /* a name as in a .whirl file */
     if (chosen < 0 || (name != NULL && !options_is_name("derive", name, NAME_LENGTH_MAX))) {
         return false;
     }

@@ -39,7 +39,7 @@ static const command_usage plot_usage = {
     .why = OPTIONS_WHY_DRAWS};
 
 typedef struct plot_options {
-    common_options common; /* the run parses these */
+    common_options common; /* for sets_once(); a run parses `passed` */
     plot_choice choice;
     const char *out;
     char **target; /* [targets] */
@@ -181,14 +181,14 @@ static const command_usage usage = {
     .why = OPTIONS_WHY_DRAWS};
 
 typedef struct figure_options {
-    common_options common; /* the runs parse these */
+    common_options common; /* unused: each run parses `passed` */
     const char *name;
     const char *out;
     const char *given[DATA_MOST]; /* NAME=FILE */
     int given_count;
     char **passed; /* [passed_count] words for every run */
     int passed_count;
-    char *varied; /* the same words as text, a blank before each */
+    char *varied; /* the passed words as text, a blank before each */
 } figure_options;
 
 /* Split a built-in description into words by the shell's rules; in place. */
@@ -220,7 +220,7 @@ static const char *given_for(const figure_options *o, const char *name) {
     return NULL;
 }
 
-/* Run `kind NAME WORDS` into a temporary file. */
+/* Runs a description's line, `kind NAME WORDS`. The records go into a temporary file. */
 static int make_data(const figure_options *o, const char *kind, char **word, int count,
                      figure_data *data) {
     char folder[] = "/tmp/whirl-figure-XXXXXX";

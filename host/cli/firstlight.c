@@ -33,7 +33,7 @@ typedef enum light_verdict {
     LIGHT_TOLD  /* no expectation */
 } light_verdict;
 
-/* Allowed jitter of the beginning of a control period, 2 ms (hal/clock.h). */
+/* Bounds on the measured length of a control period, which should be 2 ms (hal/clock.h). */
 #define PERIOD_LEAST_US 1900
 #define PERIOD_MOST_US 2100
 
@@ -162,8 +162,7 @@ static char *light_row(const light *l, int equal, const char *differ) {
     return row;
 }
 
-/* Add the row after the last one of the page's table, unless the page already has this record; reports it. Returns an
- * exit status. */
+/* Adds the row to the end of the page's table, unless the page has this record. Prints if it did. Returns an exit status. */
 static int light_append(const char *page, const char *row, uint32_t crc) {
     size_t length = 0;
     char seen[24];

@@ -136,7 +136,8 @@ static void say_scenes(const sought *w, whirl_model *const *read, size_t count) 
     fputs(", or name the mechanism without a scene\n", stderr);
 }
 
-/* The nearest scene of the named mechanism; without one, the nearest of all names. */
+/* Reports an unknown name. The hint is the nearest scene of the named mechanism; without such a mechanism, the nearest of
+ * all names. */
 static void say_unknown(const sought *w, const char *target, whirl_model *const *read,
                         size_t count) {
     bool known = false;

@@ -123,7 +123,7 @@ typedef struct monitor {
     bool open;
     bool typing;     /* standard input has not ended */
     bool half_typed; /* the typed text has no end of line yet */
-    bool live;       /* a line, not a recorded file */
+    bool live;       /* true: a serial line; false: a recorded file */
     bool met;        /* the rig has answered at least once */
     bool begun;      /* the rig has sent all data from before the recording */
     int unheard;     /* number of unanswered questions since the line was opened */
@@ -167,7 +167,7 @@ static bool open_line(monitor *m) {
     m->dialogue = (dialogue){.rate = (int)m->o->rate};
     if (m->line.is_line) {
         (void)port_write(&m->line, "\n",
-                         1); /* text typed by the user must not begin the question */
+                         1); /* the question must not continue text that the user typed */
         ask(m);
     }
     return true;
@@ -223,7 +223,7 @@ static void take_text(monitor *m, const char *line) {
         }
         return;
     }
-    if (line[0] != '\0') { /* an empty line echoes stay_alive() */
+    if (line[0] != '\0') { /* an empty line is the echo of stay_alive() */
         show(m, line);
     }
 }
@@ -385,7 +385,7 @@ static void tell(const monitor *m) {
     }
 }
 
-/* Returns false, and reports it, if a line was to be recorded but no rig was there to send one. */
+/* Returns false, and reports the reason, if samples were to be recorded, but the rig sent none. */
 static bool has_source(const monitor *m) {
     bool records = false;
     for (int i = 0; i < OUTPUTS; i++) {
@@ -400,7 +400,7 @@ static bool has_source(const monitor *m) {
     return false;
 }
 
-/* Returns false, and reports the reason, if a file had more data. */
+/* Returns false, and reports the reason, if a file could not be read to its end. */
 static bool was_read(const monitor *m) {
     if (m->live || m->line.failed == 0) {
         return true;

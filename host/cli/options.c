@@ -137,7 +137,7 @@ static bool is_new(int count, char **words, int at, const char *name) {
 }
 
 /* If words[*at] is `name` or `name=VALUE`, returns its value and advances *at past it. Returns NULL for another word. A
- * missing value is reported and sets *bad, and so is a second one unless the option `repeats`. */
+ * missing value is reported and sets *bad. So is a second value, unless the option `repeats`. */
 static const char *value_of(int count, char **words, int *at, const char *name, bool repeats,
                             bool *bad) {
     const size_t length = strlen(name);
@@ -380,7 +380,7 @@ static bool knows_fixed(const char *command) {
            strcmp(command, "trust") == 0;
 }
 
-/* Stores the word's place among `rows` in a setting of the integration. */
+/* Stores the index of the value's row in `rows` as a setting of the integration. */
 #define CHOOSE(what, rows, count, type, setting) \
     chosen = options_choose(command, what, value, rows, sizeof(rows)[0], count); \
     to->integration.setting = chosen < 0 ? to->integration.setting : (type)chosen; \

@@ -61,7 +61,7 @@ enum { OPTION_TEXT_WIDTH = 76 };
 typedef enum option_group {
     OPTIONS_CHANGE = 1, /* changes to an instance */
     OPTIONS_ENGINE = 2, /* the method of integration */
-    OPTIONS_NUMBER = 4, /* the number type and its programs */
+    OPTIONS_NUMBER = 4, /* the number type */
     OPTIONS_STEP = 8,   /* the step, for commands that do not choose it themselves */
     OPTIONS_SCENE = 15  /* all of them, for commands that run scenes with given settings */
 } option_group;
@@ -127,7 +127,7 @@ typedef struct common_options {
     change_options change;
     image_settings
         integration; /* --method, --compensated, --stabilized, --angles, --matrix, --tables, --cells */
-    const engine_kind *number; /* --number: the number type and its programs */
+    const engine_kind *number; /* --number: the number type */
 } common_options;
 
 /* The values without any option. */
@@ -172,7 +172,7 @@ typedef struct own_option {
     bool is_bare;   /* an option without a value: text gets its word */
 } own_option;
 
-/* Rows for numbers, and for options of several commands. */
+/* Rows of own_option: for numbers, and for options that several commands have. */
 #define OWN_NUMBER(name, to, from, up_to, such_as) \
     { .word = name, .number = &(to), .least = from, .most = up_to, .hint = such_as }
 #define OWN_WHOLE(name, to, from, up_to, such_as) \
@@ -184,16 +184,17 @@ typedef struct own_option {
 
 typedef struct target_reader {
     const char *command;
-    const command_usage *usage; /* its groups of common options are accepted */
+    const command_usage *usage; /* the command accepts the common options of its groups */
     const own_option *table;    /* own options, ended by one without a word; or NULL */
     char **many;                /* gets all targets, for a command that takes several; else NULL */
     int *many_count;
     char **passed; /* gets the words of all common options of `whirl run`, for runs; or NULL */
     int *passed_count;
-    const char *one; /* word for a target in the message about a second one; NULL: "scene" */
-    bool derives;    /* a target may also be a mechanism; that message then says so */
+    const char *one; /* word for a target in the error about a second target; NULL: "scene" */
+    bool derives;    /* a target may also be a mechanism; the error about a second target says so */
     bool none;       /* the command may have no target */
-    /* The work of target_command(), which returns an exit status: on the opened target, or (`work` alone) without it. */
+    /* The work of target_command(). work_on() gets the opened target; if it is NULL, work() runs without a target. Both
+     * return an exit status. */
     int (*work_on)(source_model *from, void *options);
     int (*work)(void *options);
 } target_reader;
@@ -207,7 +208,7 @@ bool target_read(const target_reader *reader, int count, char **words, common_op
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 
-/* A whole command: prints the help text, or takes the words and does the work; the options are then forgotten. Returns an exit
+/* Runs a whole command: prints the help text, or reads the words and does the work. Frees the options. Returns an exit
  * status. */
 int target_command(const target_reader *reader, int count, char **words, common_options *common,
                    void *options, const char **target);

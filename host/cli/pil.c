@@ -248,7 +248,7 @@ static int tell(const pil_options *o, const lockstep_request *request, const ima
     return code_of(r);
 }
 
-/* The line to a board, if the firmware is there. */
+/* Opens the serial line of --port, if this option is given. */
 static bool open_line(const pil_options *o, lockstep_request *request, port *line) {
     if (o->port == NULL) {
         return true;
@@ -340,7 +340,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
     return tell(o, request, im, &report);
 }
 
-/* Faults that change parameters come last. */
+/* Loads the plant. Parameters changed by faults come after those of --set, and so replace them. */
 static int load_plant(const pil_options *o, source_model *from, const mechanism *of,
                       const scene *in, loaded *made) {
     char *parameter[FAULTS_MAX];

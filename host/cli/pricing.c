@@ -158,8 +158,7 @@ const cost_board *pricing_board(const char *command, const char *value) {
 /* Operations that all trials may evaluate without --effort. */
 #define EFFORT 1e9
 
-/* Reads --error, in the dimension of its own quantity or of --of's. An unknown quantity is not reported here but
- * later. */
+/* Reads --error. Its dimension is that of the quantity in --error or --of; an unknown quantity is reported later. */
 static bool read_error(pricing *p) {
     const char *text = p->options->value[PRICING_ERROR];
     const char *command = p->options->command;

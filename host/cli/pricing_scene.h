@@ -30,7 +30,7 @@ typedef struct pricing_scene {
     trial_source source;
 } pricing_scene;
 
-/* Most points of the grid of all varied values; number of values of a range without a count. */
+/* PRICING_PLACES_MAX: most points of the grid of all varied values. PRICING_PLACES: values of a range without a count. */
 enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
 
 pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,

@@ -109,10 +109,11 @@ void rating_say(FILE *out, const rating_request *w, const simulation_trust *trus
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
 
-/* Paces: PACES_LONG steps that are multiples of a record's interval, then decimal fractions of it, five a decade. */
+/* PACES: number of paces. The steps of the first PACES_LONG are multiples of a record's interval. The others are decimal
+ * fractions of the interval, five a decade. */
 enum { PACES = 32, PACES_LONG = 10 };
 
-/* Allowed number of operations of all tried runs together. Comparing them with the reference takes as long again. */
+/* Most operations of all tried runs together. Their comparison with the reference takes as long again. */
 #define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
 
 /* Pace `i`, from long to short steps. */
@@ -129,8 +130,8 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
-/* Estimate of the operations of a run with the allowed error, from a run with this pace and error. The error is assumed
- * to fall four orders faster than the method's order, roughly the fastest case. */
+/* Estimates the operations of a run with the allowed error, from a run with this pace and error. Assumes that the error
+ * falls four orders faster than the method's order, which is roughly the fastest case. */
 static double operations_for(trials *t, const setting *s, deviation_pace pace, double error) {
     const double order = wh_methods[s->image.method].order + 4.0;
     return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
@@ -144,8 +145,8 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
     /* operations of all tried runs; after a run that is too expensive, of that run alone */
     double operations = 0.0;
     bool ends_early = false;
-    int falls = 0; /* tries with an error below 0.7 times the least before */
-    /* tries since the error last fell; after three falls, two such tries show round-off */
+    int falls = 0; /* tries with an error below 0.7 times the least error before */
+    /* tries since the last fall; after three falls, two such tries show round-off */
     int stuck = 0;
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
@@ -295,7 +296,7 @@ int rating_choose(const common_options *common, const char *target, const char *
     pricing p;
     o.target = target;
     o.common.change = common->change;
-    o.balance = true; /* the verdict on the run needs it */
+    o.balance = true; /* the verdict on the run needs the balance */
     o.value[PRICING_ERROR] = error;
     const setting s = {common->integration, common->number};
     int code = pricing_open(&p, &o);

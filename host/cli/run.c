@@ -162,7 +162,7 @@ static double read_every_s(const run_options *o, const mechanism *of) {
     return spacing_s;
 }
 
-/* The same interval as a number of steps. */
+/* The interval of --every as a number of steps. Returns false after an error, which is reported. */
 static bool count_every(const run_options *o, double spacing_s, const image *im, uint64_t *steps) {
     *steps = 1;
     if (o->every == NULL) {
@@ -320,7 +320,7 @@ int run_to_take(int count, char **words, const plot_choice *choice, plot_run *ta
     o.settings.taken = taken;
     o.settings.choice = *choice;
     o.settings.quiet = true;
-    o.settings.strict = STRICT_OFF; /* a picture shows the end of the trusted time */
+    o.settings.strict = STRICT_OFF; /* runs with findings are drawn, too */
     return run_words(count, words, &o);
 }
 

@@ -24,7 +24,7 @@
 #include "options.h"
 #include "trusting.h"
 
-/* Limits of a map: the number of axes, and the most pairs of values. */
+/* AXES: number of axes of a map. PAIRS_MOST: most pairs of values. */
 enum { AXES = 2 };
 #define PAIRS_MOST 250000
 /* Operations of a map without --effort. */
@@ -338,7 +338,7 @@ static void show_progress(double runs, void *context) {
     fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
 }
 
-/* Estimated operations of all runs: the steps of each length times those of the unchanged scene. */
+/* Estimated operations of all runs. A run with half the step of the unchanged scene counts twice. */
 static double operations_of(const grid *g, const image *base) {
     double runs = 0.0;
     for (int i = 0; i < AXES; i++) {

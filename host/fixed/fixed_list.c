@@ -119,8 +119,8 @@ static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->
 static int least(int a, int b) { return a < b ? a : b; }
 static int most(int a, int b) { return a > b ? a : b; }
 
-/* Returns the digits after the point of a product. They also leave room for the product of the operands' largest sizes,
- * so that left shifts suffice. */
+/* Returns the digits after the point of a product: as many as fit with the operands' largest sizes, so that only left
+ * shifts are needed. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
     const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
@@ -287,7 +287,7 @@ static bool finish_quotient(const fixed_list *l, fixed_op *o) {
         o->bits--;
     }
     o->follows = a_left >= o->spread;
-    if (o->follows) { /* shifts for the smallest number of leading zeros */
+    if (o->follows) { /* these shifts are for a divisor with `zeros` leading zeros */
         const int more = most(o->spread - o->a.shift, 0);
         o->a.shift += more - o->spread;
         o->by += more;

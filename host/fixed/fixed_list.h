@@ -19,8 +19,8 @@
  * or was interrupted. `progress`: show the progress on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
-/* Largest number of binary digits of a value. FIXED_DIGITS: values of the list; twice a value still fits, with its
- * round-off. FIXED_RESULT_DIGITS: results of the list, of which a step adds six. FIXED_KEPT_DIGITS: the state. */
+/* Largest number of binary digits. FIXED_DIGITS: of a value of the list; twice a value still fits, with its round-off.
+ * FIXED_RESULT_DIGITS: of a result of the list; the sum of six results fits. FIXED_KEPT_DIGITS: of the state. */
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
@@ -54,9 +54,8 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: |b| has at least `zeros` leading zeros, and at most `spread` further ones (`more` in the
-     * formula). The further zeros also shift a if it has room for that (`follows`). Otherwise `by` is smaller by their
-     * number. */
+    /* FIXED_QUOTIENT: |b| has `zeros` + `more` leading zeros, with `more` from 0 to `spread`. follows: `a` has room to be
+     * shifted by `more`, too. Otherwise `by` is smaller by `more`. */
     int zeros;
     int spread;
     bool follows;

@@ -137,15 +137,15 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
     return gain->shift <= 31 - digits;
 }
 
-/* As make_gain(), for results of the list and a factor of 15 digits: for the increments of a position at a stage. */
+/* Multiplies a result of the list by a factor of 15 digits, for the increments of a position at a stage. */
 static fixed_gain short_gain(double factor, int from, int to) {
     const int bits = fixed_factor_bits(factor) - 16;
     const double number = number_nearest(number_scaled(factor, bits));
     return (fixed_gain){number > 32767.0 ? 32767 : (int32_t)number, 0, from - 14 + bits - to};
 }
 
-/* Returns the digits of a component whose increments in a step are at most 2 `by`: as many as fit, and fewer than those
- * of the increments. */
+/* Returns the digits after the point of a component with increments of at most 2 `by` in a step: as many as fit, but fewer
+ * than the increments have (`list_bits`). */
 static int kept_bits(enclosure range, double by, int list_bits) {
     const int finest = fixed_point_of(enclosure_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
     return finest < list_bits - 1 ? finest : list_bits - 1;
@@ -291,8 +291,8 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
-/* Finds the ranges of all values with the present stages. Returns false, and reports it, if some values are too large.
- * ranges_alone: the stages do not exceed the ranges yet. */
+/* Finds the ranges of all values with the present stages. Returns false after an error (reported), such as values that are
+ * too large. ranges_alone: the stages are still equal to the ranges. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
     const fixed_leaves leaves = leaves_of(p);

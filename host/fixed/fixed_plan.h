@@ -31,11 +31,10 @@ typedef struct fixed_gain {
 typedef struct fixed_mover {
     int to_kept;
     fixed_gain third;
-    /* from here on for second order only: digits, then the gains of v, A and A1 + A2 + A3 */
-    int guard;
-    fixed_gain half_rate;
-    fixed_gain half_accel; /* `number` and `by` of wh_fixed_mul_short() */
-    fixed_gain third_accel;
+    int guard;              /* for second order only, like the three gains below */
+    fixed_gain half_rate;   /* of v */
+    fixed_gain half_accel;  /* of A: `number` and `by` for wh_fixed_mul_short() */
+    fixed_gain third_accel; /* of A1 + A2 + A3 */
 } fixed_mover;
 
 typedef struct fixed_plan {
@@ -43,7 +42,7 @@ typedef struct fixed_plan {
     wh_fixed_format *format; /* [reals + inputs] in the order of the scene */
     enclosure *range;        /* [reals + inputs] at the ends of steps */
     enclosure *stage;        /* [reals + inputs] at the stages of steps */
-    /* [reals + inputs] the range is declared; otherwise it is twice that of a reference run, or of an input's value */
+    /* [reals + inputs] true: declared; false: twice the range of a reference run, or of an input's value */
     bool *declared;
     bool second;
     int coordinates;    /* for first order, the number of components */

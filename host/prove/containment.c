@@ -53,9 +53,9 @@ static void read_run(const reading *r, void *run) {
 
 /* --- the tolerances ----------------------------------------------------------------------------------- */
 
-/* Smallest range of a state, relative to its size, or to the range of another state with the same unit. */
+/* The range of a state is at least this part of its largest size, or of the range of another state with the same unit. */
 #define LITTLE 1e-3
-/* Replaces the range, SI, if no state with this unit moves, because the tube has a width in this case, too. */
+/* The range, SI, if no state with this unit moves: even then the tube has a width. */
 #define STILL 1e-9
 
 static const char *unit_of(const containment_request *w, int i) {

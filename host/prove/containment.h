@@ -46,9 +46,9 @@ typedef struct containment_state {
     bool open;
     bool begun;   /* within the tolerance at the start; otherwise nothing is proved */
     double range; /* range in the run, but at least a thousandth of the largest size */
-    double
-        within; /* allowed error: the requested one; else the tolerance times the state's range, or times a
-                 * thousandth of the largest range of states with the same unit, if that is more */
+    /* allowed error: the requested one, or the tolerance times a range. This is the state's range, but at least a
+     * thousandth of the range of each state with the same unit */
+    double within;
     double until_s;
     double off;    /* upper bound on the state's error until until_s */
     double radius; /* largest radius of the tube until until_s */

@@ -171,7 +171,7 @@ static void take_row(making *k, int i, int p, int c) {
     k->force[i] = graph_sub(g, k->force[i], graph_mul(g, by, k->force[p]));
 }
 
-/* Solves row p for column c. All other unknowns are known, except those of earlier pivots. */
+/* Solves row p for column c. In this row the columns of earlier pivots are zero; the unknowns of later pivots are known. */
 static void substitute(making *k, int p, int c, const bool *known) {
     graph *g = k->graph;
     int right = k->force[p];

@@ -9,8 +9,8 @@
 #include "host/number/functions.h"
 
 /* === axes that turn with the motion =========================================================== */
-/* The axes are nearly orthogonal, so that enclosing a turned box in a new one along them costs little (Lohner,
- * Enclosing the solutions of ordinary initial and boundary value problems, 1987). */
+/* The axes are nearly orthogonal, so that a turned box fits closely into a new box along them (Lohner, Enclosing the
+ * solutions of ordinary initial and boundary value problems, 1987). */
 
 /* Copies the columns of `of` to a[n * n], sorted by their contribution to the box, longest first. */
 static void sorted(int n, const double *of, const double *radii, double *a) {
@@ -473,7 +473,7 @@ static bool stays(flowpipe *t, double h_s, double *excess) {
     return good;
 }
 
-/* Returns the length of the next trial, from the order of the remainder, with bounded change. */
+/* Returns the length of the next trial. It follows from the order of the remainder, and is 0.4 to 1.5 times h_s. */
 static double changed(double h_s, double excess, int order) {
     const double factor =
         excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(order + 1)) : 2.0;
@@ -590,8 +590,8 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     go_to(t, tau_s, left);
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
-    t->products += 2.0 * (double)n * (double)n *
-                   (double)t->off->count; /* products of this step, with those in flowpipe_open() */
+    t->products +=
+        2.0 * (double)n * (double)n * (double)t->off->count; /* with those of flowpipe_open() */
     for (int i = 0; i < n; i++) {
         /* the derivatives must hold on the whole segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);

@@ -450,8 +450,8 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
     return graph_number(g, enclosure_call(tree->function, x, b >= 0 ? g->node[b].number : x));
 }
 
-/* Returns a bound of the angle in [-pi/2, pi/2] whose sine (or tangent) is x. Doubles farther and farther from the
- * computed angle are tested; both functions increase monotonically in this interval. */
+/* Returns a bound of the angle in [-pi/2, pi/2] whose sine (or tangent) is x. Angles are tested farther and farther from
+ * the computed one; sine and tangent increase monotonically in this interval. */
 static double inverse_end(double x, bool tangent, double side) {
     const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */

@@ -74,10 +74,9 @@ int graph_without(graph *g, int a, int first);
 typedef struct reader_symbols {
     graph *graph;
     const instance *instance;
-    int *
-        first; /* [coordinate_count] the variable of an unknown's value; its rate is the next one */
-    int *
-        order; /* [coordinate_count] order of the highest derivative, which is variable highest + unknown */
+    int *first; /* [coordinate_count] variable of an unknown's value; the next one is its rate */
+    /* [coordinate_count] order of an unknown's highest derivative, which is variable `highest` + unknown */
+    int *order;
     int highest;    /* number of variables of the state */
     int *parameter; /* [parameter_count] nodes; -1: not yet */
     int *let;       /* [let_count] nodes; -1: not yet */
