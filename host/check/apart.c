@@ -17,7 +17,7 @@ enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
 /* A hold's expression is meant to be zero at the start if its value is below this part of the sum of its terms' sizes. */
 #define OFF_MOST 0.5
-/* A condition at its limit is evaluated again at this share of a step after the start. */
+/* The conditions of holds are evaluated at this share of a step after the start, because one at its limit may become false. */
 #define SOON 1e-6
 
 typedef struct apart {
@@ -308,7 +308,7 @@ double apart_say(FILE *out, const char *who, const image *im) {
         a.place[i] = image_start(im, i);
         a.rate[i] = image_start(im, a.n + i);
     }
-    double soon[N]; /* a condition at its limit counts as false if it is false a moment later */
+    double soon[N]; /* the state at SOON of a step */
     for (int i = 0; i < a.n; i++) {
         soon[i] = a.place[i] + SOON * im->step_s * a.rate[i];
     }

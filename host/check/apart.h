@@ -12,7 +12,7 @@
 #define APART_LEAST 1e-6
 
 /* The largest error or rate of a hold, divided by the sum of its terms' sizes; 0: the start satisfies all holds. Warnings
- * to `out`, if not NULL, begin with `who`, such as "whirl run"; if that is NULL, only the text of the first one is printed. */
+ * to `out` (may be NULL) begin with `who`, such as "whirl run". If `who` is NULL, prints only the first warning's text. */
 double apart_say(FILE *out, const char *who, const image *im);
 
 #endif

@@ -54,10 +54,10 @@ extern const finding_row finding_rows[FINDINGS];
  * within RUN_CHECKS_SUDDEN_STEPS steps. Twice as many steps at the begin of the run do not count. */
 #define RUN_CHECKS_SUDDEN 30.0
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
-/* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry. A plot does not show it. */
+/* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry; too small to be seen in a plot. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
 /* FINDING_EVENTS ignores the last bounces before a rest: steps with too many events that change the energy by less than
- * RUN_CHECKS_RESTS of the largest entry, and are less than RUN_CHECKS_RESTS_STEPS of all steps. */
+ * RUN_CHECKS_RESTS of the largest entry, if they are fewer than RUN_CHECKS_RESTS_STEPS of all steps. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

@@ -53,8 +53,8 @@ static double least_size(const step_doubling_column *c) {
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* May both runs have the same round-off in this column? `least`: the error to be detected. In a constant column the
- * round-off bound must also exceed the column's size, or one metre or radian if the column starts at zero. */
+/* May both runs have the same round-off in this column? Yes, if the bound exceeds BOUND_OVER times `least`, the error to be
+ * detected. In a constant column it must also exceed the column's size, or one metre or radian for a start at zero. */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
@@ -354,7 +354,7 @@ static void print_invariants(FILE *out, const horizon *h) {
     print_momenta(out, h);
 }
 
-/* The reason why nothing is known after cut_s. If there are several, the earliest is the reason. */
+/* The earliest reason why nothing is known after cut_s. */
 static const char *cut_by(const step_doubling *t) {
     if (t->finer_failed_s >= 0.0 && t->finer_failed_s <= t->cut_s) {
         return "after that the run with half the step fails";

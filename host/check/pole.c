@@ -373,7 +373,7 @@ typedef struct divisor {
 typedef struct denominators {
     blamed at;
     unsigned char *is; /* [nodes] */
-    int *order;        /* [ordered] nodes that the watched ones depend on, operands first */
+    int *order;        /* [ordered] nodes on which the tested values depend, operands first */
     int ordered;
     divisor *divisor; /* [count] */
     int count;

@@ -112,7 +112,7 @@ bool step_doubling_plain(const image_settings *of, image_settings *plain);
 wh_method step_doubling_method(const image *im);
 int step_doubling_order(const image *im);
 
-/* Runs both from the start to the end, or until one fails. The images must outlive the result. */
+/* Makes the run and its finer run, to the end or until one fails. The images must outlive the result. */
 step_doubling *step_doubling_run(const step_doubling_request *w);
 /* Like step_doubling_run(), for a run that the caller steps: call step_doubling_enter() at its start and after each
  * step. `w` is copied. */

@@ -192,8 +192,8 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* Removes omitted effects from the names of --with. *out keeps the omitted effects that --without must name: the scene
- * itself has them, or `all`. */
+/* Removes omitted effects from the names of --with. *out keeps the omitted effects that --without must name: those of the
+ * scene itself, or all of them if --with has the name `all`. */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

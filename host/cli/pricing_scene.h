@@ -37,7 +37,7 @@ pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const ove
                                  const grid *g, diags *errors);
 /* If the scene's own values are not a point of the grid, they become an additional point. Call it before making any image. */
 void pricing_scene_add_own(pricing_scene *p, const instance *own);
-/* Gives an image that was made with these settings, which the caller still frees. NULL is allowed. */
+/* Lends an image that was made with these settings; the caller still frees it. NULL is allowed. */
 void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
 void pricing_scene_free(pricing_scene *p); /* NULL is fine */
 

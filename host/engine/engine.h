@@ -47,7 +47,7 @@ typedef struct engine_kind {
     uint64_t (*steps)(const void *run);
     /* The component that diverged, angles first, or -1. */
     int (*fault)(const void *run);
-    /* Events since the start. *overruns: number of steps with events at more than WH_EVENTS_MAX times. */
+    /* Events since the start. *overruns: number of steps with events at more than WH_EVENTS_MAX different times. */
     uint64_t (*events)(const void *run, uint64_t *overruns);
     /* The events of the last step in their order, list[WH_EVENT_LOG]; returns their number. */
     int (*happened)(const void *run, engine_event *list);

@@ -103,7 +103,7 @@ typedef enum op_cost {
 typedef struct op_row {
     op_kind kind;
     op_cost cost;
-    /* largest number of earlier values that it uses: 1 (a), 2 (a and b), 0 for a leaf or a phase */
+    /* largest number of earlier values that the operation uses: 1 (a), 2 (a and b), 0 for a leaf or a phase */
     int values;
     const char *c;      /* NULL: not written in C */
     const char *octave; /* NULL: not written in Octave */

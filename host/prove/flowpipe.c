@@ -304,8 +304,8 @@ static void reduce(zonotope *z, double *rounding) {
     free(radius);
 }
 
-/* Replaces vector[n] by the centre of map vector + more (NULL: nothing). Its error is added to rounding[n]. to[n] is
- * working memory. */
+/* Replaces vector[n] by the centre of map vector + more (NULL: nothing). The error of the new vector is added to
+ * rounding[n]. to[n] is working memory. */
 static void map_vector(int n, const enclosure *map, double *vector, const enclosure *more,
                        enclosure *to, double *rounding) {
     for (int i = 0; i < n; i++) {
@@ -522,8 +522,7 @@ double flowpipe_open(flowpipe *t, double most_s) {
     return t->open_s;
 }
 
-/* Returns the displacement of the centre: its polynomial minus its start, the later coefficients, and the
- * remainder. */
+/* Encloses the displacement of the centre: the terms of its Taylor polynomial from order 1 on, and the remainder. */
 static enclosure way_at(const flowpipe *t, int i, enclosure tau) {
     enclosure sum = taylor_of(t->all, i, t->order)[0];
     for (int k = t->order - 1; k > 0; k--) {

@@ -25,8 +25,8 @@ typedef struct choice_request {
     void (*counting)(void *context, int counted); /* may be NULL */
 } choice_request;
 
-/* A row compared with the limits. A load is the time of the longest steps in a period, as a part of the period. Without a
- * rate the period is a second. */
+/* A row compared with the limits. The load is the part of a period that its steps take if each takes as long as the longest
+ * step. Without a rate the period is a second. */
 typedef struct choice_row {
     int row; /* index of the row in the table, or -1 */
     /* upper bound on cycles (or instructions) per simulated second, if every step is as long as the longest */

@@ -473,12 +473,12 @@ typedef struct sitting {
     progress progress;
     uint64_t first; /* point of the sheet's first row */
     uint64_t failed;
-    int described;            /* number of failures that were described */
-    uint64_t ran;             /* number of points that ran in this session */
-    uint64_t found[FINDINGS]; /* number of points with this finding, and the first one */
-    uint64_t found_first[FINDINGS];
-    uint64_t unlooked_points; /* points that were not checked for some finding */
-    unsigned unlooked;        /* bits: findings that were not checked */
+    int described;                  /* number of failures that were described */
+    uint64_t ran;                   /* number of points that ran in this session */
+    uint64_t found[FINDINGS];       /* number of points with each finding */
+    uint64_t found_first[FINDINGS]; /* the first of these points */
+    uint64_t unlooked_points;       /* points that were not checked for some finding */
+    unsigned unlooked;              /* bits: findings that were not checked */
     unsigned warned;
     unsigned fails; /* bits: findings after which the exit status is 1 */
 } sitting;

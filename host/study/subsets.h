@@ -23,8 +23,8 @@ typedef struct subset {
     bool same;          /* its records have the same bits as those of the full run */
     int contacts;
     double *moved; /* [columns] largest difference over the run, in the column's unit */
-    double figure[SUBSET_FIGURES]; /* cycles of a step without events (or instructions), the most
-                                    * evaluations in a step, bytes without contacts */
+    /* cycles (or instructions) of a step, most evaluations in a step, bytes of flash, bytes of RAM */
+    double figure[SUBSET_FIGURES];
 } subset;
 
 typedef struct subsets {
@@ -39,7 +39,7 @@ typedef struct subsets {
     bool acted[SUBSETS_EFFECTS_MAX]; /* the effect acted in the full run */
     double *range;                   /* [columns] range in the full run, in the column's unit */
     double *limit;                   /* [columns] allowed error; INFINITY: any */
-    subset **list; /* [count] 0: the full scene; k + 1: without effect k; then others */
+    subset **list; /* [0] the full scene, [k + 1] without effect k, then without several */
     int count;
 } subsets;
 
