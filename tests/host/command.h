@@ -31,7 +31,8 @@ double said_named_step_s(const char *text);
  * text. said_words() expects the given words, said_number() a number. said_word() copies the text up to the next
  * blank to word[size]. */
 const char *said_words(const char *text, const char *words);
-const char *said_exactly(const char *text, const char *words); /* like said_words(), keeps blanks */
+const char *said_exactly(const char *text,
+                         const char *words); /* said_words(), but skips no blanks */
 const char *said_number(const char *text, double *number);
 const char *said_word(const char *text, char *word, size_t size);
 
@@ -54,7 +55,8 @@ void command_say_model(int (*command)(int count, char **words), const char *text
 typedef struct dice {
     unsigned long long state;
 } dice;
-dice dice_of(const char *suite, unsigned long seed); /* prints its seed; WHIRL_SEED replaces it */
+dice dice_of(const char *suite,
+             unsigned long seed); /* prints the seed, which WHIRL_SEED replaces */
 double dice_between(dice *d, double low, double high);
 unsigned dice_one_of(dice *d, unsigned count);
 

@@ -10,7 +10,7 @@ static inline uint64_t contacts_overruns(const motion *m) {
     return overruns;
 }
 
-/* Number of events since the start. Steps with more events than the log can take are counted in full. */
+/* Number of events since the start. All events count, even those of a step that has too many for its log. */
 static inline uint64_t contacts_events(const motion *m) {
     uint64_t overruns;
     return m->kind->events(m->run, &overruns);

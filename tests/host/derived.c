@@ -230,7 +230,7 @@ char *repeated(const char *front, const char *part, int times, const char *tail)
     size_t at = (size_t)snprintf(text, room, "%s", front);
     for (int i = 1; i <= times; i++) {
         for (const char *c = part; *c != '\0'; c++) {
-            /* # is the number of this piece, @ the number of the piece before */
+            /* # becomes the number of this piece, @ the number of the piece before */
             if (*c == '#' || *c == '@') {
                 at += (size_t)snprintf(text + at, room - at, "%d", *c == '#' ? i : i - 1);
             } else {

@@ -17,7 +17,7 @@ typedef struct drawn_contact {
     double offset;      /* the gap in metres is row . x - offset */
     double restitution; /* of a stop, from 0 to 1 */
     double limit;       /* friction limit, N; static and kinetic friction are equal */
-    double target;      /* value of J v+ (impact) or J a (force) while the contact acts */
+    double target;      /* rate (impact) or acceleration (load) that an active contact must have */
     /* only for a hold: the hold acts while since . x > since_m, or always if `since` and since_m are zero */
     double since[DRAWN_MOST];
     double since_m;

@@ -16,7 +16,7 @@ typedef struct stream {
 typedef struct drawn_talk {
     wh_signal signal[WH_SIGNALS_MAX];
     wh_hello hello;
-    unsigned outputs; /* number of signals before the notes */
+    unsigned outputs; /* number of outputs; the last `notes` of these are notes */
     unsigned notes;
     unsigned turns;
     uint32_t ticks[TURNS_MOST];

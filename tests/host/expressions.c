@@ -154,7 +154,7 @@ void expression_write(const expression_names *names, int depth, int tame, uint64
     expression(&w, depth);
 }
 
-/* Writes `text` and replaces each %e by a random expression of these names. */
+/* Writes `text` and replaces each %e by a random expression of the names in `names`. */
 static void filled(writer *w, const expression_names *names, const char *text, int depth) {
     for (; *text != '\0'; text++) {
         if (text[0] == '%' && text[1] == 'e') {

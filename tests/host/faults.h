@@ -103,7 +103,7 @@ typedef struct run_checks {
     uint64_t overruns;
     uint32_t steps[STEP_BINS]; /* histogram of instructions per control step; zero if not counted */
     double most;               /* largest number of instructions in a control step */
-    double most_s;             /* time at which this step was reported */
+    double most_s;             /* time at which the longest step was reported */
     /* largest number of instructions from one wait to the next: HAL, control step and printing */
     double loop;
     double start; /* number of instructions before the control loop */
@@ -149,7 +149,7 @@ typedef struct judge {
     unsigned on_turns; /* number of successive turns with the enable line on */
     /* number of successive turns of which each was faster than the one before */
     unsigned rises;
-    double rises_rpm; /* speed of the first of these rising turns */
+    double rises_rpm; /* speed of the turn before the first faster one */
     /* time at which turns showed a drive with the enable line on; -1: not shown */
     double on_shown_s;
     /* time at which turns showed a drive with the enable line off; -1: not shown */
@@ -157,7 +157,7 @@ typedef struct judge {
     true_turn turn[JUDGE_TURNS];
     unsigned turns;
     float told[HAL_NOTES];
-    bool driven; /* by its last orders, the firmware drives the motor */
+    bool driven; /* the firmware's last orders drive the motor */
     bool has_result;
     bool began;
     double speed_rpm;

@@ -182,7 +182,7 @@ static bool may_be_second(unsigned row) {
 #define NOMINAL_PART 0.25 /* share of runs at the rig's nominal speed */
 /* share of runs at speeds that are too slow without gravity compensation */
 #define SLOW_PART 0.25
-#define FED_PART 0.2     /* share of the other runs that have gravity compensation */
+#define FED_PART 0.2     /* share of runs with gravity compensation, unless the row always has it */
 #define BRAKES_PART 0.3  /* share of all runs in which the motor brakes */
 #define SUPPLY_LEAST 0.5 /* lowest supply voltage, as a share of 24 V */
 #define SUPPLY_MOST 1.5
@@ -448,7 +448,7 @@ void campaign_draw(campaign_case *one, const campaign *c, unsigned i) {
 /* if turns show a drive, the enable must be off, or a trip reported, within this time */
 #define SHOWN_S 1.0
 #define HAND_RPM 61.0 /* a hand can turn the rotor at most this fast */
-/* with the motor off, three turns with this total ratio of speeds show a drive */
+/* with the motor off, three successive rises of the speed with this total ratio show a drive */
 #define RISE 1.05
 /* a result may be for turns that ended 0, 1 or 2 turns ago */
 #define SHIFTS 3
@@ -515,7 +515,7 @@ static void add_up(judge *j, double from, double force_from, double to, double f
     j->sum.sine_N += half * (force_from * sin(from) + force_to * sin(to));
 }
 
-/* Called at the end of a complete turn in which the motor must not drive. Notes the time if the speed grows all the same. */
+/* Called at the end of a complete turn in which the motor must not drive. Notes the time if turns show a drive. */
 static void see_undriven(judge *j, double at_s, double rpm) {
     const bool faster = rpm > j->rpm;
     j->on_turns++;

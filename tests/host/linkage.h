@@ -61,8 +61,8 @@ typedef enum linkage_forces {
 typedef struct linkage_writing {
     linkage_forces forces;
     bool backwards;   /* coordinates and terms are written in reverse */
-    double until_s;   /* end of the scene, which has 500 steps; 0: half a second */
-    const char *more; /* further statements, with q0, q0', ... and ey0, the height of an end */
+    double until_s;   /* time of the scene's end; 0: half a second. The scene has 500 steps. */
+    const char *more; /* further statements; may use q0, q0', ... and ey0, ..., the ends' heights */
 } linkage_writing;
 
 /* Writes a mechanism `name` with a scene `name_moves`. The coordinates are q0, q1, ... */

@@ -50,7 +50,7 @@ char *printed(const derived *d, language as) {
     case OCTAVE: derived_octave(out, d, "x.whirl", false); break;
     }
     fclose(out);
-    /* a copy: gcc takes the buffer of the stream for an address in this stack frame */
+    /* a copy, because gcc takes the stream's buffer for an address in this stack frame */
     char *copy = malloc(size + 1);
     TEST_ASSERT_NOT_NULL(copy);
     memcpy(copy, text, size + 1);

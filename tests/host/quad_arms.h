@@ -13,7 +13,7 @@ typedef long double quad;
 __extension__ typedef __float128 quad;
 #define QUAD_KNOWN 1
 #else
-typedef long double quad; /* not 113 bits: QUAD_KNOWN is undefined, and there is no reference */
+typedef long double quad; /* too few bits: QUAD_KNOWN is undefined, and there is no reference */
 #endif
 
 enum { QUAD_COORDINATES = 3, QUAD_BODIES = 3, QUAD_ARMS = 3 };

@@ -13,7 +13,7 @@ enum { RATED_STATES = LINEAR_STATES, RATED_TEXT = 4000, RATED_NUMBERS = 8, RATED
 
 typedef struct rated {
     char text[RATED_TEXT]; /* a mechanism with a scene `s` */
-    const char *method;    /* as the command line names it */
+    const char *method;    /* name of the method on the command line */
     const char *number;    /* "float" or "double" */
     bool compensated;
     int states; /* coordinates, then rates: the columns of a record after the time */

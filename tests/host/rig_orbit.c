@@ -12,8 +12,7 @@
 #define PI 3.14159265358979323846
 
 const rig_plant rig_plant_nominal = {
-    /* two sets of: an arm of 0.152 lb, 7.25 in long, and a disc of 0.15 lb at 6.5 in; motor and shafts have 5e-4 kg
-     * m^2 */
+    /* two arms of 0.152 lb, 7.25 in long, each with a disc of 0.15 lb at 6.5 in; motor and shafts have 5e-4 kg m^2 */
     .unbalance_kgm = 2.0 * (0.152 * 3.625 + 0.15 * 6.5) * 0.45359237 * 0.0254,
     .inertia_kgm2 =
         2.0 * (0.152 * 7.25 * 7.25 / 3.0 + 0.15 * 6.5 * 6.5) * 0.45359237 * 0.0254 * 0.0254 + 5e-4,

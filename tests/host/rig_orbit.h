@@ -51,9 +51,9 @@ typedef struct rig_noise {
     double cell_N;   /* standard deviation of the force of a sample */
     double jitter_s; /* standard deviation of the time of a pulse */
     unsigned slower; /* factor on the sample period HAL_LOADCELL_PERIOD_TICKS; 0 counts as 1 */
-    /* A converter that is coarser than the counts of the load cell; conversions = 0: none. A sample is the mean of
-     * `conversions` readings over 2 ms, smoothed with its neighbours (hal/averaged.h). A reading is a multiple of
-     * conversion_N. Its noise has the standard deviation conversion_counts times conversion_N. */
+    /* A converter that is coarser than the counts of the load cell; conversions = 0: none. A reading is a multiple
+     * of conversion_N. Its noise has the standard deviation conversion_counts times conversion_N. A sample is the
+     * mean of `conversions` readings over 2 ms, smoothed with its neighbours (hal/averaged.h). */
     unsigned conversions;
     double conversion_N;
     double conversion_counts;
@@ -68,7 +68,7 @@ typedef struct rig_noise {
     double frozen_s;  /* duration of a frozen reading in the middle of the recorded turns */
     double spikes;    /* share of samples with a spike */
     double spike_N;   /* size of a spike */
-    bool mute;        /* the cell shows only noise and faults */
+    bool mute;        /* the cell shows noise and faults, but no force */
     double turned_by; /* angular error of both sensors, in turns */
 } rig_noise;
 

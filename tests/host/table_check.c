@@ -71,7 +71,7 @@ uint64_t table_check(const image *const *im, int images, uint64_t stride,
     }
     for (uint64_t at = 0; at < UINT64_C(1) << 32; at += stride, phases++) {
         const uint32_t phase = (uint32_t)(at + scatter((uint32_t)at) % stride);
-        /* from -half a turn to half a turn: there the double is most accurate */
+        /* from -1/2 to 1/2 turn, where a double is most accurate */
         angle_rad[angle] = (int32_t)phase * RAD_PER_PHASE / turns[angle];
         evaluator_run(ev, 0.0, angle_rad, NULL, NULL, NULL, exact);
         for (int m = 0; m < images; m++) {

@@ -1,5 +1,5 @@
 /* table_check.h: compares the float tables of a step (--tables) with the exact functions, phase by phase. For the
- * suite and tests/tools/tables_exhaustive.c. */
+ * suite `tables` and tests/tools/tables_exhaustive.c. */
 #ifndef TESTS_HOST_TABLE_CHECK_H
 #define TESTS_HOST_TABLE_CHECK_H
 

@@ -391,7 +391,7 @@ static void check_random(uint64_t *seed, int depth, tally *score) {
                 score->slopes++;
             }
         }
-        /* substitutes w^2 - u/2 for v; the expected value is computed with v equal to that */
+        /* substitutes w^2 - u/2 for v; for the expected value, v has the value of w^2 - u/2 */
         const poly *u = poly_symbol(a, &variables[0], 0);
         const poly *w = poly_symbol(a, &variables[2], 0);
         const poly *in = poly_sub(a, poly_mul(a, w, w), poly_scale(a, u, 0.5));
@@ -581,8 +581,8 @@ static const poly *sum_of_rates(algebra *a, symbol *rates, int count) {
     return sum;
 }
 
-/* A power of a sum of rates is expanded if the result has up to 64 products; of a sum of coordinates, only the
- * square. */
+/* A power of a sum of rates is expanded if the result has up to 64 products. Of the powers of a sum of coordinates,
+ * only the square is expanded. */
 TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
     symbol rates[12];
     for (int count = 2; count <= 12; count++) {

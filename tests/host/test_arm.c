@@ -21,7 +21,7 @@ typedef struct arm_arm {
     double offset[JOINTS];
     double centre[JOINTS];     /* distance of the centre of mass along z, m */
     double mass[JOINTS];       /* kg */
-    double inertia[JOINTS][3]; /* about the axes through the centre of mass, kg m^2 */
+    double inertia[JOINTS][3]; /* moments of inertia about the centre of mass, kg m^2 */
 } arm_arm;
 
 static arm_arm draw_arm(dice *d) {

@@ -120,7 +120,7 @@ TEST(c_names, variants_of_functions_are_refused) {
             TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(name), name);
         }
     }
-    for (size_t k = 1; k < sizeof types / sizeof types[0]; k++) { /* the suffix alone is free */
+    for (size_t k = 1; k < sizeof types / sizeof types[0]; k++) { /* a mere suffix is free */
         TEST_ASSERT_TRUE_MESSAGE(emit_c_name_is_free(types[k]), types[k]);
     }
     TEST_ASSERT_TRUE(emit_c_name_is_free("r"));

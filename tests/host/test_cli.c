@@ -26,7 +26,7 @@ static uint64_t random_below(uint64_t most) {
 /* A duration of digits/in seconds, and its text. */
 typedef struct duration {
     uint64_t digits;
-    uint64_t in; /* a power of ten times the units per second */
+    uint64_t in; /* units of the last digit per second */
     char text[64];
 } duration;
 
@@ -258,7 +258,7 @@ TEST(firstlight, broken_records) {
             refused(record, k, "a record cut at byte", k);
             refused(record + k + 1, length - k - 1, "a record from byte", k + 1);
             memcpy(other, record, length);
-            /* each bit of the byte, then a random byte, then line ends */
+            /* changes each bit of the byte; then the byte becomes random, a line end or zero */
             for (unsigned n = 0; n < 12; n++) {
                 other[k] = n < 8     ? (char)(record[k] ^ 1 << n)
                            : n == 8  ? (char)dice_one_of(&drawn, 256)

@@ -1,8 +1,8 @@
 /* test_conserved.c: a coordinate that is recovered from its momentum, compared with the function from which the
  * momentum was made.
  *
- * T = M x'^2/2 + x' dG/dt + terms of the others, with a random G(q, r). So p = M x' + dG/dt is constant, and x = (p
- * t + G(start) - G)/M. G has powers, waves and their products; conserve.c can integrate some of them. */
+ * T = M x'^2/2 + x' dG/dt + terms in q and r, with a random G(q, r). So p = M x' + dG/dt is constant, and
+ * x = (p t + G(start) - G)/M. G has powers, waves and their products; conserve.c can integrate some of these. */
 #include "derived.h"
 #include "host/derive/conserve.h"
 

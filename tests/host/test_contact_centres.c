@@ -16,7 +16,7 @@ static const char *const NAMES[MACHINES] = {"cam", "yoke", "slider", "linkage", 
 typedef struct machine {
     machine_kind kind;
     double J, m, e, k, friction_N, torque_Nm;
-    double J_rod;   /* inertia of the slider-crank's rod; else 0 */
+    double J_rod;   /* inertia of a slider-crank's rod; 0 for other machines */
     double a, rate; /* angle and its rate at the start */
 } machine;
 

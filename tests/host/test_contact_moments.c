@@ -216,7 +216,7 @@ TEST(contact_scenes, every_scene_meets_its_reference) {
         printf("  %-22s error %.2e at %g ms, %.2e at %g ms: order %.2f\n", c->name, coarse,
                1e3 * c->step_s, fine, 250.0 * c->step_s, order);
         TEST_ASSERT_TRUE_MESSAGE(fine <= c->error_most, c->name);
-        TEST_ASSERT_TRUE_MESSAGE(coarse > 1e-14, c->name); /* else no order can be seen */
+        TEST_ASSERT_TRUE_MESSAGE(coarse > 1e-14, c->name); /* a smaller error shows no order */
         TEST_ASSERT_TRUE_MESSAGE(order >= 3.0 || fine <= REFERENCE_ERROR, c->name);
         const double in_float = error_of(c, IN_FLOAT);
         TEST_ASSERT_TRUE_MESSAGE(in_float <= c->error_float && in_float > 1e-9, c->name);

@@ -157,7 +157,7 @@ static void brute(const carts *c, unsigned out, double moved[2], bool *acted) {
     world less = full;
     for (int i = 0; i < c->effects; i++) {
         less.with[c->kind[i]] = (out >> (unsigned)i & 1U) == 0;
-        /* these effects always act; the stop acts if it is hit; all others never act */
+        /* these kinds always act; the stop acts if it is hit; other kinds never act */
         full.acted[c->kind[i]] =
             c->kind[i] <= HARD || c->kind[i] == FRICTION || c->kind[i] == NOISE;
     }
@@ -285,7 +285,7 @@ static bool keeps(const subsets *s, const double moved[2]) {
     return moved[0] * 1000.0 <= s->limit[1] && moved[1] <= s->limit[2];
 }
 
-/* How many sets are the smallest ones that meet the limits? */
+/* Number of sets of the smallest size that meets the limits. */
 static int ties(const subsets *s, const double (*moved)[2], unsigned acting, unsigned count) {
     int most = 0;
     int found = 0;

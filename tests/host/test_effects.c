@@ -132,7 +132,7 @@ TEST(effects, motor_line_ends_at_the_no_load_speed) {
                    0.5 * 0.0225 + 8.0 * 0.25 * 0.0225, 16.0);
 }
 
-/* A tenth of the stall torque must hold the arms at the angle where the torque of gravity is equal. */
+/* A tenth of the stall torque must hold the arms at the angle at which gravity has the same torque. */
 TEST(effects, motor_holds_the_arms_against_gravity) {
     const double S_kgm =
         /* this product is 0.035163 in the model's header */

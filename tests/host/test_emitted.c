@@ -277,7 +277,7 @@ static void expect_rows(const image *im) {
     }
 }
 
-/* Every item must be there, in any sequence. The JSON text has the same numbers (test_image.c). */
+/* The description must have every item, in any sequence. The JSON text has the same numbers (test_image.c). */
 TEST(emitted, readers_are_told_everything) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 50)); c++) {
         drawn_scene_draw(&drawn, &die);

@@ -62,7 +62,7 @@ typedef struct made_up {
     bool runs_away;
     int state; /* the state that the controller reports */
     int trip;
-    int state_after; /* the state that it reports after a reset */
+    int state_after; /* the state that the controller reports after a reset */
     int trip_after;
     int cause;
     bool delays;
@@ -261,7 +261,7 @@ TEST(faults, resets) {
         verdict v = judged(&m);
         TEST_ASSERT_TRUE(v.halted && v.happened && v.halted_s < 1e-9 && v.halted_s >= 0.0);
         TEST_ASSERT_FALSE(v.forgets || v.latched);
-        m.off_s = 99.0; /* the controller goes on in its state */
+        m.off_s = 99.0; /* the controller stays in its state */
         v = judged(&m);
         TEST_ASSERT_TRUE(v.halted_s < 0.0);
         m.on_s = 2.0;
@@ -497,7 +497,7 @@ static void test_tapes_of_resets(void) {
         unsigned resets;
         uint64_t exchanges;
     } rows[] = {
-        {"reset=0@0.1005", 1, 301}, /* at 0.1005 s, then in each millisecond */
+        {"reset=0@0.1005", 1, 301}, /* exchanges at 0.1005 s and then every millisecond */
         {"reset=5ms@0.1005", 1, 296},
         {"reset=5ms@0.1005,reset=20ms@0.2001", 2, 276},
         {"reset=1ms@0.05,reset=1ms@0.0505,reset=1ms@0.0511", 3, 300}, /* one reset within another */

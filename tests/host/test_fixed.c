@@ -400,7 +400,7 @@ TEST(fixed_runs, ranges_keep_denominators_from_zero) {
     derived_free(&d);
 }
 
-/* Bounds with any unit, and bounds that use parameters. tests/bad/scene.texts has the mistakes. */
+/* Bounds with any unit, and bounds that use parameters. Wrong bounds are in tests/bad/scene.texts. */
 TEST(fixed_runs, ranges_in_the_language) {
     derived d =
         derived_scene("mechanism m\ncoordinate x [m]\nparameter vm = 3 [m/s]\nT = 1 [kg]*x'^2/2\n"

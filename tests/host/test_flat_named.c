@@ -5,7 +5,7 @@
 
 enum { STOPS = 3, FLAT_TEXT = 2048 };
 
-/* The text of the file up to here, and its number of lines. */
+/* The text of the file so far, and its number of lines. */
 typedef struct writing {
     char text[FLAT_TEXT];
     size_t length;

@@ -793,7 +793,7 @@ TEST(folded_numbers, what_numbers_lose_is_told) {
         said what;
         draw_folded_numbers(&d, &w);
         command_say_model(command_run, w.text, &what);
-        if (what.status == 2) { /* no spring for x, or a division by zero */
+        if (what.status == 2) { /* refused: no spring for x, or a division by zero */
             TEST_ASSERT_NOT_NULL_MESSAGE(strstr(what.err, "error: "), what.err);
             continue;
         }

@@ -100,7 +100,7 @@ TEST(hard_contacts, two_blocks_break_loose_together) {
 #define KINETIC 0.4
 #define PHASE_RATE 10.0
 
-/* Changes velocity and position to those `s` seconds after phase p, during forward sliding. If `pressed`, the load
+/* Advances velocity and position by `s` seconds of forward sliding, which begin at phase p. If `pressed`, the load
  * acts. */
 static void slide(double p, double s, int pressed, double *v, double *x) {
     const double w = PHASE_RATE;
@@ -139,7 +139,7 @@ static double pulled_m(double t, double *speed) {
     const double quarter = acos(-1.0) / 2.0;
     /* the phase at which the mass breaks loose */
     const double loose = acos(PULL_N / (STATIC * LOAD_N));
-    double now = 0.0; /* phase up to here */
+    double now = 0.0; /* phase reached so far */
     double v = 0.0;
     double x = 0.0;
     const double end = w * t;
@@ -382,7 +382,7 @@ static flight flight_drawn(dice *d, double d_m) {
     flight f = {{0.0}, {0.0}, ""};
     double away[3] = {0.0};
     double size = 0.0;
-    while (size < 0.2) { /* a direction, and one at right angles; neither along the axis */
+    while (size < 0.2) { /* two directions at a right angle, neither along the axis */
         for (int i = 0; i < 3; i++) {
             f.rate[i] = dice_between(d, -1.0, 1.0);
             away[i] = dice_between(d, -1.0, 1.0);
@@ -841,8 +841,8 @@ static void scales(bool is_float, double least, double last) {
 TEST(hard_edges, amplitudes_to_the_ends_of_float) { scales(true, -45.0, 38.5); }
 TEST(hard_edges, amplitudes_to_the_ends_of_double) { scales(false, -305.0, 307.5); }
 
-/* A swing under a cubic force, whose frequency does not depend on the amplitude in this scene: x/A at ten moments.
- * Returns false if the run ends early. */
+/* x/A at ten moments of a swing under a cubic force. The scene scales the force with A so that the frequency does
+ * not depend on A. Returns false if the run ends early. */
 static bool cubic(double A_m, const engine_kind *kind, double x[10]) {
     char set[60];
     motion m;
@@ -897,7 +897,7 @@ TEST(hard_edges, starts_that_are_too_large) {
         bool is_float;
         int status;
     } starts[] = {
-        {HARD "scales.whirl:scales_usual", "x=1e14", false, 1}, /* its rate reaches 1e15 */
+        {HARD "scales.whirl:scales_usual", "x=1e14", false, 1}, /* the rate of x reaches 1e15 */
         {HARD "scales.whirl:scales_usual", "x=9e13", false, 0},
         {HARD "scales.whirl:scales_usual", "x=1e14", true, 1},
         {HARD "scales.whirl:scales_usual", "x=9e13", true, 0},
@@ -936,9 +936,9 @@ static double unequal_off_m(double mass, const engine_kind *kind) {
     return off;
 }
 
-/* Up to a mass ratio of 1e8 there is no effect. M + m is rounded by 2^-53 of the larger mass, so relative to the
- * smaller mass the error grows with the ratio. The test allows this error in a phase of 50 rad, up to a ratio of
- * 1e13; beyond that, the mass matrix is refused. */
+/* Up to a mass ratio of 1e8, round-off has no visible effect. M + m is rounded by 2^-53 of the larger mass, so
+ * relative to the smaller mass this error grows with the ratio. Up to a ratio of 1e13, the test allows the error in
+ * a phase of 50 rad. Beyond that, the mass matrix is refused. */
 TEST(hard_edges, two_bodies_of_very_different_mass) {
     double worst[2] = {0.0, 0.0};
     double beyond = 0.0;

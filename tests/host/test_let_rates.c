@@ -154,7 +154,7 @@ TEST(let_rates, derivatives_of_lets_are_those_by_hand) {
     TEST_ASSERT_TRUE(compared >= cases / 2 && 10 * equal >= 9 * compared);
 }
 
-/* A derivative of a let is allowed wherever that of a coordinate is. A refusal must name its order. */
+/* A derivative of a let is allowed wherever that of a coordinate is. A refusal must name the derivative's order. */
 TEST(let_rates, derivatives_of_lets_keep_the_rules) {
     static const struct {
         const char *line;

@@ -132,7 +132,7 @@ TEST(limits, nice_steps) {
         const double next_s = nice_s * (two ? 2.5 : 2.0);
         TEST_ASSERT_TRUE(nice_s <= most_s * (1.0 + 2e-9));
         TEST_ASSERT_TRUE(next_s > most_s || next_s > 5001.0);
-        /* a nice step less round-off must give itself; one that is shorter by 1e-7 must give the next shorter one */
+        /* a nice step less round-off must give the nice step; less 1e-7 of it, the next shorter nice step */
         TEST_ASSERT_TRUE(fabs(step_nice_s(nice_s * (1.0 - 1e-13)) / nice_s - 1.0) < 1e-12);
         TEST_ASSERT_TRUE(step_nice_s(nice_s * (1.0 - 1e-7)) < 0.6 * nice_s);
     }

@@ -81,10 +81,10 @@ static double longest(int order, double complex direction) {
     return low;
 }
 
-/* Methods with an `order` have the limit that growth() gives. Else `undamped` is the limit h w of an undamped
- * oscillation. It is 2 for leapfrog and semi-implicit Euler (Hairer, Lubich & Wanner, Geometric Numerical Integration,
- * section I.1). That of Nyström methods comes from runs of 40,000 steps (docs/stability.md). With a
- * step 2 % above the limit, a run grows a hundredfold in `steps` steps. */
+/* Limits of the methods. If `order` is not 0, growth() gives the limit. Else `undamped` is the limit h w of an
+ * undamped oscillation: 2 for leapfrog and semi-implicit Euler (Hairer, Lubich & Wanner, Geometric Numerical
+ * Integration, section I.1), and from runs of 40,000 steps for Nyström methods (docs/stability.md). With a step 2 %
+ * above the limit, a run grows a hundredfold in `steps` steps. */
 static const struct {
     wh_method method;
     int order;

@@ -55,7 +55,7 @@ TEST(matrix, constants_are_rounded_once) {
     uint64_t seed = 7002;
     for (unsigned n = 0; n < dice_cases(20000); n++) {
         twofold a = drawn_twofold(&seed);
-        if (n % 2 == 0) { /* a tie between two floats, or near one */
+        if (n % 2 == 0) { /* a tie between two floats, or a number near a tie */
             const float below = (float)a.high;
             const double middle = ((double)below + (double)nextafterf(below, INFINITY)) / 2.0;
             a = (twofold){middle, n % 3 == 0 ? 0.0 : number_scaled(middle, n % 5 == 0 ? -55 : -90)};

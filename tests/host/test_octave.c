@@ -767,7 +767,7 @@ typedef struct comparison {
     double off[UNKNOWNS];  /* error bounds of the values */
     int asked;             /* number of highest derivatives, in all states */
     int compared;          /* number of values with a small tolerance */
-    int closed;            /* of these, values from closed forms */
+    int closed;            /* compared values that come from closed forms */
     double nearest;        /* largest error, divided by its bound */
 } comparison;
 
@@ -972,7 +972,7 @@ static void check_widths(const char *name, const char *text) {
     enum {
         LINE = 345,
         PAPER = 455
-    }; /* in pt: lines of LaTeX's article, and A4 with margins of 1 inch */
+    }; /* widths in pt: a line of LaTeX's article, and A4 with margins of 1 inch */
     static const char begin[] = "\\begin{align}";
     for (const char *at = text; (at = strstr(at, begin)) != NULL;) {
         at += strlen(begin);

@@ -337,9 +337,9 @@ TEST(pieces, pieces_have_the_sums_value) {
     TEST_ASSERT_GREATER_THAN_INT(500, powers);
 }
 
-/* A fourth power and a square of one wave, each times another factor. */
+/* A sum of up to three even powers of sines and cosines, each times a power of v. */
 TEST(pieces, each_of_several_comes_back) {
-    for (unsigned which = 0; which < 64; which++) { /* each factor: absent, squared, to the 4th */
+    for (unsigned which = 0; which < 64; which++) { /* each power: none, two or four */
         algebra *a = algebra_new();
         const poly *u = poly_symbol(a, &variables[0], 0);
         const poly *v = poly_symbol(a, &variables[1], 0);

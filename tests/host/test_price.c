@@ -166,7 +166,7 @@ static int price_of_system(int n, int number) {
 /* Up to three equations are solved by Cramer's rule. Each further equation costs an elimination: divide a column,
  * subtract the row from each other row, and substitute back. */
 TEST(price, equations_are_eliminated_one_by_one) {
-    int last = 0; /* operations for one equation fewer */
+    int last = 0; /* operations of the system with one equation fewer */
     for (int n = 1; n <= 6; n++) {
         const int now = price_of_system(n, -1);
         const int more = (n - 1) + 2 * (n - 1) * (n - 1) + 2 * (n - 1) + 2 * (n - 1) + 1;

@@ -128,7 +128,7 @@ static const kind_row kind_rows[] = {
     /* a solution with a pole at 0.52 s */
     {"mechanism m\nstate y\nequation y' = 1 [1/s]*y^2\n" SCENE("start y = 1.923076923;"), 1e8, true,
      9, 10, " after 0."},
-    /* no motion: everything is zero; then rest at another position */
+    /* rest at zero, and rest at another position */
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 40 [N/m]*x^2/2\n" SCENE(""), 1e8, false,
      0, 20, "nothing moves"},
     {"mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n" SCENE("start x = 2 [m];"), 1e8, true, 20,

@@ -529,7 +529,7 @@ TEST(sheet, gone_on_with) {
         draw_sheet();
         unsigned rows = 0;
         for (size_t length = 0; length <= strlen(d.whole); length++) {
-            const char *at = d.whole + length; /* the part that is left ends here */
+            const char *at = d.whole + length; /* the file is cut off here */
             const bool ends = strchr("\r\n", *at) != NULL || (length > 0 && at[-1] == '\n');
             if (dice_one_of(&die, ends ? 3 : 25) > 0) {
                 continue;

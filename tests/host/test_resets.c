@@ -116,7 +116,7 @@ TEST(resets, instants) {
     TEST_ASSERT_EQUAL_INT(3, h.resets);
     TEST_ASSERT_TRUE(fabs(h.reset_s[0] - 0.499) < 1.1e-3 && fabs(h.reset_s[1] - 0.7) < 1.1e-3 &&
                      fabs(h.reset_s[2] - 0.9) < 1.1e-3);
-    run_with("reset=0.1@0.5,reset=0.1@0.55"); /* a second reset during the first begins after it */
+    run_with("reset=0.1@0.5,reset=0.1@0.55"); /* the second begins after the first */
     TEST_ASSERT_TRUE(h.resets == 2 && h.reset_s[1] >= 0.6);
 }
 
@@ -150,8 +150,8 @@ TEST(resets, watchdog) {
     TEST_ASSERT_TRUE(h.reset_s[0] > 0.503 && h.reset_s[0] < 0.506);
     TEST_ASSERT_TRUE(fabs(h.again_s[0] - h.reset_s[0] - 3e-3) < 1e-9);
     TEST_ASSERT_TRUE(h.push[READS] == (double)READS); /* the power is not cut permanently */
-    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* then the watchdog cuts the power */
+    run_with("watchdog-resets@0+0.4,unkicked@0.5");   /* no reset after 0.4 s: power cut */
     TEST_ASSERT_TRUE(h.resets == 0 && h.push[READS] == 0.0);
-    run_with("watchdog-resets=0,unkicked@0.5"); /* resets after each restart */
+    run_with("watchdog-resets=0,unkicked@0.5"); /* a reset after each restart */
     TEST_ASSERT_TRUE(h.resets > 50);
 }

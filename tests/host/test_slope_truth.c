@@ -15,7 +15,7 @@ typedef struct tally {
     unsigned good;
     unsigned doubted;   /* results that are doubtful because of the speed ripple */
     unsigned lies;      /* good results with an error above the interval plus 1 % */
-    unsigned prevented; /* doubtful results with an error above that */
+    unsigned prevented; /* doubtful results with an error above the interval plus 1 % */
     double said_rad;    /* sum of the reported loads */
     double phase_rad;   /* sum of the phase errors */
 } tally;

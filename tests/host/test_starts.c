@@ -1,6 +1,6 @@
 /* test_starts.c: checks of a start. Random scenes have stops, which the start may be beyond, and losses, which
- * kick-drift methods cannot compute. The report must have each stop that the start is beyond, with its place and
- * depth, and no other stop. For losses, it must have the first coordinate. */
+ * kick-drift methods cannot compute. The report must name each stop that the start is beyond, with its place and
+ * depth, and no other stop. With losses, the report must name the first coordinate. */
 #include "command.h"
 #include "derived.h"
 #include "host/engine/engine.h"

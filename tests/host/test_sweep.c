@@ -133,7 +133,7 @@ TEST(sweep, series_of_a_sine) {
 TEST(sweep, series_without_a_value) {
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 250, 1e-3))); /* 1 period */
     TEST_ASSERT_FALSE(isnan(of_sine(MEASURE_PERIOD, 0.0, 1.0, 0.2, 500, 1e-3)));
-    /* here, only round-off varies */
+    /* with this size, only round-off varies */
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_PERIOD, 1.0, 1e-15, 0.2, 2001, 1e-3)));
     TEST_ASSERT_TRUE(isnan(of_sine(MEASURE_MEAN, 0.0, 1.0, 0.2, 0, 1e-3)));
     TEST_ASSERT_TRUE(of_sine(MEASURE_MEAN, 2.0, 0.0, 0.2, 1, 1e-3) == 2.0);

@@ -112,9 +112,9 @@ TEST(swings, predator_and_prey) {
 }
 
 /* === suite forced_swing ======================================================================= */
-/* A body on a spring, with or without damping, under a force whose phase advances by 0.3 to 1.8 rad in a step. This
- * is fast for the quadrature of its power, but not for the method. The reference is the closed form. A right run
- * must have no warning, even with an energy residual; a wrong run must have a warning or not be trusted. */
+/* A body on a spring, with or without damping, under a force whose phase advances by 0.3 to 1.8 rad in a step: too
+ * much for the quadrature of the force's power, but not for the method. The reference is the closed form. A right
+ * run must have no warning, even with an energy residual; a wrong run must have a warning or not be trusted. */
 
 enum { RECORDS = 20 }; /* divides the number of steps of a run */
 

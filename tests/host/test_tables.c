@@ -279,8 +279,8 @@ static int by_size(const void *x, const void *y) {
     return (a > b) - (a < b);
 }
 
-/* The error of the motion by cell size. Tables have order 2 or 4, but the mean of their error over a cell vanishes
- * at this order. Only the cells at the start and end of the motion remain, which gives one order more. */
+/* The error of the motion by cell size. Tables have order 2 or 4. At this order, the mean of their error over a cell
+ * is zero, so only the cells at the start and end of the motion remain, which gives one order more. */
 TEST(tables, generated_motions_near_the_exact_ones_by_order) {
     enum { MOST = 300 };
     double order[MOST];
@@ -357,7 +357,7 @@ TEST(tables, straight_pieces_end_the_order_of_the_step) {
 static const struct {
     const char *text;
     const char *said;
-    const char *at; /* its line and column */
+    const char *at; /* line and column of the message */
 } refused[] = {
     {"mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\nT = 1 [kg*m^2]*(a'^2 + b'^2)/2\n"
      "V = 1 [J]*(cos(a) + cos(b))\n",
@@ -401,7 +401,7 @@ TEST(tables, what_has_not_that_form_is_refused_with_its_place) {
     }
 }
 
-/* Angles that occur only as one difference, or as multiples of one difference. */
+/* Angles that occur only as multiples of one difference need one phase only. */
 TEST(tables, one_sum_of_angles_is_one_phase) {
     derived d =
         derived_surely(derived_text("mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\n"

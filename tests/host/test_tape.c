@@ -643,7 +643,7 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
                     if (op_list_bias(t, t) > 1e-10) {
                         expect_none_off(t);
                     } else {
-                        op_list_free(t); /* float represents these constants */
+                        op_list_free(t); /* not tested: float represents the constants */
                     }
                 }
             }

@@ -84,7 +84,7 @@ TEST(unjumped, losses) {
 /* An impact turns a rate to the other side of a zero of its divisor. The rate never is at the zero. */
 TEST(unjumped, impacts) {
     static const char *const laws[] = {"v0/(x' + v0)", "v0/(x' - v0)",
-                                       "tan(x'/v0 + 1)"}; /* about tan(2), then tan(0) */
+                                       "tan(x'/v0 + 1)"}; /* jumps from about tan(2) to tan(0) */
     for (unsigned c = 0; c < jumps_cases(3, 12, 3); c++) {
         char text[JUMPS_TEXT];
         const double v = dice_between(&die, 1.0, 2.0);

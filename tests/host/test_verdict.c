@@ -241,7 +241,7 @@ TEST(verdict, json_of_price_and_choose) {
     expect_rows(command_price, price, "rows", columns);
     const char *within[] = {"two_mass_relative", "--effort=1e5",  "--quiet",
                             "--method=rk4",      "--error=1e-30", NULL};
-    expect_rows(command_price, within, "rows", columns); /* exit status 1: no such row */
+    expect_rows(command_price, within, "rows", columns); /* no such row: exit status 1 */
     for (unsigned i = 0; i < 2; i++) {
         static said object;
         said what;

@@ -25,7 +25,7 @@ typedef struct made_up {
     double damping; /* between the first body and the wall, N s/m */
     double start[MASSES];
     double rate;
-    double fastest; /* largest angular frequency, about, 1/s */
+    double fastest; /* approximate largest angular frequency, rad/s */
     char text[TEXT];
 } made_up;
 
