@@ -70,7 +70,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_TARGET_MAX_RPM WH_R(360.0)
 
 /* Smallest set-point. Below about 145 rpm, gravity can stop the rotor before the top, and the next pulse would come too
- * late for the control loop (docs/rig.md). The set-point is a sixth above that, because the speed dips below it. */
+ * late for the control loop (docs/rig.md). The limit is a sixth above that, because the speed dips below a set-point. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
 /* Smallest set-point with gravity compensation (gravity_compensation.h). */

@@ -37,7 +37,7 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     /* If a sensor fires twice in succession, the rotor passes it the second time in the opposite direction. */
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
-        /* A rotor that swings backwards cannot get over the top. So a pulse was lost and the rotor turns. */
+        /* A rotor that swings backwards cannot get over the top: a pulse was lost, and the rotor turns forwards. */
         swing->forward = true;
         swing->swings = false;
         swing->kept = 0;
@@ -78,7 +78,7 @@ static bool advance(wh_swing *swing) {
 
 #define PASSES 12U
 #define SOFT_PASSES 6U
-/* From this pass on, pulses with a large residual are not used. */
+/* From this pass on, pulses with a large residual are skipped. Before, such a pulse ends the pass. */
 #define SURE_PASSES SOFT_PASSES
 
 /* Returns the rotor's angle from the hanging position when it is exactly at a sensor. The sensor's pulse comes at the
@@ -104,7 +104,7 @@ static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rot
         left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
     }
     wh_normal_start(&swing->normal, left);
-    /* At first the residuals are large and nonlinear functions of the unknowns. */
+    /* At first the residuals are large and nonlinear, so each pulse gets an additional variance, less in each pass. */
     swing->soft_rad2 = swing->pass == 0            ? WH_R(0.0025)
                        : swing->pass < SOFT_PASSES ? WH_R(0.3) * swing->soft_rad2
                                                    : WH_R(0.0);
@@ -376,7 +376,7 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
     normal->misfit += weight * off * off;
 }
 
-/* Least pivot. When the rows have made an entry large, round-off may lose the prior's 1 on the diagonal. */
+/* Least pivot. If the rows have made an entry large, round-off may lose the 1 that the prior adds to the diagonal. */
 #define PIVOT_LEAST WH_R(1e-3)
 
 void wh_normal_factor(wh_normal *normal) {

@@ -80,8 +80,8 @@ wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
  *      q'' = -g sin q - f sign q' - c q'          q: angle from hanging; g = S g0/I; f and c: friction over I
  *
  * A step uses Stoermer's method (drift, kick, drift), forwards or backwards in time. If the motion reverses within the
- * step, friction changes its sign. The rate then has a kink. The derivatives are multiplied by the acceleration after
- * the kink, divided by the acceleration before it. */
+ * step, friction changes its sign, and the rate has a kink. There the derivatives are multiplied by the acceleration
+ * after the kink, divided by the acceleration before it. */
 
 /* The parameters of the motion: initial q and q', g, f, c. */
 enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
@@ -102,8 +102,7 @@ void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps
  * above; only g, f and c are read. */
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
-/* Wraps an angle that is less than a turn outside of -pi ... pi into this range; returns 0 for larger angles and
- * NaN. */
+/* Wraps an angle into -pi ... pi by at most one turn; returns 0 for larger angles and NaN. */
 WH_SHARED wh_real wh_free_angle(wh_real rad) {
     const wh_real half = WH_R(0.5) * WH_RIG_TWO_PI;
     const wh_real near = rad > half ? rad - WH_RIG_TWO_PI : rad < -half ? rad + WH_RIG_TWO_PI : rad;
@@ -214,8 +213,8 @@ typedef struct wh_swing {
 #define wh_swing_leave_top WH_NAME(wh_swing_leave_top)
 #define wh_swing_guess WH_NAME(wh_swing_guess)
 
-/* Drops the swings that come near the top, so that a pass begins after them: their amplitude depends so steeply on
- * their duration that guesses would be useless. */
+/* Drops the swings that come near the top: their amplitude depends so steeply on their duration that guesses would be
+ * useless. */
 void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing);
 
 /* Sets x and its uncertainty, with which the regression begins; swing->start is the number of the guess. */
@@ -236,17 +235,16 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 /* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
-/* Call this in every control step. `swings` is true if the motor's leads have been open since the rotor last turned
- * forwards in a run. `rests` matters in the step in which the leads are closed: true if the rotor is at rest; if false,
- * the motor stopped it and the swing was not free. While wh_swing_works(), each step at rest does a bounded part of the
- * work. */
+/* Call this in every control step. While wh_swing_works(), each step at rest does a bounded part of the work.
+ * - `swings`: true if the motor's leads have been open since the rotor last turned forwards in a run.
+ * - `rests`: matters in the step in which the leads are closed. true: the rotor is at rest; false: the motor stopped
+ * it, so the swing was not free. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 
 WH_INLINE bool wh_swing_works(const wh_swing *swing) { return swing->result.why == WH_SWING_WORKS; }
 
-/* If sensor 1 was found out of place, this makes a good result doubtful, because the result's phase has the same
- * error. */
+/* Makes a good result doubtful if sensor 1 was found out of place, because the result's phase has the same error. */
 void wh_swing_doubt(const wh_swing_config *config, const wh_swing *swing, wh_measured *measured);
 
 const char *wh_swing_text(wh_swing_why why);

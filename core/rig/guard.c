@@ -34,9 +34,10 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 
 /* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
-/* A coasting turn is longer than the one before by this factor. In a swing only the last two intervals are. */
+/* A turn is clearly slower if it takes longer than the turn before by this factor. In a swing only the last two
+ * intervals are. */
 #define LONGER WH_R(1.02)
-#define FASTER WH_R(1.01) /* speed gain over all successive faster turns */
+#define FASTER WH_R(1.01) /* for a trip: least gain of speed over successive faster turns */
 #define ALTERNATE_PAIR 4U /* alternating pulses that show two turns of a sensor */
 #define ALTERNATE_RISE 6U /* alternating pulses that show three turns of a sensor */
 #define ALONE_PAIR 2U     /* successive pulses of one sensor that show two of its turns */

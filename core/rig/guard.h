@@ -44,14 +44,14 @@ typedef struct wh_guard_config {
     /* Ripple at the speed limit: the largest speed within a turn minus its mean, as a fraction of the mean. */
     wh_real ripple;
     wh_real over; /* allowed excess over the commanded speed, as a fraction */
-    /* Largest sum of wh_pulses.climb_radps at two successive pulses, as a fraction of the turn's speed. */
+    /* Largest sum of wh_pulses.climb_radps and .climb_before_radps, as a fraction of the turn's speed. */
     wh_real climb;
-    /* largest rise (rad/s per s) while the control loop takes over the rotor */
+    /* largest rise of the speed (rad/s per s) while the control loop takes over the rotor */
     wh_real climb_start_radps2;
     wh_real climb_behind_radps2; /* largest rise while slower than the set-point by behind_radps */
     /* difference to the set-point from which climb_behind_radps2 applies */
     wh_real behind_radps;
-    wh_real climb_there_radps2; /* largest rise otherwise */
+    wh_real climb_there_radps2; /* largest rise in all other cases */
     /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
     wh_real fall_radps;
     uint32_t lost_max;          /* number of pulses that may be lost in a run */
@@ -60,7 +60,7 @@ typedef struct wh_guard_config {
     wh_real silence_max_s;      /* longest time without a pulse in closed loop */
     wh_real slow_silence_max_s; /* longest time without a pulse while the rotor starts */
     wh_real load_silence_max_s; /* longest time without a load sample */
-    /* A change of the load counts as none if it is below this number times the square of the speed. */
+    /* The load counts as constant if it changes by less than this number times the square of the speed. */
     wh_real load_still_kgm;
     /* number of slot pulses under constant load that show a stuck load cell */
     uint32_t stuck_pulses;
@@ -72,23 +72,22 @@ typedef struct wh_guard_config {
     wh_real hand_radps; /* fastest rotor that a hand can turn */
 } wh_guard_config;
 
-/* Checks of the pulses while the motor is off or brakes; the commands play no part in them. A turn is the time between
+/* Checks of the pulses while the motor is off or brakes; they do not depend on the commands. A turn is the time between
  * two pulses of one sensor. Over a turn gravity cancels:
  *
  * - A braked rotor loses 2 pi c/I of its mean speed in a turn. c is the damping of the torque line, I at most six times
  * the configured inertia. If a turn loses less than half of that, the enable goes off until the next run (`released`).
  * - With the enable off only friction acts, and turns only get slower.
  *
- * A rotor that swings about its hanging position fires a sensor twice in each swing. The times between these pulses get
- * shorter as the swing decays: they are not turns. Pulses show turns
+ * A rotor that swings about its hanging position fires a sensor twice in each swing. The intervals between these pulses
+ * get shorter as the swing decays, and are no turns. Intervals count as turns in three cases:
  *
- * - while both sensors fire alternately. But a swing that reverses between the two edges of sensor 2's slot also gives
- * the pulses 1, 2, 1, the last one on the way back. So an interval between two pulses of sensor 2 is a turn. An
- * interval between two pulses of sensor 1 is a turn only if a pulse of sensor 2 follows.
- * - if one sensor fires alone (the other is dead) faster than in any swing. Two intervals of a swing last a period, at
+ * - Both sensors fire alternately. A swing that reverses between the two edges of sensor 2's slot also gives the pulses
+ * 1, 2, 1. So an interval of sensor 1 is a turn only if a pulse of sensor 2 follows; an interval of sensor 2 always is.
+ * - One sensor fires alone (the other is dead), faster than in any swing. Two intervals of a swing last a period, at
  * least 2 pi sqrt(I/S g), so they cannot both show a speed above 2 sqrt(S g/I). The bound allows for half the inertia.
- * - after `released`, if the intervals of such a sensor get longer three times in succession, by at least 2 % each. At
- * the end of a swing that friction stops, this happens at most twice. */
+ * - After `released`, the intervals of a sensor that fires alone get longer three times in succession, by at least 2 %
+ * each. At the end of a swing that friction stops, this happens at most twice. */
 typedef struct wh_off {
     bool released;
     bool doubted; /* the brake was released because of one sensor's pulses alone */
@@ -100,7 +99,7 @@ typedef struct wh_off {
         uint32_t ticks; /* time of the last pulse, ticks */
         /* time from the previous pulse to the last one; 0: no previous pulse */
         uint32_t turn_ticks;
-        uint32_t first_ticks; /* duration of the last turn before the turns got faster */
+        uint32_t first_ticks; /* duration of the turn before the first faster turn */
         uint8_t faster;       /* number of successive turns that were faster than the one before */
         uint8_t longer;       /* number of successive turns that were clearly slower */
         bool seen;
@@ -112,16 +111,16 @@ typedef struct wh_guard {
     bool quiet;     /* no pulse for rest_s; latched, because times wrap */
     bool load_good; /* the last load sample was ok and is recent; latched, because times wrap */
     uint32_t pulses_seen;
-    /* time of the last pulse, accepted or not; before the first pulse, of the start */
+    /* time of the last pulse, accepted or not; before the first pulse, time of the start */
     uint32_t pulse_ticks;
     uint32_t lost_before;     /* number of lost pulses when the motor began to drive */
     uint32_t rejected_before; /* number of rejected pulses when the motor began to drive */
-    /* time of the last load sample; before the first sample, of the start */
+    /* time of the last load sample; before the first sample, time of the start */
     uint32_t load_ticks;
-    uint32_t load_pulses; /* number of pulses before that sample */
-    /* Number of load samples, since the last change of the load, before which a new pulse came. */
+    uint32_t load_pulses; /* number of accepted pulses at the last load sample */
+    /* Number of load samples that came with a new pulse since the load last changed. */
     uint32_t still_pulses;
-    wh_real still_N; /* the load after that change */
+    wh_real still_N; /* the load at its last change */
     wh_off off;
 } wh_guard;
 
@@ -143,7 +142,7 @@ bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool c
 #define WH_GUARD_LIGHTER WH_R(1.5)
 
 /* Returns the largest mean speed between two pulses, rad/s, of a rotor whose turns the drive keeps at limit_radps or
- * below. The result exceeds limit_radps by the share `over`, and by `falls` times the gain of a fall from the top. */
+ * below. The result includes the share config->over, and `falls` times the gain of speed in a fall from the top. */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
 /* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. If the
@@ -181,14 +180,14 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
     }
 }
 
-/* Checks for over-speed, in each step and every state. Over-speed is one of: a turn above the limit; two successive
- * pulse intervals above the bound; a turn's speed that rises, at two successive pulses, faster than the drive can
- * accelerate the rotor. `reason` is the trip: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off.
+/* Checks for over-speed, in each step and every state. Over-speed is a turn above the limit, two successive pulse
+ * intervals above the bound, or a speed that at two successive pulses rises faster than the drive can accelerate the
+ * rotor. `reason` is the trip: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off.
  *
- * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. Then only alternating
- * pulses show turns, if at least `alternate` of them came in succession (0 while the motor drives). */
-#define WH_GUARD_BRAKES 1U /* with the enable on: react at once */
-/* With the enable off, the guard waits for more pulses, because one false pulse corrupts several turns. */
+ * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. So the guard waits for at
+ * least `alternate` pulses of alternating sensors (0 while the motor drives). */
+#define WH_GUARD_BRAKES 1U /* `alternate` with the enable on */
+/* `alternate` with the enable off: larger, because one false pulse corrupts several turns. */
 #define WH_GUARD_COASTS 6U
 WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
                               const wh_pulses *pulses, wh_trip reason, unsigned alternate) {
@@ -196,9 +195,10 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     if (pulses->alternate < alternate) {
         return;
     }
-    /* no later pulse can reject the last one: a single early pulse may be a disturbance */
+    /* false while a later pulse may show that the last one is a disturbance */
     const bool sure = !pulses->waits || pulses->fast > 0;
-    /* One early pulse may be a disturbance. If the load vanishes, the speed rises. Both at once are a trip. */
+    /* An early pulse alone may be a disturbance, and a speed that rises alone may follow from a lost load. Both
+     * together are over-speed. */
     const bool climbs =
         pulses->fast > 0 && pulses->climb_before_radps > WH_R(0.0) &&
         pulses->climb_radps > WH_R(0.0) &&
@@ -239,7 +239,7 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
     /* The time with a constant load is counted in pulses, because the load of a jammed rotor is also constant. Each
-     * sample counts at most one pulse: if a controller is late, the waiting pulses are older than the samples. */
+     * sample counts at most one pulse, because in a late controller several older pulses may wait. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;

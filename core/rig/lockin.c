@@ -12,8 +12,8 @@
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 
-/* If this many successive samples are equal, the load does not change. Even without noise, fewer samples are equal at
- * the load's peak at 100 rpm. */
+/* If this many successive samples are equal, the load does not change. At the load's peak at 100 rpm, fewer are equal
+ * even without noise. */
 #define FROZEN_SAMPLES 8U
 
 /* An outlier differs from the prediction by more than six standard deviations of the residual, and by more than the
@@ -132,7 +132,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     lockin->any = true;
     lockin->newest_ticks = load->ticks;
     lockin->newest_N = load->force_N;
-    /* The queue is full: the samples belong to no turn, or the turn is too slow to be measured. */
+    /* If the queue is full, its samples belong to no turn, or the turn is too slow to be measured. */
     if (lockin->count == WH_LOCKIN_SAMPLES) {
         pop(lockin);
     }
@@ -314,8 +314,7 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* A gap does not invalidate the prediction. But if outliers caused it, the load may have changed: then the outliers
-     * become the prediction. */
+    /* A gap does not invalidate the prediction, unless outliers caused the gap: then the load may have changed. */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;

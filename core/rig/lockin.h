@@ -34,9 +34,9 @@ extern "C" {
 /* The part of the load's residual that repeats from turn to turn, in harmonics 3 to 6.
  *
  * Synchronous averaging (Braun, Acustica 32 (1975) 69): the residual of orders 0 to 2 is summed by the rotor's angle
- * over the turns of a record. Noise and mains hum average out. The errors of a cell with clipping, backlash or a
- * nonlinear gain do not. A torque twice per turn does not either: it changes the speed and so gives the force a third
- * harmonic.
+ * over the turns of a record. Noise and mains hum average out. Errors of a cell with clipping, backlash or a nonlinear
+ * gain remain. The effect of a torque twice per turn also remains: the torque changes the speed, and so gives the force
+ * a third harmonic.
  *
  * A rigid rotor on a fixed mount has no such harmonics: with w^2 = A + B cos(theta + psi - gamma), the force F = S (w^2
  * cos theta + w' sin theta) has only the orders 0, 1 and 2. Damping's effect on w^2 and the angle's third order add a
@@ -45,8 +45,8 @@ extern "C" {
  * The noise is estimated from differences of successive samples, as for the tare, so that hum and slow changes do not
  * count as noise. */
 
-/* Number of angles at which the residual is summed. Hum that is locked to the turn aliases from harmonic 26 on (115
- * rpm, 50 Hz), with a fifth of its amplitude. */
+/* Number of angles at which the residual is summed. If hum is at harmonic 26 of the turn (50 Hz at 115 rpm) or above,
+ * it is aliased, with a fifth of its amplitude. */
 #define WH_REPEATS_BINS 32U
 
 /* The evaluated harmonics. The second one serves to check the speed ripple (result.h). */
@@ -62,8 +62,7 @@ typedef struct wh_repeats {
 #define wh_repeats_merge WH_NAME(wh_repeats_merge)
 #define wh_repeats_power_N2 WH_NAME(wh_repeats_power_N2)
 
-/* Adds a residual at the angle theta_rad, multiplied by the angle that it represents. theta_rad is at most about one
- * turn. */
+/* Adds a residual at theta_rad, at most about one turn. residual_Nrad is the residual times the step of the angle. */
 WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real residual_Nrad) {
     const wh_real bins = (wh_real)WH_REPEATS_BINS;
     const wh_real bin = theta_rad * (bins / WH_RIG_TWO_PI) + bins;
@@ -83,8 +82,8 @@ wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harm
 /* number of samples that can wait: 1.25 turns at 100 rpm and 500 samples/s */
 #define WH_LOCKIN_SAMPLES 384U
 #endif
-/* Limits per control step. A half node is half of the work for a sample or pulse: its place, or its weight. The second
- * limit is for samples outside any turn, which are dropped. */
+/* Limits per control step. The work for a node (a sample or pulse) has two halves: its place and its weight. The second
+ * limit is for samples that are older than the turn, and are dropped. */
 #define WH_LOCKIN_HALVES_AT_ONCE 3U
 #define WH_LOCKIN_STALE_AT_ONCE 8U
 
@@ -133,7 +132,7 @@ typedef enum wh_lockin_stage {
     WH_LOCKIN_ENDS
 } wh_lockin_stage;
 
-/* The place of a node within the turn. The place is known before the node's weight. */
+/* The place of a node within the turn. */
 typedef enum wh_lockin_place {
     WH_LOCKIN_NOWHERE,
     WH_LOCKIN_BEGIN,
@@ -158,8 +157,8 @@ typedef struct wh_lockin {
     /* The turn in progress; if `open` is false, there is none. */
     bool open;
     bool second_seen;
-    bool taken; /* a sample was taken out of the queue */
-    bool any;   /* a sample was put into the queue */
+    bool taken; /* a sample was taken out of the queue: taken_ticks and taken_N are valid */
+    bool any;   /* a sample was put into the queue: newest_ticks and newest_N are valid */
     bool expects;
     wh_lockin_place place;
     uint32_t begin_ticks;
@@ -167,7 +166,7 @@ typedef struct wh_lockin {
     uint32_t second_ticks;
     uint32_t skipped; /* number of turns without a pulse of both sensors */
 
-    /* Waiting samples: indices of the oldest one, of the last one evaluated, and of the newest. */
+    /* Waiting samples: index of the oldest one, and their number. */
     uint16_t first;
     uint16_t count;
     uint16_t equal; /* number of successive samples that equal the one before */
@@ -190,9 +189,10 @@ typedef struct wh_lockin {
     wh_real widest;     /* widest gap between two nodes, as a share of the turn */
     wh_real before_rad; /* angle of the node before `last` */
     wh_real before_part;
-    wh_lockin_node last;   /* the last node, whose weight depends on the next one */
-    wh_lockin_node placed; /* the node that is being evaluated, unless `place` is nowhere */
-    wh_repeats repeats;    /* valid until the next turn's sums begin */
+    wh_lockin_node last; /* the last node, whose weight depends on the next one */
+    /* the node that is being evaluated; none if `place` is WH_LOCKIN_NOWHERE */
+    wh_lockin_node placed;
+    wh_repeats repeats; /* valid until the next turn's sums begin */
 
     wh_lockin_turn turn; /* the last finished turn */
     wh_turn_angle angle;

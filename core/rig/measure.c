@@ -54,8 +54,8 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
 /* Number of pieces of work that merge the turns into a result. The last piece decides on the result's quality. */
 #define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
-/* Number of pieces of a turn: one for its repeating residual, then the merging. At the record's end each harmonic is
- * one more piece. */
+/* Number of pieces of work. After a turn: one for its repeating residual, then the merging. At the record's end: one
+ * for each harmonic, then the merging. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
@@ -162,8 +162,8 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
 
 /* === the tare ================================================================================ */
 
-/* Four times the variance of a triangular mean, as a factor of the samples' variance. The variance of such a mean is
- * 2/3 of the samples' variance divided by the length of a block. */
+/* Largest variance of the triangular means of a rig at rest, as a factor of the samples' variance. For white noise the
+ * factor is 2/3 divided by the length of a block; four times that is allowed. */
 #define SLOW_NOISE (WH_R(8.0) / (WH_R(3.0) * (wh_real)WH_TARE_BLOCK))
 
 /* Ends a full block: takes the mean of this block and the previous one, with triangular weights. */

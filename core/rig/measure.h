@@ -24,7 +24,7 @@ extern "C" {
 
 typedef struct wh_tare_config {
     uint32_t samples; /* number of samples of a tare: at least 4 WH_TARE_BLOCK, for three means */
-    wh_real still_N;  /* slow motion with a smaller standard deviation counts as rest */
+    wh_real still_N;  /* largest standard deviation of slow motion at rest */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
 
@@ -36,7 +36,7 @@ typedef struct wh_tare {
     wh_real square_N2;  /* sum of squared deviations from the mean */
     wh_real changes_N2; /* sum of squared differences of successive samples */
     wh_real last_N;
-    /* This block's sum with rising and with falling weights, and the last block's sum with rising weights. */
+    /* Triangular sums: this block's with rising and with falling weights, and the last block's with rising weights. */
     wh_real rises_N;
     wh_real falls_N;
     wh_real before_N;
@@ -65,8 +65,9 @@ typedef struct wh_measure_config {
     wh_cell_config cell;
     wh_tare_config tare;
     wh_result_config result;
-    wh_real record_s;     /* whole turns within this time are measured */
-    wh_real record_turns; /* if this many turns take longer than record_s, their time is used */
+    wh_real record_s; /* whole turns within this time are measured */
+    /* least number of turns in a record: if they take longer than record_s, the record lasts longer */
+    wh_real record_turns;
 } wh_measure_config;
 
 typedef struct wh_rig_result {
@@ -82,7 +83,7 @@ typedef struct wh_rig_result {
 
 typedef struct wh_measure {
     bool records;
-    bool adds;  /* the turn itself must be added before the work in `due` */
+    bool adds;  /* the last turn is not yet added; this comes before the work in `due` */
     bool peaks; /* low_N and high_N are valid */
     bool ends;  /* the record's last turn is finished */
     /* Number of remaining pieces of work, for the last turn or for the record's end. */

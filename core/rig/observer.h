@@ -24,12 +24,12 @@ extern "C" {
 #define WH_OBSERVER_SENSORS 2U
 
 typedef struct wh_observer_config {
-    /* has one angle, its rate, and one input: motor voltage / rated voltage */
+    /* a scene with one angle, its rate, and one input: motor voltage / rated voltage */
     const wh_scene *scene;
     wh_real stall_Nm; /* the scene's motor torque at standstill and input 1, > 0 */
     /* the motor's speed without load at the rated voltage, > 0 */
     wh_real no_load_radps;
-    /* The scene's input that gives this motor's torque is per_drive * drive + per_radps * speed. */
+    /* Factors of the scene's input that gives this motor's torque: per_drive * drive + per_radps * speed. */
     wh_real per_drive;
     wh_real per_radps;
     /* True if the motor stage cannot brake: a voltage below the back-EMF then makes no torque. */
@@ -70,8 +70,7 @@ typedef struct wh_observer {
  * for rotors of half to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400
  * rpm. Each turn multiplies the errors of angle, speed and torque by a matrix. Its spectral radius at a steady speed is
  * 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. While the arms are near the top, gravity
- * increases errors, mainly at low speed. The arms pass the top in the three quarters of a turn before sensor 1's pulse;
- * the other quarter ends with sensor 2's pulse. */
+ * increases errors, mainly at low speed. The arms pass the top between sensor 2's pulse and sensor 1's. */
 #define WH_OBSERVER_STANDARD \
     { \
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
@@ -116,7 +115,7 @@ void wh_observer_pulse(const wh_observer_config *config, wh_observer *observer, 
 void wh_observer_forget(wh_observer *observer);
 
 /* Returns the angle at a time some milliseconds after the last step, extrapolated linearly: wh_observer_phase() as a
- * phase (angle.h), the other function between -pi and pi rad. The error is within 3e-5 rad for 1 ms at 60 rad/s^2.
+ * phase (angle.h), wh_observer_angle_rad() between -pi and pi rad. The error is within 3e-5 rad for 1 ms at 60 rad/s^2.
  * Valid if observer->valid. */
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks);
 wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks);

@@ -50,9 +50,8 @@ typedef struct wh_run_config {
 } wh_run_config;
 
 /* While the rig settles, the mean of this many whole-turn speeds is compared with the set-point. Two sensors give two
- * new speeds per turn, so four speeds span 2.25 or 2.75 turns. A jitter s of the pulses changes the mean duration of a
- * turn by s/2: 0.11 rpm for 120 us at 330 rpm (single turns scatter by 0.31 rpm). A drift, or an oscillation slower
- * than 1 Hz, changes the mean, too. */
+ * new speeds per turn. At 330 rpm with 120 us of jitter, single turns scatter by 0.31 rpm, the mean by 0.11 rpm. A
+ * drift, or an oscillation slower than 1 Hz, changes the mean, too. */
 #define WH_RUN_TURNS 4U
 
 typedef struct wh_run {
@@ -64,8 +63,8 @@ typedef struct wh_run {
     wh_real target_radps;
     wh_real volts;     /* commanded mean voltage of the motor */
     wh_real off_radps; /* upper bound on the speed while the motor is off, rad/s */
-    /* Motor on: upper bound, at the last pulse, on the speed that remains from an earlier, higher set-point. A motor
-     * stage that cannot brake slows the rotor less quickly than the set-point falls. */
+    /* Motor on: upper bound, at the last pulse, on the speed. The rotor may be faster than a lowered set-point, because
+     * a motor stage that cannot brake slows it less quickly than the set-point falls. */
     wh_real left_radps;
     uint32_t tare_pulses[WH_SPEED_SENSORS];
     /* Number of turns counted while the run settles and records. */
@@ -86,7 +85,7 @@ typedef struct wh_run_scene {
     wh_measure *measure;
     wh_real supply_V;
     bool compensated; /* gravity compensation is active, so lower set-points are possible */
-    bool busy; /* this step has a pulse, so a record does not begin or end before the next step */
+    bool busy;        /* this step has a pulse: a record neither begins nor ends in it */
     uint32_t now_ticks;
 } wh_run_scene;
 
@@ -111,7 +110,7 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks);
  * which the record is finished and measured. */
 bool wh_run_step(wh_run *run, const wh_run_scene *scene);
 
-/* True if the motor drives; the next function: true if the loop is closed. */
+/* True if the motor drives. wh_run_is_closed(): true if the loop is closed. */
 WH_INLINE bool wh_run_drives(const wh_run *run) {
     return run->phase >= WH_PHASE_SPIN_UP && run->phase <= WH_PHASE_RAMP_DOWN;
 }

@@ -26,8 +26,8 @@ WH_SHARED wh_wave wh_wave_of(wh_real rad) { return wh_wave_at(wh_phase_from_rad(
  * 0. */
 void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
 
-/* wh_polar() in pieces: the first sets the initial angle, then come WH_POLAR_ROUNDS rounds. The error t is at most 1
- * initially, and each round reduces it to about t^5: four rounds are more than enough. */
+/* wh_polar() in pieces: the first sets the initial angle, then come WH_POLAR_ROUNDS rounds. The tangent t of the
+ * remaining angle is at most 1 at first. Each round reduces it to about t^5/5: four rounds are more than enough. */
 #define WH_POLAR_ROUNDS 4U
 wh_real wh_polar_begin(wh_real x, wh_real y);
 void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad);

@@ -4,8 +4,9 @@
 #include "datasheet.h"
 
 #define SETTLE_WINDOW WH_R(0.03)
-#define RAMP_WINDOW WH_R(0.12) /* window until the first confirmed pulse */
-#define RECORD_PART WH_R(0.8)  /* share of the speed error that a record allows */
+/* share of a turn by which a pulse may be early, except in settling and recording */
+#define RAMP_WINDOW WH_R(0.12)
+#define RECORD_PART WH_R(0.8) /* share of the record's speed band by which a pulse may be early */
 /* The bound for the first pulses from rest is this part of the commanded speed, because the rotor lags behind. */
 #define FIRST_PART WH_R(0.8)
 /* The last one or two pulses of a braked rotor come at less than this speed. */
@@ -40,7 +41,7 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
         return;
     }
-    /* This is also true if a suspect came between the two pulses. */
+    /* This is also true if a suspect came in between. */
     const bool same = sensor == pulses->last.pulse.sensor;
     const bool again = same && !pulses->suspects;
     const wh_real moved = same ? WH_RIG_TWO_PI : moved_rad[sensor];
@@ -53,9 +54,9 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (again) {
         wh_pulses_forget(pulses);
     }
-    /* Only while the motor brakes: a rotor that swings freely passes the sensors to and fro, and its intervals are no
-     * speeds. Only at the second sensor (1): a rotor that did not get over the top falls a quarter turn back to sensor
-     * 0, which looks like three quarters forward. */
+    /* `slow` is set only while the motor brakes, because a rotor that swings freely passes the sensors to and fro, and
+     * its intervals are no speeds. It is set only at sensor 1: a rotor that does not get over the top falls a quarter
+     * turn back to sensor 0, which looks like three quarters forward. */
     pulses->slow =
         run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;
 }

@@ -8,7 +8,7 @@
 #define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
 #define DOUBT 2U /* each false pulse adds this to `doubt` */
-/* If `slow`, one interval whose speed is above this multiple of bound_radps counts as two. */
+/* If pulses->slow, one interval counts as two if its speed is above this multiple of bound_radps. */
 #define SUDDEN WH_R(1.6)
 #define SURE_PART WH_R(0.125) /* after this share of a turn no pulse can reject the last one */
 
@@ -125,7 +125,8 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     pulses->alert = false;
     const bool alone_likely = with(&pulses->speed, pulse, &without) && is_likely(pulses, &without);
     const bool both_are = with(&pulses->suspected, pulse, &both);
-    /* At any speed, one false pulse together with one lost true pulse is less likely than two true pulses. */
+    /* Both pulses may be true if no pulse was lost in between. At any speed, two true pulses are likelier than a false
+     * pulse together with a lost one. */
     const bool fits = both_are && both.lost == pulses->speed.lost &&
                       (is_likely(pulses, &both) || without.lost > pulses->speed.lost);
     if (alone_likely && (pulse->sensor == suspect.sensor || !fits)) {

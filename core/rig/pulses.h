@@ -34,9 +34,9 @@ typedef struct wh_index_pulse {
 typedef struct wh_pulses {
     bool suspects; /* `suspect` is set: the next pulse decides about it */
     bool waits;    /* the last pulse is not yet confirmed */
-    /* True if the last pulse was a little early. If the next one is early, too, neither is a disturbance. */
+    /* True if the last pulse was a little early. A second early pulse in succession is no disturbance. */
     bool alert;
-    /* Set by the caller: the motor is off and the rotor almost rests, so one interval far beyond the bound counts as
+    /* Set by the caller: the motor is off and the rotor almost rests. Then one interval far beyond the bound counts as
      * two. */
     bool slow;
     /* Set by the caller: limit on the speed between two pulses; 0: no limit. */
@@ -44,10 +44,10 @@ typedef struct wh_pulses {
     wh_real window; /* set by the caller: share of a turn by which a pulse may be early */
     /* Set by the caller: limit on the rise of the speed from turn to turn, rad/s per s. */
     wh_real climb_radps2;
-    /* Excess of the turn's speed over the speed that climb_radps2 allows, or 0: */
-    wh_real climb_radps;        /* at the last pulse */
-    wh_real climb_before_radps; /* at the previous pulse */
-    unsigned fast;              /* number of successive intervals shorter than bound_radps allows */
+    /* excess of the last turn's speed over the rise that climb_radps2 allows, or 0 */
+    wh_real climb_radps;
+    wh_real climb_before_radps; /* the same excess at the previous pulse */
+    unsigned fast;              /* number of successive intervals with a speed above bound_radps */
     /* Number of successive pulses of alternating sensors. It is 0 if the rotor swings. */
     unsigned alternate;
     /* Each doubtful pulse adds two, each expected one subtracts one. */
@@ -56,7 +56,7 @@ typedef struct wh_pulses {
     wh_pulse suspect;
     wh_index_pulse last; /* the last pulse */
     wh_speed speed;      /* speed from the accepted pulses */
-    wh_speed before;     /* the speed before the last pulse */
+    wh_speed before;     /* the speed before the last pulse was taken */
     wh_speed suspected;  /* the speed if the suspect is true */
     unsigned marks;
     wh_index_pulse

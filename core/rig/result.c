@@ -7,32 +7,29 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
-/* Largest remaining part of gravity with compensation. If the part is larger, the compensation has a wrong angle or
+/* Largest part of gravity that may remain with compensation. If more remains, the compensation has a wrong angle or
  * size, and the torque on the arms is unknown. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* Tolerance of the speed ripple, in addition to the phase's error. If the rotor's damping differs from the configured
- * one, the ripple has an error. By the quadrature ratio, 1/sqrt(2) of this error appears in the phase. */
+/* Tolerance of the speed ripple, in addition to the phase's error. The ripple has an error if the rotor's damping
+ * differs from the configured one. The quadrature ratio transfers 1/sqrt(2) of this error to the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
-/* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared). The first is for the sum
- * of squares of the eight coefficients of four harmonics, the second for the two of the third harmonic. The third
- * harmonic contains the whole effect of a nonlinearity, or of a torque twice per turn. */
+/* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared). REPEATS_NOISE is for the
+ * sum of eight squares (four harmonics), THIRD_NOISE for the two squares of the third harmonic. The third harmonic
+ * contains the whole effect of a nonlinearity, or of a torque twice per turn. */
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Repeating residual of a healthy rig in harmonics 3 to 6, as parts of the force (tests/host/test_repeats_truth.c). The
- * causes are in this order. Damping: in proportion to tan(psi) E^2. An error of the speed ripple: in proportion to E
- * times this error. A motor that cannot brake enough. The ripple of a carriage. The nonlinearity of the cell. Few
- * samples per turn: in proportion to the square of the angle between two samples. */
-#define REPEATS_LAG WH_R(0.4)
-#define REPEATS_ARROW WH_R(1.6)
-#define REPEATS_CUT WH_R(0.29)
-#define REPEATS_TWICE WH_R(6.0)
-#define REPEATS_CELL WH_R(1e-4)
-#define REPEATS_STEP WH_R(0.012)
+/* Repeating residual of a healthy rig in harmonics 3 to 6, as parts of the force (tests/host/test_repeats_truth.c). */
+#define REPEATS_LAG WH_R(0.4)    /* damping: times psi E^2 */
+#define REPEATS_ARROW WH_R(1.6)  /* an error of the speed ripple: times E and this error */
+#define REPEATS_CUT WH_R(0.29)   /* a motor that cannot brake enough */
+#define REPEATS_TWICE WH_R(6.0)  /* the ripple of a carriage */
+#define REPEATS_CELL WH_R(1e-4)  /* nonlinearity of the cell */
+#define REPEATS_STEP WH_R(0.012) /* times the square of the angle between two samples */
 
-/* Effect of the pulses' jitter on the force of one turn: this factor times the jitter's angle. */
+/* Repeating residual because of the pulses' jitter in one turn, as a part of the force per radian of jitter. */
 #define REPEATS_JITTER WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
@@ -58,8 +55,8 @@ static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_tick
     merge->jitters++;
 }
 
-/* If two used turns are successive, adds the second differences of the times of each sensor's pulses. They are the
- * differences between the turns' durations. */
+/* If two used turns are successive, adds the second differences of the times of each sensor's pulses: the differences
+ * between the durations of successive turns. */
 static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
     const bool adjoins =
         merge->follows && merge->begin_ticks + merge->last_ticks == turn->begin_ticks;
@@ -113,8 +110,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->ripple_rad * angle->ripple_rad;
-    /* S <w^2> with the mean over the angle: the mean of w^3 over time divided by the mean speed. It contains 3/2 of the
-     * square of the ripple. A term of twice the angle makes the speed vary by twice its amplitude. */
+    /* The expected force is S <w^2>, with the mean over the angle, which contains 3/2 of the square of the ripple. A
+     * term of twice the angle makes the speed vary by twice its amplitude. */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -153,8 +150,9 @@ static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_
     if (angle->ratios == 0) {
         return shared;
     }
-    /* If sensor 2 is at a quarter turn, the variances are 1, 9/16 and 1/16. On average half of the turns in the
-     * estimate of the ratio are also among the merged turns, and have the same pulses. */
+    /* The ratio follows from three pulses. If sensor 2 is at a quarter turn, the variances are 1, 9/16 and 1/16,
+     * together 1.625. On average half of the turns in the estimate of the ratio are also among the merged turns, and
+     * have the same pulses. */
     const wh_real averaged =
         (wh_real)(angle->ratios < WH_TURN_ANGLE_PATIENCE ? angle->ratios : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_ratio);
@@ -228,8 +226,8 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
-        /* If gravity is compensated at a wrong angle, a ripple remains a quarter turn after that of E. The quadrature
-         * ratio takes it for a change of E. */
+        /* A compensation at a wrong angle leaves a ripple a quarter turn after that of E. The quadrature ratio mistakes
+         * it for a change of E. */
         .quadrature =
             angle->compensated ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
@@ -330,10 +328,10 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
     }
 }
 
-/* Returns the difference between the speed ripple found from the load and the ripple of the angle model, as a vector's
- * length. A ripple is a vector of size E in the direction psi - gamma. Over the rotor's angle, the second order of the
- * force is 3/2 E/(1 + 3/2 E^2) times its first order, in that direction. An error of the model's ripple also changes
- * the model's angle, which adds the weight 1/2: together 2. Twice the phase of the first order is subtracted. So the
+/* Returns the length of the difference between two speed ripples: one found from the load, one of the angle model. A
+ * ripple is a vector of size E in the direction psi - gamma. Over the rotor's angle, the second order of the force is
+ * 3/2 E/(1 + 3/2 E^2) times its first order, in that direction. An error of the model's ripple also changes the model's
+ * angle, with the weight 1/2. The sum of both weights is 2. Twice the phase of the first order is subtracted. So the
  * result hardly depends on a delay, and not on the cell's gain. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
@@ -366,8 +364,8 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
                    square_of(measured->expected_N) * (square_of(part) + square_of(jitter) / turns));
 }
 
-/* If the motor cannot brake enough, the residual does not show errors of the cell. Then force and phase must agree with
- * the expected values within their intervals plus this part, because the expected values may be wrong by 0.5 %. */
+/* If the motor cannot brake enough, the residual does not show errors of the cell. So force and phase must agree with
+ * the expected values within their intervals plus these errors of the expected values. */
 #define CUT_OFF WH_R(0.005)
 #define CUT_TURNED_RAD WH_R(0.01)
 

@@ -65,10 +65,10 @@ typedef struct wh_result_config {
     /* A force is doubtful if it differs from the expected one by more than this fraction. */
     wh_real amplitude_off;
     wh_real amplitude_wrong; /* a force that differs by more than this fraction is refused */
-    wh_real phase_off_rad;   /* a phase that differs by more than this is doubtful */
+    wh_real phase_off_rad;   /* a phase with a larger difference from 0 is doubtful */
     wh_real phase_wrong_rad;
     wh_real residual_large; /* a larger residual is doubtful; a fraction of the expected force */
-    wh_real mean_off;       /* a larger mean is doubtful; a fraction of the expected force */
+    wh_real mean_off;       /* a larger mean load is doubtful; a fraction of the expected force */
     /* A larger error of the inertia is doubtful; a fraction of the configured inertia. */
     wh_real inertia_off;
 } wh_result_config;
@@ -84,7 +84,7 @@ typedef struct wh_merge {
     uint32_t second_turns; /* number of turns in the mean at_pulse_N[1] */
     wh_real jitter_s2;     /* sum of squares of the second differences of the pulse times */
     uint32_t jitters;      /* number of second differences in jitter_s2 */
-    uint32_t first_ticks;  /* times of the first and of the last used turn */
+    uint32_t first_ticks;  /* duration of the first and of the last used turn */
     uint32_t last_ticks;
     uint32_t second_turn_ticks;
     uint32_t begin_ticks;
@@ -94,15 +94,15 @@ typedef struct wh_merge {
     wh_repeats repeats;
     wh_real in_phase_N; /* means over the turns */
     wh_real quadrature_N;
-    wh_real second_N[2]; /* components of twice the angle: cosine, sine */
-    /* sums of deviations from the means: in phase squared, product, quadrature squared */
+    wh_real second_N[2]; /* components of the second order: cosine, sine */
+    /* sums of products of deviations from the means: in phase squared, in phase times quadrature, quadrature squared */
     wh_real scatter_N2[3];
     wh_real mean_N;
     wh_real residual_N2;
     wh_real expected_N;
     wh_real ripple_rad;
     wh_real turn_s;
-    wh_real turn_s2; /* sum of squared deviations from the mean */
+    wh_real turn_s2; /* sum of squared deviations from turn_s */
     wh_real at_pulse_N[2];
 } wh_merge;
 
@@ -182,7 +182,7 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
                     const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured);
 
 /* Returns Student's factor, two-sided, for 95 %. The error is within 0.3 % for 2 or more degrees of freedom. Returns 0
- * for none. */
+ * for 0 degrees. */
 wh_real wh_student(uint32_t freedom);
 
 const char *wh_why_text(wh_why why);

@@ -182,7 +182,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
     case WH_EVENT_CLEAR:
         rig->guard.trip = WH_TRIP_NONE;
-        /* If a reset follows, no record shall restore this trip. */
+        /* After a reset, the record must not restore this trip. */
         rig->record = (wh_trip_record){.trip = WH_TRIP_NONE};
         break;
     case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
@@ -224,7 +224,7 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
     rig->orders = 0;
 }
 
-/* At a slow speed, the time without a pulse is limited by this angle: after two lost pulses the rotor has made nearly
+/* At a low speed this angle limits the time without a pulse, because after two lost pulses the rotor has made nearly
  * two turns. */
 #define SILENT_RAD WH_R(12.0)
 
@@ -242,7 +242,7 @@ static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
     if (rig->guard.quiet) {
         rig->run.off_radps = WH_R(0.0);
-        if (rig->pulses.speed.running) { /* old times would wrap */
+        if (rig->pulses.speed.running) { /* the times of old pulses would wrap */
             wh_pulses_forget(&rig->pulses);
         }
     }
@@ -268,7 +268,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
                                  : WH_GUARD_COASTS);
     if (rig->run.phase == WH_PHASE_SPIN_UP && !rig->pulses.speed.running &&
         wh_rig_is_over(rig->run.since_ticks, inputs->now_ticks, config->guard.slow_silence_max_s)) {
-        /* The rotor is stalled, or it turns without pulses: then it must not become fast. */
+        /* The rotor is stalled, or turns without pulses and must not become fast. */
         wh_guard_trip(guard, WH_TRIP_STALLED);
     }
     if (drives) {
@@ -280,7 +280,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
     if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
-        guard->load_good = false; /* until the next sample, because time stamps wrap */
+        guard->load_good = false; /* false until the next sample, because time stamps wrap */
         if (needed) {
             wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
         }
@@ -301,7 +301,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
     if (rig->observer.ticks - before_ticks > rig->observer.step_ticks) {
-        rig->loads++; /* two steps of the observer cost as much as one more sample */
+        rig->loads++; /* counts as a sample, because two steps of the observer cost as much */
     }
     if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
         rig->busy = true;
@@ -381,8 +381,8 @@ static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *
     }
 }
 
-/* Returns the number of half nodes of a turn's sums for which this step has time. If a controller is late, one step
- * gets the samples and observer steps of several, and the next step gets none. If a pulse may be confirmed while the
+/* Returns the number of half nodes of a turn's sums for which this step has time. A late controller gets the samples
+ * and observer steps of several steps at once, and none in the next step. If a pulse may be confirmed while the
  * observer runs, there is less time. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
@@ -394,7 +394,7 @@ static unsigned halves(const wh_rig *rig) {
     return WH_LOCKIN_HALVES_AT_ONCE - (rig->compensated && rig->pulses.waits ? 1U : 0U);
 }
 
-/* A step that has processed a pulse confirms no pulse, unless more than this number of confirmed pulses wait. */
+/* If more confirmed pulses than this wait, even a step that has processed a pulse confirms one. */
 #define MARKS_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
@@ -623,9 +623,9 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
  * supply voltage. */
 #define STORM_TICKS 18750U
 
-/* True if the sensors' pulses come in the wrong order. Forwards, the rotor takes a quarter turn from sensor 1 to sensor
- * 2, backwards three quarters. That time must exceed the times before and after it, because a starting rotor changes
- * its speed. Pulses that are faster than any rotor show no direction. */
+/* True if the sensors' pulses come in the wrong order. From sensor 1 to sensor 2, the rotor takes a quarter turn
+ * forwards, or three quarters backwards. The time from sensor 1 to sensor 2 must exceed the times before and after it,
+ * because a starting rotor changes its speed. Pulses that are faster than any rotor show no direction. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -638,8 +638,8 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* While the rotor starts, or shortly after the loop has closed, the commanded voltage determines its speed. A fall of
- * the bound then shows only after two more pulses. */
+/* While the rotor starts, the commanded voltage determines the bound on its speed. A fall of the bound shows only after
+ * two more pulses, so they count as part of the start. */
 #define TWO_PULSES_S WH_R(0.5)
 
 static bool starts(const wh_rig *rig, uint32_t now_ticks) {

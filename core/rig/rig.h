@@ -68,7 +68,7 @@ typedef struct wh_rig_order {
 
 #define WH_RIG_ORDERS_MOST 4U /* maximum number of orders between two control steps */
 
-/* When gravity compensation is on. It removes the speed's ripple, and with it gravity's part of the load's peaks. */
+/* When gravity is compensated. Compensation removes the ripple of the speed, and gravity's part of the load's peaks. */
 typedef enum wh_compensation_when {
     WH_COMPENSATION_NEVER,
     WH_COMPENSATION_SLOW, /* only for set-points that are too slow without compensation */
@@ -116,7 +116,7 @@ typedef struct wh_rig {
     bool brakes; /* the motor brakes instead of coasting */
     /* In this run the observer follows the rotor, and gravity is compensated as soon as the observer is valid. */
     bool compensated;
-    /* This step has a pulse to process, which is work enough: other work waits for the next step. */
+    /* This step has a pulse to process: all other work waits for the next step. */
     bool busy;
     bool decides; /* this step has a pulse that came after a suspect */
     /* Number of samples since the last step. If more than one, the step has less time for other work. */
@@ -124,7 +124,7 @@ typedef struct wh_rig {
     bool rested; /* the motor is off, and the rotor is at rest or the longest wait is over */
     /* No pulses come; or, if pulses are unreliable, the longest wait is over. */
     bool at_rest;
-    bool has_result;    /* a result of run `runs` exists: false from `start` to the record's end */
+    bool has_result;    /* the last run has a result: false from `start` to the record's end */
     wh_rig_end ended;   /* how the last run ended */
     wh_rig_event asked; /* the order that was processed last */
     wh_refusal answer;  /* the answer to that order */
@@ -149,7 +149,7 @@ typedef struct wh_rig {
     wh_rig_order order[WH_RIG_ORDERS_MOST];
     wh_observer observer;
     wh_rig_result result; /* the last result, valid if has_result; stays until the next start */
-    wh_swing swing;       /* the last evaluated free swing: swing.result */
+    wh_swing swing;       /* swing.result: the last evaluated free swing */
     wh_measure measure;
 } wh_rig;
 
@@ -194,7 +194,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* Returns the guard's trip, or its likely cause if that is known, in the step that trips. Part of wh_rig_step(). */
+/* Returns the guard's trip, or its likely cause if known, in the step that trips. Part of wh_rig_step(). */
 wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks);
 
 /* Set sensor 1 on the loading-train axis and sensor 2 a quarter turn later. A pulse comes when the arms are lead_rad
@@ -236,7 +236,7 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status);
 
-/* Returns the reason to refuse an order that the state allows, or WH_ALLOWED. Part of wh_rig_step(). */
+/* Returns why an order is refused although the state allows it, or WH_ALLOWED. Part of wh_rig_step(). */
 wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs, const wh_rig_order *order);
 

@@ -34,8 +34,8 @@ static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     if (interval == 0 || interval_radps > speed->impossible_radps) {
         return false;
     }
-    /* The alternative is that the pulse came a whole turn later: four more quarters, or two if the order is
-     * reversed. */
+    /* If a pulse is more than a quarter turn late, at least two pulses were lost. The pulse is then late by four
+     * quarters, or by two if the sensors are in the wrong order. */
     const wh_real due_quarters = (wh_real)moved * speed->turn_radps / interval_radps;
     if (speed->known && due_quarters > (wh_real)(moved + 1U)) {
         speed->lost += 2;

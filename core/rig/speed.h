@@ -38,12 +38,12 @@ typedef struct wh_speed {
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
 
 /* Process a pulse of `sensor` (0 or 1) captured at `ticks`, in the order of time. Returns false if the pulse is
- * rejected: it is closer to the last one than impossible_radps allows, or there is no such sensor.
+ * rejected: it would need a speed above impossible_radps, or there is no such sensor.
  *
- * One lost pulse is bridged. A pulse that is more than a quarter turn later than the speed predicts comes after a gap:
- * at least two pulses were lost. They are counted as two, and the measurement restarts. The last speed stays valid
- * until another whole turn is measured. (After two successive gaps the speed is unknown, because the last one may be
- * wrong, too.) Sensors in the wrong order, or a rotor turning backwards, cause such a gap each turn. */
+ * One lost pulse is bridged. A pulse that is more than a quarter turn later than the speed predicts comes after a gap.
+ * Two lost pulses are counted, and the measurement restarts. The last speed stays valid until another whole turn is
+ * measured, or until the next gap shows that the speed was wrong. Sensors in the wrong order, or a rotor turning
+ * backwards, cause such a gap each turn. */
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
 
 /* Returns the seconds since the last accepted pulse; 0 without one. */

@@ -46,13 +46,13 @@ const wh_rig_config wh_rig_standard = {
               .silence_max_s = WH_R(0.5),
               .slow_silence_max_s = WH_R(2.0),
               .load_silence_max_s = WH_R(0.02), /* duration of ten samples */
-              /* A tenth of the change that the masses' force causes. */
+              /* A tenth of the force of the masses. */
               .load_still_kgm = WH_R(0.1) * WH_RIG_UNBALANCE_KGM,
               .stuck_pulses = 3, /* the first and the third pulse are a whole turn apart */
               .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
               .supply_max_V = WH_RIG_SUPPLY_MOST * WH_RIG_RATED_V,
               .rest_s = WH_R(1.5),
-              /* Half of 2 pi c/I, for six times the configured inertia. */
+              /* Half of the loss in a turn, 2 pi c/I, for six times the configured inertia. */
               .braked_radps =
                   WH_RIG_TWO_PI * WH_RIG_DAMPING_NMS / (WH_R(12.0) * WH_RIG_INERTIA_KGM2),
               .hand_radps = RPM(60.0)},
@@ -141,8 +141,8 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
     observer->per_radps =
         WH_R(1.0) / observer->no_load_radps - observer->per_drive / motor->no_load_radps;
     observer->no_load_radps = motor->no_load_radps;
-    /* The motor stage gives no negative voltage. So the compensation is clipped at speeds where the drive's own voltage
-     * is lower. */
+    /* The motor stage gives no negative voltage. So it clips a compensation that exceeds the drive's own voltage, which
+     * with this motor may happen at higher speeds. */
     config->compensation.most *= before.stall_Nm / motor->stall_Nm;
     const wh_real slowest = config->guard.target_min_compensated_radps * before.stall_Nm /
                             motor->stall_Nm * motor->no_load_radps / before.no_load_radps;

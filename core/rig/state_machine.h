@@ -63,7 +63,7 @@ extern "C" {
     X(WH_END_DONE, "done") /* the record is measured */ \
     X(WH_END_STOP_INPUT, "stop input") \
     X(WH_END_DRIVE_FAULT, "drive fault") \
-    X(WH_END_STOP_OR_FAULT, "stop input or drive fault") /* both share a line */ \
+    X(WH_END_STOP_OR_FAULT, "stop input or drive fault") /* the two share a line */ \
     X(WH_END_STOP, "stop command") \
     X(WH_END_HOST_LOST, "host lost") \
     X(WH_END_TRIP, "trip")

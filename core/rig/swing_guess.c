@@ -36,7 +36,7 @@ static wh_real guess_root(const wh_swing *swing) {
             second_s = period_s;
         }
     }
-    /* The last swings are smaller if there were more of them. */
+    /* After many swings the last ones are smaller, and their period is nearer to that of a small swing. */
     const wh_real longer = WH_R(1.0) + WH_R(0.1) / (wh_real)swing->passed;
     return longer * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
 }
@@ -84,7 +84,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     const wh_real time = first_time(swing, root);
     wh_real sine = sine_of_time(time);
     sine = sine > WH_R(0.4) ? sine : WH_R(0.4);
-    if (first > 0 && swing->kept_sensor[first - 1U] == 1U) { /* the rotor fell from sensor 2 */
+    if (first > 0 && swing->kept_sensor[first - 1U] == 1U) { /* the rotor came from sensor 2 */
         const wh_real mean_radps =
             WH_R(0.25) * WH_RIG_TWO_PI /
             wh_rig_since_s(swing->kept_ticks[first - 1U], swing->kept_ticks[first]);
@@ -97,7 +97,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_SWING_RATE] = WH_R(-2.0) * root * sine;
     x[WH_SWING_GRAVITY] = gravity;
-    /* Each of the 2 passed + 1 half swings reduces the amplitude by 2 f/g. A is about 2.3 sin(A/2). */
+    /* Each of the 2 passed + 1 quarter swings reduces the amplitude A by f/g. A is about 2.3 sin(A/2). */
     x[WH_SWING_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_SWING_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_SWING_Q] =

@@ -62,9 +62,9 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
-/* Adds the effect of a motor that cannot brake as much as commanded. A part of gravity's torque then remains: S g
- * (-sin(theta - gamma) - k), if that is positive. k is the standstill torque at the drive's own voltage, divided by S
- * g. The Fourier series of the remaining part has a term of twice the angle. */
+/* Adds the effect of a motor that cannot brake as much as commanded. Where it would have to brake, a part of gravity's
+ * torque remains: S g (-sin(theta - gamma) - k), if that is positive. k is the standstill torque at the drive's own
+ * voltage, divided by S g. This torque's Fourier series has a term of twice the angle. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->drive_V * angle->stall_Nm_per_V;
@@ -158,8 +158,8 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real ratio_per_ripple = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(ratio_per_ripple) > SLOPE_LEAST)) {
-        /* If the rotor is light, psi reverses the ratio's dependence on the inertia. Newton's method then converges if
-         * it starts from a heavier rotor. If gravity acts along a diagonal, the ratio does not depend on the rotor. */
+        /* If the rotor is light, psi reverses the ratio's dependence on the inertia. So Newton's method restarts from a
+         * heavier rotor. If gravity acts along a diagonal, the ratio does not depend on the inertia. */
         if (!angle->compensated && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);
         }

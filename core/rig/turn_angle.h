@@ -19,9 +19,9 @@
  * below 0, so the compensation cannot remove more torque than the drive's own voltage gives. If that is less than S g,
  * the compensation is clipped, and the remaining torque is no sine.
  *
- * A carriage of mass M moves along theta = 0. The arms have the mass m. Their effective inertia is I - D sin^2 theta,
- * with D = S^2/(M + m) at most, and least when they are across the rail. So they speed up twice a turn. To the first
- * order theta has the further term
+ * A carriage of mass M moves along theta = 0. The arms have the mass m. The effective inertia of the arms is I - D
+ * sin^2 theta, with D of at most S^2/(M + m). It is least when the arms are across the rail, so the arms speed up twice
+ * a turn. To the first order theta has the further term
  *
  *     -A sin(2 (base + phi) + lambda)     A = D/(8 J) cos lambda    tan lambda = c/(2 J omega)    J = I - D/2
  *
@@ -37,8 +37,8 @@
 extern "C" {
 #endif
 
-/* 1 on a chip whose float product takes 200 cycles. A control step then does one half node of a turn's sums, and work
- * that other chips do in one piece is spread over several steps without a sample. The results are the same. */
+/* 1 on a chip on which a float product takes 200 cycles. There the work of a control step is cut into smaller pieces.
+ * The results are the same. */
 #ifndef WH_RIG_SMALL_PIECES
 #define WH_RIG_SMALL_PIECES 0
 #endif
