@@ -49,9 +49,8 @@ typedef struct drawn_scene {
     image_entry entry[SCENE_ROWS];
     int account_of[1 + SCENE_UNKNOWNS];
     int booked[SCENE_FEW];
-    double entries[SCENE_STATES *
-                   (SCENE_STATES + SCENE_FEW +
-                    1)]; /* entries of im.matrix: the columns of Phi, Gamma and g of a step */
+    /* entries of im.matrix: the columns of Phi, Gamma and g of a step */
+    double entries[SCENE_STATES * (SCENE_STATES + SCENE_FEW + 1)];
     double number[SCENE_FEW * SCENE_TERMS << SCENE_BITS];
     double size[SCENE_FEW];
     double off[SCENE_FEW];

@@ -14,9 +14,10 @@ typedef enum rattle_kind { BALL, HOLD, BELT, KINDS } rattle_kind;
  * here. */
 typedef struct rattle {
     rattle_kind kind;
-    double number
-        [6]; /* ball: gap, gravity, restitutions below and above; hold: threshold, acceleration; belt: stiffness,
-                       * speed, friction static and kinetic */
+    /* ball: gap, gravity, restitution below, restitution above;
+     * hold: threshold, acceleration;
+     * belt: stiffness, speed, static friction, kinetic friction */
+    double number[6];
     double step_s;
     int steps;
     double at_s; /* time of the ball's last impact */

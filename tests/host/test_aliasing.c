@@ -138,7 +138,7 @@ TEST(aliasing, what_is_wrong_is_told) {
                 const double left_m = fabs(x_of(&then) - truth(&m, m.until_s));
                 const bool all = trusted(&then);
                 TEST_ASSERT_TRUE_MESSAGE(!told(&then), about);
-                /* below the true range plus 5 % of the first result; if trusted, below 5 % of the range */
+                /* the error: below the true range plus 5 % of the first result; if trusted, below 5 % of the range */
                 TEST_ASSERT_TRUE_MESSAGE(left_m < WRONG * fabs(is) + range_of(&m), about);
                 TEST_ASSERT_TRUE_MESSAGE(!all || left_m < WRONG * range_of(&m), about);
             }
@@ -220,7 +220,7 @@ TEST(aliasing, rippling_normals) {
     const unsigned cases = dice_cases(usual_or(12, 4));
     for (unsigned i = 0; i < cases; i++) {
         const bool slides = i % 2 == 0;
-        const bool still = i % 3 == 2; /* the step resolves the ripple */
+        const bool still = i % 3 == 2; /* true: the step resolves the ripple */
         const double step_s = round_of(&d, -4.0, -3.0);
         const double ripple = dice_between(&d, 2.0, 6.0);
         const double fast = TURN * (still ? 0.02 : (double)(1U + dice_one_of(&d, 8))) / step_s;

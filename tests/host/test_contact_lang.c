@@ -169,7 +169,7 @@ static void test_words_of_the_statements_may_be_names(void) {
     expect(-0.5, m->contacts[0].value);
     expect(0.25, m->contacts[0].restitution);
     expect(0.4, m->contacts[1].static_friction);
-    expect(0.125, m->contacts[3].condition); /* max(min(0.125, 2 - 1), 0.5 - 1) */
+    expect(0.125, m->contacts[3].condition); /* = max(min(0.125, 2 - 1), 0.5 - 1) */
     expect(-2.5, m->contacts[4].value);
     TEST_ASSERT_EQUAL_INT(1, m->contacts[4].direction);
     expect(0.003, m->noises[0].deviation);
@@ -184,8 +184,8 @@ SUITE(contact_lang) {
 }
 
 /* === suite contact_run ======================================================================== */
-/* Which stops, frictions, holds, whens and noises take part in a run, the allowed ranges of their numbers, and the
- * ledger. */
+/* Tests which stops, frictions, holds, whens and noises take part in a run, and the allowed ranges of their numbers.
+ * Also the ledger. */
 
 static instance *instance_of(int scene_number, const overrides *changes) {
     instance_free(made);

@@ -59,7 +59,7 @@ static void far_mechanism(far_kind kind, const far_case *c, char *text, size_t s
         snprintf(law, sizeof law, "T = %.17g [kg]*x'^2/2\nV = %.17g [N/m]*(x - b)^2/2\n", m, k);
         snprintf(start, sizeof start, "x = %.17g [m]\nset b = %.17g [m]", b + a, b);
         break;
-    case SOFT: /* k c^2 sqrt(1 + (x - b)^2/c^2) */
+    case SOFT: /* V = k c^2 sqrt(1 + (x - b)^2/c^2) */
         snprintf(law, sizeof law,
                  "T = %.17g [kg]*x'^2/2\nV = %.17g [N]*sqrt((x - %.17g [m])^2 + %.17g [m^2])\n", m,
                  3.0 * k * a, b, 9.0 * a * a);
@@ -277,7 +277,7 @@ TEST(far_origin, carts_that_stand) {
         if (off > 0.02) {
             told++;
             TEST_ASSERT_TRUE_MESSAGE(is_of_digits(&what), text);
-            run(text, is_float, &what); /* this report must not trust the run to its end */
+            run(text, is_float, &what); /* the report must not trust the run to its end */
             TEST_ASSERT_NULL_MESSAGE(strstr(what.out, "to the end: every"), what.out);
             cure_digits(text, is_float, &what, every);
             run_with(text, is_float, "--compensated", every, &what);

@@ -40,7 +40,7 @@ static bool difference(int f, int which, double x, double y, double *slope) {
     const double narrow = (value[3] - value[1]) / (2.0 * WIDTH);
     const double wide = (value[4] - value[0]) / (4.0 * WIDTH);
     *slope = narrow + (narrow - wide) / 3.0;
-    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* false if NaN, too */
+    return fabs(narrow - wide) <= 1e-4 * (1.0 + fabs(narrow)); /* false for NaN, too */
 }
 
 static const symbol variables[2] = {

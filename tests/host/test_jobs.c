@@ -184,7 +184,7 @@ TEST(jobs, interrupts_are_the_parent_s) {
 
 static bool endless_work(void *context, uint64_t point, FILE *row, FILE *reason) {
     const struct timespec nap = {0, 20000000L};
-    for (int i = 0; i < 250 && point != FIRST; i++) { /* at least 5 s, unless stopped */
+    for (int i = 0; i < 250 && point != FIRST; i++) { /* takes at least 5 s, unless it is stopped */
         nanosleep(&nap, NULL);
     }
     return quick_work(context, point, row, reason);

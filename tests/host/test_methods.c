@@ -312,7 +312,7 @@ static int check_line(char *line, double *worst) {
         const double off = fabs(got - value[i]) / size;
         snprintf(about, sizeof about, "%s: %s is %.17g, not %.17g", words[0], wanted[i], got,
                  value[i]);
-        TEST_ASSERT_TRUE_MESSAGE(off <= TOLERANCE, about); /* false if NaN, too */
+        TEST_ASSERT_TRUE_MESSAGE(off <= TOLERANCE, about); /* false for NaN, too */
         *worst = fmax(*worst, off);
     }
     return count;

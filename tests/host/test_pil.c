@@ -311,7 +311,7 @@ TEST(fault, edges) {
     run_with("edge-stamp:1=-0.01", &ill);
     TEST_ASSERT_EQUAL_UINT32(well.edge[2].ticks - 10000U, ill.edge[2].ticks);
     TEST_ASSERT_EQUAL_UINT32(well.edge[3].ticks, ill.edge[3].ticks);
-    run_with("edge-place:2=36@state=3", &ill); /* from 0.6 s on, a tenth of a turn: 50 ms */
+    run_with("edge-place:2=36@state=3", &ill); /* from 0.6 s on, 50 ms late: a tenth of a turn */
     TEST_ASSERT_EQUAL_UINT32(well.edge[1].ticks, ill.edge[1].ticks);
     TEST_ASSERT_UINT32_WITHIN(1, well.edge[3].ticks + 50000U, ill.edge[3].ticks);
     run_with("edge-jitter=1ms", &ill);

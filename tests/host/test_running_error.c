@@ -124,7 +124,7 @@ static void define(const drawn_list *l, double least, double part, double *error
         } else if (o->code == OP_PHASE) {
             error[i] = phase_error(l, o, error);
         } else if (o->code == OP_SIN || o->code == OP_COS) {
-            /* one unit relative to 1, not to the result, as for a sine from a table */
+            /* an error of one unit relative to 1, not to the result, as for a sine from a table */
             error[i] += 1.0;
         } else if (!is_exact(o->code)) {
             error[i] += fmax(fabs(l->value[i]), least);

@@ -366,7 +366,7 @@ static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "blo
 
 TEST(show_events, events_stand_beside_the_equations) {
     expect(as_text, "", true);
-    expect(as_octave, "%", true); /* comments in the function's file */
+    expect(as_octave, "%", true); /* as comments */
 }
 
 TEST(show_events, no_events_no_word_of_them) {

@@ -40,8 +40,8 @@ static stepping in_float(wh_method method, bool compensated, double step_s) {
 static const char rotor[] = "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\n"
                             "scene s { start a = %.17g, a' = %.17g [rad/s] }\n";
 
-/* Whether there is a warning must depend on the angle's error. Round-off of rates and constants is allowed for, and
- * so is a larger error before the end. */
+/* Whether there is a warning must depend on the angle's error at the end. The limits allow for round-off of rates
+ * and constants, and for a larger error before the end. */
 TEST(slow_angles, slow_rates_are_told_and_others_are_not) {
     const char *wanted = getenv("WH_SLOW");
     const int count = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 300;

@@ -274,7 +274,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
 TEST(stabilized, coarse_steps_are_told) {
     dice d = dice_of("stabilized springs", 20261201);
     for (unsigned i = 0; i < usual_or(8, 2); i++) {
-        const double swing = dice_between(&d, 0.3, 1.5); /* phase in a step, rad */
+        const double swing = dice_between(&d, 0.3, 1.5); /* angle in a step, rad */
         char text[TEXT];
         said what;
         snprintf(text, sizeof text,
@@ -298,7 +298,7 @@ TEST(stabilized, what_others_lost_is_told) {
     for (unsigned i = 0; i < cases; i++) {
         static const char *const words[2][3] = {{"--quiet", NULL},
                                                 {"--stabilized", "--quiet", NULL}};
-        const double fast = dice_between(&d, 0.12, 0.3); /* phase in a step, rad */
+        const double fast = dice_between(&d, 0.12, 0.3); /* angle in a step, rad */
         const double share = dice_between(&d, 0.001, 0.1);
         char text[TEXT];
         said what[2];
@@ -345,7 +345,7 @@ TEST(stabilized, what_is_made_wrong_is_not_trusted) {
         static const char *const words[2][5] = {
             {"--stabilized", NULL}, {"--stabilized", "--number", "float", "--compensated", NULL}};
         const bool is_heavy = i % 2 == 1;
-        const double fast = dice_between(&d, 1.0, 1.8); /* phase in a step, rad */
+        const double fast = dice_between(&d, 1.0, 1.8); /* angle in a step, rad */
         const double step_s = 0.0125;
         char text[TEXT];
         if (is_heavy) {

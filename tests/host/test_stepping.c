@@ -136,7 +136,7 @@ TEST(stepping, failed) {
     w.from_s = 1.5;
     expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
                   "--from 1.5 s is after the last step", "");
-    list.kind = MEASURE_FINAL; /* needs no series, so any begin is accepted */
+    list.kind = MEASURE_FINAL; /* needs no series, so any --from is accepted */
     derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
     measured_point p = measure_stepping(&w, good.image);
     TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
@@ -308,7 +308,7 @@ TEST(sweep_settings, settings) {
     free(again);
 }
 
-/* Points as workers run them, but in this process, with every way to end. */
+/* Runs points as workers do, but in this process. Each way in which a point can end occurs. */
 TEST(sweep_settings, points) {
     static const struct {
         const char *text;
@@ -317,7 +317,7 @@ TEST(sweep_settings, points) {
         bool good;
     } points[] = {
         {made_sweep_floor, "x=-1..1:2", "x", false},        /* the start is refused */
-        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* has no period, still good */
+        {made_sweep_floor, "x=1..2:2", "period(x)", true},  /* a point without a period is good */
         {made_sweep_floor, "x=0..2:2", "mean(1/x)", false}, /* 1/x is infinite at x = 0 */
         /* these scenes are derived again for each point */
         {settings_text, "m=1..2:2", "max(x)", true},

@@ -57,7 +57,7 @@ TEST(talk, heard_and_kept) {
         talk_expect_report(LOCKSTEP_DONE, talk_drawn.turns);
         TEST_ASSERT_EQUAL_INT(status, talk_report.status.status);
         alloc_text_end(onto);
-        expect_same(&talk_on_tape, (const uint8_t *)kept, length); /* hello and turns as sent */
+        expect_same(&talk_on_tape, (const uint8_t *)kept, length); /* taped as sent */
         free(kept);
         wanted.length = 0;
         talk_put(&wanted, WH_FRAME_ASK, 0, 0, NULL, 0);

@@ -211,7 +211,7 @@ TEST(tape_gauge, any_mechanism_keeps_its_results) {
     }
     tell("any", &all);
     TEST_ASSERT_TRUE(all.lists > (int)cases / 2 && all.changed > (int)cases / 10);
-    TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* at states not used by the search */
+    TEST_ASSERT_TRUE(all.worse <= all.changed / 20); /* for states that the search did not use */
     TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
 }
 

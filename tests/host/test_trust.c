@@ -170,7 +170,7 @@ TEST(trust_scenes, steps_and_methods_that_are_too_coarse) {
     }
 }
 
-/* Round-off of float, and the error of tables, for any tolerance. */
+/* Horizons that the round-off of float or the error of tables limits, for any tolerance. */
 TEST(trust_scenes, rounding_and_tables) {
     static const double tolerances[] = {1e-4, 3e-6, 3e-7};
     static const horizons_setting settings[] = {

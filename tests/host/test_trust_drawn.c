@@ -162,7 +162,7 @@ TEST(trust_drawn, drawn_mechanisms) {
         horizons h = horizons_of(text, "s", s.how, HORIZON_TOLERANCE);
         char what[60] = "";
         sscanf(text, "mechanism drawn \"%59[^\"]", what);
-        if (h.known >= 0.05) { /* the references disagree: no truth */
+        if (h.known >= 0.05) { /* the references disagree, so no truth is known */
             beyond++;
         } else if (h.estimate.to_the_end && h.true_until_s >= h.doubling->end_s) {
             regular++; /* run and estimate are accurate to the end */

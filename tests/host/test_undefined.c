@@ -86,7 +86,7 @@ static void state(trial *t, const char *form, dice *d) {
 
 static void make(trial *t, dice *d) {
     const double v = dice_between(d, 0.3, 2.0);
-    const double c = dice_between(d, 0.2, 1.5) * v; /* then x reaches c after 0.2 to 1.5 s */
+    const double c = dice_between(d, 0.2, 1.5) * v; /* x reaches c after 0.2 to 1.5 s */
     unsigned form = dice_one_of(d, t->is_float ? FORMS_IN_FLOAT : FORMS);
     if (t->victim == CONDITION_AND || t->victim == CONDITION_OR) {
         form += form == 1; /* a condition may compare with infinity */

@@ -260,7 +260,7 @@ TEST(units, dimensions_are_written_in_their_usual_units) {
     for (int of_si = 0; of_si < 3 * DEFINITIONS * DEFINITIONS; of_si++) {
         const definition *a = &definitions[of_si % DEFINITIONS];
         const definition *b = &definitions[of_si / DEFINITIONS % DEFINITIONS];
-        const int sign = of_si / DEFINITIONS / DEFINITIONS - 1; /* a/b, a or a*b */
+        const int sign = of_si / DEFINITIONS / DEFINITIONS - 1; /* -1: a/b; 0: a; 1: a*b */
         const dimension dim = dim_of(a->m + sign * b->m, a->kg + sign * b->kg, a->s + sign * b->s,
                                      a->A + sign * b->A, a->K + sign * b->K);
         for (int k = 0; k < 2 && !dim_is_none(dim); k++) {

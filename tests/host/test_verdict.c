@@ -61,7 +61,7 @@ static void draw(dice *d, unsigned shape, char text[TEXT]) {
                  "scene s { start x = 1 [m], y' = %.12g [rad/s]\nstep 10 [ms]\nuntil 5 [s] }\n",
                  pow(10.0, dice_between(d, 0.0, 5.0)));
         break;
-    case 5: /* far from the origin */
+    case 5: /* a spring far from the origin */
         snprintf(text, TEXT,
                  "mechanism m\ncoordinate x [m]\nparameter p = 1\nparameter D = %.12g [m]\n"
                  "T = 1 [kg]*x'^2/2\nV = 100 [N/m]*(x - D)^2/2\n"
@@ -569,7 +569,7 @@ TEST(verdict, looks_take_what_they_may) {
     expect_cost("cuff_equal", 0.004);
     expect_cost("tests/reference/stack.whirl", 0.2);
     expect_cost("tests/reference/stack.whirl", 1.0);
-    TEST_ASSERT_TRUE(total > 0.5); /* the balls use more than half of the limit */
+    TEST_ASSERT_TRUE(total > 0.5); /* the stack uses more than half of the limit */
     TEST_ASSERT_TRUE(each_builtin_scene(built_in) > 60);
     TEST_ASSERT_TRUE(of_files("docs/*/*.whirl") + of_files("tests/mechanisms/*.whirl") > 35);
     printf("  looks: at most %.2f of what they may take\n", total);
