@@ -17,7 +17,7 @@ enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
 /* A hold's expression is meant to be zero at the start if its value is below this part of the sum of its terms' sizes. */
 #define OFF_MOST 0.5
-/* The conditions of holds are evaluated at this share of a step after the start, because one at its limit may become false. */
+/* The conditions of holds are evaluated at this share of a step after the start, because a condition may end at once. */
 #define SOON 1e-6
 
 typedef struct apart {

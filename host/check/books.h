@@ -67,11 +67,11 @@ typedef struct books {
     double kept_J;      /* residual at the last even step */
     double most_J;      /* largest size of the residual at an even step */
     double jump_J;      /* largest change of the residual between two even steps */
-    double jump_s;      /* end of the two steps with that change, s */
+    double jump_s;      /* end of the two steps with the change jump_J, s */
     bool negative;      /* the kinetic energy was negative, which no masses allow */
     double negative_s;  /* when the kinetic energy was first negative, s */
     bool undefined;     /* an energy, a power or a momentum was not a finite number */
-    double undefined_s; /* time of the first such number, s */
+    double undefined_s; /* time of the first energy, power or momentum that was not finite, s */
     uint64_t entries;
     double time_s; /* time of the last entry, s */
     double step_s;

@@ -42,7 +42,7 @@ typedef struct energy_residual {
     double contacts_J;
     double left_J;     /* residual, signed: energy.left */
     double largest_J;  /* the largest entry, or the least value that round-off allows for it */
-    bool rounded;      /* largest_J is that least value */
+    bool rounded;      /* largest_J is the least value that round-off allows */
     double rounding_J; /* round-off of all steps, and of the evaluation of the energy */
     double ratio;      /* |left| / largest, >= 0; infinite for a residual without entries */
     bool stabilized;   /* the steps gave energy back (--stabilized) */
@@ -66,7 +66,7 @@ typedef enum giver {
     GIVER_FORCE,    /* a statement Q */
     GIVER_DAMPER,   /* a statement F */
     GIVER_CONTACT,
-    GIVER_INPUT, /* changes of an input that the energies name */
+    GIVER_INPUT, /* changes of an input that occurs in the energies */
     GIVER_STEPS  /* corrections of the drift (--stabilized) */
 } giver;
 

@@ -35,7 +35,7 @@ typedef struct horizon {
     horizon_column *column; /* [of->columns]; entry 0, the time, is unused */
     bool to_the_end;        /* all columns are accurate to the end */
     int first;              /* the column whose accuracy ends first; -1: none before the end */
-    double until_s;         /* that column's until_s, or the end */
+    double until_s;         /* until_s of the column `first`, or the end of the run */
 } horizon;
 
 horizon horizon_of(const step_doubling *t, double tolerance);

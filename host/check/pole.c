@@ -361,7 +361,7 @@ int pole_on(const pole_way *w) {
 typedef struct divisor {
     /* index in the list of diagnostic expressions; if `derived`, an operation of the list for the energy balance */
     int node;
-    bool of_a_tan; /* the cosine of a tangent's argument: it changes its sign at the pole */
+    bool of_a_tan; /* true: the divisor is the cosine of a tangent's argument */
     bool derived;
     bool leaps;    /* an event may change the value abruptly */
     bool bends;    /* the value is nonlinear in the state, and may touch zero */
@@ -662,7 +662,7 @@ static int denominators_question(const denominators *d, int value) {
 
 /* === step by step ================================================================================ */
 
-/* At distances below this part of a component's value, expressions are only round-off, and are not tested. */
+/* Smallest tested distance from a place, as a part of a component's value. Nearer values are only round-off. */
 #define RESOLVED 2e-13
 
 struct pole_crossing {

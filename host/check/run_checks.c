@@ -205,7 +205,7 @@ static bool is_sudden(const run_checks *v, int k, double until_s, double early_s
            early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
 }
 
-/* The column whose error comes first, among those with an error for which is() is true; -1: none. *until_s: its time. */
+/* The column whose error comes first, of the columns for which is() is true; -1: none. *until_s: time of that error. */
 static int first_with(const run_checks *v, double tolerance, double early_tolerance,
                       bool (*is)(const run_checks *v, int k, double until_s, double early_s),
                       double *until_s) {

@@ -33,7 +33,7 @@ typedef struct run_checks {
     step_doubling *doubling;
     uint64_t overruns;                       /* steps with too many events */
     double overran_s;                        /* begin of the first step with too many events */
-    uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in these overruns */
+    uint64_t in_overruns[WH_CONTACTS_LIMIT]; /* events of each contact in the overruns */
     double taken_J;  /* sum of the sizes of the energy changes in steps with too many events */
     double energy_J; /* the energy after the last step */
     energy_residual balance; /* set by run_checks_end(), like `found` and `warned` */

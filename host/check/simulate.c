@@ -45,7 +45,7 @@ typedef struct simulation {
     diags *undefined; /* errors about energies and outputs that were not finite */
     bool energies_told;
     int output;           /* the first output that was not a finite number, or -1 */
-    double output_s;      /* time when it was first not finite */
+    double output_s;      /* time when an output was first not finite */
     double trusted_s;     /* the plot is shaded after this time; below or at 0: no shade */
     uint64_t output_rows; /* number of records and points in which an output was not finite */
 } simulation;

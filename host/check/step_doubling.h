@@ -67,8 +67,8 @@ typedef struct step_doubling_column {
 /* Forcing that aliases with the step (horizon.h). */
 typedef struct step_doubling_aliased {
     int column;   /* the column with the largest difference; 0: no aliasing */
-    double at_s;  /* the time of that difference */
-    double part;  /* the difference, divided by the column's range */
+    double at_s;  /* the time of the largest difference */
+    double part;  /* the largest difference, divided by the column's range */
     double value; /* the run's value, in the column's unit */
     double other; /* the value of a run with the step step_s */
     double step_s;

@@ -20,7 +20,7 @@
 enum {
     SHOWS = 1,
     FOLDS = 2,  /* prints values instead of names (--folded) */
-    NAMED = 4,  /* its code contains the scene's name (--name) */
+    NAMED = 4,  /* the code contains the scene's name (--name) */
     HEADED = 8, /* has a header (--header) */
     RUNS = 16   /* steps the scene: momenta, method and number type matter */
 };

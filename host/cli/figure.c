@@ -225,7 +225,7 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
                      figure_data *data) {
     char folder[] = "/tmp/whirl-figure-XXXXXX";
     static char csv_word[] = "--csv";
-    static char strict_word[] = "--strict=off"; /* warnings are printed in any case */
+    static char strict_word[] = "--strict=off"; /* findings are only printed */
     if (kind[0] == 't') {
         fprintf(stderr,
                 "whirl figure: error: the records '%s' come from mk/figures/%s, which whirl cannot "

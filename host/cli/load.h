@@ -70,7 +70,7 @@ typedef struct load_request {
 
 typedef struct loaded {
     image *image;
-    instance *instance;   /* NULL unless stored; equations have their own */
+    instance *instance;   /* NULL unless stored; equations have their own instance */
     equations *equations; /* NULL unless stored */
     char *hint;           /* for a valid model that could be written better; or NULL */
     char *contacts; /* contacts in words, whole lines; "" without contacts, or if not requested */

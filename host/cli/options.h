@@ -184,7 +184,7 @@ typedef struct own_option {
 
 typedef struct target_reader {
     const char *command;
-    const command_usage *usage; /* the command accepts the common options of its groups */
+    const command_usage *usage; /* names the groups of common options that are accepted */
     const own_option *table;    /* own options, ended by one without a word; or NULL */
     char **many;                /* gets all targets, for a command that takes several; else NULL */
     int *many_count;

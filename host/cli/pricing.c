@@ -27,7 +27,7 @@ typedef struct pricing_command {
     const char *name;   /* "price" */
     unsigned bit;       /* PRICING_PRICE or PRICING_CHOOSE */
     const char *head;   /* head of the help text */
-    const char *failed; /* why its exit status may be 1 */
+    const char *failed; /* why the command's exit status may be 1 */
     int (*run)(pricing *p);
 } pricing_command;
 

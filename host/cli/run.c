@@ -225,7 +225,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     return simulation_status(result, &trust);
 }
 
-/* The model; with --error also the step and its description, to be freed. */
+/* Opens the model. With --error, also chooses *step, and describes it in *chosen; both to be freed. */
 static int open_source(run_options *o, source_model *from, char **step, char **chosen) {
     if (o->error == NULL) {
         return source_open(from, o->target);

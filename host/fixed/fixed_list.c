@@ -442,8 +442,7 @@ static enclosure leaf_of(const hull *h, enclosure range) {
     return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-/* Encloses the sines of all angles in `a`, tighter than enclosure_sine() of a whole cell. SINE_OFF covers
- * round-off. */
+/* Encloses the sines of all angles in `a`, more tightly than enclosure_sine() does. SINE_OFF covers round-off. */
 static enclosure sines(enclosure a, double ahead_rad) {
     a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
     const double one = number_sine(a.low);

@@ -122,7 +122,7 @@ typedef struct image_quantity {
     const char *text; /* the description in quotes, or "" */
     image_unit unit;
     double value; /* SI; 0 for an output */
-    place at;     /* place of its declaration */
+    place at;     /* place of the declaration */
 } image_quantity;
 
 typedef struct image_effect {
@@ -142,7 +142,7 @@ typedef struct image_unknown {
     bool driven;             /* the unknown follows an input with a rate, and has no momentum */
     int order;               /* order of the highest derivative */
     image_unit *unit;        /* [order + 1] of the value, the rate, ... */
-    const char *momentum_si; /* unit of its momentum */
+    const char *momentum_si; /* unit of the unknown's momentum */
     int starts;              /* number of start values: the order, but at least 2 */
     double *start;           /* [starts] value, rate, ... */
     place *start_at;         /* [starts] place of the value; no source for a default */

@@ -84,7 +84,7 @@ typedef enum op_kind {
     OP_IS_WAVE,   /* a is a phase */
     OP_IS_UNARY,  /* a is an operation */
     OP_IS_BINARY, /* a and b are operations */
-    OP_IS_CALL,   /* a is an operation; b is one, or -1 */
+    OP_IS_CALL,   /* a is an operation; b is an operation or -1 */
     OP_IS_CELL,   /* neither a nor b is an operation */
     OP_IS_LOOKUP  /* a is a cell */
 } op_kind;

@@ -63,7 +63,7 @@ typedef struct unknowns {
     const op_list *of;
     /* [2 * count] column of operand a (at 2 i) and b (at 2 i + 1) of operation i; 0: none */
     int *column;
-    int *place; /* [columns] index in column[] of each column that belongs to an operand */
+    int *place; /* [columns] the operand of each column, as an index in column[] */
     int columns;
 } unknowns;
 
@@ -220,8 +220,8 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* Returns the conditions on sums of rows of `all`: raw values are multiplied only at the chosen uses, and a value has
- * the same factor at each of these. */
+/* Returns conditions on sums of rows of `all`: a raw value is multiplied only at its chosen uses, and by the same factor at
+ * each. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;
@@ -606,7 +606,7 @@ enum {
     SEVENS = 1,
     REALS = 512,      /* number of tried factors between one and two */
     VANISHING = 24,   /* number of tried factors that turn a constant into one */
-    ROUNDS = 3,       /* each starts from the result of the previous one */
+    ROUNDS = 3,       /* most rounds; each starts from the result of the previous round */
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 

@@ -19,7 +19,7 @@ enum { OP_LIST_REGISTERS = 20 };
  * order. */
 typedef struct op_list_needs {
     const op_list *t;
-    int *before; /* [t->count]: for a phase the previous one; else -1 */
+    int *before; /* [t->count]: for a phase, the previous phase; else -1 */
     bool *given; /* [t->count]: needs no computation */
     int *first;  /* [t->count + 1]: index in user[] of the first user; users are in order */
     int *user;
@@ -98,7 +98,7 @@ static void op_list_needs_free(op_list_needs *n) {
 typedef struct wanted {
     int *first; /* [ops + 1]: index in time[] of the first use of each value */
     int *time;  /* positions in the sequence that use the value; a result is used after the end */
-    int *next;  /* [ops]: index of the next time */
+    int *next;  /* [ops]: index in time[] of the next use */
 } wanted;
 
 /* Notes that value v is used at `time`: the first pass counts the uses, the second one stores the times. */
@@ -372,7 +372,7 @@ typedef struct placing {
     const op_list *t;
     const op_list_needs *needs; /* NULL: an operation follows only its operands */
     int *order;                 /* [ops]: operation at each position */
-    int *number;                /* [ops]: its position, or -1 */
+    int *number;                /* [ops]: position of each operation, or -1 */
     int count;
 } placing;
 

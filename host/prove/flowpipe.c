@@ -197,7 +197,7 @@ static void longest(const zonotope *z, double *columns, double *radii) {
     free(length);
 }
 
-/* Computes the extent of the generators from `from` on along each row of the inverse axes. */
+/* Computes the extent along each row of the inverse axes, of the generators from number `from` on. */
 static void reach(const zonotope *z, const enclosure *inverse, int from, double *radius) {
     const int n = z->n;
     for (int i = 0; i < n; i++) {
@@ -365,7 +365,7 @@ struct flowpipe {
     zonotope *off;    /* deviation from the centre */
     enclosure *box;   /* [states] box of x along the state axes */
     double *axes;     /* [states * states] axes that turn with the motion */
-    enclosure *along; /* [states] box of the deviation along these axes */
+    enclosure *along; /* [states] box of the deviation along `axes` */
     enclosure *turn;  /* [first + 1][states * states] the derivatives' coefficients times axes */
     enclosure *stay;  /* [states] box that contains the motion during the whole step */
     double *largest;  /* [states] */
@@ -590,7 +590,7 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     zonotope_map(t->off, slope, left);
     zonotope_box(t->off, t->box);
     t->products +=
-        2.0 * (double)n * (double)n * (double)t->off->count; /* with those of flowpipe_open() */
+        2.0 * (double)n * (double)n * (double)t->off->count; /* and flowpipe_open()'s products */
     for (int i = 0; i < n; i++) {
         /* the derivatives must hold on the whole segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);

@@ -38,7 +38,7 @@ static void add_product(enclosure *to, enclosure a, enclosure b) {
     }
 }
 
-/* to += number a */
+/* to += number * a */
 static void dual_add_multiple(enclosure *to, enclosure number, const enclosure *a, int width) {
     for (int j = 0; j < width; j++) {
         add_product(&to[j], number, a[j]);

@@ -8,8 +8,8 @@
 
 typedef struct taylor {
     const exact_motion *motion;
-    int order;        /* coefficients 0 to this one are computed */
-    int slopes_to;    /* coefficients 0 to this one have derivatives; -1: none */
+    int order;        /* order of the highest computed coefficient */
+    int slopes_to;    /* order of the highest coefficient with derivatives; -1: none */
     int width;        /* entries of a coefficient: 1, or 1 + states with slopes */
     enclosure *value; /* [nodes][order + 1][width] */
 } taylor;

@@ -51,7 +51,7 @@ typedef struct cost_board {
     /* name of its folder in boards/, or "host" for this kind of machine (x86-64) */
     const char *name;
     const char *core; /* "Cortex-M4F" */
-    bool fpu;         /* it computes float in hardware */
+    bool fpu;         /* the core computes float in hardware */
     /* the source of its cycles; with COST_RANGE an instruction takes cycles_least to cycles_most */
     cost_basis cycles;
     double cycles_least; /* COST_RANGE only, else 0 */
@@ -103,8 +103,8 @@ typedef enum cost_class { COST_CLASS_ROWS(COST_CLASS_ID) COST_CLASSES } cost_cla
 #undef COST_CLASS_ID
 
 typedef struct cost_counts {
-    double run[COST_CLASSES];  /* times that a step executes it */
-    double code[COST_CLASSES]; /* times that the firmware contains it */
+    double run[COST_CLASSES];  /* number of executions in a step */
+    double code[COST_CLASSES]; /* number of copies in the firmware */
 } cost_counts;
 
 /* For COST_FIXED the image must contain its step in fixed point (image.h, `fixed`). */

@@ -37,7 +37,7 @@ typedef struct table_row {
     cost cost;
     counted_run run;
     table_price price;
-    bool counted;  /* its cost was counted, not predicted */
+    bool counted;  /* the row's cost was counted, not predicted */
     bool on_front; /* no row with at most this price has a smaller error */
 } table_row;
 

@@ -77,7 +77,7 @@ typedef struct deviation {
     /* the run reached the end with errors below give_up and without clamped values */
     bool usable;
     double error; /* largest error of all records; if unusable, of the records before the stop */
-    int column;   /* the column with that error */
+    int column;   /* the column with the largest error */
     double known; /* the reference's error in that column; a deviation near it is only a bound */
     double operations;  /* operations of the lists that were evaluated */
     double evaluations; /* evaluations of the accelerations or the matrix, per simulated second */

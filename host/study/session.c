@@ -476,7 +476,7 @@ typedef struct sitting {
     int described;                  /* number of failures that were described */
     uint64_t ran;                   /* number of points that ran in this session */
     uint64_t found[FINDINGS];       /* number of points with each finding */
-    uint64_t found_first[FINDINGS]; /* the first of these points */
+    uint64_t found_first[FINDINGS]; /* the first point with each finding */
     uint64_t unlooked_points;       /* points that were not checked for some finding */
     unsigned unlooked;              /* bits: findings that were not checked */
     unsigned warned;

@@ -68,7 +68,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
 
 typedef struct progress {
     FILE *out;     /* NULL: no progress */
-    uint64_t from; /* points done before it began */
+    uint64_t from; /* points done before the progress began */
     uint64_t end;
     double start_s;
     double shown_s;

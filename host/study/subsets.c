@@ -105,7 +105,7 @@ typedef struct lane {
     image *image;
     records *records;
     vector_field *field;
-    void *run; /* NULL: it has ended */
+    void *run; /* NULL: the run has ended */
 } lane;
 
 static lane lane_open(const subsets *s, subset *of) {

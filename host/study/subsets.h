@@ -51,8 +51,8 @@ void subsets_close(subsets *s);
  * diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
-/* Runs scenes without some of the effects that acted: all combinations. If there are too many (*greedy), effects are left out
- * one after another. Returns the subset that keeps the limits with the fewest effects; of several, the cheapest. */
+/* Runs scenes without some of the effects that acted, in all combinations; *greedy: there are too many, so effects are left
+ * out one after another. Returns the subset that keeps the limits with the fewest effects; of several, the cheapest. */
 const subset *subsets_smallest(subsets *s, bool *greedy);
 
 #endif

@@ -505,7 +505,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
             return (trial_result){.ran = false};
         }
         deviation_of_what what = t->what;
-        if (what.column >= 0) { /* give_up is then in the column's unit */
+        if (what.column >= 0) { /* for one column, give_up is in the column's unit */
             what.give_up =
                 number_most(t->tolerated, USABLE * t->reference[p]->column[what.column].largest);
         }

@@ -94,7 +94,7 @@ typedef struct trial_planned {
 typedef struct trials {
     trial_request request;
     int points;    /* number of the source's points with motion; all points if there is no motion */
-    int *place;    /* [points] their numbers in the source */
+    int *place;    /* [points] number of each point in the source */
     char *still;   /* the options of the omitted points: " --set M=0,"; or NULL */
     image **image; /* [points] images of the references */
     reference **reference;  /* [points] */
