@@ -13,8 +13,8 @@ static void add_words(wh_text *text, const char *words, char blank) {
     }
 }
 
-/* Adds a number with seven significant digits, because a float has no more, but at most eight decimals. A user can type
- * the text (line.h reads nine digits). */
+/* Adds a number with seven significant digits, as many as a float has, but at most eight decimals. A user can type the
+ * text (line.h reads nine digits). */
 static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
     wh_real size = WH_ABS(number);

@@ -84,8 +84,7 @@ static wh_real units(const wh_conf_row *row) {
     return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
 
-/* The type of a setting's member in the configuration follows from the setting's kind; all members except reals are
- * whole numbers. */
+/* The setting's kind determines the type of its member in the configuration: a real, or a kind of whole number. */
 static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     const wh_conf_row *row = ROW(id);
     const void *member = (const uint8_t *)c + row->place;
@@ -335,7 +334,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-/* For settings that change several members: sets value[] to the values of the program's own configuration. */
+/* Computes value[] of the settings that share members, from the values of these members. */
 static void see_several(wh_real *value) {
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];

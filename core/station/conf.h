@@ -80,14 +80,14 @@ const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
 wh_conf_id wh_conf_find(const char *name);
 
-/* Return the setting's name; the words for its values, and its unit, as items of lists (answer.h); and its
- * description. */
+/* wh_conf_name() and wh_conf_words() return the setting's name and description. The other two return the words for its
+ * values, and its unit, as items of lists (answer.h). */
 const char *wh_conf_name(wh_conf_id id);
 const char *wh_conf_kind_text(wh_conf_id id);
 const char *wh_conf_unit_text(wh_conf_id id);
 const char *wh_conf_words(wh_conf_id id);
 
-/* Set a setting to a value in its unit (for a choice: the value's number); the next function sets it from typed text.
+/* Set a setting to a value in its unit (for a choice: the value's number); wh_conf_type() sets it from typed text.
  * Updates the configuration, unless the value is refused. Call it only while the rig is idle. */
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
 wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);

@@ -18,8 +18,8 @@
                      "|" \
                      "always")
 
-/* X(unit, word, number). First come the units that need a conversion: one unit of the configuration has `number` of
- * them. Then come the units of the configuration itself. */
+/* X(unit, word, number). First come the units that need a conversion: `number` of them are one unit of the
+ * configuration. Then come the units of the configuration itself. */
 #define WH_CONF_SCALED_ROWS(X) \
     X(DEG, "deg", 57.29577951308232) \
     X(RPM, "rpm", 9.549296585513721) \

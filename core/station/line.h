@@ -13,7 +13,7 @@ extern "C" {
 
 typedef enum wh_line_event {
     WH_LINE_NOTHING,
-    WH_LINE_WHOLE, /* in line->text until the next line begins */
+    WH_LINE_WHOLE, /* line->text is complete, and stays until the next line begins */
     WH_LINE_BAD,   /* too long, or with an invalid character: dropped */
     WH_LINE_ESCAPE /* the Escape key: the characters typed so far are dropped */
 } wh_line_event;

@@ -49,8 +49,8 @@ static void send_answer(request *r, unsigned why) {
     send(r);
 }
 
-/* Posts an order; the console answers later, when the rig has answered. Like the function of every command, it returns
- * the reason for a refusal, or 0. */
+/* Posts an order to the rig; the console answers after the rig has answered. Returns the reason for a refusal, or 0, as
+ * the functions of all commands do. */
 static unsigned order(request *r, wh_rig_event event, wh_real value) {
     r->station->answers = r->rig->answers;
     r->station->waits = wh_rig_post(r->rig, event, value);
@@ -78,8 +78,8 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* Returns the time of the last step. Without wh_station_see() the time is unknown: the ages in answers then end at the
- * last step with the motor off. */
+/* Returns the time of the last step. Without wh_station_see() it is unknown: the answers then give a result's age as
+ * last counted by the rig. */
 static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
@@ -389,7 +389,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
-        return; /* the rig's next answer belongs to the order: at most one order waits */
+        return; /* wait: the rig's next answer must belong to this order */
     }
     wh_text_add(&r.answer, "OK");
     if (station->escaped) {

@@ -82,7 +82,7 @@ typedef struct wh_station {
     unsigned stage;              /* the stage that was reported last */
     uint32_t lost_bytes;         /* number of received bytes that were lost for lack of room */
     uint32_t lost_answers;       /* number of answers that were lost for lack of room */
-    bool host_told; /* the command `host` was given: host_steps counts, not the setting `host` */
+    bool host_told; /* the command `host` was given: its host_steps count, not the setting `host` */
     /* the host is lost after this many steps without a byte; 0: never */
     uint32_t host_steps;
     uint32_t silent_steps;
@@ -99,8 +99,8 @@ typedef struct wh_station {
 #define wh_station_see WH_NAME(wh_station_see)
 #define wh_station_step WH_NAME(wh_station_step)
 
-/* Start. `steps_per_s` is the rate of wh_station_step(). At first no host is expected, so none can be lost. Afterwards
- * the caller sets conf and tel. */
+/* Start. `steps_per_s` is the rate of wh_station_step(). At first no host is expected, so none can be lost. After this
+ * call the caller sets conf and tel. */
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 

@@ -483,7 +483,7 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     return WH_STATION_FINE;
 }
 
-/* X(what, word): the requests of one word; the second list has those with an argument. */
+/* X(what, word): ALONE_ROWS has the requests of one word, WITH_ROWS those with an argument. */
 #define ALONE_ROWS(X) X(ALONE_LIST, "list") X(ALONE_OFF, "off") X(ALONE_RING, "ring")
 #define WITH_ROWS(X) \
     X(WITH_SCHEMA, "schema") \

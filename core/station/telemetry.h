@@ -16,8 +16,8 @@
  *     event  one event, at `ticks`: a slot pulse, another state, a trip
  *     ring   the stored control steps around a trigger (below), ten in a frame
  *
- * Telemetry never waits, and takes none of the console's room: frames that do not fit its own part of the ring are
- * dropped. It is off at first. */
+ * Telemetry never waits. It fills only its own part of the ring, and drops frames that do not fit. It is off at
+ * first. */
 #ifndef WH_STATION_TELEMETRY_H
 #define WH_STATION_TELEMETRY_H
 
