@@ -32,7 +32,7 @@ read_back parse_back(const char *const *formulas, int count);
 void drop_back(read_back *b);
 double back_value(const read_back *b, int which, const state *s);
 
-/* The expected value of a formula at a state. *size: the size of its terms. */
+/* The expected value of a formula at a state. *size: the sum of its absolute terms. */
 typedef struct quantity {
     double (*value)(const struct quantity *of, const state *at, double *size);
     algebra *algebra;

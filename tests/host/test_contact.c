@@ -70,7 +70,7 @@ static surface random_surface(uint64_t *seed, int coordinates, const double q[3]
     return s;
 }
 
-/* Writes a mechanism that depends on the seed `of` only, with a scene of this step and end time. Returns the scale
+/* Writes a mechanism that depends only on the seed `of`, with a scene of this step and end time. Returns the scale
  * of its energy balance in J: the energy at the start, without gravity and with springs at rest. */
 static double curved_text(uint64_t of, double step_s, double until_s, char *text, size_t size) {
     uint64_t seed = of * 0x9e3779b97f4a7c15U + 1U;

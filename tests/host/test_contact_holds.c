@@ -552,7 +552,7 @@ TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
     expect_between("z'", 1.0 - 1e-15, 1.0 + 1e-15, motion_value(&m, "z'"));
     m.kind->ledger(m.run, total, left);
     expect_between("energy residual", -1e-14, 1e-14, left[0]);
-    bool booked = false; /* does an entry have the lost 1 J, half of the energy? */
+    bool booked = false; /* is an entry the lost 1 J, half of the energy? */
     for (int i = 0; i < 64; i++) {
         booked = booked || fabs(total[i] + 1.0) < 1e-14;
     }

@@ -119,8 +119,7 @@ TEST(contact_moments, an_impact_that_is_over_within_the_step) {
         if (collide(&c, &floor_Ns) > 6) {
             continue;
         }
-        /* the pull lifts the body within the step, but so slowly that its flight is longer than one that counts as
-         * rest */
+        /* the pull lifts the body within the step, but so slowly that the flight is too long to count as rest */
         const double down = (1.0 + e) * u * mass[1] / (mass[0] + mass[1]);
         const double pull = random_between(&seed, 4.0, 10.0) * mass[0] * down / 1e-3;
         const char *const stops[] = {"stop low >= 0 restitution %.17g\n",
@@ -373,8 +372,8 @@ TEST(contact_squeezed, nothing_is_squeezed_through) { watch_many(run_row); }
 
 enum { WALLS_MOST = 5, CAGE_STEPS = 60 };
 
-/* A body with two coordinates and any mass matrix, between walls around the origin. Some have friction in both
- * directions. */
+/* A body with two coordinates and any mass matrix, between walls around the origin, without friction or with
+ * friction in both directions. */
 typedef struct cage {
     double mass_kg[3]; /* entries xx, xy and yy of the mass matrix */
     int walls;

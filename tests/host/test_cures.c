@@ -153,7 +153,7 @@ TEST(cures, cures_were_tried) {
             TEST_ASSERT_EQUAL_STRING_MESSAGE("", again.err, about);
             done++;
             if (r.kind == CLOCKED && r.number[0] == 'f' && !list[k].in_double) {
-                /* in float, rounding the clock's rate changes the large energy of the clock */
+                /* in float, the rounding of the clock's rate changes the clock's energy, which is large */
                 continue;
             }
             TEST_ASSERT_TRUE_MESSAGE(left < CURED, about);

@@ -43,7 +43,7 @@ static const wh_hello hello_faults = {.program = "bench",
                                       .signals = sizeof signals / sizeof signals[0]};
 enum { NOTES_AT = 2 };
 
-/* A made-up controller: its messages from the time said_s on, and its end. */
+/* A made-up controller: its messages from the time said_s on, and how it ends. */
 typedef struct made_up {
     double rpm;
     double swing_J;

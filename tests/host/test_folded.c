@@ -681,7 +681,7 @@ static double made_by(const maker *of, double part, long double *of_hard) {
 
 /* Writes how the soft spring is used, up to the scene's step. `soft` is its formula. */
 static void put_motion(FILE *out, const drawn *w, const char *soft) {
-    char part[200]; /* a factor that is 1 if no digits are lost */
+    char part[200]; /* this factor is 1 if no digits are lost */
     snprintf(part, sizeof part, "%s/(%.17g [N/m])", soft, w->soft_Npm);
     fputs("T = m*x'^2/2\n", out);
     switch (w->use) {

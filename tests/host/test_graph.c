@@ -34,7 +34,7 @@ typedef enum drawn_kind {
     DRAWN_EXP,   /* e^(u/4) */
     DRAWN_LOG,   /* log(2 + u^2) */
     DRAWN_POWER, /* (2 + u^2)^number */
-    DRAWN_WHOLE, /* u^number, a positive whole number */
+    DRAWN_WHOLE, /* u^number, with a positive integer */
     DRAWN_KINDS
 } drawn_kind;
 

@@ -152,7 +152,7 @@ TEST(map, springs_of_all_methods) {
     for (unsigned k = 0; k < cases; k++) {
         const wh_method method = rows[k % ROWS].method;
         const int order = rows[k % ROWS].order;
-        const bool must = order == 1 || order == 2; /* order 1 or 2: needs damping */
+        const bool must = order == 1 || order == 2; /* methods of order 1 and 2 need damping */
         const double zeta =
             order == 0 || (!must && dice_one_of(&d, 2) == 0) ? 0.0 : dice_between(&d, 0.1, 0.9);
         const double mass_kg = pow(10.0, dice_between(&d, -2.0, 2.0));

@@ -412,8 +412,8 @@ TEST(price_measured, choices_are_as_if_all_was_counted) {
 }
 
 /* === suite price_motion ======================================================================= */
-/* The reference (host/study/reference_run.h) is compared with closed forms and its order, and deviation_measure()
- * with a loop of the test. test_price_reference.c has long motions. */
+/* The reference (host/study/reference_run.h) is compared with closed forms, and its order is checked.
+ * deviation_measure() is compared with a loop of the test. test_price_reference.c has long motions. */
 
 static const char *const spring =
     "mechanism m\ncoordinate x [mm]\noutput twice [mm] = 2*x\nT = 1 [kg]*x'^2/2\n"

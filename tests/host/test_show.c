@@ -198,7 +198,7 @@ static int check_mechanism(int depth, uint64_t *seed) {
     TEST_ASSERT_NOT_NULL(source_text);
     expression_mechanism(depth, seed, source_text, TEXT_SIZE);
     derived d = derived_text(source_text);
-    if (d.equations == NULL) { /* for example because the mass matrix is never finite */
+    if (d.equations == NULL) { /* refused, for example because the mass matrix is never finite */
         TEST_ASSERT_TRUE_MESSAGE(strstr(d.errors, "finite") != NULL ||
                                      strstr(d.errors, "grow beyond") != NULL,
                                  d.errors);

@@ -16,16 +16,16 @@ enum {
 };
 
 enum {
-    GRAVITY = 1,  /* a force in V, along y */
-    ANCHOR = 2,   /* in V: pulls one x towards a point of the plane */
-    DRAG = 4,     /* a loss in F, of one y' */
-    DAMPER = 8,   /* in F, between two x', so no force from outside */
-    HAND = 16,    /* a force in Q: an input along one x */
-    COUPLE = 32,  /* in Q: an input pushes two x apart, so no force from outside */
+    GRAVITY = 1,  /* V: a force along y */
+    ANCHOR = 2,   /* V: pulls one x towards a point of the plane */
+    DRAG = 4,     /* F: a loss of one y' */
+    DAMPER = 8,   /* F: between two x', so no force from outside */
+    HAND = 16,    /* Q: an input pushes along one x */
+    COUPLE = 32,  /* Q: an input pushes two x apart, so no force from outside */
     WALL = 64,    /* a stop of one y */
     BUMPER = 128, /* a stop between two x, so no force from outside */
-    CENTRE = 256, /* in V: a spring from the origin, which allows rotations */
-    SLIDER = 512, /* in T: the sum of two x', so that a momentum depends on both rates */
+    CENTRE = 256, /* V: a spring from the origin, which allows rotations */
+    SLIDER = 512, /* T: the sum of two x', so that a momentum depends on both rates */
     KICK = 1024,  /* a crossing that sets one x' */
     PUT = 2048,   /* a crossing that sets one x */
     KINDS = 12,
