@@ -169,7 +169,7 @@ static bool ended(const runner *r, const long double *state) {
     return false;
 }
 
-/* At an event, smaller gaps (m) and rates (m/s) are zero: bisection finds the event only to round-off. */
+/* At an event, smaller gaps (m) and rates (m/s) count as zero: bisection finds the event only to round-off. */
 #define NEAR 1e-9L
 
 /* The contacts with numbers member[count], as a problem for drawn_solved(). */

@@ -616,7 +616,7 @@ static void check_rest(stepping how, double height_most) {
 
 TEST(contact_stops, ball_comes_to_rest_and_stays_for_a_minute) {
     check_rest(IN_DOUBLE, 1e-6); /* 1e-6 m: the project's bound */
-    /* 450 sums in the first fall, each rounded by 2^-24 of 4.4 m/s, give 1.2e-4 m/s in v, and v/g times as much in
+    /* 450 sums in the first fall, each rounded by 2^-24 of 4.4 m/s: 1.2e-4 m/s in v, which gives 5.3e-5 m in
      * height */
     check_rest(IN_FLOAT, 5.3e-5);
 }

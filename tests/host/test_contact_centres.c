@@ -4,7 +4,7 @@
  *
  *   (J + m f'^2) a'' = torque - m f' f'' a'^2 - f' (m g + k (f + 2 e) + F sign(f' a'))
  *
- * The slider-crank has the inertia of its rod beside m f'^2; the rod turns by p with sin p = sin(a)/4. */
+ * The slider-crank has the inertia of its rod, in addition to m f'^2; the rod turns by p with sin p = sin(a)/4. */
 #include "command.h"
 #include "contacts.h"
 #include "derived.h"

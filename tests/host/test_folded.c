@@ -652,8 +652,8 @@ typedef struct drawn {
     char text[2000];
 } drawn;
 
-/* Returns the number with which the function in the formula of the spring gives about `part`. *of_hard: the exact
- * value for this number. */
+/* Returns the number for which the function in the spring's formula gives about `part`. *of_hard: the function's
+ * exact value for this number. */
 static double made_by(const maker *of, double part, long double *of_hard) {
     switch (of->by) {
     case OF_ANGLE: {
