@@ -49,8 +49,8 @@ WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
     return (int32_t)(((int64_t)a * b) >> 32);
 }
 
-/* 16-bit products: uu of two unsigned numbers, su of a signed and an unsigned one, ss of two signed ones. (For a C
- * expression whose operand is used again, avr-gcc would compute a 32-bit product.) */
+/* 16-bit products: uu of two unsigned numbers, su of a signed and an unsigned one, ss of two signed ones. (They are in
+ * assembly, because avr-gcc makes a 32-bit product of a C expression if an operand is used again.) */
 #if WH_FIXED_AVR
 WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) {
     uint32_t product;

@@ -70,9 +70,9 @@ static wh_real scaled(wh_real value, int bits) {
 
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated) {
     const wh_real number = scaled(value, format->bits);
-    const wh_real high = (wh_real)format->high; /* a float rounds ends above 2^24, by up to 64 */
+    const wh_real high = (wh_real)format->high; /* in float, rounded by up to 64 */
     const wh_real low = (wh_real)format->low;
-    const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* relative round-off of an end */
+    const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* relative round-off of high */
     if (!(number > low)) {
         *saturated += number >= low - (WH_R(1.0) + place * WH_ABS(low)) ? 0U : 1U;
         return format->low;

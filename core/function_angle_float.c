@@ -59,7 +59,7 @@ float wh_atan2(float y, float x) {
         const int32_t exponent = num.exponent - den.exponent - (num.size < den.size ? 1 : 0);
         arc = arc_of_tangent((wh_digits){wh_float_ratio(num.size, den.size), exponent});
     } else if (base == 0U) {
-        return wh_float_of_bits(sign); /* along the x axis */
+        return wh_float_of_bits(sign); /* the direction is that of the x axis */
     }
     return angle_sum(sign, base, steep != behind, arc);
 }

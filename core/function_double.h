@@ -16,8 +16,7 @@ typedef struct wh_pair {
     double low;
 } wh_pair;
 
-/* The sum a + b without round-off: wh_pair_of() for |a| >= |b|, the next function for any two numbers (Dekker,
- * Knuth). */
+/* The sum a + b without round-off: wh_pair_of() for |a| >= |b|, wh_pair_sum() for any two numbers (Dekker, Knuth). */
 WH_INLINE wh_pair wh_pair_of(double a, double b) {
     const double sum = a + b;
     return (wh_pair){sum, b - (sum - a)};

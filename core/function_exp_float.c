@@ -116,7 +116,7 @@ static uint32_t wholeness(uint32_t magnitude) {
     }
     const uint32_t digits = (magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000);
     const uint32_t behind = digits
-                            /* beginning with the last digit before the point */
+                            /* the top bit is the last digit before the point */
                             << (exponent - 119U);
     return (behind & ~WH_TOP_BIT) != 0U ? 0U : (behind != 0U ? 1U : 2U);
 }

@@ -6,7 +6,7 @@
 #if WH_DOUBLE
 
 #define LN2_HIGH \
-    0x1.62e42fefa4p-1 /* a multiple of 2^-40, like .high below: e LN2_HIGH + .high is exact */
+    0x1.62e42fefa4p-1 /* e LN2_HIGH + .high is exact, because both are multiples of 2^-40 */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
 /* The least m: m lies between this number and twice this number, which is 0.7109 less half a step of the table. */

@@ -14,7 +14,7 @@ static const uint32_t two_over_pi[] WH_FLASH = {
     UINT32_C(0xf534ddc0), UINT32_C(0xdb629599), UINT32_C(0x3c439041), UINT32_C(0xfe5163ab)};
 
 /* Subtracts the nearest whole number of quarter turns from a magnitude. Returns the size of the remainder in radians.
- * *odd is true if the number of quarter turns is odd, *below ifthe remainder is negative. */
+ * *odd is true if the number of quarter turns is odd, *below if the remainder is negative. */
 static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
     /* A float is `digits` times 2^(exponent - 150). Digits of 2/pi that contribute only multiples of two are
      * skipped. */

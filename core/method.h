@@ -23,7 +23,7 @@
  * .positions = b A; only such a method takes systems of first order. .positions and .rates share .parts, because the
  * sum for positions is a part of the sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
  *
- * Nystroem's methods use that rates move positions. Their .places gives the position of stage i:
+ * In Nystroem's methods, .places gives the position of stage i:
  *
  *     begin + c h q' + h^2/parts * sum_j share[j] a_j,     .places->reach[i] = {parts, {share...}}, c = .places->node[i],
  *

@@ -10,7 +10,7 @@ typedef struct wh_contact_attempt {
     wh_contact_state next;
     wh_real span;       /* length of the trial step, s; wh_contact_attempt_dipped() sets it */
     wh_margins margins; /* at `next` */
-    /* Bits: free stops that open at the end. Extrapolated back at this rate, the gap is negative at the begin. */
+    /* Bits: free stops that open at the end. Extrapolated back from there, the gap is negative at the begin. */
     unsigned leaving;
     unsigned dips; /* subset of `leaving`, as bits: open at both ends, perhaps closed in between */
     int fault;     /* if !sound: the component that left its bounds */

@@ -17,8 +17,8 @@
  * time is tested for a contradiction. The leaving contact is found by a ratio test along the null direction, as in the
  * pivoting of Keller and of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2).
  *
- * The combination of both is not proved to end. So the number of rounds is limited to 4 n + 1, and a step that reaches
- * this limit counts as an overrun.
+ * The pivoting with these tests is not proved to end. So the number of rounds is limited to 4 n + 1, and a step that
+ * reaches this limit counts as an overrun.
  *
  * Checked by: tests/core/test_contact_pivot.c. Its random problems, with and without redundant rows, stay below the
  * limit. */
@@ -135,8 +135,8 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
             w->rough[member[i]] += WH_ABS(row[c]) * size;
         }
     }
-    /* Round-off spreads from one contact to the next, through chains of bodies. No round amplifies it (Cauchy-Schwarz
-     * inequality). */
+    /* Round-off spreads from one contact to the next, through chains of bodies. This loop does not amplify it
+     * (Cauchy-Schwarz inequality). */
     for (unsigned round = 0; round < count; round++) {
         for (unsigned i = 0; i < count; i++) {
             for (unsigned l = 0; l < count; l++) {

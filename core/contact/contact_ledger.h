@@ -58,7 +58,7 @@ WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_wo
     }
 }
 
-/* Call this before a crossing's assignments with sign -1, and after them with sign 1. The difference of the accounts is
+/* Call this with sign -1 before a crossing's assignments, and with sign 1 after them. The difference of the accounts is
  * the crossing's entry. */
 static inline void wh_books_levels(const wh_contact_system *of, const wh_contact_work *w,
                                    const wh_contact_state *s, const wh_real *input, unsigned k,

@@ -149,8 +149,8 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
     m->all = all;
 }
 
-/* True if no event has happened and all values are finite. (No NaN is below zero, so without the second test a contact
- * with a NaN would never have an event again.) */
+/* True if no event has happened and all values are finite. (No NaN is below zero: without the test for finite values, a
+ * contact with a NaN would never have an event again.) */
 WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m) {
     bool calm = wh_finite(m->all);
     WH_UNROLL

@@ -220,7 +220,6 @@ static inline void wh_contact_project_rates(const wh_contact_system *of, const w
     }
 }
 
-/* Returns the frictions that stick, as bits. */
 WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -241,7 +240,7 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
 }
 
 /* If a gap is below minus WH_CONTACT_FAR times the sum of the magnitudes of its terms, the body is beyond the stop. If
- * the gap is above that share, the body has left the stop. Both can happen in a step with too many events. */
+ * the gap is above WH_CONTACT_FAR times that sum, the body has left the stop. */
 #define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {

@@ -7,7 +7,7 @@
  * complementarity problem with the active contacts, the captures another. Friction's normal force is finite and gives
  * no impulse.
  *
- * 2. Crossings assign their values, and the contacts that an assignment disturbs are revised.
+ * 2. Crossings make their assignments, and the contacts that an assignment disturbs are revised.
  *
  * 3. Accelerations: resting stops that would have to pull give way, and so do frictions beyond their limit, until all
  * forces are within their limits.

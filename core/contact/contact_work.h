@@ -39,7 +39,7 @@ typedef struct wh_contact_work {
     wh_real slack[WH_CONTACTS_MAX];
     /* Crossing that turned back: distance from zero beyond which the crossing has a sign again. */
     wh_real due[WH_CONTACTS_MAX];
-    /* Crossing whose sign is undecided: its value when the trial step began, or when it came to stand. */
+    /* Crossing whose sign is undecided: its value when the trial step began, or when the value stood still. */
     wh_real stood[WH_CONTACTS_MAX];
     wh_real came[WH_COORDS];       /* rates at the begin of the present moment */
     wh_real held[WH_CONTACTS_MAX]; /* values of the holds, indexed by wh_contact.first_set */

@@ -151,7 +151,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     const wh_real lead = way->rate_radps > WH_R(0.0) ? WH_R(0.0) : WH_R(2.0) * config->lead_rad;
     const wh_real off = wh_free_angle(stands(rotor, swing, sensor, lead) - way->q_rad);
     if (!(WH_ABS(off) < FAR_RAD)) {
-        if (swing->at < swing->first) { /* true if the rotor has not got over the top */
+        if (swing->at < swing->first) { /* the rotor did not get over the top */
             return false;
         }
         swing->strays++;

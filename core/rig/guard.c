@@ -35,7 +35,7 @@ void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}
 /* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
 #define BOUNCE_TICKS 60000U
 /* A turn is clearly slower if it takes longer than the turn before by this factor. In a swing only the last two
- * intervals are. */
+ * intervals are clearly slower. */
 #define LONGER WH_R(1.02)
 #define FASTER WH_R(1.01) /* for a trip: least gain of speed over successive faster turns */
 #define ALTERNATE_PAIR 4U /* alternating pulses that show two turns of a sensor */

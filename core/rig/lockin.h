@@ -49,7 +49,7 @@ extern "C" {
  * it is aliased, with a fifth of its amplitude. */
 #define WH_REPEATS_BINS 32U
 
-/* The evaluated harmonics. The second one serves to check the speed ripple (result.h). */
+/* The evaluated harmonics. (The second harmonic serves to check the speed ripple: result.h.) */
 #define WH_REPEATS_FIRST 3U
 #define WH_REPEATS_LAST 6U
 

@@ -29,7 +29,7 @@ void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks) {
     enter(run, WH_PHASE_OFF, now_ticks);
 }
 
-/* For this time after the loop has closed, the measured speed may jump, because the turn before is of the spin-up. */
+/* For this time after the loop has closed, the measured speed may jump, because the first turn is of the spin-up. */
 #define JUMP_S WH_R(0.5)
 
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks) {
@@ -124,7 +124,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
     see_turn(run, &scene->pulses->speed);
-    /* The speed is in the band if that of one turn is, or, if the pulses jitter, the mean of several turns. */
+    /* The speed is in the band if one turn's speed is, or, if the pulses jitter, the mean of several turns. */
     const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
     const wh_real mean_off = WH_ABS(run->mean_radps - run->target_radps);
     if (turn_off > config->settle_band_radps &&

@@ -41,7 +41,7 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (!pulses->speed.running || sensor >= WH_SPEED_SENSORS) {
         return;
     }
-    /* This is also true if a suspect came in between. */
+    /* This is also true if a suspect came between the last pulse and this one. */
     const bool same = sensor == pulses->last.pulse.sensor;
     const bool again = same && !pulses->suspects;
     const wh_real moved = same ? WH_RIG_TWO_PI : moved_rad[sensor];

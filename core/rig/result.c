@@ -150,9 +150,9 @@ static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_
     if (angle->ratios == 0) {
         return shared;
     }
-    /* The ratio follows from three pulses. If sensor 2 is at a quarter turn, the variances are 1, 9/16 and 1/16,
-     * together 1.625. On average half of the turns in the estimate of the ratio are also among the merged turns, and
-     * have the same pulses. */
+    /* The ratio follows from three pulses. If sensor 2 is at a quarter turn, their parts of the variance are 1, 9/16
+     * and 1/16, together 1.625. On average half of the turns in the estimate of the ratio are also among the merged
+     * turns, and have the same pulses. */
     const wh_real averaged =
         (wh_real)(angle->ratios < WH_TURN_ANGLE_PATIENCE ? angle->ratios : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_ratio);

@@ -83,7 +83,7 @@ typedef struct wh_turn_angle {
     /* Derivative of base_rad with respect to psi, at a fixed quadrature ratio. */
     wh_real base_per_lag;
     /* Derivative of base_rad with respect to a ripple that comes a quarter turn after that of E. The estimate from the
-     * quadrature ratio cannot distinguish it from E. */
+     * quadrature ratio cannot distinguish this ripple from E. */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
     wh_wave at_begin; /* sine and cosine of u at the begin of the turn and at sensor 2's pulse */
