@@ -77,7 +77,7 @@ float wh_cosh(float x) {
 /* Returns 1 - tanh x in units of 2^-32, for 1 <= x < 10: 2 e^-2x / (1 + e^-2x). */
 static uint32_t short_of_one(wh_digits x) {
     x.exponent++;
-    const wh_digits left = wh_float_exp2(0U - wh_float_octaves(x)); /* below 1/7 */
+    const wh_digits left = wh_float_exp2(0U - wh_float_octaves(x)); /* e^-2x, below 1/7 */
     const wh_digits more = {WH_TOP_BIT + (left.size >> -left.exponent), 0};
     const wh_digits inverse = wh_float_inverse(more);
     return wh_high(left.size, inverse.size) >> (-3 - left.exponent - inverse.exponent);

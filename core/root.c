@@ -65,7 +65,7 @@ static word root_of(word x) {
     const uint32_t scaled = x << 7;                                /* x * 2^30 */
     uint32_t r = (uint32_t)reciprocal_root[stretch] << 23;         /* 2^31/sqrt(x) */
     for (unsigned i = 0; i < 2; i++) {                             /* r' = r (3 - x r^2) / 2 */
-        const uint32_t x_r_r = high_half(scaled, high_half(r, r)); /* times 2^28 */
+        const uint32_t x_r_r = high_half(scaled, high_half(r, r)); /* x r^2 * 2^28 */
         r = high_half(r, ((UINT32_C(3) << 28) - x_r_r) << 2) << 1;
     }
     uint32_t root = high_half(scaled, r) >> 6;

@@ -231,7 +231,7 @@ static wh_swing_piece move(wh_swing *swing) {
 /* After a pulse: continues to the next one, or returns to the first passage and continues to the pulses before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
-    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* may wrap */
+    const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* -1 wraps to a large index */
     if (take(config, rotor, swing) && next < swing->kept) {
         swing->at = next;
     } else if (later && swing->first > 0) {

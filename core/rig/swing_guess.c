@@ -59,7 +59,7 @@ static wh_real first_time(const wh_swing *swing, wh_real root) {
            (WH_R(0.5) * WH_RIG_TWO_PI);
 }
 
-#define NEAR_TOP WH_R(1.5) /* 133 deg */
+#define NEAR_TOP WH_R(1.5) /* first_time() at an amplitude of 133 deg */
 
 void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing) {
     const wh_real root = guess_root(swing);
