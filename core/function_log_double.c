@@ -9,7 +9,7 @@
     0x1.62e42fefa4p-1 /* e LN2_HIGH + .high is exact, because both are multiples of 2^-40 */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
-/* The least m: m lies between this number and twice this number, which is 0.7109 less half a step of the table. */
+/* The least m, 0.7109 less half a step of the table. m lies between this number and twice this number. */
 #define LEAST_BITS UINT64_C(0x3fe6900000000000)
 
 typedef struct entry {

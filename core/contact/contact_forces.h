@@ -86,7 +86,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     }
     for (unsigned i = 0; i < count; i++) {
         const int pin = wh_contact_pin(of, member[i]);
-        if (pin >= 0) { /* 0, or NaN if the force is NaN */
+        if (pin >= 0) { /* the acceleration is 0, or NaN if the force is NaN */
             accel[pin] = lambda[i] - lambda[i];
         }
     }

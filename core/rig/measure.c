@@ -162,7 +162,7 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
 
 /* === the tare ================================================================================ */
 
-/* Largest variance of the triangular means of a rig at rest, as a factor of the samples' variance. For white noise the
+/* Variance of the triangular means that noise may cause, as a factor of the samples' variance. For white noise the
  * factor is 2/3 divided by the length of a block; four times that is allowed. */
 #define SLOW_NOISE (WH_R(8.0) / (WH_R(3.0) * (wh_real)WH_TARE_BLOCK))
 

@@ -24,7 +24,7 @@ extern "C" {
 
 typedef struct wh_tare_config {
     uint32_t samples; /* number of samples of a tare: at least 4 WH_TARE_BLOCK, for three means */
-    wh_real still_N;  /* largest standard deviation of slow motion at rest */
+    wh_real still_N;  /* largest standard deviation of slow motion at rest, besides noise */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
 

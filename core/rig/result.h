@@ -182,7 +182,7 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
                     const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured);
 
 /* Returns Student's factor, two-sided, for 95 %. The error is within 0.3 % for 2 or more degrees of freedom. Returns 0
- * for 0 degrees. */
+ * if `freedom` is 0. */
 wh_real wh_student(uint32_t freedom);
 
 const char *wh_why_text(wh_why why);
