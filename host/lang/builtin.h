@@ -15,7 +15,7 @@ struct builtin_model {
 extern const struct builtin_model builtin_models[];
 extern const size_t builtin_model_count;
 
-/* As builtin_models, for the descriptions of figures, mk/figures/NAME.fig (host/io/plot.h). */
+/* Like builtin_models, but the descriptions of figures, mk/figures/NAME.fig (host/io/plot.h). */
 extern const struct builtin_model builtin_figures[];
 extern const size_t builtin_figure_count;
 

@@ -17,9 +17,9 @@ static bool add_contact(parser *in, const contact_statement *made);
  *   both       := comparison { and comparison }
  *   comparison := sum (> | >= | < | <=) sum | ( condition )
  *
- * It becomes one expression, above zero if the condition is true: a > b is a - b, `and` is min, `or` is max. Only the
- * text after a closing parenthesis shows whether it enclosed a condition or the beginning of a sum. So the same
- * functions read both, and after the beginning of a sum they read its rest. NESTING_MAX bounds the recursion. */
+ * A condition becomes one expression, which is above zero if the condition is true: a > b is a - b, `and` is min, `or`
+ * is max. The same functions read conditions and sums, because only the text after a closing parenthesis shows whether
+ * it enclosed a condition or the beginning of a sum. NESTING_MAX bounds the recursion. */
 
 typedef struct reading {
     word_id statement; /* the statement, for hints */
@@ -88,7 +88,7 @@ static const expr *parse_comparison(parser *in, reading *how, bool *is_condition
     if (by == NULL) {
         return NULL;
     }
-    /* only the sign of a difference matters; without dimension, conditions on a length and a speed may be combined */
+    /* only the sign matters, and `and` may join conditions on a length and on a speed, so the dimension is dropped */
     expr *made = expr_new(in, by->op, by->at);
     *made = *by;
     made->dim = dim_none();
@@ -139,7 +139,7 @@ static const expr *parse_condition(parser *in, word_id statement) {
 
 static const char *form(void) { return word_row(WORD_WHEN)->form; }
 
-/* Reads the coordinate or rate to be set. *usable is false for another name (reported). */
+/* Reads the coordinate or rate to be set. *usable is false if the name is neither (reported). */
 static bool take_target(parser *in, const contact_statement *made, assignment *set, bool *usable) {
     char words[80];
     const token name = in->token;
@@ -253,7 +253,7 @@ static bool parse_block(parser *in, contact_statement *made) {
     return parser_end_statement(in, "the crossing");
 }
 
-/* Reads an optional direction. Returns false for another name, unless it is similar to a direction. */
+/* Reads an optional direction. Returns false if the name is not even similar to a direction (reported). */
 static bool take_direction(parser *in, contact_statement *made) {
     if (parser_is_word(in, WORD_RISING) || parser_is_word(in, WORD_FALLING)) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;

@@ -48,7 +48,7 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     return true;
 }
 
-/* Returns the symbol of the noisy output. All noises of an output, in whichever effect, share it. */
+/* Returns the symbol of the noisy output. All noises of one output share this symbol. */
 static const symbol *record_of(parser *in, const symbol *output) {
     const mechanism *inside = in->builder->made;
     for (int i = 0; i < inside->noise_count; i++) {
@@ -225,7 +225,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
     named *entry = made == NULL ? NULL : (named *)made;
     if (entry != NULL) {
         entry->is_open = true;
-        made->dim.unknown = true; /* until the dimension of its expression is known */
+        made->dim.unknown = true;
     }
     const expr *value = NULL;
     if (!parser_is_sign(in, '=')) {
@@ -246,14 +246,15 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         made->value = value;
         if (value != NULL) {
             made->dim = value->dim;
-            /* a named zero has a fixed dimension, except in a let */
+            /* a zero fits every dimension only as a literal or through a let */
             made->dim.any &= made->kind == SYM_LET;
         }
     }
     return value != NULL;
 }
 
-/* Reads `rate NAME` after an input's name or value: the input that is its derivative, perhaps declared later. */
+/* Reads an optional `rate NAME` after an input's name or value. NAME is the input that is the time derivative; it may
+ * be declared later. */
 static bool parse_rate(parser *in, symbol *made) {
     if (!parser_is_word(in, WORD_RATE) || (made != NULL && made->rate != NULL)) {
         return true;

@@ -27,8 +27,7 @@ static const expr *call(parser *in, function_id f, place at, const expr *a) {
     return a == NULL ? NULL : expr_call(in, f, at, a, NULL);
 }
 
-/* Builds a^n; NULL if the nesting is too deep (reported). Slopes contain negative powers instead of quotients,
- * because the derivative of a power keeps its base as one expression. */
+/* Builds a^n; NULL if the nesting is too deep (reported). Slopes have negative powers in place of quotients. */
 static const expr *power(parser *in, const expr *a, double n) {
     return a == NULL ? NULL : binary(in, EXPR_POW, a->at, a, number(in, a->at, n));
 }
@@ -50,7 +49,7 @@ static const expr *sum(parser *in, expr_op op, place at, const expr *a, const ex
     return expr_binary(in, op, at, a, b);
 }
 
-/* The derivative of a function of one argument u by u. NULL if it is 0, or if the nesting is too deep (reported). */
+/* The derivative of a function f(u) by u. NULL if it is 0, or if the nesting is too deep (reported). */
 static const expr *slope(parser *in, const expr *of) {
     const expr *u = of->left;
     const place at = of->at;
@@ -202,7 +201,7 @@ static bool derive(parser *in, const expr *of, const token *name, const expr **d
 }
 
 const symbol *let_rate(parser *in, const symbol *let, const token *name) {
-    named *entry = (named *)(uintptr_t)let; /* a symbol of the current mechanism */
+    named *entry = (named *)(uintptr_t)let; /* not const: the parser made the symbol */
     const expr *d = NULL;
     if (entry->rate != NULL) {
         return &entry->rate->symbol;
@@ -300,7 +299,7 @@ static bool is_rate(const mechanism *made, const symbol *s) {
     return is;
 }
 
-/* Adds the coordinate that moves in place of the input. */
+/* Adds the driven coordinate of an input with a rate. */
 static void drive(parser *in, mechanism *made, named *input) {
     named *coordinate = arena_alloc(in->arena, sizeof *coordinate);
     named *rate = (named *)input->symbol.rate;
@@ -318,8 +317,8 @@ static void drive(parser *in, mechanism *made, named *input) {
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }
 
-/* Finds an input without a rate in the expression or, if `rates`, an input that is a rate; NULL if there is none. Each
- * let is visited once. */
+/* Finds an input in the expression: if `rates`, an input that is a rate, otherwise an input without a rate. Returns
+ * NULL if there is none. Each let is visited once. */
 static const symbol *find_input(const mechanism *made, const expr *tree, bool rates, int mark) {
     if (tree == NULL || (tree->uses & USES_INPUT) == 0) {
         return NULL;
@@ -340,7 +339,8 @@ static const symbol *find_input(const mechanism *made, const expr *tree, bool ra
     return found != NULL ? found : find_input(made, tree->right, rates, mark);
 }
 
-/* Stops and holds must not contain a rate. In a hold, each input must have a rate: the hold fixes the value. */
+/* Checks that the expression of a stop or hold contains no rate. In a hold, each input must have a rate, because the
+ * hold fixes the expression's value. */
 static void check_contact(parser *in, const mechanism *made, const contact_statement *each,
                           int mark) {
     char hint[RATE_HINT_SIZE];

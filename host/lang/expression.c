@@ -222,7 +222,7 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
     case SYM_RECORD:
         made->uses = found->kind == SYM_OUTPUT ? USES_OUTPUT : 0;
         if (found->value != NULL) {
-            /* the name of a let stands for a quantity, so a let of plain numbers has a unit, too */
+            /* a let of plain numbers counts as having a unit: its name stands for a quantity */
             made->uses |= found->value->uses | (found->kind == SYM_LET ? USES_UNIT : 0);
             made->order = found->value->order;
             made->height = found->value->height + 1;
@@ -339,7 +339,6 @@ const symbol *find_coordinate(parser *in, const token *name, const char *whose) 
         return NULL;
     }
     if (found == NULL || found->symbol.kind == SYM_INPUT) {
-        /* otherwise the error was already reported */
         no_such_coordinate(in, name);
     }
     return NULL;

@@ -44,7 +44,7 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
 /* Reports a nonzero value without a unit at `at`, and returns false, if the declared unit of the symbol (or of its
  * derivative) is not SI. The current token must be the one after the value. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
-/* As check_unit(), for the limit `value` in a stop or a crossing, if `of` is a single symbol. */
+/* As check_unit(), for the limit `value` of a stop or a crossing. True if `of` is more than a single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 /* Writes the rule for check_dimension(), such as "SUBJECT is mass [kg]", to buffer[RULE_SIZE]. Returns `buffer`. */
 enum { RULE_SIZE = 300 };

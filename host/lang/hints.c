@@ -44,8 +44,8 @@ static double term_at(const term *of, const symbol *coordinate, valuation *known
     return value;
 }
 
-/* Does the force jump against the motion at rate 0? At a tenth of the rate, a jump keeps its size, but a smooth force
- * changes by a tenth. False if the force is not finite. */
+/* Does the force jump against the motion at rate 0? A jump keeps its size if the rate is a tenth; the change of a
+ * smooth force falls to a tenth. False if the force is not finite. */
 static bool opposes_at_rest(const term *of, valuation *known) {
     const symbol *own = of->coordinate;
     const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);
@@ -60,7 +60,8 @@ static double bend(const term *of, const symbol *coordinate, valuation *known, d
            2.0 * term_at(of, coordinate, known, 0.0);
 }
 
-/* Has F a kink at rate 0? At a tenth of the rate, a kink keeps a tenth of the bend, a smooth F a hundredth. */
+/* Has F a kink at rate 0? If the rate falls to a tenth, the bend of a kink falls to a tenth, that of a smooth F to a
+ * hundredth. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
     const double size = term_at(of, coordinate, known, 0.0);
     const double far = bend(of, coordinate, known, NEAR_REST);

@@ -4,9 +4,9 @@
 
 #include "model.h"
 
-/* Returns the first active Q or F that is dry friction without the statement `friction`, or NULL. *of is the coordinate
- * with the friction. Such a Q contains the sign of its coordinate's rate. At the start, it jumps against the motion
- * when this rate changes its sign. Such an F has a kink at rate 0. */
+/* Returns the first active Q or F that is dry friction without the statement `friction`, or NULL. Such a Q contains
+ * sign() of its coordinate's rate and jumps against the motion at rate 0. Such an F has a kink at rate 0. *of is the
+ * coordinate with the friction. */
 const term *hint_friction(const instance *made, const symbol **of);
 
 #endif

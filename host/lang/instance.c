@@ -30,7 +30,7 @@ const effect *instance_lacks(const instance *of, const symbol *what) {
 
 /* === ranges of contacts and of noise ========================================================== */
 
-/* Allowance for rounded decimals: 0.1 + 0.2 is not above 0.3, nor 0.3 - 0.2 - 0.1 below zero. */
+/* Allowance for round-off: 0.3 - 0.2 - 0.1 is -3e-17, but must pass as not below zero. */
 #define LAST_DIGITS 1e-15
 
 /* Returns the value at the start. NAN if it changes with the motion, or is not finite (reported). */
@@ -107,7 +107,7 @@ static void check_pairs(const instance *made, diags *all) {
     }
 }
 
-/* Reports an input of an inactive effect, in which case there is no such input. A scene may name it. */
+/* Reports an input of an effect that is not active: the run has no such input. */
 static void check_inputs(const instance *made, const expr *tree, diags *all) {
     if (tree == NULL) {
         return;

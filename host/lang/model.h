@@ -128,8 +128,10 @@ typedef struct assignment {
 /* One contact, handled inside the step (core/contact.h says how). */
 typedef struct contact_statement {
     contact_kind kind;
-    /* stop: left - right, >= 0 when apart (coordinates, no rates). hold: the expression whose rate is zero while the
-     * hold acts (coordinates, no rates). when: left - right (rates allowed). friction: NULL. */
+    /* stop: left - right (coordinates, no rates); >= 0 when apart
+     * hold: the expression whose rate is zero while the hold acts (coordinates, no rates)
+     * when: left - right (rates allowed)
+     * friction: NULL */
     const expr *value;
     const symbol *coordinate;    /* friction: the coordinate whose motion it opposes; else NULL */
     const expr *restitution;     /* stop: restitution, 0 to 1 */
@@ -248,7 +250,8 @@ typedef struct overrides {
     const char *const *values;
     int value_count; /* values of all symbols: the name decides between set and start */
     const char *const *with;
-    int with_count; /* effect names added, or "ledger"; "all" adds every effect */
+    /* values of all symbols: a parameter or input counts as --set, a coordinate or rate as --start */
+    int with_count;
     const char *const *without;
     /* Effect names removed. "all" is applied first. "conserve" removes the scene's conserve. */
     int without_count;
@@ -256,7 +259,7 @@ typedef struct overrides {
     const char *until; /* the end of the scene, or NULL */
     const char
         *name;    /* replaces the scene's or mechanism's name, or NULL; must outlive the instance */
-    bool balance; /* balance contacts during the run, also without `with ledger` */
+    bool balance; /* if the run has contacts, balance it, also without `with ledger` */
 } overrides;
 
 /* A range in SI numbers, with low < high. */
@@ -274,11 +277,12 @@ typedef struct instance {
     const char *name;   /* the scene's name, the mechanism's, or overrides.name */
     bool *with;         /* [effect_count] */
     const bool
-        *conserve;     /* [coordinate_count] recover this coordinate from its momentum, or NULL */
-    bool ledger;       /* record the balance of energy and momentum */
-    bool balance;      /* balance the run if it has contacts and the balance is possible */
-    double *parameter; /* [parameter_count] SI */
-    double *input;     /* [input_count] SI */
+        /* [coordinate_count] true: recover the coordinate from its momentum; NULL: none */
+        *conserve;
+    bool ledger;                  /* record the balance of energy and momentum */
+    bool balance;                 /* overrides.balance */
+    double *parameter;            /* [parameter_count] SI */
+    double *input;                /* [input_count] SI */
     const expr **parameter_given; /* expressions of the values */
     const expr **input_given;
     const expr ***start_given; /* NULL: not given, so the start is 0 */
@@ -310,8 +314,8 @@ const effect *instance_lacks(const instance *instance, const symbol *what);
  * Returns NULL after an error, reported to `diags`. */
 instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
                         diags *diags);
-/* A copy whose parameters, inputs and initial values are folded in the way of folding_way(). `first` must outlive the
- * copy. Returns NULL if a value is not finite. */
+/* A copy in which parameters, inputs and initial values are computed with the current folding_way(). `first` must
+ * outlive the copy. Returns NULL if a value is not finite. */
 instance *instance_again(const instance *first);
 void instance_free(instance *instance);
 

@@ -151,7 +151,7 @@ static bool has_unit(parser *in, place at, const expr *value, const symbol *of, 
     const char *text = at.source->text + at.offset;
     size_t length =
         (in->token.kind == TOKEN_END ? at.source->length : in->token.at.offset) - at.offset;
-    for (size_t i = 1; i < length; i++) { /* the low end of a range stops before ".." */
+    for (size_t i = 1; i < length; i++) { /* the low end of a range ends before the ".." */
         length = text[i - 1] == '.' && text[i] == '.' ? i - 1 : length;
     }
     while (length > 0 && strchr(" \t\r\n", text[length - 1]) != NULL) {

@@ -56,7 +56,7 @@ static const expr *parse_plain_quantity(parser *in) {
     return first.sign == '-' && first.kind == TOKEN_SIGN ? expr_negate(in, first.at, made) : made;
 }
 
-/* Reads the remaining text. A value of numbers without units is SI in the wanted dimension. */
+/* Reads the remaining text. If the value contains no unit, it is SI in the wanted dimension. */
 static const expr *parse_quantity(parser *in, dimension wanted, const char *what) {
     const place at = in->token.at;
     const expr *made = parse_plain_quantity(in);

@@ -114,7 +114,7 @@ bool token_is_word(const token *each, word_id word);
 /* Returns the row of the statement that this token begins, or NULL. */
 const statement_word *token_statement(const token *each);
 bool parser_is_body_word(const parser *in); /* begins a statement of a file, mechanism or effect */
-/* Does the token begin a line, with a word that ends a block by this rule (ENDS_EFFECT, ...)? */
+/* Does the token begin a line, and has its word this rule (ENDS_EFFECT, ...)? Then the word ends the block. */
 bool parser_leaves(const parser *in, unsigned rule);
 /* Expects this word. If it is missing, reports this with the statement's form as a hint, and returns false. */
 bool parser_expect_word(parser *in, word_id word, word_id statement);

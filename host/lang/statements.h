@@ -18,8 +18,8 @@ statement_reader read_noise;                               /* declare.c */
 /* Reports that the contact cannot be combined with state and equation. */
 void contact_on_system(parser *in, const contact_statement *each);
 
-/* Returns true if the two effects are the same, or if one is the mechanism itself (-1). Then the statements of both
- * are active together whenever an effect among them is selected. */
+/* Returns false for two different effects, because a scene may select only one of them. The mechanism itself (-1) is
+ * always active. */
 static inline bool always_meet(int one, int other) { return one == other || one < 0 || other < 0; }
 
 /* Reads the whole text except the scenes, which are read last: they may name effects that come later. */

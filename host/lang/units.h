@@ -102,14 +102,14 @@ typedef struct unit_error {
  * to right. Returns false and fills `error` if the text is no unit. */
 bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error *error);
 
-/* Returns true for an SI unit, up to rounded factors, and for {0}, no unit: messages need not name it. */
+/* Returns true for an SI unit, up to rounded factors, and for {0}, which means no unit. */
 bool unit_is_si(unit_scale u);
 
 /* Returns the name of unit `index`, counted from 0, or NULL after the last. */
 const char *unit_name(int index);
 
-/* Writes the name of the SI unit for unit `index`, or base units, cut to `size` bytes. Returns `buffer`. One unit
- * `index` is *value SI units. */
+/* Writes the name of the SI unit (or base units) of unit `index`, cut to `size` bytes; returns `buffer`. *value: the
+ * unit in SI. */
 char *unit_in_si(int index, double *value, char *buffer, size_t size);
 
 /* True if the text is a unit of angle: rad, deg or rev. */

@@ -63,7 +63,7 @@ char *shown_written(const expr *given) {
     const char *text = leaf->at.source->text;
     size_t at = leaf->at.offset;
     while (at > 0 &&
-           /* back over signs, parentheses and the function's name */
+           /* back to the beginning of the value, before signs, parentheses and a function's name */
            strchr("=\n", text[at - 1]) == NULL) {
         at--;
     }
@@ -106,7 +106,7 @@ char *shown_assignment(const symbol *s, int primes, const char *number) {
 
 enum {
     NAME_BUFFER = 100,
-    /* largest total height of expressions in a chain of values that set each other; bounds the recursion */
+    /* largest valuation.depth; bounds the recursion */
     DEPTH_MAX = 20000
 };
 

@@ -1,7 +1,7 @@
-/* words.h: the words of the language: every word that begins a statement, or has its place inside one. A new statement
- * is a row here and the function that reads it; a new word inside one is a row below. The parser follows the rows:
- * which words are allowed where, which end a block with a forgotten brace, which are reserved, and which one a misspelt
- * word resembles. docs/language.md must list them all. */
+/* words.h: the words of the language. A new statement is a row of BODY_WORD_ROWS or SCENE_WORD_ROWS and the function
+ * that reads it. A new word inside a statement is a row of INNER_WORD_ROWS. From the rows the parser knows where a word
+ * is allowed, whether it ends a block with a forgotten brace, whether it is reserved, and which word a misspelt one
+ * resembles. docs/language.md must list all words. */
 #ifndef LANG_WORDS_H
 #define LANG_WORDS_H
 
@@ -18,7 +18,7 @@
     X(INPUT, "an input")   /* may change during a run; its first value is a constant expression */ \
     X(LET, "a let")        /* shorthand for its expression */ \
     X(OUTPUT, "an output") /* computed for records; may be used by later outputs */ \
-    X(RECORD, "an output") /* the recorded output, noise included: in measures only */
+    X(RECORD, "an output") /* the recorded output, with noise; only measures name it */
 
 #define SYMBOL_KIND(id, words) SYM_##id,
 typedef enum symbol_kind { SYMBOL_KIND_ROWS(SYMBOL_KIND) } symbol_kind;
@@ -47,8 +47,7 @@ const char *term_part(term_kind kind);
 const char *term_rule(term_kind kind);
 
 /* Contacts, in the order in which the core handles simultaneous ones: the kind, its name in messages, and the
- * quantities that may be undefined. The statement's word is WORD_STOP, ..., the kind in the core WH_STOP, ...
- * (core/contact.h). */
+ * quantities that may be undefined. The core calls the kinds WH_STOP, ... (core/contact.h). */
 #define CONTACT_KIND_ROWS(X) \
     X(STOP, "the stop", "the restitution, or the gap, of this stop") \
     X(HOLD, "the hold", "the condition of this hold, or its expression,") \
