@@ -49,8 +49,7 @@ WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
 typedef struct wh_contact_set {
     const uint8_t *member; /* [count] contact numbers */
     unsigned count;
-    const int8_t
-        *at; /* [count] -1: at the low limit, 0: between, 1: at the high limit; NULL: all 0 */
+    const int8_t *at; /* [count] -1: at low limit, 0: between, 1: at high limit; NULL: all 0 */
 } wh_contact_set;
 
 /* Finds redundant contacts that contradict the others. Examples: at a dead centre two rows are parallel, but only one
