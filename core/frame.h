@@ -42,7 +42,7 @@ typedef struct wh_frame_reader {
     unsigned room;
     unsigned length;  /* bytes of the frame in progress */
     bool too_long;    /* the frame in progress is longer than the room and will be dropped */
-    uint32_t dropped; /* number of bad frames, or other bytes between two zeros; wraps */
+    uint32_t dropped; /* number of bad frames; other bytes between two zeros count as one; wraps */
 } wh_frame_reader;
 
 #define wh_frame_crc WH_NAME(wh_frame_crc)

@@ -19,7 +19,7 @@ typedef struct wh_probes {
     wh_real square; /* 1 + 2 r */
     wh_real one;
     wh_real quarter_unit; /* a quarter of a unit in the last place of 1 */
-    wh_real half_unit;    /* half of a unit in the last place of 1, plus the least possible */
+    wh_real half_unit;    /* the next number above half of a unit in the last place of 1 */
     wh_real least;        /* the smallest normal number */
     wh_real half;
     wh_real two;

@@ -198,7 +198,7 @@ typedef struct wh_swing {
     wh_real soft_rad2;                  /* variance that is added to each pulse's own variance */
     wh_free_rotor way;                  /* the rotor's motion during a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
-    wh_real x[WH_NORMAL_UNKNOWNS];      /* q - place, q', g, f, c, sensor positions */
+    wh_real x[WH_NORMAL_UNKNOWNS];      /* q - position of sensor 1, q', g, f, c, both positions */
     wh_real guess[WH_NORMAL_UNKNOWNS];  /* guess of x */
     wh_real within[WH_NORMAL_UNKNOWNS]; /* standard deviations of the guess */
     uint32_t kept_ticks[WH_SWING_PULSES];
