@@ -10,8 +10,8 @@
 
 /* === the influences on a coordinate, and of a coordinate ====================================== */
 
-/* Appends a statement other than an energy that changes a momentum to the text, such as "the Q in line 9, the stop in
- * line 12". *count is the number of statements so far. */
+/* Appends a statement that changes a momentum to the text, such as "the Q in line 9". Energies are no such statements.
+ * *count: the number of statements so far. */
 #define INFLUENCE_TEXT_SIZE 200
 
 /* At most this many statements are listed. */
@@ -214,7 +214,7 @@ typedef struct momentum_law {
     double momentum;    /* constant value of the momentum, SI */
     double start;       /* G at the start */
     const poly **mass;  /* [equations->count] coefficients of the rates */
-    const poly *others; /* G without the conserved coordinates' part */
+    const poly *others; /* the terms of G without conserved coordinates */
 } momentum_law;
 
 /* Solves sum_l m_kl x_l = right_k for x by Cramer's rule. The sum is over the conserved coordinates l. */
@@ -241,8 +241,8 @@ static void solve_conserved(const equations *e, const conservation *c, const mom
 
 const symbol conservation_time = {.kind = SYM_INPUT, .name = "time", .text = "", .unit = "s"};
 
-/* The conserved rates follow from p_k minus the terms of the other rates. If `closed`, the coordinates follow from
- * G_k(start) + p_k t minus others_k. */
+/* Solves for the conserved rates: each momentum minus the terms of the other rates. If `closed`, also solves for the
+ * coordinates: G(start) + p t minus `others`. */
 static void recover(const equations *e, conservation *c, const momentum_law *laws) {
     algebra *a = e->algebra;
     const poly *rates[CONSERVED_MAX];
@@ -279,7 +279,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
-    /* a step does not know the time, so it cannot compute a position on which a force depends */
+    /* a force depends on the coordinate: integrate it, because `closed` needs the time, which a step does not know */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (is_linear(e, momentum, law->mass)) {
         return true;

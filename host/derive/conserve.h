@@ -5,10 +5,10 @@
  *
  *     p = dL/dX' = sum_j m_Xj(q) q_j',
  *
- * so its rate follows algebraically from the others'. If the momentum is the rate of a function G(q) (a centre of mass
- * times the total mass), X itself follows too: G(q) = G(q0) + p t. Then neither X nor X' is part of the state, and
- * their drift is round-off only. Otherwise X is integrated from its algebraic rate. X is integrated, too, if a force or a
- * contact depends on X, because a step does not know the time. */
+ * so X' follows from the other rates. If the momentum is the rate of a function G(q) (a centre of mass times the total
+ * mass), X follows, too: G(q) = G(q0) + p t. Then neither X nor X' is part of the state, and their drift is round-off
+ * only. Otherwise X is integrated from X'. X is integrated, too, if a force or a contact depends on X, because a step
+ * does not know the time. */
 #ifndef DERIVE_CONSERVE_H
 #define DERIVE_CONSERVE_H
 

@@ -276,7 +276,7 @@ static void ask_contact(maker *k, const contact_statement *h, image_contact *row
     }
     row->questions = b->questions - row->first_question;
     row->first_late = b->questions;
-    if (h->kind == CONTACT_STOP) { /* only used at an impact */
+    if (h->kind == CONTACT_STOP) { /* needed only at an impact */
         ask_value(k, where, h->restitution, "the restitution of this stop");
     }
     row->late = b->questions - row->first_late;

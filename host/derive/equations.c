@@ -89,7 +89,7 @@ static bool moves(algebra *a, const mechanism *m, const poly *value) {
     return false;
 }
 
-/* Adds, after all other contacts, a crossing for each friction whose normal force varies, up to CONTACTS_MAX contacts. */
+/* Adds a crossing for each friction whose normal force varies (contact_loosens()), up to CONTACTS_MAX contacts. */
 static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
     const int written = laws->count;
     laws->loose = alloc(written, sizeof *laws->loose);
@@ -251,9 +251,7 @@ void equations_report_growth(const equations *e, diags *errors) {
     const mechanism *m = e->instance->mechanism;
     char *limit = algebra_limit(e->algebra);
     char hint[200] = "use smaller powers of sums, or coordinates nearer to the joints";
-    if (m->parameter_count >
-        /* each product of parameters is a term of its own, but a product of numbers is one number */
-        0) {
+    if (m->parameter_count > 0) {
         snprintf(
             hint, sizeof hint,
             "write let instead of parameter, which makes numbers of %d parameters; or use smaller powers of sums, or coordinates nearer to the joints",
@@ -286,8 +284,8 @@ void equations_free(equations *e) {
 
 #define TRIES 12       /* sampled states */
 #define TRIES_NEEDED 3 /* sampled states that must give finite values */
-/* Round-off allowed in Euler's theorem, relative to the terms. The theorem needs to find only kinks, such as abs(x'),
- * whose second derivative vanishes, since T must be exactly zero at rest. */
+/* Round-off allowed in Euler's theorem, relative to the terms. It may be large: only terms such as abs(x') need this
+ * test. */
 #define EULER_ROUNDING 1e-9
 
 typedef struct trial_state {
@@ -358,8 +356,8 @@ static bool twice_itself(const equations *e, unsigned number, bool *known) {
     return fabs(rest) <= EULER_ROUNDING * size;
 }
 
-/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? If no mass contains a rate, T has at
- * most degree two. Parts of degree one and zero show at rest. */
+/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? The masses show degrees above two, the
+ * state at rest shows degrees zero and one, and Euler's theorem shows kinks such as abs(x'). */
 static bool is_quadratic(const equations *e) {
     if (has_rates(e, e->stored) || energy_mass_has_rates(e)) {
         return false;

@@ -16,9 +16,10 @@
 
 typedef struct contact_law {
     const contact_statement *from;
-    const poly *value;  /* stop: gap; hold: condition; friction: rate; crossing: left - right */
-    const poly *speed;  /* J q': rate of the gap or of the hold's expression; zero for others */
-    const poly *first;  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: value */
+    const poly *value; /* stop: gap; hold: condition; friction: rate; crossing: left - right */
+    const poly *speed; /* J q': rate of the gap or of the hold's expression; zero for others */
+    /* stop: restitution; friction: mu_static * max(N, 0); hold that is not straight: value */
+    const poly *first;
     const poly *second; /* friction: mu_kinetic * max(N, 0) */
     const poly *bias;   /* J' q' */
     const poly **row;   /* [coordinates] J; NULL for a crossing */
@@ -47,7 +48,7 @@ bool contact_loosens(const contact_statement *h);
 /* The active contacts of the instance; NULL without any. */
 contact_laws *contact_laws_make(algebra *a, const instance *inst);
 
-/* Can this contact change the momentum of coordinate i? Can any of these contacts? */
+/* Can this contact, or any of these contacts, change the momentum of coordinate i? */
 bool contact_law_pushes(const contact_law *law, int i);
 bool contact_laws_push(const contact_laws *laws, int i);
 
@@ -84,10 +85,11 @@ typedef struct equations {
     double
         /* relative error of the accelerations from the rounding of mass[], at the best of the tried states */
         mass_blur;
-    folding folding;        /* constant folding of the file's numbers */
-    const poly **velocity;  /* [count] centrifugal and Coriolis terms; zero for a system */
-    const poly **potential; /* [count] dV/dq; for a system all other terms, moved to the left */
-    const poly **applied;   /* [count] Q - dF/dq'; zero for a system */
+    folding folding;       /* constant folding of the file's numbers */
+    const poly **velocity; /* [count] centrifugal and Coriolis terms; zero for a system */
+    /* [count] dV/dq; for a system: left minus right side, without the highest derivatives */
+    const poly **potential;
+    const poly **applied; /* [count] Q - dF/dq'; zero for a system */
     /* Energies and results derived from them; NULL for a system. */
     const poly *kinetic;
     const poly *stored;

@@ -42,8 +42,8 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
-/* Largest number of parts of a start value that are examined. Their number may double with each level of lets, as in
- * p*p with p = q*q. */
+/* Largest number of parts of a start value that is_written() examines. The number of parts may double with each level
+ * of lets, as in p*p with p = q*q. */
 enum { MOST_PARTS = 1000 };
 
 /* Is the expression a product of literal numbers? Otherwise a value near zero may be the round-off of a sum. */
@@ -345,8 +345,8 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
         program_free(p);
         return NULL;
     }
-    /* Only the lists of compensated steps are scaled. Scaling does not suit variants, which are not run in float;
-     * contacts, which use the same mass matrix; and tables, which are rounded separately. */
+    /* Only the lists of compensated steps are scaled, with three exceptions: variants are not run in float, contacts
+     * use the same mass matrix, and tables are rounded separately. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&p->step, op_list_scaling_price(p->step));
@@ -404,7 +404,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* If folding loses more than this, relative to a number, an image to run gets variants that show the effect. */
+/* If folding a number loses more than this part of it, an image to run gets variants, which show the effect. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");

@@ -59,8 +59,7 @@ static double largest_of(const double *m, int n, line of) {
     return largest;
 }
 
-/* A pass scales all rows, the next pass all columns. Each divides by the root of the largest entry, so rows and
- * columns share the scaling. */
+/* Scales all rows in one pass, and all columns in the next pass. Each is divided by the root of its largest entry. */
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
@@ -107,7 +106,7 @@ bool rank_is_positive(double *m, int n) {
 /* Number of generic states at which the mass matrix is tested. */
 
 #define TRIES 24
-/* The last tried state is the start of the run. A mass matrix may be undefined at all other states. */
+/* The last tried state is the start of the run, because some mass matrices are defined only there. */
 #define TRY_START TRIES
 /* Round-off of an entry, relative to the sum of its terms' sizes. */
 #define ENTRY_ROUNDING 4e-16
@@ -315,7 +314,7 @@ static bool energies_finite(const equations *e, generic_state *state) {
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
 }
 
-/* The result of the tried states; a later one is better. */
+/* The result of one tried state, from worst to best. */
 typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } run_checks;
 
 /* Returns the largest error of a regular matrix after rank_of(), divided by its smallest pivot. */
@@ -467,7 +466,7 @@ static bool derive_lagrange(equations *e, diags *errors) {
             const poly *drift =
                 poly_mul(a, poly_derivative(a, momentum, other, 0), poly_symbol(a, other, 1));
             e->velocity[i] = poly_add(a, e->velocity[i], drift);
-            if (other->driven != NULL) { /* the acceleration of that coordinate is known */
+            if (other->driven != NULL) { /* the acceleration of `other` is known */
                 const poly *push = poly_mul(a, e->mass[i * n + j], acceleration_of(a, other));
                 e->velocity[i] = poly_add(a, e->velocity[i], push);
                 e->mass[i * n + j] = poly_number(a, 0.0);

@@ -157,8 +157,8 @@ static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
     return op_list_leaf(t, OP_LINEAR, real);
 }
 
-/* Is this derivative of unknown i in the state? A conserved coordinate has no rate in the state, and its value only if
- * it is integrated. */
+/* Is this derivative of unknown i in the state? If the unknown is conserved, its rate is not in the state, and its
+ * value only if it is integrated. */
 static bool in_state(const layout *map, int i, int primes) {
     if (map->conserved->number[i] < 0) {
         return primes < map->equations->unknowns[i].order;

@@ -54,9 +54,9 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 }
 
 /* === powers from multiple angles ============================================================== */
-/* With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k cos 2kx is a sum of products s^j c^(n-j). A sum
- * of sin 2kx is sin x cos x times such a sum of degree n - 1. If the coefficient of c^n is zero, the sum cancels near
- * x = 0; if that of s^n is zero, near x = pi/2. There the products keep the digits. */
+/* With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k cos 2kx is a sum of products s^j c^(n-j). A sum of
+ * sin 2kx is sin x cos x times such a sum of degree n - 1. If the sum cancels near x = 0, the coefficient of c^n is
+ * zero, and the products keep the digits. Near x = pi/2 the same is true of s^n. */
 
 /* Coefficients whose relative difference is smaller than this come from the same number. */
 #define SAME_PIECE 1e-13
@@ -285,9 +285,9 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 
 /* === which sines are evaluated ================================================================ */
 /* Sines and cosines of several angles are computed with as few evaluations as possible. Evaluating a pair costs some
- * thirty instructions, sin(a + b) from known pairs at most six. So the angles are taken in order of size. A sum, a
- * difference or a double of earlier angles is computed from their pairs. Another angle is tried in the first place,
- * too (solve.c): b = a - (a - b) and 2a - b = a + (a - b) share all four products. */
+ * thirty instructions, sin(a + b) from known pairs at most six. So the angles are taken in order of size, and a sum, a
+ * difference or a double of earlier angles is computed from their pairs. solve.c also tries other angles as the
+ * first. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
@@ -362,8 +362,7 @@ static int sines_inside(const poly *p) {
 }
 
 /* May a wave be part of this angle's rule? Not if the wave has more nested sines than the angle, because the angle's
- * own sine could be among them. A rule refers to earlier waves, and an evaluated wave to fewer nested sines, so the
- * recursion ends. */
+ * own sine could be among them, and the recursion would not end. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
@@ -379,8 +378,7 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
         const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
         double number;
         if (poly_is_number(rest, &number) || rest->count > longest) {
-            /* the angles are equal except for a constant, which does not help, or the rest is too long to be a known
-             * angle */
+            /* no help: the angles differ only by a constant, or the rest is longer than any known angle */
             continue;
         }
         rest = upright(l, rest, &flipped);
@@ -643,8 +641,8 @@ void lower_done(lowering *l) {
 /* --- factoring -----------------------------------------------------------------------------------*/
 
 #define FACTORS_MAX 24
-/* Whole exponents above this are not expanded to products, here or in op_list_power(). They are tested first: an int
- * would truncate large ones, and a power of a reciprocal would amplify the reciprocal's round-off. */
+/* Whole exponents above this are not expanded to products, here or in op_list_power(). The test compares doubles,
+ * because an int would truncate large exponents. */
 #define EXPONENT_MAX 64.0
 
 typedef struct power {
@@ -670,7 +668,7 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
             return;
         }
     }
-    if (p->count == FACTORS_MAX) { /* has never been observed */
+    if (p->count == FACTORS_MAX) { /* no mechanism so far has that many factors */
         const int last = FACTORS_MAX - 1;
         const int first = op_list_power(l->list, p->powers[last].node, p->powers[last].exponent);
         const int more = op_list_power(l->list, node, exponent);
@@ -685,7 +683,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
-    /* a phase resolves 1.5e-9 rad, which is enough for a turn angle, but not for a small number */
+    /* a tangent of turn angles is sine / cosine; others are not, because a phase resolves only 1.5e-9 rad */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return op_list_div(l->list, s, waves_cosine(l, x->argument[0]));
@@ -765,7 +763,7 @@ static int sum_flat(lowering *l, const product *products, int count) {
         }
         const int part =
             sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
-        /* with -size outside, negative products must be added, but sum_of_like subtracts them */
+        /* sum_of_like() subtracts negative products, so with -size outside the sign of `part` is wrong */
         sum = all_negative ? op_list_add(t, sum, op_list_unary(t, OP_NEG, part))
                            : op_list_add(t, sum, part);
     }

@@ -10,7 +10,8 @@
 /* One term: coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines. */
 typedef struct piece {
     double coefficient;
-    const mono *mono;  /* has the factors; `sines` and `cosines` replace the sine or cosine in it */
+    /* source of the other factors: `sines` and `cosines` replace its sine or cosine */
+    const mono *mono;
     const poly *angle; /* NULL when both powers are 0 */
     int sines;
     int cosines;
@@ -32,7 +33,7 @@ typedef struct lowering {
     /* Returns the index of the symbol's turn angle, or -1. */
     int (*turn)(void *context, const symbol *sym);
     void *context;
-    /* Rank by size of the planned angle that is evaluated first; 0 for the smallest. */
+    /* The planned angle that is evaluated first: its rank by size, 0 for the smallest. */
     int lead;
     wave *waves;
     int wave_count;

@@ -12,8 +12,8 @@
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 
-/* A sum that is smaller than this, relative to its addends, counts as zero, as in host/algebra. Decimal parameters
- * must leave no spurious spring between two masses that move together. */
+/* A sum that is smaller than this, relative to its addends, counts as zero, as in host/algebra. Otherwise the round-off
+ * of decimal parameters would be a spurious spring between two masses that move together. */
 #define GHOST 1e-14
 
 static int affine_states(const image *im) { return im->angles + im->reals; }
@@ -210,8 +210,8 @@ static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
     return both;
 }
 
-/* The result of an operation exceeds a limit of degree, and its other operand has the degree `other`. Returns true if
- * this operand may exceed the limit by itself, false if only the combination of both exceeds it. */
+/* Does the operation pass the degree of one operand on to its result, unchanged? `other` is the degree of the other
+ * operand. */
 static bool passes_on(diagnostics_code code, int other) {
     switch (code) {
     case DIAGNOSTICS_SAME:
@@ -229,8 +229,7 @@ static bool passes_on(diagnostics_code code, int other) {
     return false;
 }
 
-/* Descends from `node`, whose degree exceeds `most`, to operands that exceed it by themselves. Returns the last such
- * node. */
+/* Returns the innermost node below `node` whose degree exceeds `most`, as that of `node` does. */
 static int innermost(const image_blame *b, const made_of *of, int node, int most) {
     for (;;) {
         const diagnostics_node *n = &b->node[node];

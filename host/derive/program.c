@@ -693,8 +693,8 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
-/* Does the step use turn angles only as phases? A step has no whole angles. A coordinate that is needed in another
- * form is a real. So this fails only if a factor became too large when the equations were solved. */
+/* Does the step use turn angles only as phases? Otherwise a factor of an angle became too large when the equations were
+ * solved. */
 static bool steps_need_no_turns(const program *p, const equations *e, diags *errors) {
     const contact_lists *c = p->contacts;
     const op_list *const lists[] = {p->step, c != NULL ? c->signals : NULL,

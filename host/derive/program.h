@@ -46,7 +46,8 @@ typedef struct ledger_entry {
 typedef struct ledger_lists {
     ledger_entry *entry; /* [smooth] */
     int smooth;
-    int entries; /* smooth ones, then each contact's energy and impulses by coordinate, then inputs */
+    /* number of entries: the smooth ones, then those of contacts, then those of inputs */
+    int entries;
     int accounts; /* 1 + unknowns: the energy, then the momenta */
     int *unknown; /* [accounts] the unknown of a momentum; -1 for the energy */
     int *input;   /* [inputs] inputs of the program that occur in the energies */
@@ -58,14 +59,16 @@ typedef struct ledger_lists {
 
 typedef struct program {
     layout layout;
-    int count;   /* number of unknowns */
-    int outputs; /* the mechanism's, then value and rate of each conserved coordinate */
+    int count; /* number of unknowns */
+    /* number: outputs of the mechanism, then value and rate of each conserved coordinate */
+    int outputs;
     conservation *conserved;
     /* Second order: result[i] is the acceleration of scene coordinate i. First order: the derivative of component i,
      * angles first. */
     op_list *step;
     op_list
-        *tables; /* exact list of the tables' functions; NULL without tables (program_look_up()) */
+        /* list that computes the tables' functions exactly; NULL without tables (program_look_up()) */
+        *tables;
     op_list *observe;
     contact_lists *contacts; /* NULL without contacts */
     ledger_lists *ledger;    /* NULL without a ledger */

@@ -412,7 +412,7 @@ typedef struct arranged {
 /* Symbolic elimination stops before an entry gets more terms than this. */
 #define SYMBOLIC_TERMS_MAX 60
 
-/* Largest number of different numbers in a tally. Large equations have more; the others are ignored. */
+/* Largest number of different numbers in a tally. Further numbers are not counted. */
 #define TALLY_MAX 128
 
 /* Counts numbers by their size. Its initial value is {0}. */
@@ -526,8 +526,8 @@ static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly 
     return true;
 }
 
-/* Forgets the first eliminated unknowns, up to the first wanted one. No wanted solution depends on them, so their
- * equations, and sines that occur only in these, need not be computed. */
+/* Deletes the equations of the first eliminated unknowns, up to the first wanted one, because no wanted solution
+ * depends on these equations. */
 static void forget_unwanted(algebra *a, const linear_system *s, const poly **mass,
                             const poly **force, const int *order, int eliminated) {
     const int n = s->n;

@@ -13,13 +13,13 @@ typedef struct linear_system {
     const poly **mass;            /* [n * n], parameters folded */
     const poly **force;           /* [n] */
     const symbol *const *unknown; /* [n] */
-    const bool *turning; /* [n] the unknown is an angle: its row keeps the scale of energy */
+    const bool *turning; /* [n] true: the unknown is an angle, whose row gets no scale of its own */
     const bool *wanted;  /* [n] the unknown's solution is needed, so its cost counts */
-    /* Unwanted solutions need not be correct, which allows more arrangements. This is false if contacts solve with
-     * the same matrix, because the bits of their steps must not change. */
+    /* true: unwanted solutions need not be correct, which allows more arrangements; false: contacts solve with the same
+     * matrix, and the bits of their steps must not change */
     bool sparing;
-    /* Precision matters more than operations: no hinge is eliminated (solve.c). A list with hinges has two to five times
-     * the round-off (docs/dev/numerics.md). */
+    /* true: no hinge is eliminated (solve.c), because that would multiply the round-off by two to five
+     * (docs/dev/numerics.md) */
     bool precise;
 } linear_system;
 

@@ -191,8 +191,8 @@ static void null_space_tidy(double *basis, int count, int columns) {
 
 /* === symmetries =============================================================================== */
 
-/* A singular value below this, relative to the largest one, counts as zero. A part of an energy may be as small as a
- * millionth of it. */
+/* A singular value below this, relative to the largest one, counts as zero. Parts of an energy down to a millionth of
+ * it must still count. */
 #define ZERO_OF_TERMS 1e-12  /* conditions from coefficients */
 #define ZERO_OF_VALUES 1e-11 /* conditions from values at random states */
 /* Number of attempts to find a random state at which all functions are defined. */
@@ -342,7 +342,7 @@ static void take_forces(const equations *e, conditions *s, const poly **change) 
     }
 }
 
-/* Returns the number for a symbol at a random state; it is always the same for one state. */
+/* Returns a random number that depends only on the state and the symbol. */
 static double drawn_value(void *context, const symbol *s, int primes) {
     const uint64_t *seed = context;
     uint64_t x = *seed * UINT64_C(0x9e3779b97f4a7c15) +

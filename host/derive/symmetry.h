@@ -26,9 +26,10 @@ typedef struct symmetries {
      * = 0) of T only */
     int count;
     symmetry *each; /* [count] */
-    int broken;     /* further symmetries of T only: rotations */
-    bool complete;  /* values at random states show no missing affine symmetry of T or V */
-    bool flat;      /* T has constant coefficients: every direction and rotation is affine */
+    int broken;     /* number of symmetries of T only that are not shifts */
+    /* true: values at random states confirm that no affine symmetry of T or V is missing */
+    bool complete;
+    bool flat; /* T has constant coefficients: every direction and rotation is affine */
 } symmetries;
 
 /* Finds the symmetries of a mechanism given by energies, with the values of its parameters. Returns NULL if the

@@ -117,11 +117,11 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
 }
 
 /* === the numbers in the cells of tables ======================================================= */
-/* A table's pieces meet at knots half a cell from the cells' middles. If straight pieces took the function's values at
- * the knots, their error would be h^2/8 f'', and h^2/12 f'' on average. The error of cubic pieces, which take the
- * slopes, too, would be h^4/384 f'''' and h^4/720 f''''. The error has one sign, and a rotating mechanism would
- * accumulate it. So the knots are moved by the mean error, estimated from differences between knots. The mean error
- * vanishes, and the largest error falls by a third (straight) or a half (cubic). */
+/* A table's pieces meet at knots. If straight pieces took the function's values at the knots, their error would be at
+ * most h^2/8 f'', and h^2/12 f'' on average. The error of cubic pieces, which take the slopes, too, would be at most
+ * h^4/384 f'''', and h^4/720 f'''' on average. A rotating mechanism would accumulate the average. So each knot is moved
+ * by the average error, estimated from differences between knots. Then the average vanishes, and the largest error
+ * falls by a third (straight) or a half (cubic). */
 
 /* The functions to be tabled: operations of a list of functions of one angle. Phase i is multiple[i] times the
  * angle. */
@@ -518,7 +518,7 @@ typedef struct coefficient {
     int table;
     double factor; /* factor of the table, or the constant itself */
     double *value; /* [TRIES] */
-    double size;   /* largest absolute value at the tried angles */
+    double size;   /* largest turn_value.size at the tried angles */
 } coefficient;
 
 typedef struct tabling {
@@ -825,7 +825,7 @@ static op_list *cheaper(const tabling *t, const op_list *list, image_tables form
     return made[taken];
 }
 
-/* Turns the coefficients' list into the exact list of the tables. */
+/* Turns the coefficients' list into the list that computes the tables' functions exactly. */
 static op_list *take_exact(tabling *t) {
     op_list *exact = t->from->coefficients;
     t->from->coefficients = NULL;

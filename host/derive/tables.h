@@ -30,7 +30,7 @@ typedef struct products {
     struct arena *memory;
 } products;
 
-/* The reason why a list has no such form, as words that follow "the accelerations ", and a hint. */
+/* The reason why a list cannot have tables, as words that follow "the accelerations ", and a hint. */
 typedef struct refusal {
     const char *reason;
     const char *hint;
