@@ -72,7 +72,7 @@ bool poly_is_place(const poly *p);
 typedef struct sum_item {
     const mono *mono;
     double coefficient;
-    /* number of the call of sum_add() or later: equal products are added in this order */
+    /* order of entry: products that are equal are added in this order */
     size_t turn;
 } sum_item;
 

@@ -142,7 +142,7 @@ static bool power_multiplies_out(const poly *base, double exponent, double kept)
         (exponent >= kept && poly_is_place(base))) {
         return false;
     }
-    int terms = 1; /* without pow(), because each product with a power comes here */
+    int terms = 1; /* not pow(), because this runs for each product with a power */
     for (int i = 0; i < (int)exponent && base->count > 1 && terms <= POWER_TERMS_MAX; i++) {
         terms *= base->count;
     }
@@ -526,8 +526,8 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 
 /* A product of two sums is not expanded if it has more products of terms than this. */
 #define PRODUCT_TERMS_MAX 400000
-/* A sum of positions with this whole exponent or a larger one stays a power: expanded, (x - b)^3 would lose its
- * digits near x = b. Squares are expanded, since some are equal only in expanded form. */
+/* A sum of positions with this whole exponent or a larger one stays a power: expanded, (x - b)^3 would lose its digits
+ * near x = b. Squares are expanded, because equal sums of squares often have one form only when expanded. */
 #define POWER_KEPT 3.0
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
@@ -640,8 +640,8 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
 
 /* --- products ------------------------------------------------------------------------------------*/
 
-/* Replaces a power: |p|^n by p^n for an even n, or by p^(n - 1) |p| and the like; a small whole power of a group by
- * its product. Returns NULL for other powers. */
+/* Replaces |p|^n by p^n (n even) or p^(n - 1) |p|, and a small whole power of a group by its product. Returns NULL for
+ * other powers. */
 static const poly *power_expands(algebra *a, const mono_factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
         const poly *inside = f->atom->argument[0];
@@ -801,7 +801,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
     return poly_scale(a, poly_of_atom(a, group_of(a, inside), exponent), outside);
 }
 
-/* The divisor that turns sums which differ only by a factor into one object. In a positive whole power it is not the
+/* Returns the divisor that makes sums equal if they differ only by a factor. For a positive whole power it is not the
  * constant term, so that x - b keeps its form if b becomes a number. */
 static double size_of_sum(const poly *p, double exponent) {
     const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;

@@ -60,7 +60,7 @@ const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int pr
 typedef const poly *poly_replacement(void *context, algebra *a, const symbol *sym, int primes);
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context);
 
-/* Returns p with its powers of sums multiplied out, unless the result is large. It shows whether p is zero. */
+/* Returns p with its powers of sums multiplied out, unless the result is large. If p is zero, the result shows it. */
 const poly *poly_expanded(algebra *a, const poly *p);
 
 /* The value of p; `value` returns the value of each symbol. */
