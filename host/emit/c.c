@@ -33,8 +33,8 @@ static const char words_of_cpp[] =
     "reinterpret_cast requires static_cast std template this throw try typeid typename using "
     "virtual xor xor_eq";
 
-/* Objects and functions of a generated file itself. (It declares its scene after all of them, so names inside functions
- * are free.) */
+/* Objects and functions of a generated file itself. Names of local variables are not among them, because the scene is
+ * declared after all functions. */
 static const char own[] =
     "main accelerations slopes step_matrix one_step advance ahead observe start_angle start_real "
     "start_input contacts contact_signals contact_forces contact_sets contact_table "
@@ -616,7 +616,8 @@ static void write_advance(FILE *out, const image *im) {
     }
 }
 
-/* The number of stages for which memory is reserved. With fewer than four, gcc spills other values, not fewer. */
+/* The number of stages for which memory is reserved. Fewer than four would not lower the number of values that gcc
+ * spills. */
 static int most_stages(const image *im) {
     const int stages = wh_methods[im->settings.method].stages;
     return stages > 4 ? stages : 4;

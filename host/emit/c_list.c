@@ -286,7 +286,8 @@ void c_list_matrix(FILE *out, const op_list *t) {
     write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
-/* The rate of a wave times `scale`, summed as in the interpreter. For a single angle, factor and scale become one. */
+/* Writes the rate of a wave times `scale`, summed as in the interpreter. If the wave has a single angle, its factor is
+ * multiplied by `scale` first. */
 static void write_rate(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     int terms = 0;

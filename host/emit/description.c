@@ -119,7 +119,8 @@ static void put_state(json *j, const image *im) {
 static void put_outputs(json *j, const image *im) {
     json_open(j, "outputs", '[');
     for (int i = 0; i < im->outputs; i++) {
-        const int k = i - im->own_outputs; /* of coordinates recovered from their momentum */
+        /* if not negative: index among values and rates of recovered coordinates */
+        const int k = i - im->own_outputs;
         json_open(j, NULL, '{');
         if (k < 0) {
             put_quantity(j, &im->output[i], i, false);

@@ -15,7 +15,8 @@
  * comment on contacts, which the function omits: whole lines that begin with EMIT_OCTAVE_COMMENT, or "". */
 #define EMIT_OCTAVE_COMMENT "% "
 void emit_octave(FILE *out, const image *im, const char *file, const char *contacts);
-/* The lines before and after the calculation, for a calculation with names (host/show). */
+/* A function file without its calculation: the lines before it, and those after it. show_octave() writes a calculation
+ * with the names of the file. */
 void emit_octave_head(FILE *out, const image *im, const char *file, const char *contacts);
 void emit_octave_end(FILE *out, const image *im);
 
@@ -32,7 +33,7 @@ bool emit_c_name_is_free_in_cpp(const char *name);
 /* Can a function file of Octave and of Matlab have that name? It must be no keyword or constant of theirs, and no name
  * in the file. */
 bool emit_octave_name_is_free(const char *name);
-/* Can a variable there have that name? A variable may hide constants such as e and I. */
+/* Can a variable of Octave and of Matlab have that name? A variable may hide constants such as e and I. */
 bool emit_octave_variable_is_free(const char *name);
 
 /* Writes the scene's header, for C and C++: names of its components, inputs and outputs, their units, its memory. */

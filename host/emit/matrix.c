@@ -2,7 +2,7 @@
 
 #include "emit.h"
 
-/* BESIDE: most columns of a table that are printed next to each other; widths in characters. */
+/* BESIDE: largest number of columns that are printed next to each other. Widths are in characters. */
 enum { BESIDE = 5, NAME_WIDTH = 14, NUMBER_WIDTH = 17 };
 
 /* The label of column or row k, a state or an input: its name with primes, in text[size]. */

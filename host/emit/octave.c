@@ -106,7 +106,7 @@ static void write_start(FILE *out, const image *im) {
     free(start);
 }
 
-/* The highest derivative of unknown i, as the rate of the derivative below it. */
+/* Writes the highest derivative of unknown i. */
 static void write_highest(FILE *out, const image *im, int i) {
     const op_list *t = im->list[IMAGE_STEP];
     int c = 0;
