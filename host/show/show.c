@@ -53,7 +53,8 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* The let that, times *ratio, equals a part of p (`whole`: all of p), and *rest, p without that part; or NULL. */
+/* Returns the largest let that equals a part of p, up to a factor; with `whole`, all of p. *ratio: the factor; *rest: p
+ * without that part. Returns NULL if there is none. */
 static const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest,
                               double *ratio) {
     let_row *best = NULL;
@@ -266,8 +267,8 @@ static bool is_primary(const poly *p) {
            (m->factors[0].atom->kind == ATOM_SYMBOL || m->factors[0].atom->kind == ATOM_CALL);
 }
 
-/* Prints base^exponent. In text, a side that is not primary gets parentheses, because `^` binds from the right.
- * LaTeX allows one superscript on a base: braces enclose those of primes and dots. */
+/* Prints base^exponent. In text, a side that is not primary gets parentheses, because `^` binds from the right. In
+ * LaTeX, a base with primes gets braces, because LaTeX allows only one superscript on a base. */
 static void show_power(const show *s, const poly *base, const poly *exponent) {
     const bool latex = s->style == SHOW_LATEX;
     if (is_primary(base)) {
@@ -656,7 +657,7 @@ static void show_parted(const show *s, const poly *p, bool leading) {
         return;
     }
     show_sum(s, p, (wave){NULL, 0, 0},
-             leading); /* every term has it, in powers of different signs */
+             leading); /* every term contains `shared`, but not in a common power */
 }
 
 /* Prints "*key", or nothing if the key is 1. */

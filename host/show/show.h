@@ -17,10 +17,8 @@ typedef struct show {
     algebra *algebra;
     const char *(*name)(const void *names, const symbol *sym, int primes); /* NULL: the file's */
     const void *names;
-    struct show_lets *lets; /* names of the file for sums; NULL without names */
-    bool
-        bracketed; /* a parenthesis follows, so in LaTeX a function's argument needs one, too, not \cos
-                    * a (b + c) */
+    struct show_lets *lets; /* lets that are printed in place of equal sums; NULL: none */
+    bool bracketed; /* true: in LaTeX, write \cos(a) (b + c), because \cos a (b + c) is ambiguous */
 } show;
 typedef struct show_lets show_lets;
 

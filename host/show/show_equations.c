@@ -13,8 +13,8 @@
 static void show_equation(const show *s, const equations *e, int i);
 
 /* === show break =============================================================================== */
-/* Line breaks in LaTeX, at the signs of a sum, with amsmath's aligned. A sum inside parentheses or below
- * a root is broken in place. */
+/* Line breaks in LaTeX, at the signs of a sum, with amsmath's aligned. A sum in parentheses or below a root gets its
+ * own line breaks. */
 
 /* Widths in points of 10 pt type. A line of LaTeX's article is 345 pt wide, including 25 for the equation's number.
  * NARROWEST: least width of a broken sum. */
@@ -435,8 +435,8 @@ static void show_contacts(const show *s, const equations *e) {
 /* === the derivation, step by step ============================================================= */
 /* Lagrange's equations step by step, one coordinate after another, as in a derivation by hand. */
 
-/* d/dt of the momentum: the mass matrix times the accelerations, plus the terms of the rates. equations.h combines the
- * latter with -dT/dq. */
+/* d/dt of the momentum: the mass matrix times the accelerations, plus the terms of the rates: `velocity` without its
+ * -dT/dq. */
 static const poly *momentum_rate(const equations *e, int i) {
     algebra *a = e->algebra;
     const poly *sum =
@@ -546,8 +546,8 @@ static void write_left_side(const show *s, const equations *e, int i) {
         show_poly(s, sum);
         return;
     }
-    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]); /* after an overflow: A q'' +
-                                                                      * rest */
+    /* after an overflow, the sum is printed as A q'' + rest */
+    const poly *rest = poly_add(a, e->velocity[i], e->potential[i]);
     bool leading = true;
     for (int j = 0; j < e->count; j++) {
         if (!poly_is_zero(e->mass[i * e->count + j])) {
@@ -640,8 +640,8 @@ static bool is_numbered(const char *name, const char *letter) {
            strspn(name + length, "0123456789") == strlen(name + length);
 }
 
-/* The first of `letters` (NULL ends the list) with which no name such as y1 of the mechanism begins; the last one if all
- * are taken. */
+/* Returns the first of `letters` for which the mechanism has no numbered name, such as y1; the last one if there is
+ * none. NULL ends the list. */
 static const char *free_letter(const mechanism *m, const char *const *letters) {
     const symbol *const *const list[] = {m->coordinates, m->parameters, m->inputs};
     const int count[] = {m->coordinate_count, m->parameter_count, m->input_count};
