@@ -192,7 +192,7 @@ static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const uint64_t left = quotient & (half | (half - 1));
     const bool is_exact = left == 0 && !rest;
     const bool up = left > half || (left == half && (rest || (whole & 1U) != 0));
-    /* Added, because a normal number's highest bit, and a carry, must increase the exponent field. */
+    /* added, not or-ed: the highest bit of a normal number, or a carry, must increase the exponent field */
     const uint64_t scale =
         power >= EXPONENT_LEAST ? (uint64_t)(power - EXPONENT_LEAST) << (MANTISSA - 1) : 0;
     const uint64_t made = scale + whole + (up ? 1U : 0U);

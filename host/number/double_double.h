@@ -16,8 +16,8 @@ typedef wh_pair twofold;
 twofold double_double_of(double value);
 twofold double_double_ratio(uint64_t numerator, uint64_t denominator);
 
-/* The relative error of these four functions is a few times 2^-104 for normal numbers below about 2^990. For larger
- * numbers the result is not finite; for subnormal ones it has only the digits of a double. */
+/* Sum, difference, product and quotient have a relative error of a few times 2^-104 for normal numbers below about
+ * 2^990. For larger numbers the result is not finite; for subnormal ones it has only the digits of a double. */
 twofold double_double_add(twofold a, twofold b);
 twofold double_double_sub(twofold a, twofold b);
 twofold double_double_mul(twofold a, twofold b);

@@ -15,7 +15,8 @@
 
 #include "host/number/functions.h"
 
-#include "core/real.h" /* does not compile with other arithmetic; whirl's start checks the machine (core/number/arithmetic.h) */
+/* checks the compiler's arithmetic; whirl's start checks the machine's (core/number/arithmetic.h) */
+#include "core/real.h"
 
 #if __DBL_MANT_DIG__ != 53 || __DBL_MIN_EXP__ != -1021
 #error "Whirl needs IEEE 754 numbers of 64 bits."

@@ -40,8 +40,8 @@ static uint64_t mixed(uint64_t z) {
     return z ^ (z >> 31);
 }
 
-/* The number of doubles by which a result of these operands is moved; positive is up. In the ways from FOLDING_SOME on,
- * it depends only on the operands' digits, not on their signs, powers of two and order. */
+/* Returns the number of doubles by which an inexact result of these operands is moved, positive if upwards. In the ways
+ * from FOLDING_SOME on, it depends only on the operands' digits, not on their signs, powers of two and order. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {
@@ -62,8 +62,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* Returns the double nearest to the exact value, moved by moved_by() unless both are equal. FOLDING_OTHER moves it by
- * two doubles, towards the exact value and past it, because several round-offs may add up to as much. */
+/* Returns the double nearest to the exact value, moved by moved_by() unless the double is exact. FOLDING_OTHER moves by
+ * two doubles, past the exact value, because several round-offs may add up to that much. */
 static double other_neighbour(twofold exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -198,8 +198,8 @@ double folding_power(double base, double exponent) {
     return power;
 }
 
-/* Returns true if the value has no round-off. abs(), sign(), min() and max() have none. A root has none if it is short.
- * Another function has none if it is short and x is 0, 1 or -1. */
+/* Returns true if the value has no round-off. abs(), sign(), min() and max() have none. A root has none if it has few
+ * digits (is_short()). Another function has none if its value has few digits, and x is 0, 1 or -1. */
 static bool is_exact(function_id function, double x, double value) {
     switch (function_takes(function)) {
     case TAKES_SIZE:

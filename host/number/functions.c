@@ -198,7 +198,7 @@ double number_centred(double x, double y) {
     if (!(WH_ABS(x) < WH_INFINITY) || !(by > 0.0)) {
         return WH_NAN;
     }
-    /* the remainder by 2 y has removed an even multiple of y; a remainder of exactly y/2 then stays */
+    /* modulo 2 y, so that a tie goes to the even multiple of y */
     double rest = WH_ABS(by < 0x1p1023 ? number_remainder(x, 2.0 * by) : x);
     const bool twice = by < 0x1p-1021; /* half of y may underflow */
     if (twice ? rest + rest > by : rest > 0.5 * by) {

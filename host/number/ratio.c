@@ -227,15 +227,16 @@ bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count) {
 double ratio_times(uint64_t count, whole_ratio each) {
     uint128 of = uint128_times(uint128_of(count), uint128_of(each.numerator));
     int shift = 0;
-    while (!uint128_is_zero(of) &&
-           /* then the quotient has at least 66 bits, since a denominator has at most 60 */
-           of.high >> 62 == 0) {
+    while (
+        !uint128_is_zero(of) &&
+        /* shifted this far, the quotient has at least 66 bits, because a denominator has at most 60 */
+        of.high >> 62 == 0) {
         of = uint128_left(of, 1);
         shift++;
     }
     uint128 rest;
     uint128 quotient = uint128_over(of, uint128_of(each.denominator), &rest);
-    /* becomes the lowest bit, so that only the conversion to double rounds */
+    /* an inexact quotient gets the lowest bit 1, so that only the conversion to double rounds */
     bool below = !uint128_is_zero(rest);
     while (quotient.high != 0 || quotient.low >> 63 != 0) {
         below = below || (quotient.low & 1U) != 0;
