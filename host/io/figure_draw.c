@@ -16,9 +16,10 @@ typedef struct figure {
     const figure_data *data;
     int count;
     int panels;
-    int curves;  /* number of curves in this panel */
-    int named;   /* number of curves in the legend */
-    bool varied; /* omit marks of the original motion */
+    int curves; /* number of curves in this panel */
+    int named;  /* number of curves in the legend */
+    /* true: the runs have changed options, so marks of the original motion are omitted */
+    bool varied;
     double
         trusted_s; /* shortest trusted time among the panel's curves over time; 0: all are trusted to the end */
     char *plot; /* gnuplot text of the curves */

@@ -16,7 +16,7 @@ typedef struct extent {
 
 struct decimation {
     int columns;
-    bool samples;    /* a bucket is its first row instead of extremes */
+    bool samples;    /* true: a bucket keeps its first row, not its extremes */
     uint64_t size;   /* steps per bucket */
     uint64_t filled; /* steps in the last bucket */
     unsigned count;  /* buckets, the last one included */
@@ -39,7 +39,8 @@ void decimation_free(decimation *v) {
     }
 }
 
-/* The union of two extents. Among equal values the earlier counts. If one extent is not finite, it is the other. */
+/* The union of two extents. Among equal values the earlier counts. If one extent is not finite, the other is
+ * returned. */
 static extent joined(extent earlier, extent later) {
     if (!isfinite(later.least) || !isfinite(later.most)) {
         return earlier;

@@ -210,7 +210,7 @@ static bool name_runs(panels *p, const char *command, const char *legend, const 
     return list == NULL;
 }
 
-/* An axis without its own label shows quantity and unit; a label without an axis is an error. */
+/* Reports more labels than axes, and returns false. */
 static bool labels_fit(const panels *p, const char *command, const char *labels) {
     int more = 0;
     for (const char *at = labels; at != NULL && *at != '\0'; at++) {
@@ -404,7 +404,7 @@ static char *string_at(const char **at) {
     }
     for (; **at != '"' && **at != '\0'; (*at)++) {
         if (**at == '\\' && (*at)[1] == 'u' && strlen(*at) > 6) {
-            *at += 5; /* a control character: a blank */
+            *at += 5; /* a control character, which becomes a blank */
             made[length++] = ' ';
             continue;
         }
@@ -430,7 +430,7 @@ static void take_marks(plot_run *run, const char *at) {
     }
 }
 
-/* Takes a line "NAME" = "TEXT" of a table, of units or of descriptions. */
+/* Takes a line "NAME" = "TEXT" of the table of units or of descriptions. */
 static void take_text(plot_run *run, const char *line, bool units) {
     char *name = string_at(&line);
     line += strspn(line, " =");
@@ -637,7 +637,7 @@ enum { PANEL_HEIGHT = 260, KEY_LINE = 21, KEY_WIDTH = 760, KEY_SAMPLE = 60 };
 #define KEY_LETTER 8.5
 
 /* A part of gnuplot's enhanced text, with its special characters escaped. With `raised`, the exponent after ^ is
- * raised, "m^(1/2)" whole and without its parentheses. */
+ * raised: 1/2 in "m^(1/2)". */
 static void write_part(FILE *to, const char *text, bool raised) {
     for (const char *at = text; *at != '\0'; at++) {
         if (*at != '^' || !raised) {

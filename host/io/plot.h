@@ -26,7 +26,7 @@ typedef struct plot_run {
     int marks;
 } plot_run;
 
-/* Columns without names, no data. Texts are copied; `unit` may be NULL. */
+/* Opens a run without data, whose columns have no names yet. Texts are copied; `unit` may be NULL. */
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns);
 void plot_run_name(plot_run *run, int column, const char *name, const char *unit, const char *text);
 void plot_run_close(plot_run *run);
@@ -110,13 +110,13 @@ typedef struct figure_data {
     double trusted_s; /* end of the trusted time; 0: the whole time, or unknown */
 } figure_data;
 
-/* The remaining text of the next line of `text` from *at on that begins with `word` and a blank; NULL at the end. The
- * caller frees the result. */
+/* Finds the next line, from *at on, that begins with `word` and a blank. Returns the rest of the line, which the caller
+ * frees; NULL if there is none. */
 char *figure_line(const char **at, const char *word);
 
-/* Draw it. `varied` has the options that change its runs, or "". With options the title names them, and the caption,
- * which describes the original, is omitted. Returns false, and reports the reason, if the description is wrong (`where`
- * names it) or the picture cannot be drawn. */
+/* Draws the figure. `varied` has the options that change its runs, or "". If there are options, the title names them,
+ * and the caption, which describes the original, is omitted. Returns false, and reports the reason, if the description
+ * is wrong (`where` names it) or the picture cannot be drawn. */
 bool figure_draw(const char *file, const char *where, const char *text, const figure_data *data,
                  int count, const char *varied);
 

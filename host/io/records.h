@@ -21,7 +21,7 @@ typedef struct record_column {
 
 typedef struct records {
     FILE *out;   /* comma-separated values; may be NULL */
-    FILE *plain; /* plain columns; may be NULL, as records_open leaves it; stays the caller's */
+    FILE *plain; /* plain columns, set and closed by the caller; NULL: none */
     const image *image;
     const engine_kind *kind;
     double *row;           /* [columns]: time, values, derivatives, outputs, in displayed units */

@@ -61,7 +61,7 @@ static void write_name(FILE *out, const char *name) {
     free(copy);
 }
 
-/* Writes a comment. A blank breaks "$end" in its text, which would end the comment. */
+/* Writes a comment. "$end" in its text would end it, and becomes "$ end". */
 static void write_comment(FILE *out, const char *text) {
     fputs("$comment ", out);
     for (const char *at = text; *at != '\0'; at++) {
@@ -82,7 +82,8 @@ static void open_scope(vcd *v, const char *scope) {
 
 vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digits) {
     static const char *const unit[] = {"s", "ms", "us", "ns", "ps", "fs"};
-    static const char *const number[] = {"1", "100", "10"}; /* 0.1 s is 100 ms */
+    /* a unit may have the factor 1, 10 or 100: 0.1 s is 100 ms */
+    static const char *const number[] = {"1", "100", "10"};
     vcd *v = alloc(1, sizeof *v);
     v->out = out;
     v->digits = digits;

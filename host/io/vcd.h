@@ -26,8 +26,8 @@ void vcd_scope(vcd *v, const char *scope);
  * is a comment after it. Returns its number. */
 int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note);
 
-/* The value from this time on, at the earliest from 0. A wire is 0, 1 for any other number, or unknown for NaN. An
- * event occurs at this time. */
+/* The value from this time on, at the earliest from 0. A wire is 0 for 0, unknown for NaN, and 1 for all other numbers.
+ * An event occurs at this time. */
 void vcd_change(vcd *v, int signal, int64_t time, double value);
 
 /* The present time: no earlier change will follow. */
