@@ -153,7 +153,9 @@ run_page() {
             awk "$compare" "$base.wanted" "$base.said" >"$base.new"
         fi
         right=$?
-        [ $right -eq 0 ] && word=ok || word="not ok"
+        word="not ok"
+        [ $right -ne 0 ] || word=ok
+        [ $right -eq 0 ] || [ "$mode" != renew ] || [ ! -s "$base.wanted" ] || word="renewed"
         printf "%s - %s:%s: %s s: %s\n" "$word" "$page" "$block" "$took" "$(head -n 1 "$base.command")"
         if [ $right -ne 0 ]; then
             if [ -s "$base.wanted" ]; then

@@ -48,6 +48,7 @@ for kind in right dropped added digit word; do
     [ $status -eq $wanted ] && [ "$(grep -c '^not ok' "$scratch/said")" -eq $((2 * wanted)) ]
     verdict $? "two drawn pages, $kind" "$scratch/said"
     sh tests/docs.sh renew $pages >"$scratch/said" 2>&1
+    verdict $? "renewing them succeeds" "$scratch/said"
     sh tests/docs.sh check $pages >"$scratch/said" 2>&1
     verdict $? "and renewed they are right" "$scratch/said"
 done
