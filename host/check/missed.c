@@ -19,19 +19,18 @@
  * part. Each value is intersected with  f(m) + f'(m) d + f''(part) d^2/2  and with  f(m) + f'(part) d. */
 typedef struct taylor_bounds taylor_bounds;
 
-/* A value on a part of the path; NaN: unknown. */
-typedef struct form {
-    enclosure middle;       /* value at the middle of the part */
-    enclosure middle_slope; /* slope at the middle of the part */
-    enclosure value;        /* bounds over the whole part */
-    enclosure slope;
-    enclosure curve;
-} form;
-
-/* A function and its first two derivatives. */
-typedef struct slopes {
+/* A value with its first two derivatives by the share of the path; NaN: unknown. */
+typedef struct jet {
     enclosure f[3];
-} slopes;
+} jet;
+
+/* The jets at a place of the path: at the middle of a part, or over a part. */
+typedef struct spot {
+    int order;     /* number of derivatives that are computed */
+    jet *position; /* [coordinates] */
+    jet *rate;     /* [coordinates] */
+    jet *of;       /* [operations] */
+} spot;
 
 struct taylor_bounds {
     const image *image;
@@ -39,37 +38,39 @@ struct taylor_bounds {
     double *input;      /* [inputs] */
     double (*cubic)[4]; /* [coordinates] coefficients of the path */
     double span_s;
-    form *place;        /* [coordinates] */
-    form *rate;         /* [coordinates] */
-    form *of;           /* [operations] */
-    bool *needs;        /* [results * operations] does the result depend on the operation? */
-    enclosure *natural; /* [operations] bounds on the whole path */
-    bool glanced;       /* natural[] is set */
-    double half;        /* half the part's width */
+    spot middle;  /* order 1 */
+    spot part;    /* order 2 */
+    spot natural; /* order 0: natural bounds on the whole path */
+    bool glanced; /* natural.of[] is set */
+    bool *needs;  /* [results * operations] does the result depend on the operation? */
+    double half;  /* half the part's width */
 };
 
 static const enclosure unknown = {(double)NAN, (double)NAN};
 static const enclosure zero = {0.0, 0.0};
-static const form no_form = {{(double)NAN, (double)NAN},
-                             {(double)NAN, (double)NAN},
-                             {(double)NAN, (double)NAN},
-                             {(double)NAN, (double)NAN},
-                             {(double)NAN, (double)NAN}};
+static const jet no_jet = {
+    {{(double)NAN, (double)NAN}, {(double)NAN, (double)NAN}, {(double)NAN, (double)NAN}}};
+
+static spot spot_new(const image *im, const op_list *t, int order) {
+    spot p = {.order = order};
+    p.position = alloc(2 * (int64_t)im->coordinates + t->count, sizeof *p.position);
+    p.rate = p.position + im->coordinates;
+    p.of = p.rate + im->coordinates;
+    return p;
+}
 
 /* `t`: a list of the image whose operations read only positions, rates and inputs. */
 static taylor_bounds *taylor_bounds_open(const image *im, const op_list *t) {
     taylor_bounds *a = alloc(1, sizeof *a);
-    const int n = im->coordinates;
     a->image = im;
     a->list = t;
     a->input = alloc(im->inputs, sizeof *a->input);
     image_inputs(im, a->input);
-    a->cubic = alloc(n, sizeof *a->cubic);
-    a->place = alloc(2 * (int64_t)n + t->count, sizeof *a->place);
-    a->rate = a->place + n;
-    a->of = a->rate + n;
+    a->cubic = alloc(im->coordinates, sizeof *a->cubic);
+    a->middle = spot_new(im, t, 1);
+    a->part = spot_new(im, t, 2);
+    a->natural = spot_new(im, t, 0);
     a->needs = alloc((int64_t)t->results * t->count, sizeof *a->needs);
-    a->natural = alloc(t->count, sizeof *a->natural);
     for (int r = 0; r < t->results; r++) {
         op_list_mark_needed(t, t->result[r], a->needs + (ptrdiff_t)r * t->count);
     }
@@ -80,14 +81,15 @@ static void taylor_bounds_close(taylor_bounds *a) {
     if (a != NULL) {
         free(a->input);
         free(a->cubic);
-        free(a->place);
+        free(a->middle.position);
+        free(a->part.position);
+        free(a->natural.position);
         free(a->needs);
-        free(a->natural);
         free(a);
     }
 }
 
-/* --- forms ----------------------------------------------------------------------------------------------*/
+/* --- jets -----------------------------------------------------------------------------------------------*/
 
 /* The intersection of two enclosures, or the known one if the other is unknown. If the intersection is empty because of
  * round-off, the result is `a`. */
@@ -101,103 +103,102 @@ static enclosure both(enclosure a, enclosure b) {
 
 static enclosure twice(enclosure a) { return (enclosure){2.0 * a.low, 2.0 * a.high}; }
 
-static form constant(double value) {
-    const enclosure v = enclosure_of(value);
-    return (form){v, zero, v, zero, zero};
-}
+static jet constant(double value) { return (jet){{enclosure_of(value), zero, zero}}; }
 
-static form plus(const form *a, const form *b) {
-    return (form){enclosure_add(a->middle, b->middle),
-                  enclosure_add(a->middle_slope, b->middle_slope),
-                  enclosure_add(a->value, b->value), enclosure_add(a->slope, b->slope),
-                  enclosure_add(a->curve, b->curve)};
-}
-
-static form times_number(const form *a, double x) {
-    return (form){enclosure_times(a->middle, x), enclosure_times(a->middle_slope, x),
-                  enclosure_times(a->value, x), enclosure_times(a->slope, x),
-                  enclosure_times(a->curve, x)};
-}
-
-static form times(const form *a, const form *b) {
-    if (a == b) {
-        return (form){
-            enclosure_square(a->middle), twice(enclosure_mul(a->middle, a->middle_slope)),
-            enclosure_square(a->value), twice(enclosure_mul(a->value, a->slope)),
-            twice(enclosure_add(enclosure_square(a->slope), enclosure_mul(a->value, a->curve)))};
+static jet plus(jet a, jet b) {
+    for (int k = 0; k < 3; k++) {
+        a.f[k] = enclosure_add(a.f[k], b.f[k]);
     }
-    const enclosure across = twice(enclosure_mul(a->slope, b->slope));
-    return (form){
-        enclosure_mul(a->middle, b->middle),
-        enclosure_add(enclosure_mul(a->middle_slope, b->middle),
-                      enclosure_mul(a->middle, b->middle_slope)),
-        enclosure_mul(a->value, b->value),
-        enclosure_add(enclosure_mul(a->slope, b->value), enclosure_mul(a->value, b->slope)),
-        enclosure_add(across, enclosure_add(enclosure_mul(a->curve, b->value),
-                                            enclosure_mul(a->value, b->curve)))};
+    return a;
+}
+
+static jet times_number(jet a, double x) {
+    for (int k = 0; k < 3; k++) {
+        a.f[k] = enclosure_times(a.f[k], x);
+    }
+    return a;
+}
+
+static jet negative(jet a) {
+    for (int k = 0; k < 3; k++) {
+        a.f[k] = enclosure_neg(a.f[k]);
+    }
+    return a;
+}
+
+static jet square(jet a, int order) {
+    jet s = {{enclosure_square(a.f[0]), unknown, unknown}};
+    if (order > 0) {
+        s.f[1] = twice(enclosure_mul(a.f[0], a.f[1]));
+    }
+    if (order > 1) {
+        s.f[2] = twice(enclosure_add(enclosure_square(a.f[1]), enclosure_mul(a.f[0], a.f[2])));
+    }
+    return s;
+}
+
+static jet times(jet a, jet b, int order) {
+    jet p = {{enclosure_mul(a.f[0], b.f[0]), unknown, unknown}};
+    if (order > 0) {
+        p.f[1] = enclosure_add(enclosure_mul(a.f[1], b.f[0]), enclosure_mul(a.f[0], b.f[1]));
+    }
+    if (order > 1) {
+        p.f[2] = enclosure_add(
+            twice(enclosure_mul(a.f[1], b.f[1])),
+            enclosure_add(enclosure_mul(a.f[2], b.f[0]), enclosure_mul(a.f[0], b.f[2])));
+    }
+    return p;
 }
 
 /* q = a / b: q' = (a' - q b') / b, q'' = (a'' - 2 q' b' - q b'') / b. */
-static form over(const form *a, const form *b) {
-    form q;
-    q.middle = enclosure_div(a->middle, b->middle);
-    q.middle_slope = enclosure_div(
-        enclosure_sub(a->middle_slope, enclosure_mul(q.middle, b->middle_slope)), b->middle);
-    q.value = enclosure_div(a->value, b->value);
-    q.slope = enclosure_div(enclosure_sub(a->slope, enclosure_mul(q.value, b->slope)), b->value);
-    q.curve = enclosure_div(enclosure_sub(enclosure_sub(a->curve, enclosure_mul(q.value, b->curve)),
-                                          twice(enclosure_mul(q.slope, b->slope))),
-                            b->value);
+static jet over(jet a, jet b, int order) {
+    jet q = {{enclosure_div(a.f[0], b.f[0]), unknown, unknown}};
+    if (order > 0) {
+        q.f[1] = enclosure_div(enclosure_sub(a.f[1], enclosure_mul(q.f[0], b.f[1])), b.f[0]);
+    }
+    if (order > 1) {
+        q.f[2] = enclosure_div(enclosure_sub(enclosure_sub(a.f[2], enclosure_mul(q.f[0], b.f[2])),
+                                             twice(enclosure_mul(q.f[1], b.f[1]))),
+                               b.f[0]);
+    }
     return q;
 }
 
-/* The form of a function of u. at, on: the function and its derivatives at the middle of the part, and bounds on them over
- * the part. */
-static form chain(const form *u, slopes at, slopes on) {
-    return (form){at.f[0], enclosure_mul(at.f[1], u->middle_slope), on.f[0],
-                  enclosure_mul(on.f[1], u->slope),
-                  enclosure_add(enclosure_mul(on.f[2], enclosure_square(u->slope)),
-                                enclosure_mul(on.f[1], u->curve))};
-}
-
-/* A form that encloses both `a` and `b`, if it is not known which applies. At a kink the slope is between their slopes,
- * and there is no curvature. */
-static form either(form a, form b, enclosure middle, enclosure value) {
-    return (form){middle, enclosure_hull(a.middle_slope, b.middle_slope), value,
-                  enclosure_is_finite(a.slope) && enclosure_is_finite(b.slope)
-                      ? enclosure_hull(a.slope, b.slope)
-                      : unknown,
-                  unknown};
-}
-
-static form lesser(const form *a, const form *b) {
-    if (a->value.high <= b->value.low || b->value.high <= a->value.low) {
-        return a->value.high <= b->value.low ? *a : *b;
+/* The jet of a function of u. `of`: the function and its derivatives by u. */
+static jet chain(jet u, jet of, int order) {
+    if (order > 1) {
+        of.f[2] = enclosure_add(enclosure_mul(of.f[2], enclosure_square(u.f[1])),
+                                enclosure_mul(of.f[1], u.f[2]));
     }
-    return either(*a, *b, enclosure_call(FN_MIN, a->middle, b->middle),
-                  enclosure_call(FN_MIN, a->value, b->value));
+    of.f[1] = order > 0 ? enclosure_mul(of.f[1], u.f[1]) : unknown;
+    return of;
 }
 
-static form larger(const form *a, const form *b) {
-    const form x = times_number(a, -1.0);
-    const form y = times_number(b, -1.0);
-    const form least = lesser(&x, &y);
-    return times_number(&least, -1.0);
+/* A jet with this value that is `a` or `b`, if it is not known which. At a kink the slope is between their slopes, and there is
+ * no curvature. */
+static jet either(jet a, jet b, enclosure value) {
+    const bool sloped = enclosure_is_finite(a.f[1]) && enclosure_is_finite(b.f[1]);
+    return (jet){{value, sloped ? enclosure_hull(a.f[1], b.f[1]) : unknown, unknown}};
 }
 
-static form size_of(const form *a) {
-    const form other = times_number(a, -1.0);
-    if (a->value.low >= 0.0 || a->value.high <= 0.0) {
-        return a->value.low >= 0.0 ? *a : other;
+static jet lesser(jet a, jet b) {
+    if (a.f[0].high <= b.f[0].low || b.f[0].high <= a.f[0].low) {
+        return a.f[0].high <= b.f[0].low ? a : b;
     }
-    return either(*a, other, enclosure_call(FN_ABS, a->middle, zero),
-                  enclosure_call(FN_ABS, a->value, zero));
+    return either(a, b, enclosure_call(FN_MIN, a.f[0], b.f[0]));
 }
 
-static form sign_of(const form *a) {
-    const enclosure value = enclosure_call(FN_SIGN, a->value, zero);
+static jet size_of(jet a) {
+    if (a.f[0].low >= 0.0 || a.f[0].high <= 0.0) {
+        return a.f[0].low >= 0.0 ? a : negative(a);
+    }
+    return either(a, negative(a), enclosure_call(FN_ABS, a.f[0], zero));
+}
+
+static jet sign_of(jet a) {
+    const enclosure value = enclosure_call(FN_SIGN, a.f[0], zero);
     const enclosure slope = enclosure_is_point(value) ? zero : unknown;
-    return (form){enclosure_call(FN_SIGN, a->middle, zero), slope, value, slope, slope};
+    return (jet){{value, slope, slope}};
 }
 
 /* --- functions -------------------------------------------------------------------------------------------*/
@@ -210,128 +211,117 @@ static enclosure power(enclosure u, double e) {
     return enclosure_power(whole || !(u.low < 0.0) ? u : (enclosure){0.0, u.high}, enclosure_of(e));
 }
 
-static slopes power_slopes(enclosure u, double e) {
-    return (slopes){{power(u, e), enclosure_times(power(u, e - 1.0), e),
-                     enclosure_times(power(u, e - 2.0), e * (e - 1.0))}};
-}
-
-static slopes slopes_of(function_id function, enclosure u) {
+/* A function of u and its derivatives by u. */
+static jet derivatives_of(function_id function, enclosure u) {
     const enclosure one = enclosure_of(1.0);
     const enclosure f = enclosure_call(function, u, zero);
-    const enclosure square = enclosure_square(u);
+    const enclosure uu = enclosure_square(u);
     enclosure x;
     switch (function) {
     case FN_SIN:
     case FN_COS:
         x = function == FN_SIN ? enclosure_cosine(u) : enclosure_neg(enclosure_sine(u));
-        return (slopes){{f, x, enclosure_neg(f)}};
-    case FN_EXP: return (slopes){{f, f, f}};
-    case FN_LOG: return (slopes){{f, inverse(u), enclosure_neg(inverse(square))}};
+        return (jet){{f, x, enclosure_neg(f)}};
+    case FN_EXP: return (jet){{f, f, f}};
+    case FN_LOG: return (jet){{f, inverse(u), enclosure_neg(inverse(uu))}};
     case FN_TAN:
         x = enclosure_add(one, enclosure_square(f));
-        return (slopes){{f, x, twice(enclosure_mul(f, x))}};
+        return (jet){{f, x, twice(enclosure_mul(f, x))}};
     case FN_SINH:
     case FN_COSH:
         x = enclosure_call(function == FN_SINH ? FN_COSH : FN_SINH, u, zero);
-        return (slopes){{f, x, f}};
+        return (jet){{f, x, f}};
     case FN_TANH:
         x = enclosure_sub(one, enclosure_square(f));
-        return (slopes){{f, x, enclosure_neg(twice(enclosure_mul(f, x)))}};
+        return (jet){{f, x, enclosure_neg(twice(enclosure_mul(f, x)))}};
     case FN_ATAN:
-        x = inverse(enclosure_add(one, square));
-        return (slopes){{f, x, enclosure_neg(twice(enclosure_mul(u, enclosure_square(x))))}};
+        x = inverse(enclosure_add(one, uu));
+        return (jet){{f, x, enclosure_neg(twice(enclosure_mul(u, enclosure_square(x))))}};
     case FN_ASIN:
     case FN_ACOS: {
-        const enclosure rest = enclosure_sub(one, square);
+        const enclosure rest = enclosure_sub(one, uu);
         const double sign = function == FN_ASIN ? 1.0 : -1.0;
         x = enclosure_times(power(rest, -0.5), sign);
-        return (slopes){{f, x, enclosure_div(enclosure_mul(u, x), rest)}};
+        return (jet){{f, x, enclosure_div(enclosure_mul(u, x), rest)}};
     }
     case FN_SQRT:
         x = enclosure_times(inverse(f), 0.5);
-        return (slopes){{f, x, enclosure_neg(enclosure_times(enclosure_div(x, u), 0.5))}};
+        return (jet){{f, x, enclosure_neg(enclosure_times(enclosure_div(x, u), 0.5))}};
     case FN_ATAN2:
     case FN_ABS:
     case FN_SIGN:
     case FN_MIN:
     case FN_MAX: break;
     }
-    return (slopes){{unknown, unknown, unknown}};
+    return no_jet;
 }
 
-static form call(function_id function, const form *u) {
-    return chain(u, slopes_of(function, u->middle), slopes_of(function, u->value));
+static jet call(function_id function, jet u, int order) {
+    if (order == 0) {
+        return (jet){{enclosure_call(function, u.f[0], zero), unknown, unknown}};
+    }
+    return chain(u, derivatives_of(function, u.f[0]), order);
 }
 
 /* The angle of (x, y). With n = x y' - y x' and q = x^2 + y^2 its slope is n / q. At the jump from -pi to pi it has no slope. */
-static form angle_of(const form *y, const form *x) {
-    const form n = {
-        enclosure_sub(enclosure_mul(x->middle, y->middle_slope),
-                      enclosure_mul(y->middle, x->middle_slope)),
-        unknown,
-        enclosure_sub(enclosure_mul(x->value, y->slope), enclosure_mul(y->value, x->slope)),
-        enclosure_sub(enclosure_mul(x->value, y->curve), enclosure_mul(y->value, x->curve)),
-        unknown};
-    const form xx = times(x, x);
-    const form yy = times(y, y);
-    const form q = plus(&xx, &yy);
-    const form slope = over(&n, &q);
-    const bool jumps = x->value.low < 0.0 && y->value.low <= 0.0 && y->value.high >= 0.0;
-    return (form){enclosure_call(FN_ATAN2, y->middle, x->middle), slope.middle,
-                  enclosure_call(FN_ATAN2, y->value, x->value), jumps ? unknown : slope.value,
-                  jumps ? unknown : slope.slope};
+static jet angle_of(jet y, jet x, int order) {
+    const jet n = {{enclosure_sub(enclosure_mul(x.f[0], y.f[1]), enclosure_mul(y.f[0], x.f[1])),
+                    enclosure_sub(enclosure_mul(x.f[0], y.f[2]), enclosure_mul(y.f[0], x.f[2])),
+                    unknown}};
+    const jet slope = over(n, plus(square(x, 1), square(y, 1)), order - 1);
+    const bool jumps = x.f[0].low < 0.0 && y.f[0].low <= 0.0 && y.f[0].high >= 0.0;
+    return (jet){{enclosure_call(FN_ATAN2, y.f[0], x.f[0]), jumps ? unknown : slope.f[0],
+                  jumps ? unknown : slope.f[1]}};
 }
 
-static form raised(const form *a, const form *b) {
-    if (enclosure_is_point(b->value) && fabs(b->value.low) < 1e6) {
-        const double e = b->value.low;
-        return chain(a, power_slopes(a->middle, e), power_slopes(a->value, e));
+static jet raised(jet a, jet b, int order) {
+    const enclosure u = a.f[0];
+    if (enclosure_is_point(b.f[0]) && fabs(b.f[0].low) < 1e6) {
+        const double e = b.f[0].low;
+        const jet of = {{power(u, e), enclosure_times(power(u, e - 1.0), e),
+                         enclosure_times(power(u, e - 2.0), e * (e - 1.0))}};
+        return chain(a, of, order);
     }
-    const form log = call(FN_LOG, a);
-    const form product = times(b, &log);
-    return call(FN_EXP, &product);
+    return call(FN_EXP, times(b, call(FN_LOG, a, order), order), order);
 }
 
 /* --- the list -----------------------------------------------------------------------------------------------*/
 
-static form phase_of(const taylor_bounds *a, const op *o) {
-    form sum = constant(o->value);
+static jet phase_of(const taylor_bounds *a, const spot *p, const op *o) {
+    jet sum = constant(o->value);
     for (int i = 0; i < a->list->angles && o->turns != NULL; i++) {
         if (o->turns[i] != 0) {
-            const form part = times_number(&a->place[i], o->turns[i]);
-            sum = plus(&sum, &part);
+            sum = plus(sum, times_number(p->position[i], o->turns[i]));
         }
     }
-    return o->b >= 0 ? plus(&sum, &a->of[o->b]) : sum;
+    return o->b >= 0 ? plus(sum, p->of[o->b]) : sum;
 }
 
-static form value_of(const taylor_bounds *a, const op *o) {
+static jet value_of(const taylor_bounds *a, const spot *p, const op *o) {
     const int values = op_rows[o->code].values;
-    const form *x = values > 0 && o->a >= 0 ? &a->of[o->a] : &no_form;
-    const form *y = values > 1 && o->b >= 0 ? &a->of[o->b] : &no_form;
+    const jet x = values > 0 && o->a >= 0 ? p->of[o->a] : no_jet;
+    const jet y = values > 1 && o->b >= 0 ? p->of[o->b] : no_jet;
     switch (o->code) {
     case OP_CONSTANT: return constant(o->value);
-    case OP_LINEAR: return a->place[a->image->angles + o->a];
-    case OP_RATE: return a->rate[o->a];
+    case OP_LINEAR: return p->position[a->image->angles + o->a];
+    case OP_RATE: return p->rate[o->a];
     case OP_INPUT: return constant(a->input[o->a]);
-    case OP_PHASE: return phase_of(a, o);
-    case OP_SIN: return call(FN_SIN, &a->of[o->a]);
-    case OP_COS: return call(FN_COS, &a->of[o->a]);
+    case OP_PHASE: return phase_of(a, p, o);
+    case OP_SIN: return call(FN_SIN, p->of[o->a], p->order);
+    case OP_COS: return call(FN_COS, p->of[o->a], p->order);
     case OP_ADD: return plus(x, y);
-    case OP_NEG: return times_number(x, -1.0);
-    case OP_MUL: return times(x, y);
-    case OP_DIV: return over(x, y);
-    case OP_SQRT: return call(FN_SQRT, x);
+    case OP_SUB: return plus(x, negative(y));
+    case OP_NEG: return negative(x);
+    case OP_MUL: return o->a == o->b ? square(x, p->order) : times(x, y, p->order);
+    case OP_DIV: return over(x, y, p->order);
+    case OP_SQRT: return call(FN_SQRT, x, p->order);
     case OP_ABS: return size_of(x);
     case OP_SIGN: return sign_of(x);
     case OP_MIN: return lesser(x, y);
-    case OP_MAX: return larger(x, y);
-    case OP_POW: return raised(x, y);
-    case OP_CALL: return o->function == FN_ATAN2 ? angle_of(x, y) : call(o->function, x);
-    case OP_SUB: {
-        const form other = times_number(y, -1.0);
-        return plus(x, &other);
-    }
+    case OP_MAX: return negative(lesser(negative(x), negative(y)));
+    case OP_POW: return raised(x, y, p->order);
+    case OP_CALL:
+        return o->function == FN_ATAN2 ? angle_of(x, y, p->order) : call(o->function, x, p->order);
     case OP_ACCEL:
     case OP_TIME:
     case OP_RADIANS:
@@ -340,61 +330,18 @@ static form value_of(const taylor_bounds *a, const op *o) {
     case OP_LINE:
     case OP_CUBIC: break; /* no such operation in this list */
     }
-    return no_form;
+    return no_jet;
 }
 
-static enclosure natural_phase(const taylor_bounds *a, const op *o) {
-    enclosure sum = enclosure_of(o->value);
-    for (int i = 0; i < a->list->angles && o->turns != NULL; i++) {
-        sum = enclosure_add(sum, enclosure_times(a->place[i].value, o->turns[i]));
-    }
-    return o->b >= 0 ? enclosure_add(sum, a->natural[o->b]) : sum;
-}
-
-static enclosure natural_of(const taylor_bounds *a, const op *o) {
-    const int values = op_rows[o->code].values;
-    const enclosure x = values > 0 && o->a >= 0 ? a->natural[o->a] : zero;
-    const enclosure y = values > 1 && o->b >= 0 ? a->natural[o->b] : zero;
-    switch (o->code) {
-    case OP_CONSTANT: return enclosure_of(o->value);
-    case OP_LINEAR: return a->place[a->image->angles + o->a].value;
-    case OP_RATE: return a->rate[o->a].value;
-    case OP_INPUT: return enclosure_of(a->input[o->a]);
-    case OP_PHASE: return natural_phase(a, o);
-    case OP_SIN: return enclosure_sine(a->natural[o->a]);
-    case OP_COS: return enclosure_cosine(a->natural[o->a]);
-    case OP_ADD: return enclosure_add(x, y);
-    case OP_SUB: return enclosure_sub(x, y);
-    case OP_NEG: return enclosure_neg(x);
-    case OP_MUL: return o->a == o->b ? enclosure_square(x) : enclosure_mul(x, y);
-    case OP_DIV: return enclosure_div(x, y);
-    case OP_SQRT: return enclosure_call(FN_SQRT, x, zero);
-    case OP_ABS: return enclosure_call(FN_ABS, x, zero);
-    case OP_SIGN: return enclosure_call(FN_SIGN, x, zero);
-    case OP_MIN: return enclosure_call(FN_MIN, x, y);
-    case OP_MAX: return enclosure_call(FN_MAX, x, y);
-    case OP_POW: return enclosure_power(x, y);
-    case OP_CALL: return enclosure_call(o->function, x, y);
-    case OP_ACCEL:
-    case OP_TIME:
-    case OP_RADIANS:
-    case OP_NOISE:
-    case OP_CELL:
-    case OP_LINE:
-    case OP_CUBIC: break; /* no such operation in this list */
-    }
-    return unknown;
-}
-
-/* Narrows the value by the bounds at the middle and those of the slopes. */
-static void cut(form *f, double half) {
+/* Narrows the bounds over the part by those at its middle. */
+static void cut(jet *part, const jet *middle, double half) {
     const enclosure way = {-half, half};
     const enclosure bend = {0.0, enclosure_above(0.5 * half * half)};
-    f->slope = both(f->slope, enclosure_add(f->middle_slope, enclosure_mul(f->curve, way)));
-    f->value = both(f->value, enclosure_add(f->middle, enclosure_mul(f->slope, way)));
-    f->value =
-        both(f->value, enclosure_add(enclosure_add(f->middle, enclosure_mul(f->middle_slope, way)),
-                                     enclosure_mul(f->curve, bend)));
+    enclosure *f = part->f;
+    f[1] = both(f[1], enclosure_add(middle->f[1], enclosure_mul(f[2], way)));
+    f[0] = both(f[0], enclosure_add(middle->f[0], enclosure_mul(f[1], way)));
+    f[0] = both(f[0], enclosure_add(enclosure_add(middle->f[0], enclosure_mul(middle->f[1], way)),
+                                    enclosure_mul(f[2], bend)));
 }
 
 /* --- the way ------------------------------------------------------------------------------------------------*/
@@ -447,16 +394,17 @@ static void go(taylor_bounds *a, double low, double high) {
         const enclosure slopes_on = between(slope[0], slope[2], bend * fabs(third));
         const enclosure curves = between(curve[0], curve[2], 0.0);
         /* the state is known only up to its rounding */
-        a->place[i] = (form){enclosure_about(at[1], 0), enclosure_of(slope[1]),
-                             between(at[0], at[2], bend * most), slopes_on, curves};
-        const form rate = {enclosure_of(slope[1]), enclosure_of(curve[1]), slopes_on, curves,
-                           enclosure_of(third)};
-        a->rate[i] = times_number(&rate, 1.0 / h);
+        const jet middle_rate = {{enclosure_of(slope[1]), enclosure_of(curve[1]), unknown}};
+        const jet part_rate = {{slopes_on, curves, enclosure_of(third)}};
+        a->middle.position[i] = (jet){{enclosure_about(at[1], 0), middle_rate.f[0], unknown}};
+        a->part.position[i] = (jet){{between(at[0], at[2], bend * most), slopes_on, curves}};
+        a->middle.rate[i] = times_number(middle_rate, 1.0 / h);
+        a->part.rate[i] = times_number(part_rate, 1.0 / h);
     }
 }
 
-/* Costs in operations. BOUNDS: natural bounds of an operation. WAY: a coordinate on the path. FORM: a form of an operation.
- * CALLED: a form of a function or power. */
+/* Costs in operations. BOUNDS: natural bounds of an operation. WAY: a coordinate on the path. FORM: the jets of an operation.
+ * CALLED: the jets of a function or power. */
 enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
 
 /* Natural bounds of one result on the whole path: a quick test. */
@@ -465,11 +413,14 @@ static enclosure taylor_bounds_glance(taylor_bounds *a, int result) {
         a->glanced = true;
         engine_operations += (uint64_t)(BOUNDS * a->list->count + WAY * a->image->coordinates);
         go(a, 0.0, 1.0);
+        memcpy(a->natural.position, a->part.position,
+               2 * (size_t)a->image->coordinates *
+                   sizeof(jet)); /* the rates follow the positions */
         for (int i = 0; i < a->list->count; i++) {
-            a->natural[i] = natural_of(a, &a->list->ops[i]);
+            a->natural.of[i] = value_of(a, &a->natural, &a->list->ops[i]);
         }
     }
-    return a->natural[a->list->result[result]];
+    return a->natural.of[a->list->result[result]].f[0];
 }
 
 /* Bounds one result, or all (-1), on the part of the path from `low` to `high`, as shares. */
@@ -482,29 +433,31 @@ static void taylor_bounds_look(taylor_bounds *a, int result, double low, double 
     for (int i = 0; i <= last; i++) {
         if (needs == NULL || needs[i]) {
             const op_code code = t->ops[i].code;
-            a->of[i] = value_of(a, &t->ops[i]);
+            a->middle.of[i] = value_of(a, &a->middle, &t->ops[i]);
+            a->part.of[i] = value_of(a, &a->part, &t->ops[i]);
             if (op_rows[code].kind > OP_IS_LEAF) { /* a leaf's bounds are already exact */
                 engine_operations += code == OP_CALL || code == OP_POW ? CALLED : FORM;
-                cut(&a->of[i], a->half);
+                cut(&a->part.of[i], &a->middle.of[i], a->half);
             }
         }
     }
 }
 
 static enclosure taylor_bounds_value(const taylor_bounds *a, int result) {
-    return a->of[a->list->result[result]].value;
+    return a->part.of[a->list->result[result]].f[0];
 }
 
 /* The value at the middle of the part. */
 static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
-    return a->of[a->list->result[result]].middle;
+    return a->middle.of[a->list->result[result]].f[0];
 }
 
 /* How much the result would change over the whole path, with the slope and curvature of this part. */
 static double taylor_bounds_change(const taylor_bounds *a, int result) {
-    const form *f = &a->of[a->list->result[result]];
-    const double slope = enclosure_size(f->middle_slope);
-    return enclosure_is_finite(f->curve) ? slope + enclosure_size(f->curve) : slope;
+    const int of = a->list->result[result];
+    const double slope = enclosure_size(a->middle.of[of].f[1]);
+    const enclosure curve = a->part.of[of].f[2];
+    return enclosure_is_finite(curve) ? slope + enclosure_size(curve) : slope;
 }
 
 /* === what a step passes ========================================================================== */
