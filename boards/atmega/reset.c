@@ -50,7 +50,7 @@ static const char *words_of_fault(atmega_fault_kind kind) {
     return " unknown, PC ";
 }
 
-board_fault_when board_fault_told(wh_text *text) {
+board_fault_when board_fault_answer(wh_text *text) {
     wh_text_add(text, words_of_fault((atmega_fault_kind)fault.kind));
     wh_text_add(text, "0x");
     wh_text_add_hex(text, fault.at, 5);

@@ -46,7 +46,7 @@ static const trial trials[] = {
     {.name = "330_rpm_noise", .target_rpm = 330.0f, .noise = 200.0f},
     {.name = "330_rpm_compensated", .target_rpm = 330.0f, .compensated = true},
     {.name = "330_rpm_swings", .target_rpm = 330.0f, .swings = true},
-    {.name = "330_rpm_lost_marks", .target_rpm = 330.0f, .lose_pulses = {2, 1}},
+    {.name = "330_rpm_lost_pulses", .target_rpm = 330.0f, .lose_pulses = {2, 1}},
     {.name = "330_rpm_lost_samples", .target_rpm = 330.0f, .lose_samples = 9},
     {.name = "170_rpm_lost_both", .target_rpm = 170.0f, .lose_pulses = {1, 1}, .lose_samples = 9},
 };

@@ -21,7 +21,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     const hal_reset what = hal_reset_cause();
     wh_text_add(&text, words_of(what));
     if (what == HAL_RESET_FAULT) {
-        const board_fault_when when = board_fault_told(&text);
+        const board_fault_when when = board_fault_answer(&text);
         wh_text_add(&text, ", tick ");
         wh_text_add_unsigned(&text, when.ticks);
         wh_text_add(&text, ", state ");

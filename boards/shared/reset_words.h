@@ -14,6 +14,6 @@ typedef struct board_fault_when {
 
 /* Adds the words of the fault that hal_reset_cause() reports, and returns its time. Each family implements this
  * function. */
-board_fault_when board_fault_told(wh_text *text);
+board_fault_when board_fault_answer(wh_text *text);
 
 #endif

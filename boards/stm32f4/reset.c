@@ -42,7 +42,7 @@ void stm32f4_reset_start(void) {
 
 hal_reset hal_reset_cause(void) { return cause; }
 
-board_fault_when board_fault_told(wh_text *text) {
+board_fault_when board_fault_answer(wh_text *text) {
     board_fault_words(text, &fault.facts);
     return (board_fault_when){.ticks = fault.ticks, .state = fault.state, .faults = fault.faults};
 }

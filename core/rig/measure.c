@@ -15,11 +15,11 @@ void wh_measure_begin(const wh_measure_config *config, wh_measure *measure) {
     wh_lockin_forget(&config->rotor, &measure->lockin);
 }
 
-void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *mark) {
-    if (mark->gap) {
+void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *index) {
+    if (index->gap) {
         wh_lockin_gap(&measure->lockin);
     }
-    wh_lockin_pulse(&measure->lockin, mark->pulse.sensor, mark->pulse.ticks, mark->quarter);
+    wh_lockin_pulse(&measure->lockin, index->pulse.sensor, index->pulse.ticks, index->quarter);
 }
 
 bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks) {

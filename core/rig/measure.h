@@ -109,7 +109,7 @@ typedef struct wh_measure {
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 
 /* Process a confirmed pulse, in the order of time. */
-void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *mark);
+void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *index);
 
 /* Take a load sample: for the tare if at_rest, otherwise of a turning rotor. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);

@@ -47,8 +47,8 @@ WH_CALLED wh_status wh_observer_start(const wh_observer_config *config, wh_obser
 WH_CALLED void wh_observer_forget(wh_observer *observer) {
     observer->valid = false;
     observer->runs = false;
-    observer->marked = false;
-    observer->good_marks = 0;
+    observer->had_pulse = false;
+    observer->good_pulses = 0;
     observer->torque_Nm = WH_R(0.0);
 }
 
@@ -65,7 +65,7 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
     if (observer->status != WH_OK) {
         return;
     }
-    if (observer->marked && now_ticks - observer->mark_ticks > config->silence_ticks) {
+    if (observer->had_pulse && now_ticks - observer->pulse_ticks > config->silence_ticks) {
         wh_observer_forget(observer);
     }
     const uint32_t late_ticks = now_ticks - observer->ticks;
@@ -98,11 +98,11 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
         return;
     }
     observer->ticks += way_ticks;
-    observer->since_mark_rad += WH_R(0.5) * (before_radps + state->real[0]) * (wh_real)way_ticks /
-                                (wh_real)WH_RIG_TICKS_PER_S;
-    if (!(observer->since_mark_rad <= MISSED_RAD) || !(state->real[0] > WH_R(0.0))) {
+    observer->since_pulse_rad += WH_R(0.5) * (before_radps + state->real[0]) * (wh_real)way_ticks /
+                                 (wh_real)WH_RIG_TICKS_PER_S;
+    if (!(observer->since_pulse_rad <= MISSED_RAD) || !(state->real[0] > WH_R(0.0))) {
         observer->valid = false;
-        observer->good_marks = 0;
+        observer->good_pulses = 0;
     }
 }
 
@@ -123,15 +123,15 @@ wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks) {
 /* Starts the observer at this pulse, with the mean speed since the previous one. */
 static void set_out(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                     uint32_t ticks) {
-    const wh_real time_s = wh_rig_way_s(observer->mark_ticks, ticks);
+    const wh_real time_s = wh_rig_way_s(observer->pulse_ticks, ticks);
     wh_real turned_rad = signed_rad(wh_phase_from_rad(config->pulse_rad[sensor]) -
-                                    wh_phase_from_rad(config->pulse_rad[observer->mark_sensor]));
+                                    wh_phase_from_rad(config->pulse_rad[observer->pulse_sensor]));
     if (!(turned_rad > WH_R(0.0))) { /* two pulses of one sensor are a whole turn apart */
         turned_rad += WH_RIG_TWO_PI;
     }
     const wh_real speed_radps = turned_rad / time_s;
     observer->valid = false; /* the disturbance torque is kept */
-    observer->good_marks = 0;
+    observer->good_pulses = 0;
     observer->runs = time_s > WH_R(0.0) && speed_radps > config->slowest_radps &&
                      speed_radps < config->fastest_radps;
     if (observer->runs) {
@@ -153,11 +153,11 @@ static void correct(const wh_observer_config *config, wh_observer *observer, uns
         clamp(observer->torque_Nm + config->torque_gain_kgm2[sensor] * off_rad * turns * turns,
               config->torque_most_Nm);
     if (!(WH_ABS(off_rad) <= config->trusted_rad)) {
-        observer->good_marks = 0;
-    } else if (observer->good_marks < config->trusted_marks) {
-        observer->good_marks++;
+        observer->good_pulses = 0;
+    } else if (observer->good_pulses < config->trusted_pulses) {
+        observer->good_pulses++;
     }
-    observer->valid = observer->good_marks >= config->trusted_marks;
+    observer->valid = observer->good_pulses >= config->trusted_pulses;
 }
 
 WH_CALLED void wh_observer_pulse(const wh_observer_config *config, wh_observer *observer,
@@ -171,12 +171,12 @@ WH_CALLED void wh_observer_pulse(const wh_observer_config *config, wh_observer *
     }
     if (observer->runs && WH_ABS(observer->innovation_rad) <= config->lost_rad) {
         correct(config, observer, sensor);
-    } else if (observer->marked) {
+    } else if (observer->had_pulse) {
         set_out(config, observer, sensor, ticks);
     }
-    observer->marked = true;
-    observer->mark_ticks = ticks;
-    observer->mark_sensor = sensor;
-    observer->since_mark_rad =
+    observer->had_pulse = true;
+    observer->pulse_ticks = ticks;
+    observer->pulse_sensor = sensor;
+    observer->since_pulse_rad =
         wh_observer_speed_radps(observer) * wh_rig_way_s(ticks, observer->ticks);
 }

@@ -40,11 +40,11 @@ typedef struct wh_observer_config {
     wh_real speed_gain[WH_OBSERVER_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_OBSERVER_SENSORS]; /* torque += gain e n^2, N m */
     wh_real torque_most_Nm;                        /* largest magnitude of the torque */
-    /* The observer becomes valid after trusted_marks successive innovations of at most trusted_rad. */
+    /* The observer becomes valid after trusted_pulses successive innovations of at most trusted_rad. */
     wh_real trusted_rad;
-    uint32_t trusted_marks; /* one innovation above trusted_rad makes the observer invalid */
-    wh_real lost_rad;       /* a larger innovation restarts the observer; < pi */
-    wh_real slowest_radps;  /* lowest speed at which the observer starts, > 0 */
+    uint32_t trusted_pulses; /* one innovation above trusted_rad makes the observer invalid */
+    wh_real lost_rad;        /* a larger innovation restarts the observer; < pi */
+    wh_real slowest_radps;   /* lowest speed at which the observer starts, > 0 */
     wh_real fastest_radps;
     uint32_t silence_ticks; /* after this time without a pulse the state is unknown */
 } wh_observer_config;
@@ -52,7 +52,7 @@ typedef struct wh_observer_config {
 typedef struct wh_observer {
     bool valid;       /* angle and speed are reliable */
     bool runs;        /* the observer has started: the scene follows the rotor */
-    bool marked;      /* there was a pulse since the restart */
+    bool had_pulse;   /* there was a pulse since the restart */
     wh_status status; /* result of wh_observer_start(); unless WH_OK, the observer is never valid */
     wh_state state;   /* the scene's state at the time `ticks` */
     uint64_t memory[(WH_MEMORY_BYTES(1, 2, 0) + 7U) / 8U];
@@ -60,10 +60,10 @@ typedef struct wh_observer {
     uint32_t step_ticks;    /* duration of one step of the scene */
     wh_real torque_Nm;      /* the disturbance: torque on the rotor that the scene does not model */
     wh_real innovation_rad; /* the rotor's angle minus the scene's, at the last pulse */
-    wh_real since_mark_rad; /* angle turned since the last pulse */
-    uint32_t mark_ticks;    /* time of the last pulse, if marked */
-    unsigned mark_sensor;
-    uint32_t good_marks; /* number of successive pulses with a trusted innovation */
+    wh_real since_pulse_rad; /* angle turned since the last pulse */
+    uint32_t pulse_ticks;    /* time of the last pulse, if had_pulse */
+    unsigned pulse_sensor;
+    uint32_t good_pulses; /* number of successive pulses with a trusted innovation */
 } wh_observer;
 
 /* The configuration for the rig of eccentric.whirl; the caller fills in the scene and pulse_rad. The gains were chosen
@@ -76,7 +76,7 @@ typedef struct wh_observer {
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
         .per_drive = WH_R(1.0), .angle_gain = {WH_R(1.2), WH_R(0.6)}, \
         .speed_gain = {WH_R(0.65), WH_R(1.3)}, .torque_gain_kgm2 = {WH_R(0.009), WH_R(0.002)}, \
-        .torque_most_Nm = WH_R(0.5), .trusted_rad = WH_R(0.3), .trusted_marks = 3, \
+        .torque_most_Nm = WH_R(0.5), .trusted_rad = WH_R(0.3), .trusted_pulses = 3, \
         .lost_rad = WH_R(2.0), .slowest_radps = WH_R(40.0) * WH_RIG_RADPS_PER_RPM, \
         .fastest_radps = WH_RIG_IMPOSSIBLE_RADPS, .silence_ticks = 3U * (WH_RIG_TICKS_PER_S / 2U), \
     }

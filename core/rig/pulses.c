@@ -37,25 +37,25 @@ static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real
 }
 
 static void release(wh_pulses *pulses) {
-    if (pulses->waits && pulses->marks < WH_PULSES_CONFIRMED) {
-        pulses->mark[pulses->marks++] = pulses->last;
+    if (pulses->waits && pulses->confirmed_count < WH_PULSES_CONFIRMED) {
+        pulses->confirmed[pulses->confirmed_count++] = pulses->last;
     }
     pulses->waits = false;
 }
 
-bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *mark) {
+bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *index) {
     if (pulses->waits && pulses->speed.known &&
         (wh_real)(int32_t)(now_ticks - pulses->last.pulse.ticks) >
             SURE_PART * turn_ticks(&pulses->speed)) {
         release(pulses);
     }
-    if (pulses->marks == 0) {
+    if (pulses->confirmed_count == 0) {
         return false;
     }
-    *mark = pulses->mark[0];
-    pulses->marks--;
-    for (unsigned i = 0; i < pulses->marks; i++) {
-        pulses->mark[i] = pulses->mark[i + 1U];
+    *index = pulses->confirmed[0];
+    pulses->confirmed_count--;
+    for (unsigned i = 0; i < pulses->confirmed_count; i++) {
+        pulses->confirmed[i] = pulses->confirmed[i + 1U];
     }
     return true;
 }

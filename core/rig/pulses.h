@@ -58,9 +58,9 @@ typedef struct wh_pulses {
     wh_speed speed;      /* speed from the accepted pulses */
     wh_speed before;     /* the speed before the last pulse was taken */
     wh_speed suspected;  /* the speed if the suspect is true */
-    unsigned marks;
+    unsigned confirmed_count;
     wh_index_pulse
-        mark[WH_PULSES_CONFIRMED]; /* confirmed pulses that the caller has not taken yet */
+        confirmed[WH_PULSES_CONFIRMED]; /* confirmed pulses that the caller has not taken yet */
 } wh_pulses;
 
 #define wh_pulses_start WH_NAME(wh_pulses_start)
@@ -78,12 +78,13 @@ void wh_pulses_forget(wh_pulses *pulses);
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 
 /* The slow part of wh_pulses_confirmed(), after its quick check. */
-bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *mark);
+bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *index);
 
 /* Take the next pulse that is confirmed by now. Returns false if there is none. Call it in each control step until it
  * returns false. */
-WH_INLINE bool wh_pulses_confirmed(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *mark) {
-    return (pulses->waits || pulses->marks > 0) && wh_pulses_sure(pulses, now_ticks, mark);
+WH_INLINE bool wh_pulses_confirmed(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *index) {
+    return (pulses->waits || pulses->confirmed_count > 0) &&
+           wh_pulses_sure(pulses, now_ticks, index);
 }
 
 #ifdef __cplusplus

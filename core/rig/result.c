@@ -57,7 +57,7 @@ static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_tick
 
 /* If two used turns are successive, adds the second differences of the times of each sensor's pulses: the differences
  * between the durations of successive turns. */
-static void add_marks(wh_merge *merge, const wh_lockin_turn *turn) {
+static void add_pulses(wh_merge *merge, const wh_lockin_turn *turn) {
     const bool adjoins =
         merge->follows && merge->begin_ticks + merge->last_ticks == turn->begin_ticks;
     if (adjoins) {
@@ -92,7 +92,7 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
         merge->second_follows = false;
         return;
     }
-    add_marks(merge, turn);
+    add_pulses(merge, turn);
     if (merge->turns == 0) {
         merge->first_ticks = turn->turn_ticks;
     }
@@ -141,7 +141,7 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
 
 /* Returns the square of the phase's half-width because of the pulses' jitter, without the part that the scatter of the
  * turns shows. */
-static wh_real marks_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
+static wh_real pulses_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
     /* A turn's phase has the mean error of its two pulses, so its variance is one half. The mean of n turns has one
@@ -193,7 +193,7 @@ WH_INLINE wh_real t2_of(const wh_merge *merge) {
     return student * student;
 }
 
-WH_INLINE void jitter_of_marks(const wh_merge *merge, wh_measured *measured) {
+WH_INLINE void jitter_of_pulses(const wh_merge *merge, wh_measured *measured) {
     if (merge->jitters > 0) {
         measured->jitter_s = WH_SQRT(merge->jitter_s2 / (WH_R(6.0) * (wh_real)merge->jitters));
     }
@@ -251,7 +251,7 @@ WH_INLINE void phase_half(const wh_result_config *config, const wh_merge *merge,
     const wh_real drift = WH_R(0.5) * (wh_real)(int32_t)(merge->last_ticks - merge->first_ticks) /
                           ((wh_real)merge->turns * merge->turn_s * (wh_real)WH_RIG_TICKS_PER_S);
     measured->phase_half_rad = WH_SQRT(
-        measured->phase_half_rad / size2 + t2 * marks_rad2(merge, angle, measured->jitter_s) +
+        measured->phase_half_rad / size2 + t2 * pulses_rad2(merge, angle, measured->jitter_s) +
         square_of(by->lag) + square_of(by->third) + square_of(turned) +
         square_of(WH_R(0.1) * by->cut) + square_of(drift) +
         square_of(floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD)));
@@ -277,7 +277,7 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
     }
     const wh_real size2 = size2_of(merge);
     if (piece == 3U) {
-        jitter_of_marks(merge, measured);
+        jitter_of_pulses(merge, measured);
     }
     if (!has_halves(merge, size2)) {
         return;
@@ -304,7 +304,7 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
     if (piece == 0 && merge->turns > 0) {
         wh_polar(merge->in_phase_N, -merge->quadrature_N, &measured->amplitude_N,
                  &measured->phase_rad);
-        jitter_of_marks(merge, measured);
+        jitter_of_pulses(merge, measured);
     }
     if (!has_halves(merge, size2)) {
         return;

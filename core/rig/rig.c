@@ -311,7 +311,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     }
 }
 
-static wh_real feed_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
+static wh_real compensation_V(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     if (!rig->compensated || !wh_run_is_closed(&rig->run)) {
         rig->compensation.part = WH_R(0.0);
         return WH_R(0.0);
@@ -352,7 +352,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
 /* Maximum number of pulses that jitter makes while the rig is armed. If there are more, a person turns the rotor. */
 #define ARMED_PULSES_MOST 2U
 
-static void live(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
+static void step_run(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool armed = rig->state == WH_RIG_ARMED;
     if (armed && (wh_rig_is_over(rig->since_ticks, inputs->now_ticks, config->armed_max_s) ||
                   rig->pulses_ever - rig->pulses_before > ARMED_PULSES_MOST)) {
@@ -395,13 +395,13 @@ static unsigned halves(const wh_rig *rig) {
 }
 
 /* If more confirmed pulses than this wait, even a step that has processed a pulse confirms one. */
-#define MARKS_WAIT 1U
+#define CONFIRMED_WAIT 1U
 
 static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
-    wh_index_pulse mark;
-    if ((!rig->busy || rig->pulses.marks > MARKS_WAIT) &&
-        wh_pulses_confirmed(&rig->pulses, now_ticks, &mark)) {
-        wh_measure_pulse(&rig->measure, &mark);
+    wh_index_pulse index;
+    if ((!rig->busy || rig->pulses.confirmed_count > CONFIRMED_WAIT) &&
+        wh_pulses_confirmed(&rig->pulses, now_ticks, &index)) {
+        wh_measure_pulse(&rig->measure, &index);
         rig->busy = true;
     }
     if (wh_run_drives(&rig->run) && !rig->busy) {
@@ -431,7 +431,7 @@ static void swing(const wh_rig_config *config, wh_rig *rig) {
 static wh_rig_command command_of(const wh_rig_config *config, wh_rig *rig,
                                  const wh_rig_inputs *inputs) {
     if (rig->guard.trip == WH_TRIP_NONE && wh_run_drives(&rig->run)) {
-        const wh_real volts = rig->run.volts + feed_V(config, rig, inputs->now_ticks);
+        const wh_real volts = rig->run.volts + compensation_V(config, rig, inputs->now_ticks);
         const wh_real most = volts < inputs->supply_V ? volts : inputs->supply_V;
         return (wh_rig_command){WH_MOTOR_DRIVES, most > WH_R(0.0) ? most : WH_R(0.0)};
     }
@@ -444,6 +444,15 @@ static void follow_trip(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
     }
 }
 
+/* Values that one part of a step sets and a later part reads:
+ *
+ *   set by                       value                           read by
+ *   wh_rig_pulse() before it     pulses, busy, decides           all parts
+ *   wh_rig_load() before it      loads, the measurement's load   measure()
+ *   observe()                    observer, busy, loads           compensation_V(), measure()
+ *   watch()                      guard.trip                      follow_trip(), command_of()
+ *   step_run()                   run.phase, run.volts            measure(), command_of()
+ *   compensation_V()             compensation.part               step_run() of the next step */
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     if (rig->compensated && wh_run_is_closed(&rig->run)) {
         observe(config, rig, inputs->now_ticks);
@@ -456,7 +465,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     take_orders(config, rig, inputs);
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
-    live(config, rig, inputs);
+    step_run(config, rig, inputs);
     /* A trip makes the measurement's work useless, so the trip is handled first. */
     follow_trip(config, rig, inputs);
     if (rig->run.phase != phase) {

@@ -218,7 +218,7 @@ static unsigned do_host(request *r) {
         return WH_STATION_SECONDS;
     }
     r->station->host_steps = (uint32_t)(limit_s * (wh_real)r->station->steps_per_s);
-    r->station->host_told = true;
+    r->station->host_given = true;
     return 0;
 }
 
@@ -312,7 +312,7 @@ static void tell_stage(request *r) {
 
 /* True in the step in which the host has been silent for too long. The rig is informed only once. */
 static bool host_is_lost(wh_station *station, wh_rig *rig) {
-    const uint32_t host_steps = station->host_told ? station->host_steps
+    const uint32_t host_steps = station->host_given ? station->host_steps
                                 : station->config != NULL
                                     ? station->config->host_max_s * station->steps_per_s
                                     : 0;

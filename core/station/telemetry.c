@@ -364,7 +364,7 @@ static void list(const wh_tel *tel, const wh_cell_config *cell, wh_text *answer)
     wh_answer(answer, " rate=@c fmt=@w dropped=@c channels=@w", value);
 }
 
-static void ring_told(const wh_tel *tel, wh_text *answer) {
+static void answer_ring(const wh_tel *tel, wh_text *answer) {
     const wh_capture *capture = &tel->capture;
     const wh_value value[] = {{.word = wh_list_item(TRIGGERS, capture->trigger)},
                               {.word = wh_list_item(STATES, capture->state)},
@@ -479,7 +479,7 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     } else if (!wh_tel_read(tel)) {
         return WH_STATION_TEL_RING;
     }
-    ring_told(tel, answer);
+    answer_ring(tel, answer);
     return WH_STATION_FINE;
 }
 
@@ -499,7 +499,7 @@ static wh_station_error without_word(wh_tel *tel, const wh_cell_config *cell, co
     switch ((alone)wh_list_find(ALONE_ROWS(LISTED), what)) {
     case ALONE_LIST: list(tel, cell, answer); break;
     case ALONE_OFF: wh_tel_rate(tel, 0); break;
-    case ALONE_RING: ring_told(tel, answer); break;
+    case ALONE_RING: answer_ring(tel, answer); break;
     case ALONE_NONE: return WH_STATION_TEL_HOW;
     }
     return WH_STATION_FINE;

@@ -379,11 +379,11 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* Does a step of to->h = h.high. Before each call of accel(), told[to->angles] gets the phases of the angles, unless
+/* Does a step of to->h = h.high. Before each call of accel(), stage_phase[to->angles] gets the phases of the angles, unless
  * `stage_phase` is NULL. */
-WH_INLINE wh_status wh_turn_second_told(const void *model, wh_turned_accel_fn *accel,
-                                        const wh_waves *waves, const wh_stepping *to, wh_two_part h,
-                                        wh_phase *stage_phase, wh_state *state) {
+WH_INLINE wh_status wh_turn_second_phases(const void *model, wh_turned_accel_fn *accel,
+                                          const wh_waves *waves, const wh_stepping *to,
+                                          wh_two_part h, wh_phase *stage_phase, wh_state *state) {
     const wh_tableau *by = to->by;
     const bool compensated = to->compensated;
     const unsigned angles = to->angles;
@@ -417,7 +417,7 @@ WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_method method, bool compensated,
                                    unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
     const wh_stepping to = {wh_tableau_of(method), state, h.high, angles, n, compensated};
-    return wh_turn_second_told(model, accel, waves, &to, h, NULL, state);
+    return wh_turn_second_phases(model, accel, waves, &to, h, NULL, state);
 }
 
 typedef struct wh_turned_first {

@@ -40,7 +40,7 @@ WH_INLINE wh_status wh_turn_ledger(const wh_ledger_form *form, const void *model
     const wh_stepping to = {wh_tableau_of(method), state,      h.high, form->angles,
                             form->coordinates,     compensated};
     const wh_status status =
-        wh_turn_second_told(&with, wh_turn_ledger_accel, waves, &to, h, phase, state);
+        wh_turn_second_phases(&with, wh_turn_ledger_accel, waves, &to, h, phase, state);
     if (status == WH_OK) {
         wh_ledger_accept(form, &work);
         wh_ledger_commit(form, &work, state);

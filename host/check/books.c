@@ -188,7 +188,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
-/* Updates terms[]: a momentum is a sum of masses times rates, and of terms without rates (lean[]). */
+/* Updates terms[]: a momentum is a sum of masses times rates, and of terms without rates (rateless[]). */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -261,7 +261,7 @@ static void add_work(books *b, const double power_W[2]) {
 
 /* --- terms linear in the rates -------------------------------------------------------------------*/
 
-/* The kinetic energy at this state with every rate reversed. lean[] gets the momenta of the reversed state. */
+/* The kinetic energy at this state with every rate reversed. rateless[] gets the momenta of the reversed state. */
 static double reversed_J(books *b, const double *angle_rad, const double *from) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -274,8 +274,8 @@ static double reversed_J(books *b, const double *angle_rad, const double *from) 
     return b->value[im->count + BOOK_KINETIC];
 }
 
-/* lean[] becomes the mean of the momenta with reversed rates and of those just evaluated with the actual rates. */
-static void take_lean(books *b) {
+/* rateless[] becomes the mean of the momenta with reversed rates and of those just evaluated with the actual rates. */
+static void take_rateless(books *b) {
     for (int i = 0; i < b->image->count; i++) {
         b->rateless[i] = 0.5 * (b->rateless[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
     }
@@ -297,7 +297,7 @@ static bool find_rateless(books *b) {
         }
         (void)reversed_J(b, angle_rad, real);
         evaluate_now(b, angle_rad, real, b->time_s);
-        take_lean(b);
+        take_rateless(b);
         double most = 0.0;
         for (int i = 0; i < im->count; i++) {
             most = number_most(most, fabs(b->value[im->count + BOOK_MOMENTA + i]));
@@ -409,7 +409,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     b->moving_J[1] = entry[BOOK_KINETIC];
     if (b->has_rateless) {
         b->moving_J[1] = 0.5 * (b->moving_J[1] + back_J);
-        take_lean(b);
+        take_rateless(b);
     }
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];

@@ -52,12 +52,12 @@ typedef struct books {
     spread kinetic;       /* spread over the steps */
     spread stored;
     spread *rate; /* [count] */
-    spread *push; /* [count] momenta without lean[] */
+    spread *push; /* [count] momenta without rateless[] */
     /* [count] does this momentum belong to a conserved sum? A common speed of its bodies then only changes the mean */
     bool *frame;
     /* [count] the part of each momentum that stays the same if all rates are reversed; it depends on the origin */
     double *rateless;
-    bool has_rateless;  /* a lean[] is nonzero, as in a magnetic field */
+    bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], in units of the unit round-off */
     double size_J;      /* largest |T| + |V| */
     double rounding_J;  /* largest sampled energy change by the round-off of one step */

@@ -430,9 +430,9 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
         fputs("unknown: the steps alias a fast force or motion", out);
     } else {
         say_until(out, h, false);
-        const bool told = h->column[h->first].verdict == HORIZON_UNTIL;
-        fputs(told && image_of(h)->has_energies ? "; only the balances below are meaningful then"
-                                                : "",
+        const bool known = h->column[h->first].verdict == HORIZON_UNTIL;
+        fputs(known && image_of(h)->has_energies ? "; only the balances below are meaningful then"
+                                                 : "",
               out);
     }
     fputc('\n', out);

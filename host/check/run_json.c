@@ -133,7 +133,7 @@ static void put_files(json *j, const char *const files[RUN_JSON_FILES]) {
 }
 
 void run_json(FILE *out, const run_json_request *w) {
-    const run_checks *v = w->verdict;
+    const run_checks *v = w->checks;
     const image *im = v->image;
     json j = {.out = out};
     put_head(&j, "run", im, v->kind, v->run);

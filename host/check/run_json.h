@@ -9,7 +9,7 @@
 enum { RUN_JSON_FILES = 4 };
 
 typedef struct run_json_request {
-    const struct run_checks *verdict;
+    const struct run_checks *checks;
     const records *records; /* records, whose current row is the last state */
     const char *said;       /* text of the findings, or of the failure, with hints; or NULL */
     double until_s;         /* the run is accurate until this time; below 0: unknown */

@@ -30,7 +30,7 @@ typedef struct simulation {
     const simulation_settings *settings;
     void *run;
     records *records;
-    run_checks *verdict;
+    run_checks *checks;
     FILE *csv;
     FILE *columns;
     FILE *vcd;
@@ -43,7 +43,7 @@ typedef struct simulation {
     double shown_s;   /* clock time when the progress was last shown */
     char *said;       /* text of the findings */
     diags *undefined; /* errors about energies and outputs that were not finite */
-    bool energies_told;
+    bool energies_reported;
     int output;           /* the first output that was not a finite number, or -1 */
     double output_s;      /* time when an output was first not finite */
     double trusted_s;     /* the plot is shaded after this time; below or at 0: no shade */
@@ -87,11 +87,11 @@ static bool open_files(simulation *sim) {
 
 /* Undefined energies make a run fail at its end. Until then the motion and its records continue. */
 static void tell_energies(simulation *sim) {
-    const books *b = sim->verdict->books;
-    if (b == NULL || !b->undefined || sim->energies_told) {
+    const books *b = sim->checks->books;
+    if (b == NULL || !b->undefined || sim->energies_reported) {
         return;
     }
-    sim->energies_told = true;
+    sim->energies_reported = true;
     if (!nonfinite_energies(sim->image, sim->settings->kind, b->angle_rad, b->real, b->undefined_s,
                             sim->undefined)) {
         diag_error(sim->undefined, sim->image->mechanism_at, NULL,
@@ -161,7 +161,7 @@ static void enter(simulation *sim, uint64_t step) {
     if (sim->traces != NULL) {
         traces_step(sim->traces, sim->run, step);
     }
-    run_checks_enter(sim->verdict);
+    run_checks_enter(sim->checks);
     tell_energies(sim);
     if (step > 0 && (sim->csv != NULL || sim->plot != NULL)) {
         mark_events(sim, step);
@@ -204,7 +204,7 @@ static wh_status go(simulation *sim, bool *ended) {
     const loop l = {.kind = s->kind,
                     .run = sim->run,
                     .steps = sim->steps,
-                    .own = &sim->verdict->own,
+                    .own = &sim->checks->own,
                     .see = see,
                     .of = sim};
     wh_status status;
@@ -259,7 +259,7 @@ static void say_failure(simulation *sim, wh_status status) {
     size_t length;
     FILE *text = alloc_text(&sim->said, &length);
     if (status != WH_OK) {
-        failure_say(text, status, sim->verdict);
+        failure_say(text, status, sim->checks);
     } else {
         diags_flush(sim->undefined, text);
     }
@@ -267,7 +267,7 @@ static void say_failure(simulation *sim, wh_status status) {
     fputs(sim->said, stderr);
 }
 
-static simulation_result judge(simulation *sim, wh_status status, bool ended) {
+static simulation_result conclude(simulation *sim, wh_status status, bool ended) {
     const simulation_settings *s = sim->settings;
     records_read(sim->records, sim->run, ratio_times(s->kind->steps(sim->run), sim->image->step));
     if (status != WH_OK) { /* the failure of a step is reported instead of undefined energies */
@@ -285,18 +285,18 @@ static simulation_result judge(simulation *sim, wh_status status, bool ended) {
     if (undefined) {
         say_failure(sim, WH_OK);
     }
-    const books *b = sim->verdict->books;
+    const books *b = sim->checks->books;
     if (status == WH_OK && b != NULL && b->undefined &&
         sim->output < 0) { /* remedies do not apply to outputs */
-        findings_say_failed(stderr, sim->verdict);
+        findings_say_failed(stderr, sim->checks);
     }
     if (status != WH_OK || undefined) {
         return SIMULATION_FAILED;
     }
-    const bool fails = s->strict > 0.0 && energy_residual_lost(&sim->verdict->balance, s->strict);
+    const bool fails = s->strict > 0.0 && energy_residual_lost(&sim->checks->balance, s->strict);
     size_t length;
     FILE *text = alloc_text(&sim->said, &length);
-    findings_say(text, sim->verdict, fails);
+    findings_say(text, sim->checks, fails);
     alloc_text_end(text);
     fputs(sim->said, stderr);
     return ended ? SIMULATION_INTERRUPTED : SIMULATION_DONE;
@@ -384,11 +384,11 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     FILE *out = simulation_summary(s);
     if (status == WH_OK) {
         opening_enter(&sim->opening, sim->records);
-        opening_print(out, &sim->opening, sim->records, sim->verdict->books);
+        opening_print(out, &sim->opening, sim->records, sim->checks->books);
     }
     if (s->chosen != NULL) {
         fprintf(out, "%s%s\n", s->chosen,
-                (sim->verdict->warned & ~FINDING_OF_SCENE) != 0
+                (sim->checks->warned & ~FINDING_OF_SCENE) != 0
                     ? "; this choice considers only this error, but the warning concerns the "
                       "whole motion"
                     : "");
@@ -402,29 +402,29 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
         fprintf(out, "  changed: %s\n", s->changes);
     }
     if (result == SIMULATION_DONE && h != NULL) {
-        horizon_print_line(out, h, (sim->verdict->warned & ~FINDING_OF_SCENE) != 0);
+        horizon_print_line(out, h, (sim->checks->warned & ~FINDING_OF_SCENE) != 0);
     } else if (result == SIMULATION_DONE && sim->steps > 0) {
         fputs("trusted            not computed, because that takes more than a second: run `whirl "
               "trust`\n",
               out);
     }
-    const unsigned unlooked = run_checks_unlooked(sim->verdict);
+    const unsigned unlooked = run_checks_unlooked(sim->checks);
     if (result == SIMULATION_DONE && unlooked != 0) {
         fputs("not checked        ", out);
         finding_say_names(out, unlooked);
-        const uint64_t unseen = pole_crossing_unseen(sim->verdict->jumped);
+        const uint64_t unseen = pole_crossing_unseen(sim->checks->jumped);
         if (unseen > 0) {
             fprintf(out, ", poles and contacts in %" PRIu64 " of %" PRIu64 " steps", unseen,
                     sim->steps);
         }
         fputs(": the check takes more than a second\n", out);
     }
-    summary_print(out, sim->image, s->kind, sim->run, sim->verdict->books, &sim->verdict->balance);
+    summary_print(out, sim->image, s->kind, sim->run, sim->checks->books, &sim->checks->balance);
 }
 
 /* Fills in *to, from the horizon if there is one (`h` may be NULL). */
 static void trust(simulation *sim, horizon *h, simulation_trust *to) {
-    const run_checks *v = sim->verdict;
+    const run_checks *v = sim->checks;
     *h = horizon_of(v->doubling, HORIZON_TOLERANCE);
     if (!h->to_the_end) {
         sim->trusted_s = number_most(h->until_s, sim->image->step_s);
@@ -452,7 +452,7 @@ simulation_result simulate(const image *im, const simulation_settings *s,
     if (open_files(&sim)) {
         bool ended = false;
         sim.run = s->kind->start(im);
-        sim.verdict = run_checks_open(im, s->plain, s->kind, sim.run, NULL);
+        sim.checks = run_checks_open(im, s->plain, s->kind, sim.run, NULL);
         sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;
@@ -461,16 +461,16 @@ simulation_result simulate(const image *im, const simulation_settings *s,
         sim.opening = opening_begin(sim.records, sim.steps);
         sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records, s->every) : NULL;
         const wh_status status = go(&sim, &ended);
-        run_checks_end(sim.verdict, status);
+        run_checks_end(sim.checks, status);
         horizon h;
-        const bool known = sim.verdict->doubling != NULL && status == WH_OK;
+        const bool known = sim.checks->doubling != NULL && status == WH_OK;
         if (known) {
             trust(&sim, &h, outcome);
         }
-        result = judge(&sim, status, ended);
-        outcome->fails = run_checks_fails(sim.verdict, s->strict);
-        outcome->over_budget = sim.verdict->doubling == NULL;
-        outcome->left = budget_left(&sim.verdict->own);
+        result = conclude(&sim, status, ended);
+        outcome->fails = run_checks_fails(sim.checks, s->strict);
+        outcome->over_budget = sim.checks->doubling == NULL;
+        outcome->left = budget_left(&sim.checks->own);
         traces_close(sim.traces);
         sim.course.trusted_s = sim.trusted_s;
         result = close_records(&sim, true) ? result : SIMULATION_BAD_FILE;
@@ -489,7 +489,7 @@ simulation_result simulate(const image *im, const simulation_settings *s,
             result = SIMULATION_BAD_FILE;
         }
         if (s->json) {
-            run_json(stdout, &(run_json_request){sim.verdict,
+            run_json(stdout, &(run_json_request){sim.checks,
                                                  sim.records,
                                                  sim.said,
                                                  outcome->until_s,
@@ -498,7 +498,7 @@ simulation_result simulate(const image *im, const simulation_settings *s,
                                                  {s->csv, s->columns, s->vcd, s->plot}});
         }
         free(sim.said);
-        run_checks_close(sim.verdict);
+        run_checks_close(sim.checks);
         s->kind->stop(sim.run);
         diags_free(sim.undefined);
     } else {

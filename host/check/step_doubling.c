@@ -195,9 +195,9 @@ void passages_enter(passages *p, double before_s, double size) {
     if (!(now > p->most)) {
         return;
     }
-    const double told = p->count > 0 ? p->passed[p->count - 1].size : 0.0;
+    const double last = p->count > 0 ? p->passed[p->count - 1].size : 0.0;
     p->most = now;
-    if (!(now > told * (1.0 + PASSAGE_GRAIN))) {
+    if (!(now > last * (1.0 + PASSAGE_GRAIN))) {
         return;
     }
     if (p->count == p->room) {

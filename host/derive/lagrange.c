@@ -315,7 +315,7 @@ static bool energies_finite(const equations *e, generic_state *state) {
 }
 
 /* The result of one tried state, from worst to best. */
-typedef enum verdict { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } run_checks;
+typedef enum solvability { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } solvability;
 
 /* Returns the largest error of a regular matrix after rank_of(), divided by its smallest pivot. */
 static double blur_of(const double *m, const double *error, int n) {
@@ -328,8 +328,8 @@ static double blur_of(const double *m, const double *error, int n) {
     return most / least;
 }
 
-/* Returns the verdict at one tried state. *blur is set if it is SOLVABLE. `m` comes from room_for(n). */
-static run_checks verdict_at(const equations *e, int try, double *m, double *blur) {
+/* Returns the result at one tried state. *blur is set if it is SOLVABLE. `m` comes from room_for(n). */
+static solvability solvability_at(const equations *e, int try, double *m, double *blur) {
     const int n = e->count;
     generic_state state = {e->instance, (uint64_t)try};
     double *error = m + n * n;
@@ -360,11 +360,11 @@ static run_checks verdict_at(const equations *e, int try, double *m, double *blu
 static bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);
-    run_checks best = NOWHERE_FINITE;
+    solvability best = NOWHERE_FINITE;
     e->mass_blur = (double)INFINITY;
     for (int try = 0; try <= TRY_START && e->mass_blur > MASS_BLUR_FINE; try++) {
         double blur = (double)INFINITY;
-        const run_checks found = verdict_at(e, try, m, &blur);
+        const solvability found = solvability_at(e, try, m, &blur);
         best = found > best ? found : best;
         e->mass_blur = found == SOLVABLE ? number_least(e->mass_blur, blur) : e->mass_blur;
     }

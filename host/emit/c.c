@@ -431,7 +431,7 @@ static void write_starts(FILE *out, const image *im) {
     fprintf(out, "\n");
 }
 
-/* Can the scene use wh_advance_multi_step()? It does not update the data of contacts, ledgers and inputs with a rate. */
+/* Can the scene use wh_multi_step()? It does not update the data of contacts, ledgers and inputs with a rate. */
 static bool has_multi_step(const image *im) {
     return im->contacts == 0 && !im->ledger.kept && im->drives == 0;
 }

@@ -364,7 +364,7 @@ static bool read_mechanism(parser *in, const statement_word *word) {
 }
 
 /* Stores the place of the scene and skips the scene, because it may name later effects. */
-static bool read_scene(parser *in, const statement_word *word) {
+static bool note_scene(parser *in, const statement_word *word) {
     (void)word;
     if (in->pending_count == SCENES_MAX) {
         in->lexer.stopped = true;

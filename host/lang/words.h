@@ -126,7 +126,7 @@ enum {
       SYM_OUTPUT, "output name = expression") \
     X(EFFECT, "effect", IN_FILE, RESERVED | ENDS_ALL, read_effect, 0, \
       "effect drag \"viscous drag\" { F += b*X'^2/2 }") \
-    X(SCENE, "scene", IN_FILE, RESERVED | ENDS_ALL, read_scene, 0, \
+    X(SCENE, "scene", IN_FILE, RESERVED | ENDS_ALL, note_scene, 0, \
       "scene from_rest \"title\" { until 9 [s] }") \
     X(STOP, "stop", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | INTO_EFFECT, read_stop, \
       CONTACT_STOP, "stop x >= 0 [m] restitution 0.5") \

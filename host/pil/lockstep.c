@@ -259,7 +259,7 @@ static bool hear_hello(talk *t) {
         const wh_signal *s = &t->signal[i];
         t->outputs += s->kind == WH_SIGNAL_OUTPUT || s->kind == WH_SIGNAL_NOTE;
         if (s->kind == WH_SIGNAL_NOTE) {
-            told_note *note = &t->report->note[t->report->notes++];
+            last_note *note = &t->report->note[t->report->notes++];
             snprintf(note->name, sizeof note->name, "%s", s->name);
             snprintf(note->unit, sizeof note->unit, "%s", s->unit);
         }
@@ -647,7 +647,7 @@ static void print_plant(FILE *out, const image *im, const lockstep_report *r) {
 
 static void print_notes(FILE *out, const lockstep_report *r) {
     for (unsigned i = 0; i < r->notes; i++) {
-        const told_note *note = &r->note[i];
+        const last_note *note = &r->note[i];
         const bool bare = strcmp(note->unit, "1") == 0;
         fprintf(out, "%s%s %.6g%s%s", i == 0 ? "it tells           " : ", ", note->name,
                 note->value, bare ? "" : " ", bare ? "" : note->unit);

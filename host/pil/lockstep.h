@@ -48,11 +48,11 @@ typedef struct peak {
 } peak;
 
 /* A note of the firmware, which is a value that it reports about itself: name, unit and last value. */
-typedef struct told_note {
+typedef struct last_note {
     char name[32];
     char unit[16];
     double value;
-} told_note;
+} last_note;
 
 typedef struct lockstep_report {
     lockstep_end end;
@@ -60,7 +60,7 @@ typedef struct lockstep_report {
     char program[40];
     char board[40];
     uint64_t exchanges;
-    told_note note[WH_SIGNALS_MAX];
+    last_note note[WH_SIGNALS_MAX];
     unsigned notes;
     double time_s; /* time of the plant, s */
     double wall_s;

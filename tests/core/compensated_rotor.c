@@ -49,16 +49,16 @@ wh_status compensated_rotor_start(compensated_rotor *compensated, wh_real speed_
 
 static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
-static void take_marks(compensated_rotor *compensated) {
+static void take_pulses(compensated_rotor *compensated) {
     const rotor_state *truth = &compensated->rotor;
-    for (unsigned i = 0; i < truth->marks; i++) {
-        if (compensated->lose_marks > 0) {
-            compensated->lose_marks--;
+    for (unsigned i = 0; i < truth->pulses; i++) {
+        if (compensated->lose_pulses > 0) {
+            compensated->lose_pulses--;
             continue;
         }
-        wh_speed_pulse(&compensated->speed, truth->mark_sensor[i], truth->mark_ticks[i]);
-        wh_observer_pulse(&compensated->observing, &compensated->observer, truth->mark_sensor[i],
-                          truth->mark_ticks[i]);
+        wh_speed_pulse(&compensated->speed, truth->pulse_sensor[i], truth->pulse_ticks[i]);
+        wh_observer_pulse(&compensated->observing, &compensated->observer, truth->pulse_sensor[i],
+                          truth->pulse_ticks[i]);
     }
 }
 
@@ -106,7 +106,7 @@ static void control(compensated_rotor *compensated) {
     rotor_turn(&compensated->kind, &compensated->rotor, compensated->voltage, FED_STEP_TICKS);
     wh_observer_step(&compensated->observing, &compensated->observer, compensated->rotor.ticks,
                      compensated->voltage);
-    take_marks(compensated);
+    take_pulses(compensated);
     count(compensated);
     compensated->voltage = voltage;
 }

@@ -25,7 +25,7 @@ typedef struct compensated_rotor {
     wh_speed speed;
     wh_real voltage; /* voltage of the next control step, as a fraction of the rated one */
     fed_by by;
-    unsigned lose_marks; /* number of coming pulses that will be lost, of any sensor */
+    unsigned lose_pulses; /* number of coming pulses that will be lost, of any sensor */
     /* From here to sum_radps: values counted since compensated_rotor_count(). */
     uint32_t steps;
     uint32_t valid;    /* number of steps with a valid observer */

@@ -60,21 +60,21 @@ static void watch(const rotor_kind *kind, rotor_state *rotor, wh_real from_rad, 
             to -= WH_RIG_TWO_PI;
         }
         const wh_real way = back ? -way_rad : way_rad;
-        if (!(to < way) || rotor->marks == ROTOR_MARKS) {
+        if (!(to < way) || rotor->pulses == ROTOR_PULSES) {
             continue;
         }
         const wh_real late_s =
             kind->jitter_s * draw_whole(&rotor->seed, -1000, 1000) / WH_R(1000.0);
         const wh_real ticks =
             (wh_real)SLICE_TICKS * (to / way) + late_s * (wh_real)WH_RIG_TICKS_PER_S;
-        rotor->mark_sensor[rotor->marks] = sensor;
-        rotor->mark_ticks[rotor->marks++] = rotor->ticks + (uint32_t)(int32_t)ticks;
+        rotor->pulse_sensor[rotor->pulses] = sensor;
+        rotor->pulse_ticks[rotor->pulses++] = rotor->ticks + (uint32_t)(int32_t)ticks;
     }
 }
 
 void rotor_turn(const rotor_kind *kind, rotor_state *rotor, wh_real drive, uint32_t ticks) {
     const wh_real h = SLICE_S;
-    rotor->marks = 0;
+    rotor->pulses = 0;
     for (uint32_t passed = 0; passed < ticks; passed += SLICE_TICKS) {
         const wh_real q = rotor->angle_rad;
         const wh_real w = rotor->speed_radps;

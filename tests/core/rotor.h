@@ -24,16 +24,16 @@ typedef struct rotor_kind {
     wh_real jitter_s; /* jitter of the pulses, uniform, early or late by up to this time */
 } rotor_kind;
 
-#define ROTOR_MARKS 4U
+#define ROTOR_PULSES 4U
 
 typedef struct rotor_state {
     uint32_t ticks;    /* present time, 1 MHz, wrapping */
     wh_real angle_rad; /* 0 ... 2 pi */
     wh_real speed_radps;
-    uint64_t seed;  /* seed of the pulses' jitter */
-    unsigned marks; /* number of pulses during the last rotor_turn() */
-    unsigned mark_sensor[ROTOR_MARKS];
-    uint32_t mark_ticks[ROTOR_MARKS];
+    uint64_t seed;   /* seed of the pulses' jitter */
+    unsigned pulses; /* number of pulses during the last rotor_turn() */
+    unsigned pulse_sensor[ROTOR_PULSES];
+    uint32_t pulse_ticks[ROTOR_PULSES];
 } rotor_state;
 
 /* Returns the rig of core/models/eccentric.whirl. Its pulses come one degree before the sensors. */

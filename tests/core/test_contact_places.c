@@ -199,7 +199,7 @@ TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
     TEST_ASSERT_TRUE(seen[0] > ROUNDS / 16 && seen[1] > ROUNDS / 16 && seen[2] > ROUNDS / 16);
 }
 
-/* wh_contact_is_far(): a stop counts as far passed if its error exceeds a share of the gap's terms. A term is an entry
+/* wh_contact_far(): a stop counts as far passed if its error exceeds a share of the gap's terms. A term is an entry
  * of the row times the position of a coordinate, or, for an angle, times one radian. */
 TEST(contact_places, how_far_a_stop_is_passed) {
     uint64_t seed = 145;

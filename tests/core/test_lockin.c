@@ -24,7 +24,7 @@ typedef struct made_up {
     wh_real phase_rad;
     wh_real third_N; /* amplitude of the third order */
     /* Number of the pulse that sensor 1, and that sensor 2, loses; 0: none. */
-    unsigned lost_mark[2];
+    unsigned lost_pulse[2];
     unsigned spoilt;       /* number of the first spoilt sample; 0: none */
     unsigned spoilt_count; /* number of spoilt samples */
     wh_real spoilt_N;      /* offset of the spoilt samples */
@@ -80,30 +80,31 @@ static void check_one_piece(wh_lockin_stage stage) {
 static void run(const made_up *made, unsigned wanted) {
     wh_lockin_start(&rotor, &lockin);
     turns_done = 0;
-    unsigned turn = 0;                /* number of the pulse that ends the present turn */
-    unsigned second = 0;              /* number of sensor 2's next pulse */
-    uint32_t mark = made->late_ticks; /* time of pulse `turn`, after the first sample */
-    uint32_t before = mark - TURN_TICKS;
+    unsigned turn = 0;                       /* number of the pulse that ends the present turn */
+    unsigned second = 0;                     /* number of sensor 2's next pulse */
+    uint32_t pulse_ticks = made->late_ticks; /* of pulse `turn`, after the first sample */
+    uint32_t before = pulse_ticks - TURN_TICKS;
     wh_real kept_N = WH_R(0.0);
     for (uint32_t i = 0; turn < wanted + 4U && turns_done < TURNS_MOST; i++) {
         const uint32_t now = i * PERIOD_TICKS;
-        const uint32_t second_ticks = before + (mark - before) / 4U;
+        const uint32_t second_ticks = before + (pulse_ticks - before) / 4U;
         if (turn > 0 && second < turn && (int32_t)(now - second_ticks) >= 0) {
-            if (turn != made->lost_mark[1]) {
+            if (turn != made->lost_pulse[1]) {
                 wh_lockin_pulse(&lockin, 1, made->first_ticks + second_ticks,
                                 UINT32_MAX - 16U + 4U * turn + 1U);
             }
             second = turn;
         }
-        if ((int32_t)(now - mark) >= 0) {
+        if ((int32_t)(now - pulse_ticks) >= 0) {
             turn++;
-            if (turn != made->lost_mark[0] || turn == 0) {
-                wh_lockin_pulse(&lockin, 0, made->first_ticks + mark, UINT32_MAX - 16U + 4U * turn);
+            if (turn != made->lost_pulse[0] || turn == 0) {
+                wh_lockin_pulse(&lockin, 0, made->first_ticks + pulse_ticks,
+                                UINT32_MAX - 16U + 4U * turn);
             }
-            before = mark;
-            mark += turn_ticks_of(made, turn);
+            before = pulse_ticks;
+            pulse_ticks += turn_ticks_of(made, turn);
         }
-        const wh_real part = (wh_real)(int32_t)(now - before) / (wh_real)(mark - before);
+        const wh_real part = (wh_real)(int32_t)(now - before) / (wh_real)(pulse_ticks - before);
         wh_real force_N = load_of(made, part);
         wh_load load = {.ticks = made->first_ticks + now, .status = WH_LOAD_OK};
         const bool spoilt = made->spoilt > 0 && i >= made->spoilt &&
@@ -178,7 +179,7 @@ TEST(lockin, known_phase_and_amplitude_are_found) {
 }
 
 /* A pulse 5 degrees before the sensor: angles are counted from the arms' position at the pulse. */
-TEST(lockin, angle_of_the_mark_counts) {
+TEST(lockin, angle_of_the_pulse_counts) {
     settings();
     made_up made = plain;
     made.phase_rad = WH_R(30.0) * DEG;
@@ -210,12 +211,12 @@ TEST(lockin, other_orders_are_rejected) {
 
 /* After a lost pulse of sensor 1, the two turns between the neighbouring pulses are skipped. After a lost pulse of
  * sensor 2, only the load at sensor 2 is wrong. */
-TEST(lockin, lost_marks_spoil_no_other_turn) {
+TEST(lockin, lost_pulses_spoil_no_other_turn) {
     settings();
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         made_up made = plain;
         made.phase_rad = WH_R(30.0) * DEG;
-        made.lost_mark[sensor] = 5;
+        made.lost_pulse[sensor] = 5;
         run(&made, 8);
         check_all(&made, 6);
         TEST_ASSERT_EQUAL_UINT32(sensor == 0 ? 2U : 0U, lockin.skipped);

@@ -44,8 +44,8 @@ static stream draw_stream(void) {
                     .ripple_N = draw_broken(&seed, -1, 1)};
 }
 
-static wh_real load_of(const stream *from, int32_t since_mark) {
-    const wh_real turns = (wh_real)since_mark / (wh_real)TURN_TICKS;
+static wh_real load_of(const stream *from, int32_t since_pulse) {
+    const wh_real turns = (wh_real)since_pulse / (wh_real)TURN_TICKS;
     wh_real third;
     wh_real unused;
     const wh_wave wave = wh_wave_of(WH_RIG_TWO_PI * turns);
@@ -59,7 +59,7 @@ static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_locki
     /* In the rig, too, a step without samples does more work. */
     const unsigned halves = from->held + from->hold_more == 0 ? WH_LOCKIN_HALVES_AT_ONCE
                                                               : WH_LOCKIN_HALVES_AT_ONCE + 1U;
-    const int32_t mark = (int32_t)from->lead * (int32_t)PERIOD_TICKS - from->behind_ticks;
+    const int32_t pulse = (int32_t)from->lead * (int32_t)PERIOD_TICKS - from->behind_ticks;
     unsigned done = 0;
     unsigned given = 0;
     unsigned hold = from->held;
@@ -67,10 +67,10 @@ static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_locki
     for (unsigned i = 0; i < steps; i++) {
         const int32_t now =
             ((int32_t)i + (from->lead < 0 ? from->lead : 0)) * (int32_t)PERIOD_TICKS;
-        for (; now >= mark + (int32_t)(quarter * (TURN_TICKS / 4U) + quarter / 4U * 2U);
+        for (; now >= pulse + (int32_t)(quarter * (TURN_TICKS / 4U) + quarter / 4U * 2U);
              quarter++) {
             const uint32_t at =
-                from->ticks + (uint32_t)mark + quarter * (TURN_TICKS / 4U) + quarter / 4U * 2U;
+                from->ticks + (uint32_t)pulse + quarter * (TURN_TICKS / 4U) + quarter / 4U * 2U;
             if (quarter % 4U < 2U) {
                 wh_lockin_pulse(to, quarter % 4U, at, quarter);
             }
@@ -82,7 +82,7 @@ static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_locki
         for (; hold == 0 && (int32_t)given * (int32_t)PERIOD_TICKS <= now; given++) {
             const int32_t since = (int32_t)given * (int32_t)PERIOD_TICKS;
             const wh_load load = {.ticks = from->ticks + (uint32_t)since,
-                                  .force_N = load_of(from, since - mark),
+                                  .force_N = load_of(from, since - pulse),
                                   .status = WH_LOAD_OK};
             wh_lockin_load(to, &load);
         }
@@ -168,7 +168,7 @@ TEST(lockin_late, what_was_forgotten_changes_nothing) {
 }
 
 /* A turn whose begin, end or quarter is at or near a sample is as accurate as any other. */
-TEST(lockin_late, marks_may_fall_on_samples) {
+TEST(lockin_late, pulses_may_fall_on_samples) {
     static wh_lockin_turn found[TURNS];
     begin(3);
     for (int32_t beside = -3; beside <= 3; beside++) {

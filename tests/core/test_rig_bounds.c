@@ -16,7 +16,7 @@ static void arm(bool trusted) {
     wh_observer_config *observing = &even.config.observer;
     observing->scene = &rig_fixed;
     observing->trusted_rad = observing->lost_rad = trusted ? WH_R(3.2) : WH_R(0.0);
-    observing->trusted_marks = 1000000U;
+    observing->trusted_pulses = 1000000U;
     even.config.feeds = WH_COMPENSATION_ALWAYS;
     TEST_ASSERT_TRUE(wh_observer_start(observing, &even.rig.observer, even.inputs.now_ticks) ==
                      WH_OK);
@@ -24,26 +24,26 @@ static void arm(bool trusted) {
 
 /* As many confirmed pulses wait as there is room for. Each step processes one; the last waits for a step without a new
  * pulse. */
-TEST(rig_bounds, a_single_mark_waits_for_a_step_without_a_pulse) {
+TEST(rig_bounds, a_single_pulse_waits_for_a_step_without_a_pulse) {
     static even_rig twin;
     even_reach(&even, WH_PHASE_SETTLE);
-    while (even.rig.pulses.waits || even.rig.pulses.marks > 0) {
+    while (even.rig.pulses.waits || even.rig.pulses.confirmed_count > 0) {
         even_step(&even); /* processes the confirmed pulse before the last */
     }
     twin = even;
-    for (unsigned marks = 0; marks <= WH_PULSES_CONFIRMED; marks++) {
+    for (unsigned confirmed = 0; confirmed <= WH_PULSES_CONFIRMED; confirmed++) {
         for (unsigned pulse = 0; pulse < 2U; pulse++) {
             even = twin;
-            for (unsigned i = 0; i < marks; i++) {
-                even.rig.pulses.mark[i] = even.rig.pulses.last;
+            for (unsigned i = 0; i < confirmed; i++) {
+                even.rig.pulses.confirmed[i] = even.rig.pulses.last;
             }
-            even.rig.pulses.marks = marks;
+            even.rig.pulses.confirmed_count = confirmed;
             even.rig.busy = pulse == 1U;
             const uint32_t ever = even.rig.pulses_ever;
             even_step(&even);
             TEST_ASSERT_EQUAL_UINT32(ever, even.rig.pulses_ever);
-            const unsigned taken = marks == 0 || (marks == 1U && pulse == 1U) ? 0U : 1U;
-            TEST_ASSERT_EQUAL_UINT(marks - taken, even.rig.pulses.marks);
+            const unsigned taken = confirmed == 0 || (confirmed == 1U && pulse == 1U) ? 0U : 1U;
+            TEST_ASSERT_EQUAL_UINT(confirmed - taken, even.rig.pulses.confirmed_count);
         }
     }
 }
@@ -102,8 +102,9 @@ TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
             const int most = work == 0 ? 4 : work > 1U ? 1 : unsure ? 2 : 3;
             const int done = halves_since(&before);
             if (done >= 0) {
-                const bool marks = waited != even.rig.pulses.waits || ever != even.rig.pulses_ever;
-                TEST_ASSERT_TRUE(done == most || (done == 0 && (marks || unsure)));
+                const bool changed =
+                    waited != even.rig.pulses.waits || ever != even.rig.pulses_ever;
+                TEST_ASSERT_TRUE(done == most || (done == 0 && (changed || unsure)));
                 times[done]++;
             }
         }

@@ -184,10 +184,10 @@ TEST(rig_gravity, the_wrong_sign_is_survived) {
 
 /* If pulses are missing, the voltage is zero at once and the ripple returns. When the pulses come again, the ripple
  * disappears again. */
-TEST(rig_gravity, lost_marks_take_it_away) {
+TEST(rig_gravity, lost_pulses_take_it_away) {
     begin(FED_BY_OBSERVER);
     run_at(WH_R(330.0));
-    compensated.lose_marks = 4;
+    compensated.lose_pulses = 4;
     compensated_rotor_count(&compensated);
     compensated_rotor_run(&compensated, WH_R(330.0), WH_R(0.6));
     TEST_ASSERT_TRUE(compensated.valid < compensated.steps);

@@ -35,8 +35,8 @@ static void begin(wh_rig_phase phase, wh_real target_radps) {
 
 static void turn(wh_real drive) {
     rotor_turn(&kind, &rotor, drive, EVEN_STEP_TICKS);
-    for (unsigned i = 0; i < rotor.marks; i++) {
-        wh_rig_pulse(&config, &rig, rotor.mark_sensor[i], rotor.mark_ticks[i]);
+    for (unsigned i = 0; i < rotor.pulses; i++) {
+        wh_rig_pulse(&config, &rig, rotor.pulse_sensor[i], rotor.pulse_ticks[i]);
     }
 }
 

@@ -57,12 +57,12 @@ static void step(void) {
     const wh_real drive = rig.command.volts / reads / motor.rated_V;
     kind.freewheels = rig.command.way == WH_MOTOR_COASTS;
     rotor_turn(&kind, &rotor, drive, EVEN_STEP_TICKS);
-    for (unsigned i = 0; i < rotor.marks; i++) {
+    for (unsigned i = 0; i < rotor.pulses; i++) {
         pulse[0] = pulse[1];
         pulse[1] = pulse[2];
         pulse[2] = pulse[3];
-        pulse[3] = (wh_pulse){.ticks = rotor.mark_ticks[i], .sensor = rotor.mark_sensor[i]};
-        wh_rig_pulse(&config, &rig, rotor.mark_sensor[i], rotor.mark_ticks[i]);
+        pulse[3] = (wh_pulse){.ticks = rotor.pulse_ticks[i], .sensor = rotor.pulse_sensor[i]};
+        wh_rig_pulse(&config, &rig, rotor.pulse_sensor[i], rotor.pulse_ticks[i]);
     }
     const wh_wave wave = wh_wave_of(rotor.angle_rad);
     const wh_real w = rotor.speed_radps;

@@ -12,13 +12,13 @@
 static even_rig even;
 static uint64_t seed;
 
-/* Arms the rig with an observer that trusts every pulse: good_marks counts the pulses that it gets. */
+/* Arms the rig with an observer that trusts every pulse: good_pulses counts the pulses that it gets. */
 static void arm(void) {
     even_arm(&even);
     wh_observer_config *observing = &even.config.observer;
     observing->scene = &rig_fixed;
     observing->trusted_rad = observing->lost_rad = WH_R(3.2);
-    observing->trusted_marks = 1000000U;
+    observing->trusted_pulses = 1000000U;
     even.config.feeds = WH_COMPENSATION_ALWAYS;
     TEST_ASSERT_TRUE(wh_observer_start(observing, &even.rig.observer, even.inputs.now_ticks) ==
                      WH_OK);
@@ -33,19 +33,19 @@ TEST(rig_observed, each_pulse_is_told_once) {
         even_obeys(&even, WH_EVENT_START, targets_rpm[k] * EVEN_RPM);
         even_go_on_until(&even, WH_PHASE_SETTLE);
         const wh_observer *observer = &even.rig.observer;
-        const uint32_t told = observer->good_marks;
+        const uint32_t told = observer->good_pulses;
         const uint32_t taken = even.rig.pulses.speed.taken;
         TEST_ASSERT_TRUE(observer->runs);
         unsigned waited = 0;
         for (unsigned i = 0; i < 3000U && even.rig.run.phase <= WH_PHASE_RECORD; i++) {
             even_step(&even);
             const uint32_t missing =
-                (even.rig.pulses.speed.taken - taken) - (observer->good_marks - told);
+                (even.rig.pulses.speed.taken - taken) - (observer->good_pulses - told);
             TEST_ASSERT_TRUE(missing <= 1U);
             waited = missing == 0 ? 0U : waited + 1U;
             TEST_ASSERT_TRUE(waited <= 2U);
             TEST_ASSERT_TRUE(missing > 0 ||
-                             observer->mark_ticks == even.rig.pulses.last.pulse.ticks);
+                             observer->pulse_ticks == even.rig.pulses.last.pulse.ticks);
         }
         TEST_ASSERT_TRUE(even.rig.pulses.speed.taken - taken > 20U);
     }
@@ -57,13 +57,13 @@ TEST(rig_observed, each_run_begins_with_an_observer_that_knows_nothing) {
         arm();
         wh_observer *observer = &even.rig.observer;
         observer->valid = observer->runs = true;
-        observer->marked = !draw_one_in(&seed, 4);
-        observer->good_marks = draw_one_of(&seed, 100);
-        observer->mark_ticks = even.inputs.now_ticks + (uint32_t)draw_bits(&seed) * 2U;
+        observer->had_pulse = !draw_one_in(&seed, 4);
+        observer->good_pulses = draw_one_of(&seed, 100);
+        observer->pulse_ticks = even.inputs.now_ticks + (uint32_t)draw_bits(&seed) * 2U;
         observer->torque_Nm = draw_broken(&seed, -1, 1);
         even_obeys(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM);
-        TEST_ASSERT_FALSE(observer->valid || observer->runs || observer->marked);
-        TEST_ASSERT_TRUE(observer->good_marks == 0 && observer->torque_Nm == WH_R(0.0));
+        TEST_ASSERT_FALSE(observer->valid || observer->runs || observer->had_pulse);
+        TEST_ASSERT_TRUE(observer->good_pulses == 0 && observer->torque_Nm == WH_R(0.0));
     }
 }
 
@@ -113,7 +113,7 @@ TEST(rig_observed, unfed_nothing_is_observed) {
     even_go_on_until(&even, WH_PHASE_RAMP_DOWN);
     TEST_ASSERT_TRUE(even.rig.run.phase == WH_PHASE_RAMP_DOWN);
     TEST_ASSERT_EQUAL_UINT32(ticks, even.rig.observer.ticks);
-    TEST_ASSERT_FALSE(even.rig.observer.runs || even.rig.observer.marked);
+    TEST_ASSERT_FALSE(even.rig.observer.runs || even.rig.observer.had_pulse);
 }
 
 /* When a new set-point ends or begins gravity compensation, the measurement's model of the angle changes in the same
@@ -168,9 +168,9 @@ TEST(rig_observed, a_sensor_that_is_none) {
 }
 
 /* Confirmed pulses wait in order of time, up to the buffer's size. */
-TEST(rig_observed, marks_come_in_their_order) {
+TEST(rig_observed, pulses_come_in_their_order) {
     wh_pulses pulses;
-    wh_index_pulse mark;
+    wh_index_pulse index;
     seed = 4;
     wh_pulses_start(&pulses, WH_R(84.0));
     pulses.bound_radps = WH_R(84.0);
@@ -185,13 +185,13 @@ TEST(rig_observed, marks_come_in_their_order) {
             wh_pulses_take(&pulses, taken % 2U == 0 ? 0U : 1U, ticks);
             taken++;
         }
-        unsigned marks = 0;
-        while (wh_pulses_confirmed(&pulses, ticks + 30000U, &mark)) {
-            TEST_ASSERT_TRUE((int32_t)(mark.pulse.ticks - before) > 0);
-            before = mark.pulse.ticks;
-            marks++;
+        unsigned confirmed = 0;
+        while (wh_pulses_confirmed(&pulses, ticks + 30000U, &index)) {
+            TEST_ASSERT_TRUE((int32_t)(index.pulse.ticks - before) > 0);
+            before = index.pulse.ticks;
+            confirmed++;
         }
-        TEST_ASSERT_TRUE(i < 2U || marks == running);
+        TEST_ASSERT_TRUE(i < 2U || confirmed == running);
         TEST_ASSERT_TRUE(i < 2U || before == ticks);
     }
 }

@@ -77,9 +77,9 @@ TEST(rig_observer, jitter_is_not_amplified) {
         compensated_rotor_run(&compensated, rpm[i], WH_R(4.0));
         compensated_rotor_count(&compensated);
         compensated_rotor_run(&compensated, rpm[i], WH_R(8.0));
-        const wh_real marks_rad = WH_R(60e-6) * rpm[i] * RPM;
-        check_below(WH_R(2.0) * marks_rad, fed_rotor_rms_rad(&compensated));
-        check_below(fed_rotor_rms_rad(&compensated), WH_R(0.5) * marks_rad);
+        const wh_real pulses_rad = WH_R(60e-6) * rpm[i] * RPM;
+        check_below(WH_R(2.0) * pulses_rad, fed_rotor_rms_rad(&compensated));
+        check_below(fed_rotor_rms_rad(&compensated), WH_R(0.5) * pulses_rad);
     }
 }
 
@@ -142,25 +142,25 @@ TEST(rig_observer, drawn_rotors_are_followed) {
 
 /* The observer starts at the second pulse and is valid three pulses later. It stays valid if one pulse of either sensor
  * is lost. After more than a turn without pulses it is invalid, and two turns later valid again. */
-TEST(rig_observer, marks_make_it_valid) {
+TEST(rig_observer, pulses_make_it_valid) {
     begin(3, WH_R(330.0));
-    unsigned marks = 0;
-    while (!compensated.observer.valid && marks < 20U) {
+    unsigned pulses = 0;
+    while (!compensated.observer.valid && pulses < 20U) {
         compensated_rotor_run(&compensated, WH_R(330.0), FED_STEP_S);
-        marks += compensated.rotor.marks;
-        TEST_ASSERT_TRUE(compensated.observer.runs == (marks >= 2U));
+        pulses += compensated.rotor.pulses;
+        TEST_ASSERT_TRUE(compensated.observer.runs == (pulses >= 2U));
     }
-    TEST_ASSERT_EQUAL_UINT(5, marks);
+    TEST_ASSERT_EQUAL_UINT(5, pulses);
     compensated_rotor_run(&compensated, WH_R(330.0), WH_R(3.0));
     for (unsigned i = 0; i < 2; i++) {
-        compensated.lose_marks = 1;
+        compensated.lose_pulses = 1;
         compensated_rotor_count(&compensated);
         compensated_rotor_run(&compensated, WH_R(330.0), WH_R(0.5) + (wh_real)i * WH_R(0.05));
-        TEST_ASSERT_EQUAL_UINT(0, compensated.lose_marks);
+        TEST_ASSERT_EQUAL_UINT(0, compensated.lose_pulses);
         TEST_ASSERT_EQUAL_UINT32(compensated.steps, compensated.valid);
         check_below(DEG, compensated.worst_rad);
     }
-    compensated.lose_marks = 3;
+    compensated.lose_pulses = 3;
     compensated_rotor_count(&compensated);
     compensated_rotor_run(&compensated, WH_R(330.0), WH_R(0.7));
     const uint32_t missing = compensated.steps - compensated.valid;
@@ -170,7 +170,7 @@ TEST(rig_observer, marks_make_it_valid) {
 }
 
 /* A pulse at a wrong angle makes the observer invalid at once; within 2 s it is valid again. */
-TEST(rig_observer, a_false_mark_is_noticed) {
+TEST(rig_observer, a_false_pulse_is_noticed) {
     begin(3, WH_R(330.0));
     for (unsigned i = 0; i < 20; i++) {
         compensated_rotor_run(&compensated, WH_R(330.0), WH_R(2.0) + WH_R(0.0371) * (wh_real)i);
@@ -193,7 +193,7 @@ TEST(rig_observer, a_false_mark_is_noticed) {
 
 /* The second pulse starts the observer, with the mean speed since the first. Both may come at any time within a
  * step. */
-TEST(rig_observer, two_marks_set_it_out) {
+TEST(rig_observer, two_pulses_set_it_out) {
     static const wh_real turned[2][2] = {{WH_R(1.0), WH_R(0.25)}, {WH_R(0.75), WH_R(1.0)}};
     for (unsigned i = 0; i < 8; i++) {
         const unsigned first = i % 2U;
@@ -228,7 +228,7 @@ TEST(rig_observer, a_missed_turn_is_noticed) {
     for (unsigned i = 0; i < 2; i++) {
         begin(3, WH_R(250.0));
         compensated_rotor_run(&compensated, WH_R(250.0), WH_R(3.0));
-        while (compensated.rotor.marks == 0 || compensated.rotor.mark_sensor[0] != 0) {
+        while (compensated.rotor.pulses == 0 || compensated.rotor.pulse_sensor[0] != 0) {
             compensated_rotor_run(&compensated, WH_R(250.0), FED_STEP_S);
         }
         if (i == 1U) { /* the position in which the rotor would hang */
@@ -256,9 +256,9 @@ TEST(rig_observer, uneven_steps_lose_no_time) {
                    i % 3U == 0 ? 2500 : 1500);
         wh_observer_step(&compensated.observing, &compensated.observer, compensated.rotor.ticks,
                          compensated.voltage);
-        for (unsigned k = 0; k < compensated.rotor.marks; k++) {
+        for (unsigned k = 0; k < compensated.rotor.pulses; k++) {
             wh_observer_pulse(&compensated.observing, &compensated.observer,
-                              compensated.rotor.mark_sensor[k], compensated.rotor.mark_ticks[k]);
+                              compensated.rotor.pulse_sensor[k], compensated.rotor.pulse_ticks[k]);
         }
         if (i >= 2000U) {
             const wh_real angle =
@@ -286,7 +286,7 @@ TEST(rig_observer, it_begins_anew) {
             for (uint32_t k = 2000; k <= UINT32_C(1600000); k += 2000U) {
                 wh_observer_step(&compensated.observing, &compensated.observer, now + k, WH_R(0.0));
             }
-            TEST_ASSERT_FALSE(compensated.observer.marked);
+            TEST_ASSERT_FALSE(compensated.observer.had_pulse);
         } else if (i == 2U) {
             wh_observer_step(&compensated.observing, &compensated.observer, now + 2000U, nan);
         } else {

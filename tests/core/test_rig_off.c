@@ -98,9 +98,9 @@ static void step_on(void) {
     const wh_real from_rad = b.rotor.angle_rad;
     rotor_turn(enabled ? &b.kind : &b.open, &b.rotor, volts / WH_RIG_RATED_V, STEP_TICKS);
     b.inputs.now_ticks = b.rotor.ticks;
-    for (unsigned i = 0; i < b.rotor.marks; i++) {
-        if (b.rotor.mark_sensor[i] != b.dead) {
-            wh_rig_pulse(&b.config, &b.rig, b.rotor.mark_sensor[i], b.rotor.mark_ticks[i]);
+    for (unsigned i = 0; i < b.rotor.pulses; i++) {
+        if (b.rotor.pulse_sensor[i] != b.dead) {
+            wh_rig_pulse(&b.config, &b.rig, b.rotor.pulse_sensor[i], b.rotor.pulse_ticks[i]);
         }
     }
     const wh_wave wave = wh_wave_of(b.rotor.angle_rad);

@@ -60,7 +60,7 @@ TEST(rig_parts, polar_of_every_size) {
 
 /* wh_turn_angle_by_ratio() returns the error that the angle at sensor 2's pulse had before the correction, whichever
  * parameter it corrects. */
-TEST(rig_parts, a_split_says_how_far_the_mark_was_off) {
+TEST(rig_parts, a_split_says_how_far_the_pulse_was_off) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
         wh_rotor_config rotor = wh_rig_standard.measure.rotor;

@@ -54,10 +54,10 @@ static void make_train(wh_real rpm) {
     unsigned count = 0;
     while (count < TRAIN_PULSES) {
         rotor_turn(&kind, &rotor, drive, STEP_TICKS);
-        for (unsigned i = 0; i < rotor.marks && count < TRAIN_PULSES; i++) {
-            if (rotor.mark_sensor[i] == count % 2U) {
+        for (unsigned i = 0; i < rotor.pulses && count < TRAIN_PULSES; i++) {
+            if (rotor.pulse_sensor[i] == count % 2U) {
                 train[count++] =
-                    (wh_pulse){.ticks = rotor.mark_ticks[i], .sensor = rotor.mark_sensor[i]};
+                    (wh_pulse){.ticks = rotor.pulse_ticks[i], .sensor = rotor.pulse_sensor[i]};
             }
         }
     }
@@ -110,7 +110,7 @@ static void stand_in(wh_rig_phase phase) {
 }
 
 typedef struct outcome {
-    unsigned marks;
+    unsigned pulses;
     unsigned gaps;
     unsigned strange;   /* number of confirmed pulses that are false, or have a wrong position */
     uint32_t off_ticks; /* largest error of a confirmed pulse's time */
@@ -118,11 +118,11 @@ typedef struct outcome {
 } outcome;
 
 /* Returns the true pulse to which a confirmed one belongs; the search begins with number `from`. */
-static unsigned true_pulse(const wh_index_pulse *mark, unsigned from) {
+static unsigned true_pulse(const wh_index_pulse *index, unsigned from) {
     unsigned best = from;
     for (unsigned i = from; i < TRAIN_PULSES && i < from + 6U; i++) {
-        if (apart(train[i].ticks, mark->pulse.ticks) <
-            apart(train[best].ticks, mark->pulse.ticks)) {
+        if (apart(train[i].ticks, index->pulse.ticks) <
+            apart(train[best].ticks, index->pulse.ticks)) {
             best = i;
         }
     }
@@ -131,7 +131,7 @@ static unsigned true_pulse(const wh_index_pulse *mark, unsigned from) {
 
 /* Processes all input in control steps. The steps' own times are up to `early` before the pulses. */
 static outcome play(uint32_t early) {
-    outcome out = {.marks = 0};
+    outcome out = {.pulses = 0};
     uint32_t now = train[0].ticks - 1000U;
     const uint32_t end = train[TRAIN_PULSES - 1U].ticks + 200000U;
     unsigned next = 0;
@@ -145,25 +145,25 @@ static outcome play(uint32_t early) {
         for (; next < given_count && (int32_t)(now + early - given[next].ticks) >= 0; next++) {
             wh_rig_pulse(&config, &rig, given[next].sensor, given[next].ticks);
         }
-        wh_index_pulse mark;
-        while (wh_pulses_confirmed(&rig.pulses, now, &mark)) {
-            const unsigned at = true_pulse(&mark, from);
-            const uint32_t off = apart(mark.pulse.ticks, train[at].ticks);
+        wh_index_pulse index;
+        while (wh_pulses_confirmed(&rig.pulses, now, &index)) {
+            const unsigned at = true_pulse(&index, from);
+            const uint32_t off = apart(index.pulse.ticks, train[at].ticks);
             from = at + 1U;
-            base = out.marks == 0 || mark.gap ? mark.quarter - quarters_of(at) : base;
-            out.gaps += mark.gap ? 1U : 0U;
-            out.strange += mark.pulse.sensor != train[at].sensor || off > TELLING_TICKS ||
-                                   mark.quarter - quarters_of(at) != base
+            base = out.pulses == 0 || index.gap ? index.quarter - quarters_of(at) : base;
+            out.gaps += index.gap ? 1U : 0U;
+            out.strange += index.pulse.sensor != train[at].sensor || off > TELLING_TICKS ||
+                                   index.quarter - quarters_of(at) != base
                                ? 1U
                                : 0U;
             out.off_ticks = off > out.off_ticks ? off : out.off_ticks;
             /* The next pulse may still reject this one. */
-            TEST_ASSERT_TRUE((int32_t)(now - mark.pulse.ticks) > 0);
-            out.marks++;
+            TEST_ASSERT_TRUE((int32_t)(now - index.pulse.ticks) > 0);
+            out.pulses++;
         }
         wh_guard_speed(&config.guard, &rig.guard, &rig.pulses, WH_TRIP_OVERSPEED, 0);
         wh_guard_pulses(&config.guard, &rig.guard, &rig.pulses, WH_R(2.0), now);
-        if (out.marks >= SETTLED) {
+        if (out.pulses >= SETTLED) {
             const wh_real off_rpm = WH_ABS(rig.pulses.speed.turn_radps - mean_radps) / RPM;
             out.off_rpm = off_rpm > out.off_rpm ? off_rpm : out.off_rpm;
         }
@@ -174,14 +174,14 @@ static outcome play(uint32_t early) {
 
 /* Checks that exactly the true pulses are confirmed, at their positions. A false pulse within `off_ticks` of a true one
  * cannot be distinguished from it. */
-static void check_marks(const outcome *out, uint32_t off_ticks) {
-    TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES, out->marks);
+static void check_pulses(const outcome *out, uint32_t off_ticks) {
+    TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES, out->pulses);
     TEST_ASSERT_EQUAL_UINT(0, out->strange + out->gaps);
     TEST_ASSERT_TRUE(out->off_ticks <= off_ticks);
     TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.speed.lost);
 }
 
-TEST(rig_pulses, a_train_is_its_marks) {
+TEST(rig_pulses, a_train_is_its_pulses) {
     seed = 1;
     for (unsigned i = 0; i < SPEEDS; i++) {
         for (wh_rig_phase phase = WH_PHASE_RAMP; phase <= WH_PHASE_RECORD; phase++) {
@@ -189,7 +189,7 @@ TEST(rig_pulses, a_train_is_its_marks) {
             give_train(0);
             stand_in(phase);
             const outcome out = play(0);
-            check_marks(&out, 0);
+            check_pulses(&out, 0);
             TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.rejected);
             TEST_ASSERT_TRUE(out.off_rpm < WH_R(0.5));
             TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
@@ -217,7 +217,7 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
     stand_in(phase);
     const outcome out = play(0);
     const uint32_t near = apart_from_its_own(sensor, ticks);
-    check_marks(&out, near < TELLING_TICKS ? near : 0);
+    check_pulses(&out, near < TELLING_TICKS ? near : 0);
     TEST_ASSERT_EQUAL_UINT32(1, rig.pulses.rejected);
     /* Late on the ramp, a pulse that is as early as the window allows counts as over-speed until the true pulse
      * comes. */
@@ -286,7 +286,7 @@ TEST(rig_pulses, two_pulses_too_many) {
         }
         stand_in(WH_PHASE_RECORD);
         const outcome out = play(0);
-        check_marks(&out, 0);
+        check_pulses(&out, 0);
         TEST_ASSERT_EQUAL_UINT32(2, rig.pulses.rejected);
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE && out.off_rpm <= WH_R(2.0));
     }
@@ -302,7 +302,7 @@ TEST(rig_pulses, lost_pulses) {
                 give_train(lost);
                 stand_in(phase);
                 const outcome out = play(0);
-                TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES - lost, out.marks);
+                TEST_ASSERT_EQUAL_UINT(TRAIN_PULSES - lost, out.pulses);
                 TEST_ASSERT_EQUAL_UINT(lost > 1U ? 1U : 0U, out.gaps);
                 TEST_ASSERT_EQUAL_UINT(0, out.strange + out.off_ticks);
                 TEST_ASSERT_EQUAL_UINT32(lost > 2U ? 2U : lost, rig.pulses.speed.lost);
@@ -324,7 +324,7 @@ TEST(rig_pulses, stamps_from_the_future) {
             give_train(0);
             stand_in(WH_PHASE_RECORD);
             const outcome out = play(early);
-            check_marks(&out, 0);
+            check_pulses(&out, 0);
             TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.rejected);
             TEST_ASSERT_TRUE(out.off_rpm < WH_R(0.5));
             TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
@@ -347,7 +347,7 @@ TEST(rig_pulses, bounces) {
             }
             stand_in(WH_PHASE_RECORD);
             const outcome out = play(0);
-            check_marks(&out, 0);
+            check_pulses(&out, 0);
             TEST_ASSERT_TRUE(out.off_rpm < WH_R(0.5));
             TEST_ASSERT_EQUAL_UINT32(each * TRAIN_PULSES, rig.pulses.rejected);
             const bool many = each * TRAIN_PULSES > config.guard.rejected_max;

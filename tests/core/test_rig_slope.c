@@ -146,14 +146,14 @@ static void measure(const plant *p) {
     const uint32_t begin = (uint32_t)draw_bits(&seed) * 2U; /* begin of the first turn */
     wh_merge merge = {.turns = 0};
     uint32_t due = 0; /* ticks from `begin` to the next pulse */
-    uint32_t marks = 0;
+    uint32_t pulses = 0;
     unsigned done = 0;
     wh_lockin_start(&rotor, &lockin);
     for (uint32_t now = 777U; done < BEFORE + TURNS; now += PERIOD_TICKS) {
         while (due <= now) {
-            wh_lockin_pulse(&lockin, marks % 2U, begin + due, marks / 2U * 4U + marks % 2U);
-            marks++;
-            due = marks / 2U * turn_ticks + (marks % 2U) * second_ticks;
+            wh_lockin_pulse(&lockin, pulses % 2U, begin + due, pulses / 2U * 4U + pulses % 2U);
+            pulses++;
+            due = pulses / 2U * turn_ticks + (pulses % 2U) * second_ticks;
         }
         const uint32_t then = (now + turn_ticks - p->late_ticks) % turn_ticks;
         const wh_load load = {.ticks = begin + now,

@@ -129,7 +129,7 @@ TEST(rig_standard, observer_and_feed) {
         {"sensor 2", observer->torque_gain_kgm2[1], 0.002},
         {"torque at most, N m", observer->torque_most_Nm, 0.5},
         {"trusted within, rad", observer->trusted_rad, 0.3},
-        {"trusted after marks", COUNT(observer->trusted_marks), 3},
+        {"trusted after pulses", COUNT(observer->trusted_pulses), 3},
         {"lost beyond, rad", observer->lost_rad, 2},
         {"slowest, rpm", RPM(observer->slowest_radps), 40},
         {"fastest, rpm", RPM(observer->fastest_radps), 930},

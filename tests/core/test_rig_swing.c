@@ -57,18 +57,18 @@ static void give(const wh_rig_config *config, const drawn *rotor, rotor_state *s
                  unsigned *pulses, uint32_t *quiet_ticks) {
     rotor_turn(&rotor->kind, state, WH_R(0.0), STEP_TICKS);
     *quiet_ticks += STEP_TICKS;
-    for (unsigned i = 0; i < state->marks; i++) {
+    for (unsigned i = 0; i < state->pulses; i++) {
         *quiet_ticks = 0;
         ++*pulses;
         if (rotor->lose == 0 || *pulses % rotor->lose != 0) {
-            wh_swing_pulse(&swing, state->mark_sensor[i], state->mark_ticks[i]);
+            wh_swing_pulse(&swing, state->pulse_sensor[i], state->pulse_ticks[i]);
         }
-        if (swing.swings && state->mark_sensor[i] == 0 && passed < PASSED_MOST) {
-            passed_ticks[passed] = state->mark_ticks[i];
+        if (swing.swings && state->pulse_sensor[i] == 0 && passed < PASSED_MOST) {
+            passed_ticks[passed] = state->pulse_ticks[i];
             passed_radps[passed++] = WH_ABS(state->speed_radps);
         }
         if (rotor->add > 0 && *pulses % rotor->add == 0) {
-            wh_swing_pulse(&swing, draw_one_of(&seed, 2), state->mark_ticks[i] + 20000U);
+            wh_swing_pulse(&swing, draw_one_of(&seed, 2), state->pulse_ticks[i] + 20000U);
         }
     }
     wh_swing_step(&config->swing, &config->measure.rotor, &swing, true, false);

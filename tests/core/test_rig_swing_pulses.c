@@ -132,10 +132,10 @@ static wh_real swing_out(const rotor_kind *kind) {
     while (quiet < 1500000U) {
         rotor_turn(kind, &state, WH_R(0.0), 2000U);
         quiet += 2000U;
-        for (unsigned i = 0; i < state.marks; i++) {
+        for (unsigned i = 0; i < state.pulses; i++) {
             quiet = 0;
-            wh_swing_pulse(&swing, state.mark_sensor[i], state.mark_ticks[i]);
-            first_radps = swing.swings && swing.passed == 1U && state.mark_sensor[i] == 0
+            wh_swing_pulse(&swing, state.pulse_sensor[i], state.pulse_ticks[i]);
+            first_radps = swing.swings && swing.passed == 1U && state.pulse_sensor[i] == 0
                               ? state.speed_radps
                               : first_radps;
         }

@@ -57,7 +57,7 @@ static wh_real base_at(const turn *of, wh_real about, wh_real ratio) {
     return shaped(of, WH_R(0.5) * (low + high)).base_rad;
 }
 
-static wh_real by_mark(const turn *of, wh_real about, wh_real ratio) {
+static wh_real by_pulse(const turn *of, wh_real about, wh_real ratio) {
     turn more = *of;
     turn less = *of;
     more.rotor.pulse_rad[1] += LITTLE_RAD;
@@ -102,7 +102,7 @@ TEST(rig_turn_angle, derivatives_are_what_differences_show) {
         const wh_real steep = angle.base_per_quadrature * angle.base_per_quadrature;
         /* Terms of second order in the differences. */
         const wh_real bent = swing * (WH_R(1.0) + steep);
-        check_near(by_mark(&of, about, ratio), angle.base_per_ratio,
+        check_near(by_pulse(&of, about, ratio), angle.base_per_ratio,
                    WH_R(0.003) + WH_R(0.25) * bent);
         const wh_real lag = by_lag(&of, about, ratio);
         check_near(lag, angle.base_per_lag, swing * (WH_R(0.003) + WH_R(0.4) * bent) + WH_R(2e-5));

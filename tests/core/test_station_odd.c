@@ -48,7 +48,7 @@ TEST(station_odd, a_full_queue) {
 TEST(station_odd, lost_while_the_queue_is_full) {
     for (unsigned full_steps = 0; full_steps < 6U; full_steps++) {
         tel_begin();
-        bench.station.host_told = true;
+        bench.station.host_given = true;
         bench.station.host_steps = 3;
         unsigned told = 0;
         unsigned first = 0;
