@@ -79,7 +79,8 @@ bool atomic_file_close(FILE *file, const char *name, bool keep) {
     const bool in_place = !is_at(file, part);
     errno = 0;
     const bool taken = fflush(file) == 0 && ferror(file) == 0;
-    if (!taken && errno == 0) { /* an earlier write failed: this one sets errno */
+    /* an earlier write failed, and its errno is lost: a new write sets errno */
+    if (!taken && errno == 0) {
         fputc('\n', file);
         (void)fflush(file);
     }

@@ -18,7 +18,7 @@
 #define GUEST_NOT_RUN 127
 
 typedef struct guest_request {
-    /* there is no process: the firmware is at the other end of the caller's line `line` */
+    /* true: no process is started; the firmware is at the other end of `line` */
     bool by_line;
     int line;
     const char *image; /* an ELF file: for Arm, or a program of this machine */

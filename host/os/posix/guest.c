@@ -142,7 +142,7 @@ bool guest_start(guest *g, const guest_request *request) {
         return false;
     }
     signal(SIGPIPE, SIG_IGN); /* so that a write to a dead guest fails, and does not end Whirl */
-    fflush(stdout);           /* the guest's console writes to the same file */
+    fflush(stdout);           /* first, because the guest's console writes to the same file */
     const pid_t parent = getpid();
     g->pid = fork();
     if (g->pid == 0) {
@@ -199,8 +199,8 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
     }
 }
 
-/* A pipe accepts a few kilobytes without blocking. Because guest and host take turns, it holds at most one frame. A
- * serial line is slower. */
+/* A pipe does not block, because guest and host take turns, and it holds at most one frame. A serial line may be
+ * full. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
     struct pollfd line = {.fd = g->down, .events = POLLOUT};
     for (unsigned done = 0; done < count;) {

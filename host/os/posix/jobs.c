@@ -85,7 +85,7 @@ static void work(const jobs *j, int tickets, int results) {
         FILE *row = alloc_text(&text[0], &length[0]);
         FILE *reason = alloc_text(&text[1], &length[1]);
         answer a;
-        memset(&a, 0, sizeof a); /* padding, too, because it goes through a pipe */
+        memset(&a, 0, sizeof a); /* clears the padding, too, because it goes through a pipe */
         a.point = point;
         a.good = j->work(j->context, point, row, reason);
         alloc_text_end(row);
@@ -241,7 +241,7 @@ static jobs_result attend(pool *p) {
         const int heard = poll(ears, (nfds_t)p->started, PAUSE_MS);
         for (int i = 0; i < p->started && heard > 0; i++) {
             if (ears[i].revents != 0 && !listen_to(p, &p->workers[i])) {
-                /* workers end only after the pipe with the numbers is closed */
+                /* no worker should end before the pipe with the numbers is closed */
                 result = JOBS_WORKER_LOST;
             }
         }
