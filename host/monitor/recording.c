@@ -164,7 +164,7 @@ unsigned schema_bytes(const schema_field *fields, int count) {
 
 /* The rig's clock is 1 MHz. */
 #define TICKS_PER_S 1e6
-/* Events arrive a control step or two after their time stamps. */
+/* An event comes at most this long after its time stamp. Usually it comes after one or two control steps. */
 #define SETTLED_US 50000
 /* Displayed length of a pulse if the rig does not report ends. */
 #define PULSE_US 100
@@ -195,10 +195,10 @@ static void go_on(recording *r, uint32_t ticks) {
 void recording_anew(recording *r) {
     r->counts.restarts += r->timed;
     r->time_us = r->expects ? r->expected_us : r->time_us;
-    r->timed = false; /* the ticks of the next frame will belong to r->time_us */
+    r->timed = false; /* the next frame sets the clock: its ticks count as r->time_us */
     memset(r->channel, 0, sizeof r->channel);
     r->expects = false;
-    r->ends = r->high[0] = r->high[1] = false; /* another program may have started */
+    r->ends = r->high[0] = r->high[1] = false; /* the new program may report no ends of pulses */
 }
 
 void recording_asked(recording *r) { r->expects = false; }
@@ -394,8 +394,8 @@ static void take_ring(recording *r, const schema_channel *c, const wire_frame *f
     }
     uint32_t ticks = frame->ticks;
     for (const uint8_t *at = frame->payload; at < frame->payload + frame->length;) {
-        ticks += (uint16_t)((unsigned)at[0] + ((unsigned)at[1] << 8) - ticks); /* the payload has
-                                                                                * the low half */
+        /* the payload has only the low 16 bits */
+        ticks += (uint16_t)((unsigned)at[0] + ((unsigned)at[1] << 8) - ticks);
         fprintf(r->ring, "%.6f", (double)time_of(r, ticks) / TICKS_PER_S);
         at += 2;
         for (int i = 1; i < c->eaches; i++) {
@@ -432,7 +432,8 @@ bool recording_plot(const recording *r, const schema *s, const char *file) {
         const schema_field *field = i < c->eaches ? &c->each[i] : &c->once[i - c->eaches];
         snprintf(names[i], sizeof names[i], "%s", field->name);
         char *unit = strchr(names[i], '[');
-        column[i + 1] = (plot_column){"der()", NULL, ""}; /* without a unit: no curve */
+        /* a column without a unit, which the plot omits */
+        column[i + 1] = (plot_column){"der()", NULL, ""};
         if (unit != NULL) {
             unit[-1] = '\0';
             unit[strlen(unit) - 1U] = '\0';

@@ -35,8 +35,8 @@ typedef struct schema {
     schema_channel channel[SCHEMA_CHANNELS];
 } schema;
 
-/* Takes an answer of the console. Returns true if the answer describes a channel or another rate, which is stored, or the
- * states, "OK 0=idle 1=armed ...". An answer that cannot be read changes nothing. */
+/* Takes an answer of the console. Returns true if it describes a channel or a new rate, which is stored, or if it lists
+ * the states, "OK 0=idle 1=armed ...". An answer that cannot be read changes nothing. */
 bool schema_take(schema *s, const char *line);
 
 unsigned schema_bytes(const schema_field *fields, int count);

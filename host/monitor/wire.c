@@ -47,8 +47,7 @@ static wire_event end_chunk(wire *w) {
     return WIRE_FRAME;
 }
 
-/* Adds a byte. The second byte after a zero decides if both belong to a frame: there it is at least 0x80, in text it is
- * less. */
+/* Adds a byte. If the second byte after a zero is at least 0x80, both bytes belong to a frame, otherwise to text. */
 static wire_event add(wire *w, uint8_t byte) {
     if (!w->is_frame && w->length == 1U) {
         w->is_frame = byte >= 0x80U;
@@ -97,8 +96,8 @@ void wire_forget(wire *w) {
 
 /* === questions before a recording ============================================================= */
 
-/* The rate is set after the answer that describes its frames. The first question has a unique answer. Lines that arrive
- * before it may be answers to another program's questions. */
+/* The questions, in order. The rate comes last, because its frames can be read only after their schema. Only the first
+ * answer is unique: earlier lines may be answers to another program's questions. */
 static const struct {
     const char *words;
     const char *answer; /* beginning of the answer */

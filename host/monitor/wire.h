@@ -45,7 +45,7 @@ void wire_forget(wire *w);
 
 enum { DIALOGUE_LINE = 48, DIALOGUE_REFUSAL = 160 };
 
-/* Answers after which the rig is present (MET), was_off is known (LISTED), earlier telemetry has ended (OFF). */
+/* Number of answers until the rig is present (MET), was_off is known (LISTED), or earlier telemetry has ended (OFF). */
 enum { DIALOGUE_MET = 1, DIALOGUE_LISTED = 3, DIALOGUE_OFF = 4 };
 
 /* All zeros except `rate`: no question was asked yet. */
@@ -54,16 +54,17 @@ typedef struct dialogue {
     int asked; /* the current question */
     bool done;
     bool rate_refused;
-    bool was_off; /* telemetry was off: the rig is new, or another one */
+    bool was_off; /* true: telemetry was off before, so the rig has restarted or is another one */
     char refused
-        [DIALOGUE_REFUSAL]; /* the first question not answered with OK, and its answer; if any */
+        /* the first question with an answer other than OK, and this answer; or "" */
+        [DIALOGUE_REFUSAL];
 } dialogue;
 
 /* The line to send now, with its end; NULL after the last answer. */
 const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]);
 
-/* Takes a received line. Returns true if the line is an answer or the echo of a question, and so not for other readers.
- * Lines from before the first question, and repeated answers after a repeated question, leave `asked` unchanged. */
+/* Takes a received line. Returns true if the line belongs to the dialogue: an answer, or the echo of a question. Lines
+ * from before the first question, and repeated answers, leave `asked` unchanged. */
 bool dialogue_answer(dialogue *d, const char *line);
 
 #endif
