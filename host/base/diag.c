@@ -48,7 +48,7 @@ enum {
 };
 
 typedef struct entry {
-    /* only compared, because it may be gone after diag_error() has returned */
+    /* only compared: the source may be freed after diag_error() has returned */
     const source *source;
     int file_order;
     char file[FILE_SIZE];
