@@ -242,8 +242,9 @@ static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_re
 static const struct {
     fault_kind kind;
     const char *input;
-    bool times;   /* the input's value is multiplied by the size; else it is replaced */
-    double value; /* the value that replaces it; 0: the fault's size */
+    /* true: the input is multiplied by the fault's size; false: it gets a new value */
+    bool times;
+    double value; /* the new value; 0: the fault's size */
 } inputs[] = {
     {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
     {FAULT_CELL_GAIN, "cell_gain", true, 0.0},
@@ -380,7 +381,7 @@ static void see_reset(fault_plan *plan) {
     }
 }
 
-/* Announce the next reset to the plant: it may happen between messages. */
+/* Tells the plant the next reset in advance, because a reset may happen between two messages. */
 static void order_reset(fault_plan *plan, const fault_case *f) {
     plant_resets *r = &plan->plant->reset;
     if (f->kind == FAULT_RESET && f->reached && !f->happened && due_ticks(plan, f) < r->at_ticks) {
@@ -413,7 +414,7 @@ static void look_at_time(fault_plan *plan, double time_s) {
         if (fault_rows[f->kind].place == FAULT_PARAMETER) {
             f->happened = true;
         } else if (f->kind == FAULT_RESET) {
-            continue; /* the plant handles it */
+            continue; /* order_reset() has told the plant */
         } else if (!f->happened && f->reached && time_s >= f->begin_s + f->after_s) {
             change(plan, f, time_s, true);
         } else if (f->active && time_s >= f->begin_s + f->duration_s) {

@@ -118,7 +118,7 @@ typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;
 #define FAULT_ONE(which, word, place, size, least, most, unit, words) +1
 enum { FAULT_KINDS = FAULT_ROWS(FAULT_ONE) };
 #undef FAULT_ONE
-/* For a switch over some groups of kinds: the compiler then names a new kind that the switch forgets. */
+/* The cases of a group of faults in a switch. If a new fault is missing there, the compiler names it. */
 #define FAULT_CASE(which, word, place, size, least, most, unit, words) case which:
 
 typedef struct fault_row {
@@ -161,7 +161,7 @@ typedef struct fault_case {
     uint64_t draws;
     uint32_t left; /* pulses still to be lost or added */
     double next_s; /* time of the next false pulse */
-    bool holds;    /* `held` is the value of the last good sample */
+    bool holds;    /* true: `held` is the value of the last good sample */
     int32_t held;
     unsigned pending_count;
     fault_pending pending[FAULT_PENDING];

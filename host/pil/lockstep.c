@@ -486,7 +486,7 @@ static bool are_numbers(loop *l, const wh_orders *orders) {
     return true;
 }
 
-/* Does the plant's time advance? If computing takes no time, only this check ends the loop. */
+/* Does the plant's time advance? Only this check ends a run in which firmware and readings take no time. */
 static bool time_goes_on(loop *l, double before_ticks) {
     l->standing = plant_now(&l->plant) > before_ticks ? 0 : l->standing + 1;
     if (l->standing < STANDING_MOST) {

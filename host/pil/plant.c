@@ -96,7 +96,7 @@ static void say_unknown(const bound *b, const image *im, const char *name) {
             search.best != NULL ? search.best : "NAME");
 }
 
-/* The scene's name of the firmware's `name`, into other[NAME_BYTES]. */
+/* Writes the scene's name for the firmware's `name` to other[NAME_BYTES]. */
 static void rename_signal(const char *renames, const char *name, char *other) {
     snprintf(other, NAME_BYTES, "%s", name);
     const size_t length = strlen(name);
@@ -490,8 +490,8 @@ static double part_at(const span_of_step *s, double level) {
     return high;
 }
 
-/* Does the step enter the range of an edge? *level: the range's lower end for a rising quantity, else its upper end. For
- * an angle, it is the next such level in the direction of motion. */
+/* Does the step enter the range of an edge? *level: the end at which it enters, the lower one if the quantity rises.
+ * For an angle, this is the next such level in the direction of motion. */
 static bool enters(const span_of_step *s, const bound *b, double off, double *level) {
     const bool up = s->to > s->from;
     *level = (double)(up ? b->signal.low : b->signal.high) + off;

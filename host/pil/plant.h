@@ -39,7 +39,8 @@ int bind_input(const image *im, const char *name);
  * there is none. */
 const char *bind_read(bound *b, const image *im, const char *name);
 
-/* `renames` are words NAME=OTHER between commas, or NULL: the firmware's NAME is the scene's OTHER. False, reported. */
+/* `renames` are words NAME=OTHER between commas, or NULL: the firmware's NAME is the scene's OTHER. Returns false after
+ * an error, which it has reported. */
 bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char *renames);
 
 /* === records ================================================================================= */
@@ -107,7 +108,8 @@ typedef struct plant {
     wh_status status;
     uint64_t steps;
     double step_ticks;
-    uint32_t start_ticks;            /* timer at the start, extrapolated from its last reset */
+    /* the timer shows start_ticks plus the time since the plant's start */
+    uint32_t start_ticks;
     uint32_t timer_ticks;            /* the timer's value after a reset */
     double *before;                  /* [components] angles first */
     double *after;                   /* [components] */

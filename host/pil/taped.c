@@ -28,7 +28,7 @@ typedef struct taped {
     double before_s; /* time of the last reset */
     bool failed;     /* unreadable or broken: reported */
     wh_frame_reader reader;
-    bool endless; /* more bytes than the longest frame has came without a frame */
+    bool endless; /* the longest possible frame has passed without an end */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     uint8_t words[GUEST_LINE_BYTES]; /* strings of the hello */
 } taped;
@@ -44,7 +44,7 @@ typedef struct taped_turn {
     wh_orders orders;
 } taped_turn;
 
-/* Reads a frame, at most the longest one with the zeros around it, so that an endless device is refused. */
+/* Reads a frame. It gives up after the bytes of the longest frame, so that an endless device is refused. */
 static bool read_frame(taped *t, wh_frame *frame) {
     for (size_t i = 0; i < sizeof t->bytes + 2; i++) {
         const int byte = getc(t->file);
@@ -160,7 +160,7 @@ static bool read_orders(taped *t, wh_frame *frame) {
     return false;
 }
 
-/* False at the end, and on a broken tape: then it is reported, and t->failed is set. */
+/* Reads the next turn. Returns false at the end, and if the tape is broken (reported; t->failed is set). */
 static bool taped_next(taped *t, taped_turn *turn) {
     wh_frame frame;
     *turn = (taped_turn){.is_reset = false};
