@@ -18,9 +18,9 @@ void hal_console_write(const char *bytes, unsigned count);
  * hal_console_offer() writes as many bytes as the device takes at once. Both return the number of bytes: 0 if nobody is
  * connected. Do not call them in an interrupt or a fault handler.
  *
- * Read in every control step, because some devices store only one or two bytes. A zero byte replaces each damaged byte,
- * and lost bytes if the board notices the loss: do not execute a line that contains a zero byte. A damaged Escape still
- * counts as Escape, because a needless stop is harmless. */
+ * Read in every control step, because some devices store only one or two bytes. A damaged byte is read as zero. If the
+ * board notices lost bytes, they are read as one zero, too. Do not execute a line that contains a zero byte. A
+ * damaged Escape is still read as Escape, because a needless stop is harmless. */
 unsigned hal_console_read(char *bytes, unsigned room);
 unsigned hal_console_offer(const char *bytes, unsigned count);
 

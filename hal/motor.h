@@ -54,8 +54,9 @@ float hal_motor_supply_V(void);
 #define HAL_MOTOR_SUPPLY_MOST_mV UINT32_C(37200)
 float hal_motor_supply_most_V(void);
 
-/* True if a converter whose range ends at end_mV can measure up to most_mV with a margin of 2 %. That is ten times the
- * errors of the converters here (5 counts of 12 bits, 2 counts of 10 bits). Each board asserts this condition. */
+/* True if a converter whose range ends at end_mV can measure up to most_mV with a margin of 2 %. The margin is at least
+ * ten times the error of the converters here (5 counts of 12 bits, or 2 counts of 10 bits). Each board asserts this
+ * condition. */
 #define HAL_MOTOR_SUPPLY_IS_SEEN(most_mV, end_mV) ((end_mV) >= (most_mV) + (most_mV) / 50U)
 
 #ifdef __cplusplus

@@ -25,7 +25,7 @@ typedef enum hal_settings_result {
 } hal_settings_result;
 
 /* For the next functions: `slot` is 0 or 1; at + count <= HAL_SETTINGS_BYTES. A power failure during a call leaves
- * arbitrary bytes in this slot and does not touch the other one. */
+ * arbitrary bytes in this slot and does not touch the other slot. */
 
 /* Set all bytes of the slot to 0xFF. */
 hal_settings_result hal_settings_erase(unsigned slot);

@@ -22,7 +22,7 @@ typedef enum hal_slot_end { HAL_SLOT_LEADING, HAL_SLOT_TRAILING } hal_slot_end;
 typedef struct hal_slot_edge {
     uint32_t ticks; /* time of the edge on the capture timer (clock.h) */
     uint8_t sensor; /* 0: on the loading-train axis; 1: a quarter turn later */
-    uint8_t end;    /* a hal_slot_end: the end of the pulse at which this edge is */
+    uint8_t end;    /* HAL_SLOT_LEADING or HAL_SLOT_TRAILING */
 } hal_slot_edge;
 
 /* Take the oldest edge that was not taken before. Returns false if there is none. At least 16 edges (8 pulses) are
@@ -33,9 +33,9 @@ typedef struct hal_slot_edge {
  * board that simulates pulses, or cannot distinguish edges, gives only leading edges. */
 bool hal_slots_take(hal_slot_edge *edge);
 
-/* Returns how often since the start edges were lost, or may have been lost: an edge came before the previous edge was
- * read, or the memory was full. Capture then pauses until an edge is taken, so that a storm of edges takes no computing
- * time. The number of lost edges is unknown. */
+/* Returns the number of times since the start that edges were lost, or may have been lost: an edge came before the
+ * previous edge was read, or the memory was full. Capture then pauses until an edge is taken, so that a storm of edges
+ * takes no computing time. The number of lost edges is unknown. */
 uint32_t hal_slots_overruns(void);
 
 #ifdef __cplusplus

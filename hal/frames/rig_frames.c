@@ -19,7 +19,7 @@
 #if !WH_DOUBLE
 
 #define RAD_PER_DEG 0.0174532925f
-/* The supply's converter: 12 bits of 60 V. */
+/* The supply's converter has 12 bits for 0 to 60 V. */
 #define SUPPLY_FULL_mV 60000U
 #define SUPPLY_COUNTS 4096
 #define SUPPLY_V_PER_COUNT ((float)SUPPLY_FULL_mV / 1000.0f / (float)SUPPLY_COUNTS)
@@ -119,8 +119,8 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* This is longer than the guard waits for the load cell. If all readings fail, the reported trip is that of the load
- * cell. */
+/* After this time without a reading, stop counts as pressed. It is longer than the guard's wait for the load cell: if
+ * all readings fail, the reported trip is that of the load cell. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 static void see_stop(const wh_sample *sample) {

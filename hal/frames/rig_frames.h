@@ -32,9 +32,8 @@ enum {
 /* Set a note. The controller's next wait sends it with the outputs. */
 void hal_frames_note(unsigned channel, float value);
 
-/* Call these at the begin and at the end of each control step, so that the time to read sensors, set outputs and print
- * does not count: see hal_turns_step_begins(). They are functions, because a debugger can count from a function's
- * address. */
+/* Call these at the begin and at the end of each control step. Then the time to read sensors, set outputs and print
+ * does not count: see hal_turns_step_begins(). A debugger can count between the addresses of the two functions. */
 void hal_frames_step_begins(void);
 void hal_frames_step_ends(void);
 

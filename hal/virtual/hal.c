@@ -18,8 +18,8 @@ hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
 static bool motor_started;
 
-/* `pulse` is the pulse whose leading edge was taken last. is_high is true until its end is taken, too. Pulses are
- * farther apart than they are long. */
+/* true: the leading edge of `pulse` was taken, its trailing edge not yet. Meanwhile no other pulse begins, because
+ * pulses are farther apart than they are long. */
 static bool is_high;
 static hal_slot_edge pulse;
 

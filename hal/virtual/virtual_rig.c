@@ -149,8 +149,8 @@ static void read_load_cell(hal_virtual_rig *rig) {
     }
 }
 
-/* Returns the drive stage's effect as a duty of the model. Without current there is no torque: the result is then the
- * motor's back-EMF. */
+/* Returns the duty for the model's input. If the drive stage carries no current, this is the duty at which the motor
+ * has no torque, that of its back-EMF. */
 static float duty_of(const hal_virtual_rig *rig) {
     const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);
     const bool stuck = rig->faults.stuck > 0.0f;

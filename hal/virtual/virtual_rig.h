@@ -27,9 +27,8 @@ extern "C" {
 #define HAL_VIRTUAL_SAMPLES 8U
 #define HAL_VIRTUAL_PULSE_TICKS 150U /* length of the monostable's pulse */
 
-/* The supply at which the model's duty of 1 is full duty. The number is also the motor's speed without load at that
- * supply, rad/s, because the back-EMF then equals the voltage. tests/core/test_virtual_rig.c compares it with the
- * model. */
+/* The supply voltage at which the model has its full duty, 1, and the motor's speed without load at that voltage: the
+ * model's no_load. At this speed the back-EMF equals the voltage. */
 #define HAL_VIRTUAL_RATED_V 24.0f
 #define HAL_VIRTUAL_NO_LOAD_RADPS 62.831853f
 
@@ -38,9 +37,9 @@ extern "C" {
 
 /* Injected faults. They may be set at any time. hal_virtual_rig_start() clears all. */
 typedef struct hal_virtual_faults {
-    unsigned lose_pulses[2]; /* number of coming pulses of each sensor that are lost */
+    unsigned lose_pulses[2]; /* number of the next pulses that each sensor loses */
     bool dead_sensor[2];     /* the sensor gives no pulse */
-    unsigned lose_samples;   /* number of coming load samples that are lost */
+    unsigned lose_samples;   /* number of the next load samples that are lost */
     bool stuck_load_cell;    /* the load cell repeats its last count */
     float stuck;     /* the stage gives this share of the supply for any command; 0: no fault */
     bool deaf;       /* the stage ignores the enable, too; only the watchdog cuts it */
