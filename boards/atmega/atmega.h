@@ -39,7 +39,7 @@ void atmega_time_base_start(void);
 /* Returns the time now. Call it with interrupts off. */
 uint32_t atmega_ticks(void);
 
-/* The time of an interrupt: a timer's count, and the number of its wraps. Valid for 4 s. */
+/* The time of an interrupt: a timer's count, and how often the timer has wrapped. Valid for 4 s after the interrupt. */
 typedef struct atmega_instant {
     uint16_t count;
     uint8_t wraps;
@@ -51,7 +51,7 @@ extern volatile uint8_t atmega_wraps;
 /* Returns the time at which both timers showed `count`, less than half a wrap ago. Call it within an interrupt. */
 static inline atmega_instant atmega_instant_of(uint16_t count) {
     atmega_instant at = {count, atmega_wraps};
-    /* read first: if the timer wraps after this line, it does not matter */
+    /* read before the wrap's flag, so a wrap after this line does not matter */
     const uint16_t now = TCNT4;
     const bool pending = (TIFR4 & _BV(TOV4)) != 0;
     if (count >= 0x8000U && now < 0x8000U) { /* `count` was reached before the last wrap */

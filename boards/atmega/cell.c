@@ -8,7 +8,7 @@
  *
  * Without force, the amplifier's output is half of the reference, the chip's own supply. Near either end the amplifier
  * is saturated. If all of a sample's counts are near the lower end, a wire is broken: a resistor then pulls the pin
- * down, except for its leakage. */
+ * down, nearly to 0. */
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -17,7 +17,7 @@
 #define TICK_TICKS 200U
 #define CELL_TICKS 16U
 #define ALL_TICKS (HAL_LOADCELL_PERIOD_TICKS / TICK_TICKS)
-#define SUPPLY_TICKS 8U /* only these last conversions of the supply are used */
+#define SUPPLY_TICKS 8U /* the last 8 of the supply's conversions are used */
 _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
                    ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
                "a sample each period");
@@ -150,7 +150,7 @@ static void renew_supply(void) {
     parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
-/* The sum of sixteen counts of 10 bits has 14 bits. One unit of it is four counts of hal/loadcell.h. */
+/* The sum of sixteen counts of 10 bits has 14 bits. One unit of the sum is four counts of hal/loadcell.h. */
 bool hal_loadcell_take(hal_load_sample *sample) {
     if (tail == head) {
         return false;

@@ -1,5 +1,5 @@
-/* motor.c: the drive stage: timer 1 as a phase-correct PWM of 20 kHz on OC1A (DS 17.9.4), and the enable on a pin. If
- * the timer does not drive the pins, both are low.
+/* motor.c: the drive stage: timer 1 as a phase-correct PWM of 20 kHz on OC1A (DS 17.9.4), and the enable on a pin.
+ * While the timer does not drive OC1A, its pin is low.
  *
  * The PWM has 400 steps; one step is 60 mV of 24 V. The quantization error of the voltage is added to the next control
  * step's voltage, so the mean is exact. */
@@ -33,7 +33,7 @@ static void set_up_timer(void) {
     DDRB |= _BV(ATMEGA_PWM_BIT);
 }
 
-/* The outputs are off from the first store on, because the port's level of the pins is low. */
+/* The levels of both pins are set to low before the pins become outputs. */
 void atmega_motor_start(void) {
     PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     PORTB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
@@ -84,7 +84,7 @@ void hal_motor_off(hal_motor_off_way way) {
         PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     }
     TCCR1A = _BV(WGM11); /* disconnects the timer from the pin, which is low */
-    OCR1A = 0;           /* takes effect in the next period, as after a start */
+    OCR1A = 0;           /* takes effect in the next period */
     if (way == HAL_MOTOR_BRAKE) {
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
     }

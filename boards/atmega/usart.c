@@ -39,7 +39,7 @@ static void keep(char byte) {
     }
 }
 
-/* A zero replaces an overrun, a damaged byte or a dropped one: a line with a zero is not executed. */
+/* A zero replaces a damaged byte and bytes lost by an overrun or a full ring. A line with a zero is not executed. */
 ISR(USART0_RX_vect) {
     const uint8_t status = UCSR0A;
     const char byte = (char)UDR0;

@@ -6,8 +6,8 @@
 #include "atmega.h"
 #include "boards/avr/stack.h"
 
-#define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks, 16 ms, minus 13 % */
-#define LONGEST 9U                     /* maximum number of doublings: 8 s */
+#define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks of the fastest oscillator, 13.9 ms */
+#define LONGEST 9U                     /* largest number of doublings, to about 8 s */
 
 /* Another call with another timeout is allowed. */
 void hal_watchdog_start(uint32_t timeout_ticks) {

@@ -45,7 +45,7 @@ CORTEXM_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 BOARD_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 #undef CORTEXM_DECLARE_VECTOR
 
-/* The handler of every exception without one of its own. Never returns. It first makes the stores in the list
+/* The handler of every exception that has no handler of its own. Never returns. First it makes the stores in the list
  * BOARD_SAFE_ROWS (board_data.h), X(address, value), which switch the board's outputs off. */
 void board_fault(void);
 

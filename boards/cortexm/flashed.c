@@ -1,5 +1,5 @@
-/* flashed.c: the end of a program on a real board, which never ends: after a fault, the processor records it and
- * restarts. A program that cannot continue stops with the motor off. */
+/* flashed.c: the end of a program on a real board. A program never ends there: after a fault the processor records it
+ * and restarts. A program that cannot continue stops with the motor off. */
 #include "boards/board.h"
 #include "hal/motor.h"
 

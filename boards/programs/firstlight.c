@@ -249,7 +249,8 @@ static void say_load(void) {
     }
     line_end();
     line_begin("supply");
-    if (rest.samples > 0) { /* the supply has the same converter as the load, so it works */
+    /* a sample of the load shows that the converter works, which also measures the supply */
+    if (rest.samples > 0) {
         wh_text_add_char(&line, ' ');
         wh_text_add_fixed(&line, seen.inputs.supply_V, 2);
         line_word("V");

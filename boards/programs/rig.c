@@ -109,7 +109,7 @@ static bool wait_for_dials(void) {
 }
 #endif
 
-/* Reads the operator's dials. Returns false if they are unknown. */
+/* Reads the operator's dials. Returns false if no readings come. */
 #if RIG_CARRIAGE
 static bool take_dials(wh_rig_config *config) {
     if (!wait_for_dials()) {
@@ -124,7 +124,7 @@ static bool take_dials(wh_rig_config *config) {
 #elif RIG_DIALLED
 static bool take_dials(wh_rig_config *config) {
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
-        return true; /* no orders will follow, and a trip must be reported at once */
+        return true; /* after a reset the program gives no orders, and reports a trip at once */
     }
     if (!wait_for_dials()) {
         return false;
@@ -168,7 +168,7 @@ typedef enum operator_step {
     STOP_SILENT /* the stop input has no reading */
 } operator_step;
 
-/* Evaluates the stop input. Its first reading may be late: it must come before the program arms. */
+/* Evaluates the stop input. Its first reading may come late, but not after the program arms. */
 static void look_at_stop(operator_step *at, bool rests) {
     if (!hal_stop_pressed()) {
         return;

@@ -14,7 +14,7 @@
  * (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
-/* The check of the arithmetic. If there is a model, it is in the model's file. */
+/* The check of the arithmetic, which is in the model's file if there is a model. */
 #if WH_RIG_FEEDS
 #define OWN_ARITHMETIC (rig_observed.arithmetic)
 #else

@@ -96,7 +96,7 @@ static bool run(const trial *tried) {
     config.observer.scene = &rig_observed;
     config.feeds = tried->compensated ? WH_COMPENSATION_ALWAYS : wh_rig_standard.feeds;
     config.swings = tried->swings;
-    config.stop_brakes = true; /* so that runs without a free swing end soon */
+    config.stop_brakes = true; /* the motor brakes, so that runs without a free swing end soon */
     if (hal_clock_start() != HAL_STARTED) {
         return false;
     }

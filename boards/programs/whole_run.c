@@ -5,7 +5,7 @@
  *     stack NAME BYTES     deepest stack of the program during those steps
  *     failed NAME STATUS   a step failed
  *
- * RUN_EVERY intervals count as one (count_plugin.c, every=), so that many empty intervals come first. */
+ * The counter reports RUN_EVERY intervals as one (count_plugin.c, every=), so as many empty intervals come first. */
 #include "boards/programs/counted.h"
 #include "core/scene.h"
 

@@ -27,8 +27,8 @@ float FROM_UNSIGNED(uint64_t number) {
     if (high == 0) {
         return (float)(uint32_t)number;
     }
-    /* The 32 bits from the leading one on. A float keeps 24 of them. Lower bits only decide between two neighbours, so
-     * one sticky bit in the lowest place suffices. */
+    /* The upper 32 bits, from the highest 1 on. A float keeps 24 of them. Lower bits only decide a tie between two
+     * floats, so the lowest of the 32 bits is set if any lower bit is 1. */
     const unsigned shift = 32U - (unsigned)__builtin_clz(high);
     const uint64_t below = number & ((UINT64_C(1) << shift) - 1U);
     const uint32_t lost = below != 0 ? 1U : 0U;

@@ -7,8 +7,8 @@
  * with noise of half a count; the unit of a sample is 6.8 mN.
  *
  * Without force, the amplifier's output is half of the reference. Near either end the amplifier is saturated. If all
- * counts of a sample are near the lower end, a wire is broken. A resistor then pulls the pin down, except for its
- * leakage and for charge of the other input in the converter. */
+ * counts of a sample are near the lower end, a wire is broken: a resistor then pulls the pin down. Leakage,
+ * and charge that the converter keeps from the other input, leave it slightly above 0. */
 #include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"

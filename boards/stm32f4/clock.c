@@ -34,7 +34,7 @@ void stm32f4_clock_on(unsigned part) {
 }
 
 /* Makes the core run on the chip's own oscillator, because a loader in ROM may have changed the clock, or the crystal
- * has failed. Returns false in an emulator without this unit, which reads zeros: it has no clock to set up. */
+ * has failed. Returns false in an emulator, whose clock registers read as zero: it has no clock to set up. */
 static bool to_own_oscillator(void) {
     reg_set(RCC_CR, RCC_CR_HSION);
     if (!stm32f4_comes(RCC_CR, RCC_CR_HSIRDY, RCC_CR_HSIRDY, SOON)) {

@@ -18,7 +18,7 @@
 #define TIM1_FUNCTION 1U
 
 static uint32_t whole;        /* compare value at which the output is always on */
-static volatile bool driving; /* started and not yet off, even while stop keeps MOE clear */
+static volatile bool driving; /* true: started and not yet off; also if stop keeps MOE clear */
 
 void stm32f4_motor_start(void) {
     stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* the pin is low */

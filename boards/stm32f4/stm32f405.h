@@ -1,5 +1,6 @@
-/* stm32f405.h: data common to all boards with an STM32F405. Crystal and pins are a board's own data. The complement of
- * TIM1's channel 1 is on PB13. Each of these boards has this pin on a header, and also PB14 and PA6, TIM1's break. */
+/* stm32f405.h: data common to all boards with an STM32F405. Crystal and pins are a board's own data. The pins below are
+ * on a header of each of these boards: PB13, the complement of TIM1's channel 1; PB14, the enable; PA6, TIM1's
+ * break. */
 #ifndef BOARDS_STM32F405_H
 #define BOARDS_STM32F405_H
 

@@ -6,8 +6,7 @@
 
 void timer_start(void) {
     stm32f4_clock_on(RCC_PART(RCC_APB1ENR, RCC_APB1ENR_TIM2));
-    /* The filters sample at a 32nd of a quarter of 84 MHz and need eight equal samples: 12 us after an edge
-     * (slots.c). */
+    /* The filters sample at 84 MHz / 4 / 32 and need eight equal samples, so an edge passes after 12 us (slots.c). */
     reg_store(TIM_CR1(TIM2), TIM_CR1_CKD_4);
     reg_store(TIM_PSC(TIM2), stm32f4_clocks_now()->timers_Hz / BOARD_TICKS_PER_S - 1U);
     reg_store(TIM_ARR(TIM2), 0xFFFFFFFFU);
