@@ -45,7 +45,7 @@ typedef struct atmega_instant {
     uint8_t wraps;
 } atmega_instant;
 
-/* The lowest byte of the number of wraps so far. Interrupts count it. */
+/* The lowest byte of the number of wraps so far, which interrupts count. */
 extern volatile uint8_t atmega_wraps;
 
 /* Returns the time at which both timers showed `count`, less than half a wrap ago. Call it within an interrupt. */

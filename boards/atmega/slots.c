@@ -58,7 +58,8 @@ static void keep(uint8_t of, uint16_t count) {
     head++;
 }
 
-/* True if the edge that a sensor's timer shall capture came before the timer was ready for it. */
+/* True if the pin already has the level after the edge for which the timer waits: the edge came too early to be
+ * captured. */
 static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control,
                                  const volatile uint8_t *flags) {
     const bool high = (PINL & _BV(sensor)) != 0;

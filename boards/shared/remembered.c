@@ -20,7 +20,7 @@ typedef struct remembered {
 } remembered;
 
 BOARD_KEPT static remembered slots[2];
-/* Not in the copies, because it is written in every control step. */
+/* Kept outside the copies, because every control step writes it. */
 BOARD_KEPT static uint32_t kept_state;
 
 static uint32_t crc_of(const remembered *slot) {

@@ -47,7 +47,7 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
 /* This status marks a missing mean. The converter itself never has this status. */
 #define NO_MEAN HAL_LOAD_REPEATED
 
-/* The conversions. DMA cannot reach core-coupled memory, so they are not there (RM0090, 2.3.1). */
+/* The conversions. They are not in core-coupled memory, which DMA cannot reach (RM0090, 2.3.1). */
 static volatile uint16_t pair[2][PAIRS][2];
 static hal_load_sample kept_samples[SAMPLES_KEPT];
 static stm32f4_ring_counts sample_counts;

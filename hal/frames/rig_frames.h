@@ -48,9 +48,9 @@ void hal_frames_end(int status);
     X(HAL_DIAL_RATIO, "dial_ratio", "1", 16.0f)
 #define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_DISPLACEMENT, "displacement", "m")
 
-/* Dials of the rig on its bench. dial_speed is the set-point. dial_feed is the torque of the gravity compensation in
- * every run, as a share of gravity's torque; 0: all of this torque, but only if the set-point needs compensation.
- * dial_brakes is 1 for a motor that brakes at a run's end and after stop. */
+/* Dials of the rig on its bench. dial_speed is the set-point. dial_feed is the share of gravity's torque that the motor
+ * compensates in every run; 0: the whole torque, but only if the set-point needs compensation. dial_brakes is 1 for a
+ * motor that brakes at a run's end and after stop. */
 #define HAL_BENCH_DIAL_ROWS(X) \
     X(HAL_DIAL_TARGET, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_COMPENSATION, "dial_feed", "1", 4.0f) \

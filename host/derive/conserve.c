@@ -10,8 +10,8 @@
 
 /* === the influences on a coordinate, and of a coordinate ====================================== */
 
-/* Appends a statement that changes a momentum to the text, such as "the Q in line 9". Energies are no such statements.
- * *count: the number of statements so far. */
+/* Appends a force, a loss or a contact that changes a momentum to the text, such as "the Q in line 9". *count: the
+ * number of entries so far. */
 #define INFLUENCE_TEXT_SIZE 200
 
 /* At most this many statements are listed. */

@@ -15,13 +15,13 @@
 #include "host/derive/equations.h"
 
 typedef struct conservation {
-    int count;          /* unknowns recovered */
-    int *unknown;       /* [count] */
-    int *number;        /* [equations->count] index of the unknown in unknown[], or -1 */
-    bool closed;        /* the coordinates follow from G(q); otherwise they are integrated */
-    const poly **rate;  /* [count] their rates as functions of the other rates */
-    const poly **value; /* [count] the coordinates as functions of the others and time; NULL unless
-                         * closed */
+    int count;         /* unknowns recovered */
+    int *unknown;      /* [count] */
+    int *number;       /* [equations->count] index of the unknown in unknown[], or -1 */
+    bool closed;       /* the coordinates follow from G(q); otherwise they are integrated */
+    const poly **rate; /* [count] the conserved rates as functions of the other rates */
+    /* [count] the conserved coordinates as functions of the other coordinates and time; NULL unless closed */
+    const poly **value;
 } conservation;
 
 /* Largest number of coordinates of one scene that are recovered from momenta. */

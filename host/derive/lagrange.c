@@ -13,8 +13,7 @@
 
 /* Number of passes over rows and over columns. Each pass halves the error of the scales' logarithms. */
 #define PASSES 16
-/* A pivot below this, relative to the scaled size, is round-off even if the entries are exact. It is about four times
- * the algebra's threshold of zero in a sum. */
+/* A pivot below this, relative to the scaled size, is round-off even if the entries are exact. */
 #define NO_PIVOT 4e-14
 
 /* The power of two nearest to 1/sqrt(x); 1 for zero. */
@@ -239,8 +238,8 @@ static int times_negative(const equations *e, const term *t) {
     return negative;
 }
 
-/* Returns the part of the kinetic energy that is negative at most states; *most is their number. NULL if no part is
- * ever negative. */
+/* Returns the part of the kinetic energy that is negative at the largest number of states, which is *most. NULL if no
+ * part is ever negative. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;

@@ -12,9 +12,9 @@
  * constant. */
 int affine_columns(const image *im);
 
-/* Computes rates[states * columns], the rates of the states, row by row, with the list's own round-off. Each
- * operation is repeated on the coefficients of its operands. Returns -1, or the first operation that is not affine;
- * then rates[] is unchanged. */
+/* Computes rates[states * columns], the coefficients of the states' rates, row by row. Each operation of the list is
+ * repeated on the coefficients of its operands, so the round-off is that of the list. Returns -1, or the first
+ * operation that is not affine; then rates[] is unchanged. */
 int affine_rates(const image *im, twofold *rates);
 
 /* Makes the matrix and its list, as the image's settings require; the image must be otherwise complete. Returns false,

@@ -17,7 +17,7 @@ typedef struct conditions {
     double *r; /* [columns * columns] */
 } conditions;
 
-/* An entry of a unit vector below this is round-off, and so is the remainder of a vector that depends on others. */
+/* Entries of a unit vector below this are round-off. So is the rest of a vector that depends on other vectors. */
 #define NULL_SPACE_ROUNDING 1e-8
 
 #define SWEEPS_MOST 60

@@ -6,9 +6,9 @@
 #include <stdio.h>
 
 /* === colours and shapes ================================================================================== */
-/* The colours and point shapes of all pictures, on white and dark pages. Every line colour has a contrast of
- * 3:1 (WCAG 2.1, 1.4.11) with both backgrounds. Any two differ by 13 (CIELAB), in normal vision and with each kind of
- * colour blindness (Machado, Oliveira and Fernandes, 2009). tests/host/test_plot.c computes both.
+/* The colours and point shapes of all pictures, on white and dark pages. Every line colour has a contrast of 3:1 (WCAG
+ * 2.1, 1.4.11) with both backgrounds. Any two line colours differ by at least 13 (CIELAB), in normal vision and with
+ * each kind of colour blindness (Machado, Oliveira and Fernandes, 2009). tests/host/test_plot.c computes both.
  * mk/curves/chart.sh also reads the rows of lines. */
 
 #define PALETTE_LINE_ROWS(X) \

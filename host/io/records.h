@@ -44,10 +44,10 @@ bool records_write(const records *r);
 /* === waves of a run =================================================================================== */
 /* A run for waveform viewers, as a value change dump (host/io/vcd.h).
  *
- * The records' columns are real numbers with their digits and, in their names, their units; SI units are in the comment
- * after each. Each contact has a wire that is high for a resting stop, an active hold, a sticking friction, and a crossing
- * above its value. A stop and a crossing also have an event at the located instant of the impact or crossing (core/state.h
- * logs the first WH_EVENT_LOG of a step). Inputs are constant during a run. */
+ * The records' columns are real numbers with their digits. A unit other than SI is part of a column's name; the comment
+ * after the name has every unit. Each contact has a wire that is high for a resting stop, an active hold, a sticking
+ * friction, and a crossing above its value. A stop and a crossing also have an event at the located instant of the
+ * impact or crossing (core/state.h logs the first WH_EVENT_LOG of a step). Inputs are constant during a run. */
 
 /* The unit of the dump's times, 10^-power s. It is the coarsest unit, of at most a second, that divides the records'
  * spacing; with contacts it is also at most a thousandth of the step. If there is no such power of ten (for a step of

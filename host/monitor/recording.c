@@ -259,7 +259,7 @@ static void head(recording *r, const schema_channel *c) {
     }
 }
 
-/* Keeps every second one of the stored samples, and of the future ones. */
+/* Drops every second stored row. From now on, every second new row is dropped, too. */
 static void thin_out(recording *r) {
     const size_t row = (size_t)r->columns;
     for (int64_t i = 0; i < r->rows / 2; i++) {

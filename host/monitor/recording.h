@@ -41,7 +41,7 @@ bool schema_take(schema *s, const char *line);
 
 unsigned schema_bytes(const schema_field *fields, int count);
 
-/* Numbers of losses, and where they occurred. */
+/* Counts of frames, samples, pulses, losses and restarts. */
 typedef struct recording_counts {
     uint64_t frames;
     uint64_t samples;

@@ -124,7 +124,7 @@ static void take_away(big *a, const big *b) {
     }
 }
 
-/* A number as a whole number, made of its significant digits, times 10^exponent. */
+/* A number: its significant digits as a whole number, times 10^exponent. */
 typedef struct digits {
     big whole; /* count 0: zero */
     int held;  /* number of significant digits taken so far */

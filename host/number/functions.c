@@ -60,8 +60,7 @@ _Static_assert(1 FUNCTION_ROWS(OF_CORE) == 0 WH_FUNCTIONS(ONE_MORE, ONE_MORE),
 
 /* The sign of x; zeros and NaN are returned unchanged. */
 static double sign_of(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : x; }
-/* The slope of max() by an argument that is larger than the other by `lead`, or of min() by an argument that is
- * smaller by `lead`. */
+/* The slope of max(x, y) by x, with lead = x - y; or of min(x, y) by x, with lead = y - x. */
 static double share_of(double lead) { return 0.5 + 0.5 * sign_of(lead); }
 
 #define FUNCTION_CORE(value) value

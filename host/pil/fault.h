@@ -181,7 +181,8 @@ typedef struct fault_plan {
 /* Adds the faults in `text`, separated by commas, to the plan. Returns false after an error, which it has reported. */
 bool fault_read(fault_plan *plan, const char *text);
 
-/* The `set` of its parameters, such as "inertia=2", to be freed; NULL if fault i changes no parameter. */
+/* Returns the --set option of fault i, such as "inertia=2", which the caller frees; NULL if the fault changes no
+ * parameter. */
 char *fault_parameter(const fault_plan *plan, unsigned i);
 
 /* The faults as a tap; for one run. */

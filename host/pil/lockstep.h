@@ -99,7 +99,8 @@ typedef struct talk {
     FILE *tape; /* file for the tape, or NULL */
 } talk;
 
-/* Start the guest and receive its hello. False, reported: report->end has the reason. */
+/* Start the guest and receive its hello. Returns false after an error, which it has reported; report->end has the
+ * reason. */
 bool talk_start(talk *t, const lockstep_request *request, lockstep_report *report, FILE *onto);
 
 /* Restart the processor after a reset: a new guest, which knows only the data of the reset; `ticks` goes on the tape.
@@ -109,13 +110,14 @@ bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset);
 /* Send readings at `ticks`. Returns false if the guest is gone, or the user interrupts; report->end has the reason. */
 bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings);
 
-/* Receive the orders that answer the last readings. False as above, and also after the firmware's end, which is no error. */
+/* Receive the orders that answer the last readings. Returns false as talk_tell() does, and also after the firmware's
+ * end, which is no error. */
 bool talk_hear(talk *t, wh_orders *orders);
 
 /* End the guest; an abnormal end is reported. */
 void talk_end(talk *t);
 
-/* Mix orders into a hash of all of them: everything except instruction counts. */
+/* Mixes orders, except their instruction counts, into a hash. */
 uint64_t talk_hash(uint64_t hash, const wh_orders *orders);
 
 /* Mix the remembered data into the hash. */

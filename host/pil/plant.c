@@ -600,7 +600,7 @@ bool plant_advance(plant *p, double until_ticks) {
     return true;
 }
 
-/* Takes the due entries of a queue, at most `most`; further due ones are lost. */
+/* Takes the due entries of a queue, at most `most`. All other due entries are lost. */
 static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) {
     *there = 0;
     while (*there < q->count && q->event[*there].at_ticks <= plant_now(p) + NEARLY) {

@@ -74,7 +74,7 @@ typedef struct plant_request {
 } plant_request;
 
 typedef struct plant_event {
-    double at_ticks; /* time of its arrival */
+    double at_ticks; /* time at which the controller gets the edge or the sample */
     uint32_t ticks;  /* the stamp */
     int32_t raw;
     uint8_t channel;
@@ -95,7 +95,7 @@ typedef struct plant_resets {
     double watchdog_ticks; /* the watchdog's timeout */
     /* a reset is due: the caller has to restart the processor, see plant_restart() */
     bool now;
-    bool starved; /* the watchdog caused it */
+    bool starved; /* true: the watchdog caused the reset */
     unsigned count;
     double last_ticks; /* time of the last reset */
 } plant_resets;
