@@ -82,7 +82,8 @@ typedef struct wh_station {
     unsigned stage;              /* the stage that was reported last */
     uint32_t lost_bytes;         /* number of received bytes that were lost for lack of room */
     uint32_t lost_answers;       /* number of answers that were lost for lack of room */
-    bool host_given; /* the command `host` was given: its host_steps count, not the setting `host` */
+    bool
+        host_given; /* the command `host` was given: its host_steps count, not the setting `host` */
     /* the host is lost after this many steps without a byte; 0: never */
     uint32_t host_steps;
     uint32_t silent_steps;

@@ -93,7 +93,7 @@ static wh_status step(manner how, wh_real h, wh_phase *told) {
         const wh_stepping to = {
             wh_tableau_of(how.method), &state, h, ANGLES, COORDINATES, how.compensated};
         return wh_turn_second_phases(NULL, swing_turned, &waves, &to, (wh_two_part){h, WH_R(0.0)},
-                                   told, &state);
+                                     told, &state);
     }
     return wh_step_second(NULL, swing, how.method, how.compensated, ANGLES, COORDINATES,
                           (wh_two_part){h, WH_R(0.0)}, &state);
