@@ -77,11 +77,11 @@ worst-now: $(GEN)/.stamp
 	    mk/count/worst.sh $(ELF)/worst.elf $(FIGURES)/worst.csv $(WORST_STEPS)
 
 bench-now: $(GEN)/.stamp
-	@$(MAKE) build/bench build/bench_double $(addprefix build/tools/,$(BY_HAND)) $(PLUGIN) \
-	    $(ELF)/bench.elf $(ELF)/bench_multi_step.elf
+	@$(MAKE) build/bench $(addprefix build/tools/,$(BY_HAND)) $(PLUGIN) $(ELF)/bench.elf $(ELF)/bench_multi_step.elf
+	@$(MAKE) B=build/optimised LEAST_O2= build/optimised/bench_double # the tests' objects in double are compiled at -O0
 	@mkdir -p $(FIGURES)
 	@echo "Instructions a step (executed, not cycles):"
-	@for program in bench bench_double $(addprefix tools/,$(BY_HAND)); do \
+	@for program in bench optimised/bench_double $(addprefix tools/,$(BY_HAND)); do \
 	    BOARD=host CC="$(CC)" FLAGS="$(OPT)" \
 	        mk/count/count_rows.sh $(FIGURES)/bench.csv build/$$program || exit 1; done
 	@$(call count_board,$(ELF)/bench.elf)

@@ -2,7 +2,7 @@
  * timing: Cortex-M4 TRM (DDI 0439) tables 3-1 and 7-1 and section 3.3.3, Cortex-M3 TRM (DDI 0337) table 3-1, Cortex-M0
  * TRM (DDI 0432) table 3-1. Decoded from the instructions' bits.
  *
- * docs/price.md says which of these are choices, and what is not modelled. */
+ * docs/dev/price.md says which of these are choices, and what is not modelled. */
 #ifndef MK_COUNT_THUMB_CYCLES_H
 #define MK_COUNT_THUMB_CYCLES_H
 
