@@ -68,7 +68,6 @@ static inline void put_verdict(const wh_measured *force) {
     }
 }
 
-/* Prints the mean and the range of the speeds of the last turns. */
 static inline void put_turns(const wh_run *run) {
     if (run->turns < WH_RUN_TURNS) {
         return;

@@ -310,7 +310,6 @@ static double trial_value(void *context, const symbol *s, int primes) {
     return state->at_rest ? 0.0 : (((unsigned)s->index + state->number) % 2U == 0 ? size : -size);
 }
 
-/* Does p contain the rate of any coordinate? */
 static bool has_rates(const equations *e, const poly *p) {
     for (int i = 0; i < e->count; i++) {
         if (poly_contains(p, e->unknowns[i].symbol, 1)) {

@@ -421,7 +421,6 @@ static bool momentum_free_of_inputs(const equations *e, const poly *momentum, di
     return true;
 }
 
-/* Returns the acceleration of an input with a rate. */
 static const poly *acceleration_of(algebra *a, const symbol *driven) {
     const symbol *input = symbol_acceleration(driven);
     return input != NULL ? poly_symbol(a, input, 0) : poly_number(a, 0.0);
@@ -600,7 +599,6 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
     e->output = polys(m->output_count);
     for (int i = 0; i < n; i++) {
         e->unknowns[i] = (unknown){m->coordinates[i], 2};
-        /* coordinates come first in the normal form's order */
         poly_symbol(e->algebra, m->coordinates[i], 0);
     }
     for (int i = 0; i < m->parameter_count; i++) {

@@ -318,7 +318,6 @@ static bool is_driven(const layout *map, int i) {
     return map->equations->unknowns[i].symbol->driven != NULL;
 }
 
-/* Adds the entries of one statement. */
 static void add_statement(ledger_lists *l, const layout *map, const statement_force *of,
                           const poly **power) {
     const bool drives = of->from->kind == TERM_Q;
@@ -391,7 +390,6 @@ static op_list *make_levels(const ledger_lists *l, const poly *integral, layout 
     return t;
 }
 
-/* Can this scene have a ledger? */
 static bool can_keep(const layout *map, diags *errors) {
     const mechanism *m = map->equations->instance->mechanism;
     if (m->is_system) {

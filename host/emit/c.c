@@ -217,7 +217,6 @@ bool emit_c_name_is_free_in_cpp(const char *name) {
 
 /* === a scene's contacts as C ================================================================== */
 
-/* Writes the declared bounds and the include of the core's header. */
 static void c_contacts_include(FILE *out, const image *im) {
     fprintf(out, "#define WH_CONTACTS_MAX %d\n#define WH_SETS_MAX %d\n", im->contacts,
             im->set_count > 0 ? im->set_count : 1);
@@ -333,7 +332,6 @@ static void write_of_angles(FILE *out, const image *im, const op_list *t, const 
     c_list_body(out, t, C_PHASES, result);
 }
 
-/* Writes the ledger's lists and the constant `ledger`. */
 static void c_ledger_write(FILE *out, const image *im) {
     const image_ledger *l = &im->ledger;
     const wh_ledger_form form = core_ledger_form(im, NULL, NULL);

@@ -31,7 +31,6 @@ static void put_hex(json *j, const char *key, uint64_t value) {
     json_text(j, key, text);
 }
 
-/* Writes the place in the file, and the statement at that place. */
 static void put_place(json *j, place at) {
     char text[STATEMENT_SIZE];
     statement_text(at, text, sizeof text);

@@ -106,7 +106,6 @@ static void write_start(FILE *out, const image *im) {
     free(start);
 }
 
-/* Writes the highest derivative of unknown i. */
 static void write_highest(FILE *out, const image *im, int i) {
     const op_list *t = im->list[IMAGE_STEP];
     int c = 0;

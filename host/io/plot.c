@@ -171,7 +171,6 @@ static bool add_list(panels *p, const char *command, const char *list, const plo
     return good;
 }
 
-/* Adds all coordinates and outputs of all runs, each once. */
 static bool add_all(panels *p, const char *command, const plot_run *runs) {
     for (int k = 0; k < p->runs; k++) {
         for (int i = 1; i < runs[k].columns; i++) {

@@ -62,7 +62,6 @@ void records_close(records *r) {
     }
 }
 
-/* Column of an unknown's derivative. */
 static int column_of(const records *r, int unknown_index, int primes) {
     int column = 1;
     while (r->column[column].unknown != unknown_index || r->column[column].primes != primes) {

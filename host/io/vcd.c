@@ -184,7 +184,6 @@ void vcd_change(vcd *v, int signal, int64_t time, double value) {
     v->last = time > v->last ? time : v->last;
 }
 
-/* Writes the pending changes up to this time. */
 static void write_until(vcd *v, int64_t time) {
     begin(v);
     int64_t done = 0;

@@ -299,7 +299,6 @@ static bool is_rate(const mechanism *made, const symbol *s) {
     return is;
 }
 
-/* Adds the driven coordinate of an input with a rate. */
 static void drive(parser *in, mechanism *made, named *input) {
     named *coordinate = arena_alloc(in->arena, sizeof *coordinate);
     named *rate = (named *)input->symbol.rate;

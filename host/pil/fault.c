@@ -87,7 +87,6 @@ static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_
     return true;
 }
 
-/* Adds the false pulses since the last readings. */
 static void invent_edges(const fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const bool storm = f->kind == FAULT_EDGE_STORM;
     const uint32_t now_ticks = plant_ticks(plan->plant);

@@ -11,7 +11,6 @@
 
 #define ASK_S 0.25 /* interval between requests for a hello */
 
-/* Ends the run. Returns false. */
 static bool ends(lockstep_report *r, lockstep_end end) {
     r->end = end;
     return false;

@@ -61,7 +61,6 @@ static bool is_cut_off(const taped *t) {
     return t->reader.dropped > 0 || t->reader.length > 0 || t->endless || ferror(t->file) != 0;
 }
 
-/* Report that the file is not a tape. */
 static bool is_no_tape(taped *t, const char *why) {
     if (ferror(t->file) != 0) {
         fprintf(stderr, "%s: error: cannot be read: %s\n", t->name, strerror(errno));

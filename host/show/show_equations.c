@@ -20,7 +20,6 @@ static void show_equation(const show *s, const equations *e, int i);
  * NARROWEST: least width of a broken sum. */
 enum { LINE_WIDTH = 320, NARROWEST = 100, LEFT_WIDTH = 150, EQUALS = 14, SIGN = 13, QUAD = 10 };
 
-/* A part of a text. */
 typedef struct span {
     const char *from;
     const char *end;

@@ -35,7 +35,6 @@ typedef struct worker {
     size_t room;
 } worker;
 
-/* A row that waits for its turn. */
 typedef struct slot {
     char *row; /* NULL: not yet received; the reason follows the row's zero byte */
     const char *reason;
