@@ -168,7 +168,7 @@ typedef enum operator_step {
     STOP_SILENT /* the stop input has no reading */
 } operator_step;
 
-/* Evaluates the stop input. Its first reading may come late, but not after the program arms. */
+/* Evaluates the stop input. If it has no reading at the time of `arm`, the operator stops with STOP_SILENT. */
 static void look_at_stop(operator_step *at, bool rests) {
     if (!hal_stop_pressed()) {
         return;

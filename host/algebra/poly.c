@@ -527,7 +527,7 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 /* A product of two sums is not expanded if it has more products of terms than this. */
 #define PRODUCT_TERMS_MAX 400000
 /* A sum of positions with this whole exponent or a larger one stays a power: expanded, (x - b)^3 would lose its digits
- * near x = b. Squares are expanded, because equal sums of squares often have one form only when expanded. */
+ * near x = b. Squares are expanded, because equal sums of squares may have the same form only then. */
 #define POWER_KEPT 3.0
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {

@@ -279,7 +279,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
-    /* a force depends on the coordinate: integrate it, because `closed` needs the time, which a step does not know */
+    /* if a force depends on the coordinate, it is integrated: `closed` needs the time, which a step does not know */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (is_linear(e, momentum, law->mass)) {
         return true;

@@ -404,7 +404,8 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* If folding a number loses more than this part of it, an image to run gets variants, which show the effect. */
+/* If folding loses more than this, relative to the folded number, an image to run gets variants, which show the
+ * effect. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");

@@ -763,7 +763,7 @@ static int sum_flat(lowering *l, const product *products, int count) {
         }
         const int part =
             sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
-        /* sum_of_like() subtracts negative products, so with -size outside the sign of `part` is wrong */
+        /* sum_of_like() subtracts negative products. With -size outside, `part` then has the wrong sign. */
         sum = all_negative ? op_list_add(t, sum, op_list_unary(t, OP_NEG, part))
                            : op_list_add(t, sum, part);
     }

@@ -10,7 +10,7 @@
 /* One term: coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines. */
 typedef struct piece {
     double coefficient;
-    /* source of the other factors: `sines` and `cosines` replace its sine or cosine */
+    /* the original product; `sines` and `cosines` replace its sine or cosine */
     const mono *mono;
     const poly *angle; /* NULL when both powers are 0 */
     int sines;

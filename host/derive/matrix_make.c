@@ -229,7 +229,7 @@ static bool passes_on(diagnostics_code code, int other) {
     return false;
 }
 
-/* Returns the innermost node below `node` whose degree exceeds `most`, as that of `node` does. */
+/* `node` has a degree above `most`. Returns the innermost node below it that alone is the reason. */
 static int innermost(const image_blame *b, const made_of *of, int node, int most) {
     for (;;) {
         const diagnostics_node *n = &b->node[node];

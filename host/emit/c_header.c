@@ -44,7 +44,7 @@ void c_comment(FILE *out, const char *text) {
 typedef enum list { LIST_ANGLES, LIST_REALS, LIST_INPUTS, LIST_OUTPUTS, LISTS } list;
 
 static const struct {
-    const char *counted; /* as in SCENE_ANGLES and SCENE_NAMES_OF_ANGLES */
+    const char *counted; /* last word of SCENE_ANGLES and of SCENE_NAMES_OF_ANGLES */
     const char *value;   /* the KIND of a component; `rate`: the KIND of its rate */
     const char *rate;
     const char *where;

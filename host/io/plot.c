@@ -209,7 +209,7 @@ static bool name_runs(panels *p, const char *command, const char *legend, const 
     return list == NULL;
 }
 
-/* Reports more labels than axes, and returns false. */
+/* If there are more labels than axes, reports this and returns false. */
 static bool labels_fit(const panels *p, const char *command, const char *labels) {
     int more = 0;
     for (const char *at = labels; at != NULL && *at != '\0'; at++) {

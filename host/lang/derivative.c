@@ -201,7 +201,7 @@ static bool derive(parser *in, const expr *of, const token *name, const expr **d
 }
 
 const symbol *let_rate(parser *in, const symbol *let, const token *name) {
-    named *entry = (named *)(uintptr_t)let; /* not const: the parser made the symbol */
+    named *entry = (named *)(uintptr_t)let; /* may be changed: the parser made this symbol */
     const expr *d = NULL;
     if (entry->rate != NULL) {
         return &entry->rate->symbol;

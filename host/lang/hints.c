@@ -44,8 +44,8 @@ static double term_at(const term *of, const symbol *coordinate, valuation *known
     return value;
 }
 
-/* Does the force jump against the motion at rate 0? A jump keeps its size if the rate is a tenth; the change of a
- * smooth force falls to a tenth. False if the force is not finite. */
+/* Does the force jump against the motion at rate 0? If the rate falls to a tenth, a jump keeps its size, and the change
+ * of a smooth force falls to a tenth. False if the force is not finite. */
 static bool opposes_at_rest(const term *of, valuation *known) {
     const symbol *own = of->coordinate;
     const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);

@@ -248,10 +248,10 @@ typedef struct overrides {
     const char *const *starts;
     int start_count; /* --start: coordinates and rates */
     const char *const *values;
-    int value_count; /* values of all symbols: the name decides between set and start */
-    const char *const *with;
     /* values of all symbols: a parameter or input counts as --set, a coordinate or rate as --start */
-    int with_count;
+    int value_count;
+    const char *const *with;
+    int with_count; /* effect names added, or "ledger"; "all" adds every effect */
     const char *const *without;
     /* Effect names removed. "all" is applied first. "conserve" removes the scene's conserve. */
     int without_count;
@@ -259,7 +259,7 @@ typedef struct overrides {
     const char *until; /* the end of the scene, or NULL */
     const char
         *name;    /* replaces the scene's or mechanism's name, or NULL; must outlive the instance */
-    bool balance; /* if the run has contacts, balance it, also without `with ledger` */
+    bool balance; /* true: keep a ledger if the run has contacts, also without `with ledger` */
 } overrides;
 
 /* A range in SI numbers, with low < high. */

@@ -28,7 +28,7 @@ typedef struct taped {
     double before_s; /* time of the last reset */
     bool failed;     /* unreadable or broken: reported */
     wh_frame_reader reader;
-    bool endless; /* the longest possible frame has passed without an end */
+    bool endless; /* true: more bytes than those of the longest frame came, and no frame ended */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     uint8_t words[GUEST_LINE_BYTES]; /* strings of the hello */
 } taped;

@@ -18,7 +18,8 @@ typedef struct show {
     const char *(*name)(const void *names, const symbol *sym, int primes); /* NULL: the file's */
     const void *names;
     struct show_lets *lets; /* lets that are printed in place of equal sums; NULL: none */
-    bool bracketed; /* true: in LaTeX, write \cos(a) (b + c), because \cos a (b + c) is ambiguous */
+    /* true: a parenthesis follows, so that \cos a (b + c) would be ambiguous in LaTeX */
+    bool bracketed;
 } show;
 typedef struct show_lets show_lets;
 
