@@ -36,7 +36,7 @@ static struct {
     uint64_t hold_at, end_at;
     uint16_t value;
     bool late;
-    bool unread, dma_open; /* DR holds an unread value; DDS permits requests */
+    bool unread, dma_open; /* unread: DR holds an unread value; dma_open: DDS permits requests */
 } adc;
 
 static uint32_t *reg(uint32_t offset) { return &adc.r[offset / 4U]; }
@@ -154,7 +154,7 @@ static void adc_happens(void) {
     }
 }
 
-/* DMA reads DR. Without DDS, the last transfer is followed by no request. */
+/* DMA reads DR. If DDS is 0, no request follows the last transfer. */
 static uint16_t adc_taken(bool last) {
     adc.unread = false;
     *reg(SR) &= ~EOC;
@@ -274,7 +274,7 @@ void dma_request_adc(void) {
         return;
     }
     memory[dma.whole - dma.left] =
-        adc_taken(dma.left == 1); /* the last value of each round, if the stream is circular */
+        adc_taken(dma.left == 1); /* true at the last value of each round */
     dma.left--;
     if (dma.left == dma.whole / 2U) {
         dma.flags |= HTIF;

@@ -23,7 +23,7 @@ static const part *const parts[] = {
 
 #define INTERRUPTS 82U /* RM0090, table 62 */
 #define NMI 1000U
-/* If a handler runs this often without progress of the program, it never ends. */
+/* A handler that runs this often, while the program makes no progress, counts as endless. */
 #define HANDLED_MOST 20000U
 static struct {
     uint64_t now;
@@ -160,7 +160,7 @@ static void take_interrupts(void) {
         return;
     }
     if (nmi_pending() && !chip.nmi_taken) {
-        chip.nmi_taken = true; /* a fault, which does not return */
+        chip.nmi_taken = true; /* on_nmi() reports a fault and does not return */
         chip.in_nmi = true;
         if (on_nmi != NULL) {
             on_nmi();
@@ -227,7 +227,7 @@ void chip_pass(uint64_t units) {
 }
 void chip_pass_us(uint64_t us) { chip_pass(us * CHIP_UNITS_PER_US); }
 
-/* Lets the time of a register access pass, with the core's work around it. While the flash is busy, the core waits for
+/* Lets the time of a register access, and of the code around it, pass. While the flash is busy, the core waits for
  * instructions and takes no interrupt. */
 static void time_passes(void) {
     if (flash_busy()) {
@@ -259,7 +259,7 @@ static const part *part_at(uint32_t address) {
     return NULL;
 }
 
-/* Returns the part at this address. If an access is not allowed, it is a violation. */
+/* Returns the part at this address. An access that is not allowed is a violation. */
 static const part *reached(uint32_t address, const char *how) {
     const part *which = part_at(address);
     if (which == NULL) {
@@ -312,7 +312,7 @@ void reg_go_on(uint32_t before) {
     take_interrupts();
 }
 
-/* Memory with its DMA addresses, which have 32 bits on every machine. */
+/* Memories that DMA uses. Each gets a 32-bit address of the chip, because this machine's addresses may be longer. */
 #define MEMORIES 8U
 #define MEMORY_BYTES 0x4000U
 static volatile void *memories[MEMORIES];
@@ -392,7 +392,7 @@ const part scb_part = {
 #define DEMCR 0x0CU
 #define DWT_CTRL 0x00U
 #define DWT_CYCCNT 0x04U
-#define DWT_LAR 0xFB0U /* a Cortex-M4 has no lock */
+#define DWT_LAR 0xFB0U /* lock access register: no effect on a Cortex-M4 */
 static struct {
     uint32_t demcr, ctrl, count; /* count is the counter's value at the time `since` */
     uint64_t since;

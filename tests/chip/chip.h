@@ -45,7 +45,7 @@ typedef struct chip_world {
     uint64_t crystal_units; /* the crystal's start-up time */
     bool pll;               /* the PLL locks */
     uint64_t watchdog_Hz;   /* frequency of the watchdog's oscillator LSI, 17 to 47 kHz */
-    bool halt_disables;     /* a halt of the counter disables a timer's outputs: not verified */
+    bool halt_disables;     /* a debugger's halt disables TIM1's output; not verified on a chip */
     /* voltage at an input of ADC1 at a time; NULL: always 0 */
     double (*volts)(unsigned input, double s);
     double vdda_V;
@@ -67,7 +67,7 @@ void drivers_as_flashed(void);
 chip_end chip_try(void (*what)(void));
 chip_end chip_try_with(void (*what)(void *), void *with);
 void chip_may_take(uint64_t units); /* limit for chip_try(), counted from its start (default 5 s) */
-/* Power fails in place of a later store: 0 is the next store, 1 the store after it. */
+/* Power fails instead of a later store. If `stores` is 0, it fails instead of the next store. */
 void chip_power_off_after(unsigned stores);
 void chip_power_off_at(uint64_t when); /* power fails at this time */
 void chip_power_stays(void);
@@ -93,7 +93,7 @@ typedef enum chip_level { CHIP_LOW, CHIP_HIGH, CHIP_OPEN } chip_level;
 typedef enum chip_resistor { CHIP_NO_RESISTOR, CHIP_TO_GROUND, CHIP_TO_SUPPLY } chip_resistor;
 void chip_pin_drive(char port, unsigned pin, chip_level level);
 void chip_pin_drive_at(uint64_t when, char port, unsigned pin,
-                       chip_level level); /* `when` is not before earlier ones */
+                       chip_level level); /* call it in the order of `when` */
 void chip_pin_resistor(char port, unsigned pin, chip_resistor resistor);
 chip_level chip_pin(char port, unsigned pin); /* CHIP_OPEN: the chip does not drive the pin */
 

@@ -107,7 +107,7 @@ void flash_power_goes(void) {
         }
     } else if (f.does == OPTIONS_CHANGE) {
         option_bytes =
-            /* the manual does not specify worse cases */
+            /* the new or the old bytes: the manual specifies no worse outcome */
             (drawn() & 1U) != 0 ? f.value : option_bytes;
     }
     f.does = NOTHING;
@@ -175,8 +175,8 @@ static void control(uint32_t value) {
     } else if ((option_bytes & BIT(16U + sector)) == 0) {
         f.sr |= WRPERR;
     } else {
-        static const uint16_t least_ms[4] = {400, 300, 250,
-                                             250}; /* table 40, typical time, and twice that */
+        static const uint16_t least_ms[4] = {
+            400, 300, 250, 250}; /* typical times (table 40), of which an erase takes one to two */
         const uint32_t ms = least_ms[FIELD(value, 8, 2)];
         begins(ERASES, sector, 0, 1000U * (ms + drawn() % ms));
     }

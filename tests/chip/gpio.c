@@ -225,7 +225,7 @@ static void gpio_store(uint32_t offset, uint32_t value) {
     }
     debug_stays(port);
     for (unsigned pin = 0; pin < 16; pin++) {
-        (void)level_of(port, pin); /* a change may cause a short circuit */
+        (void)level_of(port, pin); /* reports a short circuit, which this store may have caused */
         const uint8_t *channel = function_row(port, pin, TIM2_IN);
         if (channel != NULL) {
             tim2_input(*channel, pin_input(port, pin));

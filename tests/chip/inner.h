@@ -41,7 +41,7 @@ typedef struct part {
     uint32_t (*load)(uint32_t offset);
     void (*store)(uint32_t offset, uint32_t value);
     void (*reset)(void);                 /* resets the part; reset_by is the cause */
-    uint64_t (*next)(void);              /* time of its next event */
+    uint64_t (*next)(void);              /* time of the part's next event */
     void (*happens)(void);               /* handles the event of next() */
     bool (*pending)(unsigned interrupt); /* true if the part requests this interrupt */
 } part;
@@ -109,7 +109,7 @@ void dma_request_adc(void);
 /* Implemented by rcc.c: true if this bit of DBGMCU stops a clock while a debugger holds the core. */
 bool debug_stops(uint32_t offset, unsigned bit);
 
-/* Implemented by iwdg.c: a debugger holds the core; the next function: it is about to release the core. */
+/* Implemented by iwdg.c. iwdg_holds(): a debugger holds the core; iwdg_goes_on(): it is about to release the core. */
 void iwdg_holds(void);
 void iwdg_goes_on(void);
 

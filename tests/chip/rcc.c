@@ -30,12 +30,12 @@ enum {
 
 static struct {
     uint32_t r[REGISTERS];
-    /* Times at which they become ready. CHIP_NEVER: never, or already ready. */
+    /* Times at which the clocks become ready. CHIP_NEVER: never, or already ready. */
     uint64_t hsi_at, hse_at, pll_at, lsi_at;
     uint64_t hse_gone_at; /* HSERDY falls six HSE cycles after HSEON is cleared (7.3.1) */
     bool crystal_runs, lsi_forced, vos_1;
     uint32_t core, hclk;
-    /* Register and bit that enabled a peripheral: the next access must not go to it. */
+    /* Clock register that has just enabled a part: the next access must not go to a part of it. 0: none. */
     uint32_t enabled_late;
 } rcc;
 
@@ -309,7 +309,7 @@ void chip_crystal_stops(void) {
 
 bool part_is_clocked(const part *which) {
     if (which == &gpio_part || which->clock_register == 0) {
-        return true; /* ports: gpio.c reads the state of each */
+        return true; /* gpio.c reads the clock of each port */
     }
     if (rcc.enabled_late == which->clock_register) {
         rcc.enabled_late = 0;

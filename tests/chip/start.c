@@ -12,7 +12,7 @@
 
 /* The linker's symbols at the ends of the drivers' variables (mk/tests.mk). */
 extern uint8_t __start_drivers_bss[], __stop_drivers_bss[];
-/* These do not exist while no variable has an initial value. */
+/* These two symbols exist only if some variable has an initial value. */
 __attribute__((weak)) extern uint8_t __start_drivers_data[], __stop_drivers_data[];
 
 static uint8_t image[16384];

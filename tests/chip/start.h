@@ -23,7 +23,7 @@ void chip_memory_keeps(bool anything);
 uint64_t chip_seed(uint64_t usual);
 
 typedef struct chip_wiring {
-    const char *board; /* name of the board, in the program that has its drivers' data */
+    const char *board;
     uint32_t crystal_Hz;
     char slot_port[2];
     uint8_t slot_pin[2];

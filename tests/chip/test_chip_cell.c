@@ -104,7 +104,7 @@ TEST(chip_cell, sines) {
         begin(i + 1U);
         turns_Hz = i % 2U == 0 ? 3.0 + (double)(scattered() % 1000U) / 250.0
                                : 25.0 + (double)(scattered() % 1000U) / 66.0;
-        /* The sum with the offset is at least 0.2 V. */
+        /* The lowest voltage at the pin is 0.2 V: 1.65 - 1.39 - 0.05. */
         swing_V = 0.7 + (double)(scattered() % 690U) / 1000.0;
         phase = (double)(scattered() % 6283U) / 1000.0;
         offset_V = 0.1 * ((double)(scattered() % 1000U) / 1000.0 - 0.5);
@@ -121,7 +121,7 @@ TEST(chip_cell, sines) {
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1.5e-6, 0.0, late_s,
                                           "stamps are not in the window's middle");
         TEST_ASSERT_DOUBLE_WITHIN(9.0, offset_V * RAW_OF_V,
-                                  mean); /* a converter truncates: half a count of 12 bits */
+                                  mean); /* truncation lowers the mean by 8 units */
     }
 }
 
@@ -148,7 +148,7 @@ TEST(chip_cell, parabolas) {
             const double V = parabola(got_s[at]);
             if (fabs(got_s[at] - bend_from) < 0.008) {
                 TEST_ASSERT_DOUBLE_WITHIN(12.0, (V - MIDDLE_V) * RAW_OF_V - 8.0,
-                                          /* without the correction the error would be 99 */
+                                          /* without the correction the error would be 99 units */
                                           got[at].raw);
                 seen++;
             }
@@ -184,7 +184,7 @@ TEST(chip_cell, ends) {
             TEST_ASSERT_EQUAL(rows[row].status, got[at].status);
             if (level_V > 3.3) {
                 TEST_ASSERT_INT_WITHIN(16, HAL_LOADCELL_RAW_MAX,
-                                       got[at].raw); /* within the last count of 12 bits */
+                                       got[at].raw); /* a count of 12 bits is 16 units */
             } else {
                 TEST_ASSERT_DOUBLE_WITHIN(17.0, (level_V - MIDDLE_V) * RAW_OF_V, got[at].raw);
             }
@@ -206,7 +206,7 @@ static void clipped_at(double V) {
     unsigned marked = 0;
     for (unsigned at = 0; at < got_count; at++) {
         const double next =
-            /* end of the window, counted from the begin of the last clip */
+            /* time from the begin of the last clip to the window's end */
             fmod(got_s[at] + 0.001, 0.05);
         const bool has = next < 0.00238 && next > 0.00005;
         marked += got[at].status == HAL_LOAD_SATURATED ? 1U : 0U;
@@ -326,9 +326,8 @@ TEST(chip_cell, supply) {
     }
 }
 
-/* The supply has any voltage up to 60 V. Its divider has 1 % resistors, an error of 1.8 % of the ratio. The guard
- * accepts 12 to 30 V. It never accepts more than 31.5 V plus the divider's error, whether its own limit or a setting
- * applies. */
+/* The supply has any voltage up to 60 V. The divider's 1 % resistors change its ratio by up to 1.8 %. The guard
+ * accepts 12 to 30 V. It refuses more than 31.5 V, apart from the divider's error, even if a setting allows more. */
 TEST(chip_cell, supplies) {
     wh_guard_config guard = {.supply_min_V = 10.8F, .supply_max_V = hal_motor_supply_most_V()};
     begin(121);

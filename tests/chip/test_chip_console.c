@@ -101,7 +101,7 @@ TEST(chip_console, out_is_full) {
 }
 
 /* If the program reads in each control step, bytes arrive in order and none is lost. A byte with noise or a framing
- * error is read as zero, but an Escape remains an Escape. */
+ * error is read as zero. An Escape is read as Escape even then. */
 TEST(chip_console, in) {
     static uint8_t mine[4096];
     scattered_state = chip_seed(5);

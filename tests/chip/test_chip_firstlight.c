@@ -18,7 +18,7 @@
 int firstlight_main(void);
 
 #define RUN_UNITS (CHIP_UNITS_PER_S * 3U) /* two seconds, and the output of the record */
-/* Core cycles per access: so many that the run takes this machine only a second or two. */
+/* Core cycles per access. The number is large, so that the run has few accesses and takes only a second or two. */
 #define ACCESS_CYCLES(crystal) ((crystal) ? 400U : 40U)
 
 unsigned board_stack_used_bytes(void) { return 1000; }

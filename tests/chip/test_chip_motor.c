@@ -127,7 +127,7 @@ TEST(chip_motor, what_is_out_of_range) {
     chip_pass_us(10000);
     for (unsigned i = 0; i < 2U * sizeof rows / sizeof *rows; i++) {
         if (i == sizeof rows / sizeof *rows) {
-            set_to(5.0F); /* the second half starts from another voltage */
+            set_to(5.0F); /* before the second pass through the rows */
         }
         set_to(rows[i % (sizeof rows / sizeof *rows)].volts);
         TEST_ASSERT_EQUAL(rows[i % (sizeof rows / sizeof *rows)].high, high_ticks());

@@ -74,8 +74,7 @@ static void all_are_there(void) {
     }
 }
 
-/* Pulses of both sensors, with the length of the monostable, 300 us to 100 ms apart. The program polls once per
- * millisecond. */
+/* Pulses of either sensor, 50 to 200 us long, 0.5 to 25 ms apart. The program polls once per millisecond. */
 static void turn(unsigned pulses, uint32_t from_ticks) {
     chip_tim2_count_is(from_ticks);
     for (unsigned i = 0; i < pulses; i++) {

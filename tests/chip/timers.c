@@ -95,8 +95,8 @@ static uint32_t mode_of(timer *t, unsigned i) {
     return *reg(t, i < 2 ? CCMR1 : CCMR2) >> (8U * (i % 2U)) & 0xFFU;
 }
 
-/* Captures (18.3.5) with channel i, from its own input or from its pair's (CCxS 1 or 2). This sets CCRx and the flag;
- * if the flag is still set, also the over-capture flag. The filter is that of the input, the edge that of the channel
+/* Captures in channel i, if CCxS selects this input: the channel's own (1) or that of its pair (2). Sets CCRx and
+ * CCxIF, or also CCxOF if CCxIF is still set (18.3.5). The filter belongs to the input, the edge to the channel
  * (figures of 18.3.4). */
 static void capture(timer *t, unsigned input, unsigned i) {
     const uint32_t cc = *reg(t, CCER) >> (4U * i) & 0xFU;
@@ -139,7 +139,7 @@ void tim2_input(unsigned channel, bool high) {
     uint64_t apart = 0;
     filter(t, i, &samples, &apart);
     if (samples == 0) {
-        t->input[i].accepted_at = now_units() + 3U * apart; /* three samples for the synchronizer */
+        t->input[i].accepted_at = now_units() + 3U * apart; /* no filter, only the synchronizer */
     } else {
         const uint64_t first = (now_units() / apart + 1U) * apart;
         t->input[i].accepted_at = first + (samples - 1U) * apart;

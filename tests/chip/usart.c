@@ -109,7 +109,7 @@ static void usart_store(uint32_t offset, uint32_t value) {
     switch (offset) {
     case SR:
         u.sr &= value | ~(uint32_t)(BIT(9) | BIT(8) | TC | RXNE);
-        break; /* only these are of type rc_w0 */
+        break; /* a store clears no other flags */
     case DR:
         if ((u.cr1 & (UE | TE)) != (UE | TE)) {
             forbidden("a byte to a USART that does not send");
