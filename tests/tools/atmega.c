@@ -2,7 +2,7 @@
  *
  *     atmega boot|orders|run|busy|slots|storm|faults|resets|supply|settings IMAGE [TIMES [SEED]]
  *
- * Prints "ok - ..." or "not ok - ..." lines, and figures behind #; exit status 1 if one is not. */
+ * Prints "ok - ..." or "not ok - ..." lines, and figures after #. The exit status is 1 after a "not ok". */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,7 +66,8 @@ static double number_of(const char *name) {
     return at == NULL ? -1.0 : strtod(at + strlen(name), NULL);
 }
 
-/* Until the run is through, with no state queries or continuous ones. Without dry friction the rotor coasts for a minute. */
+/* Runs until the rig is idle again. If `busy`, asks for the state once per millisecond, otherwise twice per second.
+ * The limit is 150 s, because without dry friction the rotor coasts for a minute. */
 static bool goes_on(bool busy) {
     const uint64_t end = mega_cycle() + 150ULL * MEGA_HZ;
     while (mega_cycle() < end) {
@@ -154,8 +155,8 @@ static void call_with(const char *name, const void *argument, size_t bytes) {
     mega_call(mega_symbol(name), arguments);
 }
 
-/* The motor goes off and on again at any instant of the PWM's period, from any voltage, in both ways. The timer then
- * has the ordered duty, and mega_parts.c checks that the pin is never high after a start. */
+/* The motor brakes or coasts from any voltage and instant of the PWM's period, then is started again. The timer has
+ * the ordered duty, and mega_parts.c checks that the pin is low at each start. */
 static bool starts_low(unsigned times) {
     const uint32_t wait = mega_symbol("hal_clock_wait_until");
     for (unsigned i = 0; i < times; i++) {

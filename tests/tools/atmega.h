@@ -5,11 +5,11 @@
 #include "tests/tools/board_tests.h"
 #include "tests/tools/mega.h"
 
-/* Sends a line; its answer begins with these words. */
+/* Sends a line. Returns true if the answer begins with `begin`. */
 bool asks(const char *order, const char *begin);
 extern char answer[400]; /* the firmware's last answer to a line */
 
-/* From power-on to a run at this speed, `ms` after `start`. */
+/* Switches the power on and starts a run at this speed. Returns true `ms` after the order `start`. */
 bool runs(unsigned rpm, unsigned ms);
 
 /* atmega_states.c: faults, resets and settings. */

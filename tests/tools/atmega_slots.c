@@ -43,7 +43,8 @@ static bool taken(hal_slot_edge *edge) {
 
 static uint32_t now_us(void) { return (uint32_t)(mega_cycle() / MEGA_CYCLES_PER_US); }
 
-/* An edge of this end comes now and must be taken next, within 10 ms. *differ: the clocks' difference, set by the first edge. */
+/* Makes an edge, which the firmware must take next within 10 ms, with a time right to 1 us. *differ: clock
+ * difference. */
 static bool sees_edge(unsigned i, unsigned sensor, hal_slot_end end, int64_t *differ) {
     hal_slot_edge seen = {0};
     const uint32_t at = now_us();
@@ -81,8 +82,8 @@ static bool waits(unsigned cycles, hal_slot_edge *seen) {
     return any;
 }
 
-/* A burst of up to four pulses, most of which are over before an interrupt can read the pin. One begin is reported,
- * none twice, and later edges (sees_edges()) are still reported. */
+/* Makes a burst of up to four pulses, most of which are over before an interrupt can read the pin. Returns true if at
+ * least one edge is reported, and none twice. */
 static bool sees_burst(unsigned i, unsigned sensor) {
     hal_slot_edge before = {0};
     hal_slot_edge seen = {0};
@@ -129,7 +130,7 @@ bool sees_edges(unsigned times) {
     return true;
 }
 
-/* The highest rate that a capture can take, on both pins, in spin-up: pulses are rejected, the rig trips, no step is late. */
+/* Both pins get the most edges that a capture can take: pulses are rejected, the rig trips, no step is late. */
 bool survives_storm(unsigned times) {
     unsigned taken_of = 0;
     hal_slot_edge edge;

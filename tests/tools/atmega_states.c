@@ -29,7 +29,7 @@ static bool draw_state(bool *tripped) {
     if (!runs(250, 2600 + below(2000))) {
         return false;
     }
-    mega_supply_V = 8.0f; /* out of its range */
+    mega_supply_V = 8.0f; /* below its range */
     mega_run(60);
     mega_supply_V = 24.0f;
     return mega_run(100) && asks("fault", "OK trip=11");
@@ -64,7 +64,7 @@ bool sees_supply(unsigned times) {
     return true;
 }
 
-/* Longest time the enable may stay on after a fault: the instructions under way. */
+/* Maximum number of cycles from a fault until the enable is off. */
 #define OFF_CYCLES 40U
 
 static bool is_off_within(uint64_t cycles) {
@@ -77,8 +77,8 @@ static bool is_off_within(uint64_t cycles) {
     return true;
 }
 
-/* Checks that the firmware restarts and reports the reason (`says`; NULL: no report), does not drive by itself, and has
- * its state back. */
+/* Checks that the firmware restarts, reports `cause` (NULL: nothing), does not drive by itself, and is tripped as
+ * before. */
 static bool begins_anew(const char *cause, bool tripped) {
     const uint64_t end = mega_cycle() + MEGA_HZ / 5U;
     char line[300] = "";
@@ -120,13 +120,12 @@ static bool one_fault(unsigned kind, bool tripped) {
         return is_off_within(OFF_CYCLES) &&
                begins_anew("# reset: fault: an interrupt has no handler", tripped);
     }
-    if (kind ==
-        1) { /* the stack's lowest byte: checked with each kick, so the motor is off a control period later */
+    if (kind == 1) { /* the stack's lowest byte: the firmware checks it once per control period */
         mega_data()[mega_symbol("_end")] ^= 0xFFU;
         return is_off_within(MEGA_HZ / 400U) &&
                begins_anew("# reset: fault: the stack reached", tripped);
     }
-    mega_set_pc(0); /* a stray jump: erased flash leads there */
+    mega_set_pc(0); /* a stray jump through erased flash ends at address 0 */
     return is_off_within(OFF_CYCLES) && begins_anew("# reset: fault: restarted without", tripped);
 }
 
@@ -182,7 +181,7 @@ static void tear(unsigned address) {
     }
 }
 
-/* For any byte being written the setting is the old or the new value. */
+/* Restarts from each torn content of the EEPROM. Returns true if the setting always has its old or its new value. */
 static bool is_either(const char *old, const char *new, unsigned *news) {
     for (unsigned k = 0; k < torn_count; k++) {
         memcpy(mega_eeprom(), torn[k], MEGA_EEPROM_BYTES);
@@ -227,7 +226,7 @@ bool keeps_settings(unsigned times) {
         torn_count = 0;
         mega_on_eeprom = tear;
         good = asks("conf get sensor2", old) && asks(set, "OK sensor2");
-        for (unsigned k = 0; good && k < i; k++) { /* now and then another value to write */
+        for (unsigned k = 0; good && k < i; k++) { /* save number i has i more changed settings */
             good = asks(others[k], "OK ");
         }
         good = good && asks("conf save", "OK sequence");

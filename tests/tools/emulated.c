@@ -134,7 +134,7 @@ void emulated_end(emulated *e) {
     (void)close(e->log);
 }
 
-/* "timer[1]: unimplemented device write (size 4, offset 0x044, value 0x00001e00)" */
+/* Reads a line like "timer[1]: unimplemented device write (size 4, offset 0x044, value 0x00001e00)". */
 static void see_log_line(emulated *e) {
     const char *words = strstr(e->logged, ": unimplemented device write");
     const char *offset = strstr(e->logged, "offset 0x");

@@ -33,14 +33,14 @@ typedef struct emulated {
     uint64_t stores; /* number of stores since the start */
 } emulated;
 
-/* `serial`: the number of interfaces before the console. Each instruction takes 2^shift ns of the board's time. */
+/* `serial`: number of interfaces before the console's. An instruction takes 2^shift ns of the board's time. */
 void emulated_start(emulated *e, const char *machine, const char *elf, unsigned serial,
                     unsigned shift);
 void emulated_end(emulated *e);
 
 void emulated_say(emulated *e, const char *words);
 
-/* The console's next line without its end. False after `ms` of the emulator's processor time, or 20 times that of the clock. */
+/* Reads the console's next line. Returns false after `ms` of processor time, or 20 `ms` asleep. */
 bool emulated_hear(emulated *e, char *line, unsigned room, unsigned ms);
 
 void emulated_wait(emulated *e, unsigned ms);

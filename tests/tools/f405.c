@@ -15,7 +15,7 @@
 #define MACHINE "netduinoplus2"
 #define SERIALS_BEFORE 5U
 #define SHIFT 7U       /* 128 ns per instruction: slower than the real chip */
-#define SHIFT_STORM 4U /* 16 ns: still slower, but an outside storm is a storm inside */
+#define SHIFT_STORM 4U /* 16 ns: the board's time is so slow that edges from outside are a storm */
 #define EXTI "/machine/unattached/device[0]/exti"
 
 static bool boots(unsigned times) {
@@ -34,7 +34,7 @@ static bool converses(unsigned times) {
         const char *answer;
     } said[] = {{"id", "OK program="},
                 {"host 0", "OK"},
-                /* the whole line, because the flashed image stores its words packed */
+                /* the whole line: it shows that packed words are printed right */
                 {"fault", "OK trip=0 ended=none: no fault"},
                 {"clear", "ERR 6 there is no trip to clear"},
                 {"measure", "ERR 104 the last run has given no result"},
@@ -50,7 +50,7 @@ static bool converses(unsigned times) {
             return false;
         }
     }
-    /* in one write, faster than any cable, and more than the ring can store */
+    /* 400 bytes in one write: more than the ring can store */
     memset(many, 'x', 400);
     many[400] = '\0';
     emulated_say(&board, many);
@@ -60,7 +60,7 @@ static bool converses(unsigned times) {
     }
     many[0] = '\0';
     for (unsigned i = 0; i < 10; i++) {
-        /* in one write: the interrupt stores them, and each control step answers one line */
+        /* in one write: the interrupt stores all lines, and each control step answers one */
         strcat(many, i % 2 == 0 ? "id\r" : "fault\r");
     }
     emulated_say(&board, many);
@@ -90,7 +90,7 @@ static bool keeps_time(unsigned times) {
         for (uint64_t n = from; n < board.stores; n++) {
             kicked += kicks(seen_at(n)) ? 1U : 0U;
         }
-        /* the log ends between the second and the third reading, however the emulator's clock differs from ours */
+        /* the log ends between the second and the third reading of the timer, so these are the limits */
         const double periods = (double)passed / 2000.0;
         const double at_most = (double)(emulated_load(&board, TIM2_CNT) - began) / 2000.0;
         if (passed < 2000 || kicked + 2.0 < periods || kicked > at_most + 30.0) {
@@ -140,7 +140,7 @@ static bool sees_edges(unsigned times) {
         if (!emulated_hear(&board, line, sizeof line, 60000) || numbers_of(line, said, 2) != 2) {
             return no("edge %u is not told", i);
         }
-        /* an interrupt takes some tens of instructions of 0.128 us */
+        /* 20 us: the interrupt takes some tens of instructions of 0.128 us */
         if (said[0] != sensor || said[1] - before > after - before + 20U) {
             return no("edge %u of sensor %u between %u and %u: '%s'", i, sensor, (unsigned)before,
                       (unsigned)after, line);
@@ -149,7 +149,7 @@ static bool sees_edges(unsigned times) {
     return !emulated_hear(&board, line, sizeof line, 300) || no("one more: '%s'", line);
 }
 
-/* Edges between two syncs of the emulator's clock with ours: on a quick machine one edge would be no storm. */
+/* Number of edges between two pauses. On a fast machine, single edges with pauses between them would be no storm. */
 #define BURST 8U
 
 static bool survives_storm(unsigned times) {
@@ -165,7 +165,7 @@ static bool survives_storm(unsigned times) {
         emulated_set_line(&board, EXTI, i % 2, true);
         emulated_set_line(&board, EXTI, i % 2, false);
         if (i % BURST == BURST - 1) {
-            emulated_wait(&board, 1); /* continuous polling would stall it */
+            emulated_wait(&board, 1); /* without pauses the emulator would stall */
         }
     }
     const uint32_t took = emulated_load(&board, TIM2_CNT) - began;

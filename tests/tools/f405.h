@@ -32,7 +32,7 @@ bool kicks(const emulated_store_seen *seen);  /* does this store kick the watchd
 
 #define TIM2_CNT 0x40000024U
 
-/* Writes a mark into the log (channel 2's compare of TIM1, which no driver uses); later returns its number. */
+/* set_mark() stores a mark, which the log shows; marked() waits for it and sets *number to its place in the log. */
 void set_mark(uint32_t value);
 bool marked(uint32_t value, uint64_t *number);
 

@@ -66,8 +66,8 @@ static bool bring_somewhere(char *state, unsigned room, unsigned *trip) {
     return says_state(state, room, trip);
 }
 
-/* After the mark nothing drives, except before `reset`, which is the first store of the boot. From there on, the first
- * motor store switches off. */
+/* Checks the log after a mark. No store after the restart drives the motor. After a fault, the last two stores before
+ * the restart switch PWM and enable off; all earlier ones are the loop's kicks and motor stores. */
 static bool is_off_after(uint64_t mark, bool faulted) {
     uint64_t boot = 0;
     for (unsigned ms = 0; boot == 0; ms++) { /* the log lags on a busy machine */
@@ -91,7 +91,7 @@ static bool is_off_after(uint64_t mark, bool faulted) {
         !is(seen_at(boot - 1), "GPIOB", 0x18) || seen_at(boot - 1)->value != 0x40000000U) {
         return no("the last stores before the start are not those that switch off");
     }
-    for (uint64_t n = mark + 1; n < boot - 2; n++) { /* the loop's last actions */
+    for (uint64_t n = mark + 1; n < boot - 2; n++) {
         if (!kicks(seen_at(n)) && !is(seen_at(n), "timer[1]", 0x44) &&
             !is(seen_at(n), "GPIOB", 0x18)) {
             return no("%s 0x%x was written before the motor was off", seen_at(n)->device,
@@ -111,7 +111,7 @@ static const char *inject(fault_kind kind) {
         emulated_store(&board, NVIC_ISPR_1, 1U << 8);
         return "unexpected interrupt 40, PC ";
     case NO_FPU: emulated_store(&board, CPACR, 0); return "UsageFault, PC ";
-    case MEMORY: /* the upper half of the variables' 32 KB becomes inaccessible: neither the stack nor the stored memory */
+    case MEMORY: /* 256 bytes of the variables become inaccessible: neither the stack nor the stored memory */
         emulated_store(&board, MPU_RNR, 1);
         emulated_store(&board, MPU_RBAR, symbol("rig") & ~0xFFU);
         emulated_store(&board, MPU_RASR, 7U << 1 | 1U);
@@ -186,7 +186,7 @@ static bool resets_once(unsigned number) {
     unsigned trip = 0;
     unsigned trip_after = 0;
     uint64_t mark;
-    const bool at_once = below(2) == 0; /* also during the start */
+    const bool at_once = below(2) == 0; /* true: the reset comes during a start */
     if (at_once) {
         static unsigned last_trip;
         if (!says_state(state, sizeof state, &last_trip)) {

@@ -110,7 +110,7 @@ static void catch_interrupts(void) {
     sigaction(SIGTERM, &action, NULL);
 }
 
-/* Every jobs-th run; a verdict is written with one call. */
+/* Does every jobs-th run, beginning with number `job`. A verdict is one write(), so that verdicts do not mix. */
 static int work(const campaign *c, plants *from, int job, int onto) {
     for (unsigned i = (unsigned)job; i < c->runs && !interrupted; i += (unsigned)c->jobs) {
         verdict v;

@@ -1,14 +1,15 @@
-/* functions_exhaustive.c: the float functions of core/function.h and the square root, against the library's in
- * double, in float ulps. Functions of one argument run over all 2^32 floats, those of two over 2^32 scattered pairs. Sine and
- * cosine run over all 2^32 phases, and their errors are absolute. The root in integers and the one that scenes use are always
- * the nearest float. Double has more than twice a float's bits plus two (Figueroa, When is double rounding innocuous?, SIGNUM
- * Newsletter 30 (1995) 3).
+/* functions_exhaustive.c: the float functions of core/function.h and the square root, compared with the library's in
+ * double, in float ulps. Functions of one argument run over all 2^32 floats, those of two over 2^32 scattered pairs.
+ * Sine and cosine run over all 2^32 phases, and their errors are absolute. Both square roots must be the nearest
+ * float. Their reference is the double root, rounded: double has more than twice a float's bits plus two (Figueroa,
+ * When is double rounding innocuous?, SIGNUM Newsletter 30 (1995) 3).
  *
  *     functions_exhaustive [STRIDE [FUNCTION]]
  *
- * STRIDE > 1 takes one argument out of every STRIDE, at a scattered place in each. Prints each function's worst error, its
- * argument, and the number of results that are not the nearest float (of the sine and cosine: the RMS error). The exit status
- * is 1 if an error exceeds the bound of core/function.h, or if infinities, NaNs or signs of zero differ. The library's own error, some 2^-29 ulp, does not show. */
+ * STRIDE > 1 takes one argument out of every STRIDE, at a scattered place in each. Prints each function's worst
+ * error, its argument, and the number of results that are not the nearest float (of the sine and cosine: the RMS
+ * error). The exit status is 1 if an error exceeds the bound of core/function.h, or if infinities, NaNs or signs of
+ * zero differ. The library's own error, some 2^-29 ulp, does not show. */
 #include "core/angle.h"
 #include "core/function.h"
 #include "core/root.h"
@@ -77,7 +78,7 @@ typedef struct tally {
     uint32_t worst_phase;
     double squares; /* sum of the squared errors at phases */
     uint64_t not_nearest;
-    uint64_t wrong; /* infinity, NaN or the wrong sign, unlike the reference */
+    uint64_t wrong; /* results that differ from the reference in infinity, NaN or sign */
     float wrong_at[2];
 } tally;
 
@@ -94,8 +95,7 @@ static float float_of(uint32_t bits) {
     return value;
 }
 
-/* 1 over the spacing of floats at this size, for sizes from 0 to the largest float: a power of two, computed from the
- * bits. */
+/* Returns 1 divided by the spacing of floats near `size`. `size` is at most the largest float. */
 static double per_unit(double size) {
     uint64_t bits;
     memcpy(&bits, &size, sizeof bits);
@@ -121,7 +121,7 @@ static void judge(tally *t, float got, double wanted, float x, float y) {
     } else {
         t->not_nearest++;
     }
-    /* 2^128 follows the largest float and is infinite. */
+    /* An infinite result counts as 2^128, the number after the largest float. */
     const double reached = isinf(got) ? 0x1p128 : fabs((double)got);
     const double truth = fmin(fabs(wanted), 0x1p128);
     const double error = fabs(reached - truth) * per_unit(fmin(truth, 0x1.fffffep127));
@@ -167,7 +167,7 @@ static void pair_of(uint64_t k, float *x, float *y) {
     }
 }
 
-/* Strata first to last - 1 of `stride` arguments each, of which one is taken. */
+/* Measures the strata from `first` to last - 1. A stratum is `stride` arguments, one of which is measured. */
 static void measure(const subject *s, uint64_t first, uint64_t last, uint64_t stride, tally *t) {
     for (uint64_t k = first; k < last; k++) {
         const uint64_t at = k * stride + (stride > 1 ? scatter(k) % stride : 0U);

@@ -22,7 +22,7 @@ typedef struct subject {
     const char *what;
     double (*energy_J)(const motion *m);
     const char *text;
-    bool rates;    /* it is the gear: accelerations depend on rates, and its centre is measured */
+    bool rates;    /* the gear: its accelerations depend on rates; its centre is measured */
     bool no_books; /* a coordinate is integrated from its momentum */
 } subject;
 
@@ -61,8 +61,8 @@ static const subject subjects[] = {
     {"gear, X conserved", gear_J,
      GEAR "scene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\nuntil 1e12 [s] }\n", true,
      false},
-    /* A force of size zero that depends on X. Otherwise X would follow from the angle and the time; with it, X is
-     * integrated from the rate that its momentum gives. */
+    /* The force is zero but depends on X. Therefore X is integrated, from the rate that its momentum gives; otherwise
+     * X would be a function of angle and time. */
     {"gear, X' conserved", gear_J,
      GEAR
      "input pull = 0 [N]\nQ(theta) = pull*X\nscene s { conserve X\nstart theta' = 5 [rad/s]\nstep 1 [ms]\n"
@@ -83,7 +83,7 @@ static void try_one(const subject *of, stepping how, const char *number, uint64_
     const double begin_m = of->rates ? centre_m(&m) : 0.0;
     uint64_t end = 1000;
     int at = 0;
-    const uint64_t go = 37; /* no divisor of the period */
+    const uint64_t go = 37; /* steps between two measurements; it does not divide the period */
     for (uint64_t k = 0; k + go <= steps;) {
         if (motion_step(&m, go) != WH_OK) {
             printf("%-18s %-18s %-10s refused\n", of->what, number, wh_methods[how.method].word);

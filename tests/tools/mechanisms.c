@@ -39,7 +39,7 @@ int main(int count, char **words) {
         fputs("usage: mechanisms COUNT SEED\n", stderr);
         return 2;
     }
-    const bool tells = getenv("MECHANISMS_SHOW") != NULL; /* refused ones, with their errors */
+    const bool tells = getenv("MECHANISMS_SHOW") != NULL; /* prints refused mechanisms */
     const unsigned wanted = (unsigned)strtoul(words[1], NULL, 10);
     uint64_t seed = strtoull(words[2], NULL, 10);
     unsigned refused = 0;

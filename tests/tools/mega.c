@@ -51,7 +51,7 @@ static char heard[65536];
 static unsigned heard_bytes;
 static char said[4096];
 static unsigned said_bytes;
-static uint64_t said_cycle; /* the next byte may go */
+static uint64_t said_cycle; /* from this cycle on, the next byte may be sent */
 static uint8_t eeprom[MEGA_EEPROM_BYTES];
 static bool eeprom_known;
 static mega_times times;
@@ -266,7 +266,7 @@ bool mega_step(void) {
     }
     if (avr->pc == 0) {
         mega_parts_start();
-        forget_times(); /* a reset, or an apparent one */
+        forget_times(); /* pc is 0 after a reset, or after a stray jump */
     }
     see_times();
     if (said_bytes > 0) {

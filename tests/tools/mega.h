@@ -15,13 +15,13 @@
 #define MEGA_CYCLES_PER_US (MEGA_HZ / 1000000U)
 #define MEGA_EEPROM_BYTES 4096U
 
-/* The chip's time in cycles. A step runs from its wait's end to the console's turn; `all` runs to the next wait. */
+/* In cycles. A step runs from the end of a wait to the console's turn, a loop to the begin of the next wait. */
 typedef struct mega_times {
     uint64_t steps;
     uint64_t worst_step;
     uint64_t worst_loop;
     uint64_t sum_step;
-    uint64_t late; /* waits that began late */
+    uint64_t late; /* number of loops longer than a control period */
     /* control steps by their cycles, 1000 per bin; the last bin has all longer ones */
     unsigned histogram[64];
 } mega_times;

@@ -18,11 +18,11 @@ enum { TCCRA, TCCRB, TCCRC, ICR = 6, OCRA = 8 }; /* offsets from mega_timer_base
 #define EEPE 0x02U
 #define EEMPE 0x04U
 #define EEPM 0x30U                  /* 0: erase and write at once */
-#define EEPROM_CYCLES (18U * 1600U) /* 1.8 ms; 3.4 for both (DS 8.6.3, table 8-1) */
+#define EEPROM_CYCLES (18U * 1600U) /* erase or write: 1.8 ms; both: 3.4 ms (DS, table 8-1) */
 #define EEPROM_BOTH_CYCLES (34U * 1600U)
 #define WDR 0x95A8U
 #define WDE 0x08U
-#define WATCHDOG_CYCLES (UINT64_C(2048) * 125U) /* 2048 of 128 kHz (DS 12.5.2) */
+#define WATCHDOG_CYCLES (UINT64_C(2048) * 125U) /* 2048 periods of 128 kHz: 16 ms (DS 12.5.2) */
 
 static struct {
     uint64_t until; /* end of the EEPROM's write; 0: idle */
@@ -63,7 +63,7 @@ static void look_at_timers(const avr_t *avr, mega_next *next) {
                   (avr->data[REG_DDRB] & OC1A_PIN) != 0;
 }
 
-/* Captures come between instructions: a change during one is the CPU's. */
+/* Undoes the CPU's writes to ICRn in modes that forbid them. (No capture comes during an instruction.) */
 static void keep_captured(avr_t *avr, const mega_next *before) {
     for (unsigned i = 0; i < MEGA_TIMERS; i++) {
         if (!before->writable[i]) {
@@ -73,8 +73,8 @@ static void keep_captured(avr_t *avr, const mega_next *before) {
     }
 }
 
-/* OC1A keeps its level when it is disconnected, also over a change of mode (DS 17.8), and drives it when it is connected again.
- * The strobe FOC1A sets it in modes without PWM only. */
+/* A disconnected OC1A keeps its level, even if the mode changes (DS 17.8), and must be low when it is connected
+ * again. The strobe FOC1A sets the level in modes without PWM only. */
 static void keep_output(avr_t *avr, const mega_next *before) {
     const unsigned base = mega_timer_base[0];
     const unsigned mode = mode_of(avr, base);
@@ -96,7 +96,7 @@ static void keep_output(avr_t *avr, const mega_next *before) {
     }
 }
 
-/* Timers 4 and 5 with a pending overflow, except one that `out TIFR4, Rr` or `out TIFR5, Rr` clears. */
+/* Pending overflows (bits 0 and 1: timers 4 and 5), except those that `out TIFR4, Rr` or `out TIFR5, Rr` clears. */
 static uint8_t overflows_now(const avr_t *avr, unsigned word) {
     const unsigned to = 0x20U + ((word >> 5 & 0x30U) | (word & 0xFU));
     const bool out = (word & 0xF800U) == 0xB800U && (avr->data[word >> 4 & 0x1FU] & TOV) != 0;
@@ -108,7 +108,8 @@ static uint8_t overflows_now(const avr_t *avr, unsigned word) {
     return waits;
 }
 
-/* simavr clears all flags of a timer when one is written; the chip clears that one (DS 17.11.37). Interrupts clear overflows. */
+/* simavr clears all flags of a timer if one is written; the chip clears this one only (DS 17.11.37). Restores
+ * overflows that simavr has lost. An overflow's own interrupt clears the flag on the chip, too. */
 static void keep_overflows(avr_t *avr, uint8_t overflows) {
     for (avr_io_t *io = avr->io_port; io != NULL && overflows != 0; io = io->next) {
         avr_timer_t *timer = (avr_timer_t *)io;

@@ -1,6 +1,6 @@
-/* mega_parts.h: parts of the ATmega2560 that simavr models differently. These are the EEPROM's write time, the watchdog's
- * immediate change of time, and the separate flags of timers 4 and 5. The CPU writes an input capture register in some modes
- * only. OC1A keeps its level while disconnected. */
+/* mega_parts.h: parts of the ATmega2560 that simavr models differently. A write to the EEPROM takes time. A change of
+ * the watchdog's time acts at once. A write to the flags of timer 4 or 5 clears only the written flags. The CPU can
+ * write an input capture register in some modes only. OC1A keeps its level while disconnected. */
 #ifndef TESTS_TOOLS_MEGA_PARTS_H
 #define TESTS_TOOLS_MEGA_PARTS_H
 
@@ -19,8 +19,7 @@ typedef struct mega_next {
     bool hears;                     /* the instruction is `wdr` */
     bool writes;                    /* the instruction begins to write or erase an EEPROM byte */
     unsigned address;               /* that byte's address */
-    uint8_t
-        overflows; /* a bit for timer 4, one for 5: overflow pending, not affected by the instruction */
+    uint8_t overflows; /* bit 0: timer 4, bit 1: timer 5: an overflow that stays pending */
 } mega_next;
 
 /* To be called after a reset. */

@@ -9,7 +9,7 @@ typedef struct naive_mechanism {
     int states;   /* coordinates, then rates */
     double end_s; /* time of the reference state */
     double end[NAIVE_STATES_MAX];
-    double most; /* largest error allowed there with steps of 1 ms */
+    double most; /* largest allowed error at end_s, with steps of 1 ms */
 } naive_mechanism;
 
 extern const naive_mechanism naive;

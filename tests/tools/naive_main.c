@@ -42,7 +42,6 @@ int main(void) {
     wh_count_begin();
     wh_count_end();
     run(state, WARM_STEPS);
-    /* The counter counts while a function named to it runs, and is read in between. */
     for (unsigned i = 0; i < COUNTED_STEPS; i++) {
         wh_count_begin();
         naive_step(state, STEP_S);

@@ -1,4 +1,4 @@
-/* naive_rk4.h: the classic Runge-Kutta method on STATES first-order states with slope(). Include it after both. */
+/* naive_rk4.h: a step of the classic Runge-Kutta method. Define STATES and slope() before the inclusion. */
 #ifndef TESTS_NAIVE_RK4_H
 #define TESTS_NAIVE_RK4_H
 

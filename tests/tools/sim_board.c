@@ -1,5 +1,5 @@
-/* sim_board.c: board.h on this machine in simulated time, which runs hours of the rig's station in seconds. Time passes as fast
- * as the program waits. The serial line is a pseudo-terminal with a limited byte rate.
+/* sim_board.c: board.h on this machine in simulated time, which runs hours of the rig's station in seconds. Time
+ * passes as fast as the program waits. The serial line is a pseudo-terminal with a limited byte rate.
  *
  * SIM_SECONDS  simulated duration (default 60); each minute has the orders of a run
  * SIM_BAUD     the line's speed (default 115200); a byte is ten bits
@@ -8,9 +8,9 @@
  * SIM_TEL      telemetry is on from the start
  * SIM_SEED     seed for settings, orders, an unsteady supply and hardware failures
  *
- * The first second takes SLOWLY seconds, or until a reader has asked for telemetry. After that time stands still until it has read
- * the line's bytes, unless SIM_ALONE is set. A reader on a slow machine thus loses nothing. At the end it prints the hash of
- * the plant's state on standard error: equal commands give equal hashes. */
+ * The first second takes SLOWLY real seconds, or until a reader has asked for telemetry. Later, unless SIM_ALONE is
+ * set, time waits until the reader has read the line's bytes: a slow reader loses nothing. At the end the program
+ * prints the hash of the plant's state on standard error. Equal commands give equal hashes. */
 #define _XOPEN_SOURCE 700
 
 #include <errno.h>
@@ -123,7 +123,7 @@ static void disturb(void) {
     plant->stop_pressed = plant->stop_pressed ? !happens(300) : happens(15000);
 }
 
-/* Settings at first, then orders; "" for none now. */
+/* Draws the next typed line: first the settings, later orders. Returns "" if nothing is typed now. */
 static const char *draw_line(void) {
     static char words[40];
     static const char *const numbers[] = {"conf set gain 0.%02u\n", "conf set settle_time 0.%02u\n",

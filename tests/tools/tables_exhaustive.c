@@ -23,7 +23,7 @@ static const struct {
 } forms[FORMS] = {
     {TABLES_LINEAR, 256}, {TABLES_LINEAR, 1024}, {TABLES_CUBIC, 64}, {TABLES_CUBIC, 256}};
 
-/* The built-in scene's images, one per form; false if it has no tables. */
+/* Makes the built-in scene's images, one for each of forms[]. Returns false if the scene has no tables. */
 static bool make(const char *name, image *im[FORMS]) {
     diags *errors = diags_new();
     for (size_t i = 0; i < builtin_model_count; i++) {

@@ -1,10 +1,12 @@
-/* tel_check.c: reads a rig's line as stored by `whirl monitor --raw` with the tests' own decoder (tests/core/wire.h). Prints a
- * line of counts, and with --csv the samples.
+/* tel_check.c: reads a rig's line as stored by `whirl monitor --raw` with the tests' own decoder (tests/core/wire.h).
+ * Prints a line of counts, and with --csv the samples.
  *
  * frames F samples S pulses P missing M dropped D twice T damaged B gaps G
  *
- * missing: by the sequence numbers. dropped: no room on the rig since the first frame. twice: a repeated sequence number. gaps:
- * samples missing by their times, at 2,000 ticks each. */
+ * missing:  frames, by the sequence numbers
+ * dropped:  for want of room on the rig, since the first frame
+ * twice:    frames with a repeated sequence number
+ * gaps:     samples missing by their time stamps, at 2,000 ticks each */
 #include "tests/core/wire.h"
 
 #include <inttypes.h>
