@@ -57,8 +57,8 @@ double normal(dice *d) {
 
 static bool is(int kind, const char *name) { return strcmp(kinds[kind].name, name) == 0; }
 
-/* The highest set-point that docs/rig.md allows, in rpm. The supply counts as 1.5 V lower because of friction: 0.8 +
- * 1.5 = 2.3. */
+/* The highest set-point in rpm. docs/rig.md requires 0.8 V more supply than n/600 * 24 V; another 1.5 V are for
+ * friction. */
 static double most_rpm(double supply) { return fmin(360.0, (supply - 2.3) / 24.0 * 600.0); }
 
 static event drawn_event(dice *d) {

@@ -41,7 +41,7 @@ enum {
 };
 /* clang-format on */
 
-typedef struct { /* delay: seconds since the first orders in `state`, the start, or stop */
+typedef struct { /* at: time, s; delay: s from the start, stop or the first orders in `state` */
     int state;
     double delay, at;
 } event;

@@ -65,9 +65,9 @@ static void queue_pulse(plant *p, double seconds, uint32_t channel) {
     p->queue[at] = (pulse){seconds, channel};
 }
 
-/* Queues the pulses of the last step, from angle a with speed va to p->y[ANGLE] with speed vb, on the cubic through
- * both ends. Far from a sensor, the jitter of the sensor's next pulse is converted to an angle, which then stays
- * constant near the sensor. */
+/* Queues the pulses of the last step, in which the rotor goes from angle a at speed va to p->y[ANGLE] at speed vb, on
+ * a cubic. The jitter of a sensor's next pulse, in s, is converted to the angle lead[]. Within 0.35 rad of the sensor
+ * this angle stays constant. */
 static void find_pulses(plant *p, double a, double va, double vb, double h) {
     const double b = p->y[ANGLE], way = b > a ? 1 : -1;
     const double place[2] = {p->b->place_1 * DEG, PI / 2 + p->b->place_2 * DEG};

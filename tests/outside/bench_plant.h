@@ -7,7 +7,7 @@ enum { ANGLE, SPEED, WORK, BENT, BENDING, STATES };
 enum { KEPT = 128, QUEUE = 64, STEP_US = 50 };
 
 typedef struct
-{ /* first Fourier coefficients: [0] of the force, [1] of the force behind the load train */
+{ /* first Fourier coefficients: [0] of the force, [1] of the force that the load train passes on */
     double cosine[2], sine[2], seconds;
 } turn;
 
@@ -25,7 +25,7 @@ typedef struct {
     uint32_t watchdog_us;
     uint64_t now_us, kicked_us;
     int queued;
-    double play_at, jitter[2], lead[2]; /* of a sensor's next pulse: in s, and as an angle */
+    double play_at, jitter[2], lead[2]; /* jitter (s), lead (rad): of each sensor's next pulse */
     double force[2], energy_0, energy_off, peak_high, peak_low;
     long turns;
     turn now, past[KEPT];

@@ -79,9 +79,10 @@ static void blame(outcome *o, bool *rule, const char *format, ...) {
     va_end(values);
 }
 
-/* Compares a good result with the force's Fourier coefficient over as many turns, up to the last turn or up to two
- * turns earlier. A result also counts as right if its only errors are those that no run can show (docs/rig.md). These are a
- * gain error below 5 %, sensor 1 less than 5 degrees from its place, a load train, and a pick-up once in a turn. */
+/* Compares a good result with the force's Fourier coefficient over as many turns. The turns end with the last one, or
+ * up to two earlier. A result also counts as right if its only errors are those that no run can show (docs/rig.md).
+ * These are a gain error below 5 %, sensor 1 less than 5 degrees from its place, a load train, and a pick-up once in
+ * a turn. */
 static void judge_result(const plant *p, outcome *o) {
     double least = NEVER;
     for (int known = 0; known < 2; known++) {

@@ -49,7 +49,7 @@ static void play(const campaign *c, int index, outcome *o) {
     }
     const outcome fresh = {.index = index, .kind = b.kind, .second = b.second, .quality = -1};
     const char *firmware = b.swings != 0 ? c->swing : c->firmware;
-    if (b.clip_above > 0 || b.clip_below > 0) { /* part of the peaks that is not clipped */
+    if (b.clip_above > 0 || b.clip_below > 0) { /* the limits are shares of unclipped peaks */
         bench whole = b;
         *o = fresh;
         run(firmware, &whole, o, false);
