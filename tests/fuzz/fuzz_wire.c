@@ -29,7 +29,7 @@ static void must(bool holds) {
     }
 }
 
-/* Aborts if a description was accepted with which frames cannot be read. */
+/* Aborts if a description was accepted although its frames cannot be read. */
 static void look(const schema *s) {
     for (int i = 0; i < SCHEMA_CHANNELS; i++) {
         const schema_channel *c = &s->channel[i];
