@@ -27,8 +27,8 @@ unsigned hal_link_read(uint8_t *bytes, unsigned room);
 
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
-/* hal_link_timer() is a free-running counter that measures computing time and wraps at 2^32. The next function returns
- * its counts per second, or 0 if the counter is unusable. */
+/* hal_link_timer() is a free-running counter that measures computing time and wraps at 2^32. hal_link_timer_per_s()
+ * returns its counts per second, or 0 if the counter is unusable. */
 uint32_t hal_link_timer(void);
 uint32_t hal_link_timer_per_s(void);
 

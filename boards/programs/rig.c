@@ -180,7 +180,7 @@ static void look_at_stop(operator_step *at, bool rests) {
     }
 }
 
-/* Does one step of the operator. Returns true if the operator waits for nothing more. */
+/* Does one step of the operator. Returns true if the operator has nothing more to do. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
     const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
     look_at_stop(at, rests);

@@ -63,7 +63,7 @@ const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace
 /* Returns p with its powers of sums multiplied out, unless the result is large. If p is zero, the result shows it. */
 const poly *poly_expanded(algebra *a, const poly *p);
 
-/* The value of p; `value` returns the value of each symbol. */
+/* poly_evaluate() returns the value of p. `value` returns the value of a symbol. */
 typedef double poly_value(void *context, const symbol *sym, int primes);
 double poly_evaluate(const poly *p, poly_value *value, void *context);
 /* The sum of the absolute values of p's terms, as a reference for the round-off in poly_evaluate(). Sines and cosines

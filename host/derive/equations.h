@@ -17,7 +17,7 @@
 typedef struct contact_law {
     const contact_statement *from;
     const poly *value; /* stop: gap; hold: condition; friction: rate; crossing: left - right */
-    const poly *speed; /* J q': rate of the gap or of the hold's expression; zero for others */
+    const poly *speed; /* J q': rate of the gap or of the hold's expression; else zero */
     /* stop: restitution; friction: mu_static * max(N, 0); hold that is not straight: value */
     const poly *first;
     const poly *second; /* friction: mu_kinetic * max(N, 0) */

@@ -48,7 +48,7 @@ typedef struct ledger_lists {
     int smooth;
     /* number of entries: the smooth ones, then those of contacts, then those of inputs */
     int entries;
-    int accounts; /* 1 + unknowns: the energy, then the momenta */
+    int accounts; /* number of accounts, 1 + unknowns: the energy, then the momenta */
     int *unknown; /* [accounts] the unknown of a momentum; -1 for the energy */
     int *input;   /* [inputs] inputs of the program that occur in the energies */
     int inputs;

@@ -64,7 +64,7 @@ traces *traces_open(FILE *out, const records *form, uint64_t every);
 void traces_step(traces *w, const void *run, uint64_t steps);
 /* Enters the record in r->row after this many steps; call traces_step() first. Returns false if writing failed. */
 bool traces_record(traces *w, uint64_t steps);
-/* Writes the end time, and frees it. NULL is fine. */
+/* Writes the end time, and frees `w`. NULL is allowed. */
 void traces_close(traces *w);
 
 #endif

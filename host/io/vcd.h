@@ -33,7 +33,7 @@ void vcd_change(vcd *v, int signal, int64_t time, double value);
 /* The present time: no earlier change will follow. */
 void vcd_settle(vcd *v, int64_t time);
 
-/* Write pending changes and the end time, and free it. Returns the number of late changes. NULL is allowed. */
+/* Writes pending changes and the end time, and frees `v`. Returns the number of late changes. NULL is allowed. */
 uint64_t vcd_end(vcd *v);
 
 #endif

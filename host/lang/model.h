@@ -91,7 +91,7 @@ enum {
     USES_PARAMETER = 2,
     USES_INPUT = 4,
     USES_OUTPUT = 8,
-    USES_UNIT = 16 /* a number in it has a unit */
+    USES_UNIT = 16 /* the expression contains a number with a unit */
 };
 
 /* Greatest height of an expression tree, lets included. Recursive functions rely on this limit. */

@@ -10,7 +10,7 @@
  * declared unit; a derivative adds per second: [deg] becomes deg/s, deg/s^2. Without a declared unit it is SI. */
 unit_scale shown_unit(const symbol *s, int primes);
 
-/* Returns the name of this unit, such as "deg/s", "kg*m/s^2", "rad" or "1". The caller frees it. */
+/* Returns the name of the display unit, such as "deg/s", "kg*m/s^2", "rad" or "1". The caller frees it. */
 char *shown_unit_name(const symbol *s, int primes);
 
 /* Returns the name of the SI unit of the same quantity. The caller frees it. */

@@ -142,8 +142,8 @@ static void note_call(double value, double at_zero) {
     }
 }
 
-/* Records the loss in a function that hardly depends on x: cos(1e-9) loses digits of x. A slope that is only the
- * round-off of x modulo quarter turns is no loss. */
+/* Records the loss in a function that hardly depends on x: cos(1e-9) loses digits of x. If the slope is only the
+ * round-off of x modulo quarter turns, there is no loss. */
 static void note_slope(double value, double x, double slope, bool turns) {
     if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));

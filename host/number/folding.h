@@ -43,8 +43,8 @@ int folding_way(void);
 double folding_sum(double x, double y);
 double folding_product(double x, double y);
 double folding_quotient(double x, double y);
-/* These two compute as number_power() and number_call() do, and record losses. A sine, cosine or tangent that is no
- * larger than the round-off of its angle is a residue. */
+/* folding_power() and folding_call() compute as number_power() and number_call() do, and record losses. A sine, cosine
+ * or tangent that is no larger than the round-off of its angle is a residue. */
 double folding_power(double base, double exponent);
 double folding_call(function_id function, double x, double y);
 /* `left` is the difference of two numbers whose absolute value is `size`. Returns true if it counts as zero, because

@@ -97,7 +97,7 @@ typedef enum function_dimensions {
 } function_dimensions;
 
 const char *
-/* Its name in the language, in text and in Octave; in C, wh_ stands before it. */
+/* The function's name in the language, in text and in Octave; its name in C is wh_NAME. */
 function_name(function_id function);
 const char *function_latex(function_id function); /* such as "\\sin" */
 int function_arguments(function_id function);     /* 1 or 2 */

@@ -34,7 +34,7 @@ typedef struct lockstep_request {
 
 typedef enum lockstep_end {
     LOCKSTEP_DONE,      /* the firmware ended, with `status` */
-    LOCKSTEP_LET_GO,    /* the run reached until_s, or the tape its end */
+    LOCKSTEP_LET_GO,    /* the run reached until_s, or the tape ended */
     LOCKSTEP_BAD,       /* the settings are impossible: reported */
     LOCKSTEP_FAILED,    /* reported */
     LOCKSTEP_DIFFERENT, /* the orders differ from the tape's: reported */

@@ -448,7 +448,7 @@ static void enqueue(plant *p, plant_queue *q, plant_event event) {
     q->event[at] = event;
 }
 
-/* The quantity of an edge over a step: its values at both ends, and its rates there times the step. */
+/* The quantity of an edge over a step: its values at both ends, and its rates at both ends times the step. */
 typedef struct span_of_step {
     double from;
     double to;

@@ -15,12 +15,12 @@
 typedef enum bound_place { BOUND_INPUT, BOUND_OUTPUT, BOUND_COMPONENT, BOUND_NOWHERE } bound_place;
 
 typedef struct bound {
-    wh_signal signal; /* its texts belong to the hello */
+    wh_signal signal; /* the signal's texts are in the hello */
     unsigned channel;
     bound_place place;
     int index;  /* index of the input, the output or the state component (angles first) */
-    int rate;   /* the component of its rate, or -1 */
-    bool turns; /* an angle: its reading repeats every turn */
+    int rate;   /* component of the quantity's rate, or -1 */
+    bool turns; /* true: an angle, whose reading repeats every turn */
 } bound;
 
 typedef struct binding {
@@ -120,7 +120,7 @@ typedef struct plant {
     uint64_t due[WH_SIGNALS_MAX];    /* next time of each sample, ticks */
     wh_orders orders;                /* the last orders */
     bool waits;                      /* the last orders have not taken effect yet */
-    double act_ticks;                /* time when they take effect */
+    double act_ticks;                /* time when the last orders take effect */
     uint64_t alive_ticks;            /* time of the watchdog's last kick */
     bool cut;                        /* the watchdog has cut the outputs */
     double cut_ticks;                /* time of the cut */

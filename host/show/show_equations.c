@@ -793,7 +793,8 @@ static void write_first_order(const show *s, const equations *e) {
         write_highest(s, e, i);
     }
     fprintf(s->out, "):\n\n");
-    const char *between = e->count > 9 ? "," : ""; /* A12, but A1,12 for ten or more */
+    /* a comma if an index may have two digits: A12, but A1,12 */
+    const char *between = e->count > 9 ? "," : "";
     for (int i = 0; i < e->count; i++) {
         const bool symmetric = !e->instance->mechanism->is_system;
         for (int j = symmetric ? i : 0; j < e->count; j++) {
