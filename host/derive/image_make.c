@@ -205,7 +205,6 @@ static void *copy(image_draft *d, const void *from, int count, size_t size) {
     return made;
 }
 
-/* Takes the list out of the program. */
 static op_list *take(op_list **list) {
     op_list *taken = *list;
     *list = NULL;
@@ -345,7 +344,7 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
         program_free(p);
         return NULL;
     }
-    /* Only the lists of compensated steps are scaled, with three exceptions: variants are not run in float, contacts
+    /* Lists are scaled for compensated steps only. Three kinds stay unscaled: variants are not run in float, contacts
      * use the same mass matrix, and tables are rounded separately. */
     if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {

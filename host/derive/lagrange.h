@@ -9,7 +9,7 @@
 /* === the rank of a matrix of numbers, independent of its units ================================ */
 
 /* The rank of m[n * n], by rows, with entries known to within error[n * n] >= 0. Both are overwritten. If the
- * matrix is regular, each row of m then has one pivot, and zeros.
+ * matrix is regular, each row of m then has one pivot, and else zeros.
  *
  * Rows and columns are first scaled by powers of two. With a positive diagonal and `symmetric`, the diagonal
  * becomes about one (van der Sluis, "Condition numbers and equilibration of matrices", 1969: no scaling of a

@@ -54,7 +54,6 @@ static void write_phase(FILE *out, const image *im, const op *o) {
     }
 }
 
-/* Writes the number or name of a leaf (c_list.h). */
 static void write_leaf(FILE *out, const void *context, char what, int a) {
     const image *im = context;
     if (what == 'u') {

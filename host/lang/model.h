@@ -286,7 +286,7 @@ typedef struct instance {
     const expr **parameter_given; /* expressions of the values */
     const expr **input_given;
     const expr ***start_given; /* NULL: not given, so the start is 0 */
-    /* [coordinate_count][order] value, rate, ...: SI; order is at least 2 */
+    /* [coordinate_count][order] the start in SI: value, rate, ...; order is at least 2 */
     double **start;
     place **start_at;   /* [coordinate_count][order] place of each start; no source for a default */
     int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */

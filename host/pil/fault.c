@@ -413,7 +413,7 @@ static void look_at_time(fault_plan *plan, double time_s) {
         if (fault_rows[f->kind].place == FAULT_PARAMETER) {
             f->happened = true;
         } else if (f->kind == FAULT_RESET) {
-            continue; /* order_reset() has told the plant */
+            continue; /* order_reset() handles resets */
         } else if (!f->happened && f->reached && time_s >= f->begin_s + f->after_s) {
             change(plan, f, time_s, true);
         } else if (f->active && time_s >= f->begin_s + f->duration_s) {

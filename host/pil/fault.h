@@ -185,7 +185,7 @@ bool fault_read(fault_plan *plan, const char *text);
  * parameter. */
 char *fault_parameter(const fault_plan *plan, unsigned i);
 
-/* The faults as a tap; for one run. */
+/* Returns a tap that applies the faults, for one run. */
 tap fault_tap(fault_plan *plan);
 
 void fault_print_kinds(FILE *out);

@@ -35,9 +35,9 @@ typedef struct lockstep_request {
 typedef enum lockstep_end {
     LOCKSTEP_DONE,      /* the firmware ended, with `status` */
     LOCKSTEP_LET_GO,    /* the run reached until_s, or the tape ended */
-    LOCKSTEP_BAD,       /* the settings are impossible: reported */
+    LOCKSTEP_BAD,       /* impossible settings (reported) */
     LOCKSTEP_FAILED,    /* reported */
-    LOCKSTEP_DIFFERENT, /* the orders differ from the tape's: reported */
+    LOCKSTEP_DIFFERENT, /* the orders differ from the tape's (reported) */
     LOCKSTEP_STOPPED    /* interrupted */
 } lockstep_end;
 

@@ -89,7 +89,7 @@ typedef struct plant_queue {
 
 /* Resets of the controller's processor: its pins float, and the plant's inputs are 0. */
 typedef struct plant_resets {
-    double at_ticks;    /* a reset begins at the first step end from this time on */
+    double at_ticks;    /* a reset begins at the end of the step that reaches this time */
     double takes_ticks; /* length of a reset */
     bool by_watchdog; /* a starved watchdog resets the processor, instead of cutting the outputs */
     double watchdog_ticks; /* the watchdog's timeout */

@@ -26,7 +26,7 @@ typedef struct taped {
     uint64_t turns; /* number of exchanges read so far */
     uint16_t sequence;
     double before_s; /* time of the last reset */
-    bool failed;     /* unreadable or broken: reported */
+    bool failed;     /* the tape is unreadable or broken (reported) */
     wh_frame_reader reader;
     bool endless; /* true: more bytes than those of the longest frame came, and no frame ended */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
