@@ -3,8 +3,8 @@
 
 #define STEP_S 1e-3
 
-/* Applies impulses. Afterwards contacts in `set` have the rate target[], holds and contacts in `beside` have zero rate,
- * and stops do not close. Returns the stops that open. */
+/* Applies impulses. Afterwards contacts in `set` have the rate target[]. Contacts in `beside`, resting stops and
+ * active holds have rate zero. A stop may open instead. Returns the stops that open. */
 static unsigned strike(exact *e, unsigned set, unsigned beside, const double *target,
                        double *impulse) {
     exact_problem p = {set | beside | exact_those(e, WH_STOP, WH_ACTIVE) |
@@ -335,7 +335,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
                             exact_size_of(a) < EXACT_ZERO && exact_holding(e) != 0);
     e->vague = e->vague || (below == 0 && begins > 0); /* the event is exactly at the step's end */
     if (below >= 0) {
-        if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip that does not show at the step's end */
+        if (a > 0.0 && r < 0.0 && -r / a < left) { /* a dip, which is over at the step's end */
             e->vague = e->vague || exact_sign(e, g - 0.5 * r * r / a) < 0;
         }
         return left;
@@ -358,7 +358,7 @@ static double falls(exact *e, double g, double r, double a, double left) {
     if (exact_size_of(a) < 1e-9) {
         return -g / r;
     }
-    if (begins == 0) { /* up, and down again within the step */
+    if (begins == 0) { /* the value rises from zero and falls to zero again */
         return -2.0 * r / a;
     }
     const double root = (double)WH_SQRT((wh_real)(r * r - 2.0 * a * g));

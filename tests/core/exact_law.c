@@ -136,7 +136,7 @@ unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda
                 const bool off =
                     exact_in(p->members, k) && exact_sign(e, exact_along(k, y) - p->target[k]) != 0;
                 beyond |= off ? 1U << k : 0U;
-                if (exact_in(tight, k)) { /* true if contact k is also at a limit */
+                if (exact_in(tight, k)) { /* the decision is vague if the force is near a limit */
                     (void)exact_sign(e, lambda[k] - p->low[k]);
                     (void)exact_sign(e, lambda[k] - p->high[k]);
                 }
@@ -163,8 +163,6 @@ unsigned exact_holding(const exact *e) {
            exact_those(e, WH_FRICTION, WH_STUCK);
 }
 
-/* Computes accelerations and forces in the current modes. A contact that would have to pull does pull. If rows are
- * dependent, the later ones get no force. */
 void exact_accelerate(exact *e, double *a, double *force) {
     double own[2] = {0.0, 0.0};
     unsigned members = 0;
@@ -196,7 +194,6 @@ void exact_accelerate(exact *e, double *a, double *force) {
     a[1] = own[1];
 }
 
-/* Releases contacts above their limit: stops first, then the friction furthest above its limit. */
 void exact_give_way(exact *e) {
     for (;;) {
         double a[2];
@@ -265,7 +262,6 @@ double exact_kinetic(const exact *e) {
     return sum;
 }
 
-/* If `mover` is HAND_CONTACTS, the energy belongs to the first contact with an error. */
 void exact_put_back(exact *e, unsigned but, unsigned mover) {
     const double before = exact_stored(e);
     double way[2] = {0.0, 0.0};
@@ -277,8 +273,8 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
             p.target[k] = -exact_gap(e, k);
             mover = mover < exact_forced() || mover == HAND_CONTACTS ? k : mover;
             if (pin >= 0) {
-                /* Only this contact's coordinate moves. Among several contacts, the one with the largest error
-                 * decides. */
+                /* The contact moves its only coordinate. Of several contacts, the one with the largest move
+                 * counts. */
                 const double by = p.target[k] / (double)hand_now.law[k].row[pin];
                 way[pin] = exact_size_of(by) > exact_size_of(way[pin]) ? by : way[pin];
             }
@@ -287,7 +283,7 @@ void exact_put_back(exact *e, unsigned but, unsigned mover) {
     e->x[0] += way[0];
     e->x[1] += way[1];
     for (unsigned k = 0; k < exact_forced(); k++) {
-        /* These are the remaining errors of contacts that depend on several coordinates. */
+        /* the remaining errors of contacts that depend on several coordinates */
         p.target[k] = hand_now.contact[k].pin >= 0 ? 0.0 : p.target[k] - exact_along(k, way);
     }
     way[0] = 0.0;

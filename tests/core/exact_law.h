@@ -32,8 +32,8 @@ void exact_give(exact *e, unsigned bits, int mode);
 /* Returns the contacts that keep J_k q' at zero, as bits. */
 unsigned exact_holding(const exact *e);
 
-/* In this order: returns J_k x; returns the gap; does x += M^-1 J_k^T lambda; returns the change of J_k x by a unit
- * impulse of contact l. */
+/* exact_along(): J_k x. exact_gap(): the gap. exact_push(): x += M^-1 J_k^T lambda. exact_coupled(): the change of
+ * J_k x by a unit impulse of contact l. */
 double exact_along(unsigned k, const double *x);
 double exact_gap(const exact *e, unsigned k);
 void exact_push(unsigned k, double lambda, double *x);
@@ -47,7 +47,8 @@ bool exact_reach(const exact_problem *p, unsigned tight, const double *x, double
 unsigned exact_solve(exact *e, const exact_problem *p, double *x, double *lambda);
 bool exact_repeat(const exact *e, unsigned members);
 
-/* Computes accelerations and forces in the current modes. A contact that would have to pull does pull. */
+/* Computes accelerations and forces in the current modes. A contact that would have to pull does pull. If rows are
+ * dependent, the later ones get no force. */
 void exact_accelerate(exact *e, double *a, double *force);
 /* Releases contacts above their limit: stops first, then the friction furthest above its limit. */
 void exact_give_way(exact *e);

@@ -44,7 +44,7 @@ static void hand_signals(const void *model, const wh_phase *phase, const wh_real
         }
         const wh_real size = WH_ABS(result[2 * k]);
         for (unsigned i = 0; i < m->bent && m->contact[k].kind == WH_WHEN; i++) {
-            /* The factor is one if the value is one millimetre. */
+            /* The factor is the square of the value in millimetres. */
             result[2 * k] *= size * size * WH_R(1e6);
         }
         for (unsigned i = 0; i < 2; i++) {

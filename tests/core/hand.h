@@ -3,7 +3,7 @@
 #ifndef TESTS_HAND_H
 #define TESTS_HAND_H
 
-/* static, as in a generated scene, because a board's stack is small */
+/* A generated scene defines such sizes, too. The core's largest sizes need too much of a board's stack. */
 #define WH_LEDGER 1
 #define WH_LEDGER_MAX 12
 #define WH_ACCOUNTS_MAX 3
@@ -21,15 +21,15 @@ typedef struct hand {
     wh_real load[2];   /* N */
     wh_real spring[2]; /* N/m, towards the origin */
     struct {
-        wh_real row[2]; /* row of a gap, of a held or of a crossing expression: row . x - offset */
+        wh_real row[2]; /* row of the gap, the held or the crossing expression: row . x - offset */
         wh_real offset;
         wh_real first;  /* restitution, or mu_static times the normal force */
         wh_real second; /* mu_kinetic times the normal force, in N */
     } law[HAND_CONTACTS];
     wh_contact contact[HAND_CONTACTS];
     wh_contact_system system;
-    unsigned bent;    /* number of times that a crossing's value is multiplied by its square */
-    unsigned lost[2]; /* bits: contacts whose first (or second) signal becomes `nothing` */
+    unsigned bent;    /* a crossing's value is raised to the power 1 + 2 bent */
+    unsigned lost[2]; /* bits: contacts whose first (lost[0]) or second signal is `nothing` */
     wh_real nothing;  /* NaN or infinity */
     /* the work of the loads counts as potential energy instead of external work */
     bool weighs;

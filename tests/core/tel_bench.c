@@ -82,7 +82,6 @@ void tel_hear_frame(const wire_frame *frame) {
     }
 }
 
-/* Takes this many bytes from the station's ring, and compares the frames with the sent data. */
 void tel_hear(unsigned bytes) {
     char room[64];
     while (bytes > 0) {
@@ -162,7 +161,6 @@ void tel_step(void) {
     wh_station_step(&bench.station, &bench.even.rig);
 }
 
-/* One control period of the firmware. The line transmits `bytes` bytes in it. */
 void tel_period(bool evenly, unsigned bytes) {
     even_step(&bench.even);
     tel_draw_seen(evenly);

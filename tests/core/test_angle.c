@@ -54,13 +54,13 @@ static void test_phase_moves(void) {
     }
 }
 
-/* The reference of the moves is in integers. Ties round to even; ties of half a step round away from zero. */
+/* The reference is in integers. Ties round to even in wh_phase_move(), away from zero in wh_phase_move_half(). */
 static void test_phase_moves_to_the_nearest(void) {
     scattered_state = 9;
     unsigned ties = 0;
     for (unsigned i = 0; i < 20000; i++) {
         const uint32_t digits = (uint32_t)(scattered() & 0xffffffU);
-        const int down = (int)(scattered() % 32U) - 7; /* the move has digits / 2^down steps */
+        const int down = (int)(scattered() % 32U) - 7; /* the move: digits / 2^down steps */
         float steps = (float)digits;
         for (int k = 0; k < down; k++) {
             steps *= 0.5f;

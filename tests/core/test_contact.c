@@ -50,8 +50,8 @@ TEST(contact, a_step_has_room_for_so_many_moments) {
     }
 }
 
-/* At the eighth moment a pressed body hits a wall from which it would bounce. It comes to rest, which counts as an
- * overrun. */
+/* A step has at most eight moments with events. At the eighth, a body that would bounce from a wall comes to rest
+ * instead, which counts as an overrun. */
 TEST(contact, a_rest_at_the_last_moment_is_counted) {
     for (unsigned n = WH_EVENTS_MAX - 1U; n <= WH_EVENTS_MAX; n++) {
         hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));

@@ -60,7 +60,7 @@ TEST(contact_assign, each_component_can_be_assigned) {
         const int8_t side = w.mode[k];
         values[0] = draw_broken(&seed, -1000, 1000);
         wh_contact_assign(&bench_now.system, &w, k, NULL, &s);
-        TEST_ASSERT_EQUAL_INT(-side, w.mode[k]); /* the value is on the other side */
+        TEST_ASSERT_EQUAL_INT(-side, w.mode[k]); /* the crossing has changed sides */
         TEST_ASSERT_EQUAL_INT(-1, w.fault);
         for (unsigned i = 0; i < components; i++) {
             const wh_real carry = bench_now.system.compensated && i == to ? WH_R(0.0) : WH_R(0.125);

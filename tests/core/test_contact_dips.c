@@ -39,7 +39,7 @@ TEST(contact_dips, what_dips_and_comes_back) {
     unsigned dips = 0;
     unsigned leaves = 0;
     unsigned passed = 0; /* stops that are passed and left again within the trial step */
-    unsigned missed = 0; /* number of stops that are passed by less than the tangents can show */
+    unsigned missed = 0; /* stops not passed, although the tangents at both ends allow it */
     for (unsigned round = 0; round < 3000; round++) {
         wh_real input[1] = {WH_R(0.0)};
         wh_real offset[3];

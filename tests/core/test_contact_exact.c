@@ -12,8 +12,8 @@ enum { MECHANISMS = __STDC_HOSTED__ ? 2000 : 50, STEPS = 60 };
 
 #define CLOSE (WH_DOUBLE ? 1e-5 : 5e-3)
 
-/* Draws one to three contacts under loads of size `heavy`: stops, a hold, frictions, a crossing. One of `touched` stops
- * touches, or is passed, at the start. */
+/* Draws one to three contacts under loads of size `heavy`: stops, a hold, frictions, a crossing. One in `touched`
+ * stops is touched, or passed, at the start. */
 static void draw(uint64_t *seed, unsigned touched, bool crosses, int heavy) {
     const unsigned n = draw_one_in(seed, 4) ? 1 : 2;
     unsigned room = (unsigned)HAND_CONTACTS - crosses;
@@ -95,8 +95,8 @@ static double impulse_of(unsigned k) {
     return (double)(entry[i] / hand_now.law[k].row[i]);
 }
 
-/* True if the contact acted. Round-off may find a stop that leaves again, without an impulse. A redundant contact may
- * have no impulse, either. */
+/* False if a stop opens without an impulse, because such an event may be only round-off. If contacts are redundant,
+ * the impulse is not known: then no stop that opens counts. */
 static bool counts(const exact *e, const wh_event *event) {
     return hand_now.contact[event->contact].kind != WH_STOP || event->mode != WH_FREE ||
            !(e->shared || near((double)event->impulse, 0.0));
@@ -224,8 +224,8 @@ static void levels_now(wh_real *level) {
                       hand_state.input, level);
 }
 
-/* Corrects some positions and rates, or all of them if the low parts of the runs differ. The ledger records the
- * change. */
+/* Corrects some positions and rates. With compensated sums it corrects all, because otherwise the low parts of the
+ * two runs would differ. The ledger records the change. */
 static void correct(uint64_t *seed) {
     wh_real before[3];
     wh_real after[3];

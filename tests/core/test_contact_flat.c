@@ -26,15 +26,15 @@ static bool holds(const wh_contact_work *w, unsigned k) {
     return bench_now.contact[k].kind == WH_HOLD && w->mode[k] == WH_ACTIVE;
 }
 
-/* The rows change with the position of the first coordinate. A step is tested at its end, and at the state that the
- * rates alone would reach; a refused step only at the latter. The core reports the first state in which rank is lost.
- * If no curved hold can slip, nothing is tested. */
+/* The rows change with the position of the first coordinate. The core tests the state that the rates alone would
+ * reach, then the step's end, if the step was made. It reports the first state in which rank is lost. If no curved
+ * hold can slip, it tests nothing. */
 TEST(contact_flat, a_say_is_lost_at_either_place) {
     uint64_t seed = 242;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
         wh_contact_work w;
-        wh_contact_state place[3]; /* from, the state that the rates reach, to */
+        wh_contact_state place[3]; /* start, state that the rates alone reach, end */
         wh_contact_rows rows[3];
         bool any = false;
         draw(&seed, 0, &w);

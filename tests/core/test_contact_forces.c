@@ -93,7 +93,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
             continue;
         }
         for (unsigned i = 0; i < count; i++) {
-            /* The sizes of the terms: first of the path's curvature alone, then of all terms. */
+            /* Contacts must agree in the path's curvature alone, and in all terms. */
             bend[i] = -bench_now.bias[member[i]];
         }
         contradicts = !agrees(member, count, repeats, bend, lambda);

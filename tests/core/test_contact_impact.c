@@ -54,8 +54,8 @@ TEST(contact_impact, who_is_pressed) {
     TEST_ASSERT_TRUE(pressed > ROUNDS / 3 && pressed < ROUNDS);
 }
 
-/* A flight shorter than its share of the step counts as rest. If nothing presses the body onto the stop, it rests only
- * if its rate counts as zero. */
+/* A flight shorter than WH_REST_SHARE of the step counts as rest. If nothing presses the body onto the stop, the body
+ * rests only if its rate counts as zero. */
 TEST(contact_impact, who_rests) {
     uint64_t seed = 302;
     unsigned resting = 0;
@@ -125,7 +125,7 @@ TEST(contact_impact, who_merely_touches) {
     TEST_ASSERT_TRUE(loose > ROUNDS / 32);
 }
 
-/* Stops that are hit in the same moment: they are free and close, and the gap is smaller than the error of location. */
+/* A free stop is hit in the same moment if the body approaches, and the gap is smaller than the error of location. */
 TEST(contact_impact, who_is_hit_in_the_same_moment) {
     uint64_t seed = 304;
     unsigned tied = 0;
@@ -162,8 +162,8 @@ TEST(contact_impact, who_is_hit_in_the_same_moment) {
     TEST_ASSERT_TRUE(tied > ROUNDS / 32);
 }
 
-/* Stops that an impact is passed on to: they are free and touch. The impact makes them close, or close more than twice
- * as fast. */
+/* An impact is passed on to a free stop that touches, if it makes the body approach, or approach more than twice as
+ * fast. */
 TEST(contact_impact, to_whom_an_impact_is_passed_on) {
     uint64_t seed = 305;
     unsigned passed = 0;
@@ -220,7 +220,7 @@ TEST(contact_impact, who_is_beside_an_impact) {
         for (unsigned i = 0; i < BENCH_CONTACTS; i++) {
             was[i] = draw_whole(&seed, -4, 0);
             target[i] = draw_whole(&seed, 0, 4);
-            signal[2 * i] = signal[2 * i + 1] = BENCH_SENTINEL; /* the others do not touch */
+            signal[2 * i] = signal[2 * i + 1] = BENCH_SENTINEL; /* only stop l may touch */
         }
         const wh_real passed_on =
             WH_ABS(bench_delassus(l, k) * (target[k] - was[k])) / bench_delassus(k, k);

@@ -69,7 +69,7 @@ TEST(contact_load, sizes_beside_which_is_rounding) {
     TEST_ASSERT_TRUE(wh_contact_rounding(1, -2, 4) == share * 7);
 }
 
-/* Reference: returns the sign of the missing push, from the accelerations or from the curvature alone; 0: none. */
+/* Reference: the sign of the force that is missing, for the accelerations or for the curvature alone; 0: none. */
 static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, wh_real bent,
                      wh_real bends_by) {
     const wh_real limit = WH_CONTACT_ROUNDING * (WH_ABS(size) + WH_ABS(made));

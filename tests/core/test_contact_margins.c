@@ -141,7 +141,7 @@ static wh_real draw_none(uint64_t *seed) {
 
 static bool is_number(wh_real value) { return value - value == WH_R(0.0); }
 
-/* True if the law is finite that a step depends on in the contact's present mode. A stop has no such law. */
+/* True if the law that the contact's present mode needs is finite. A stop needs none. */
 static bool law_is_number(const wh_contact_work *w, unsigned k) {
     const uint8_t kind = bench_now.contact[k].kind;
     const bool asked = kind == WH_FRICTION || (kind == WH_HOLD && bench_keeps(w, k));

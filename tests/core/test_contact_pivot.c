@@ -15,7 +15,7 @@ static wh_real high_of(unsigned k) {
     return bench_now.contact[k].kind == WH_FRICTION ? bench_now.first[k] : WH_LIMITLESS;
 }
 
-/* Returns a bound on the round-off of a residual, or of forces relative to their terms. */
+/* Returns a bound on the round-off of a residual. If `forces`, the bound includes the forces' terms. */
 static wh_real noise_of(const wh_contact_work *w, unsigned k, bool forces, wh_real wanted,
                         wh_real made, wh_real lambda) {
     const wh_real sum = WH_ABS(wanted) + WH_ABS(made) + WH_ABS(lambda * bench_delassus(k, k));
@@ -27,7 +27,7 @@ static wh_real draw_rough(uint64_t *seed) {
     return draw_one_in(seed, 2) ? WH_R(0.0) : draw_whole(seed, 1, 8) / WH_CONTACT_QUIET;
 }
 
-/* A single contact. Its wanted force is its limit, less, more, more by round-off only, or just more than that. */
+/* The wanted force of a single contact is random, or differs from its limit by 0 to 1000 times the round-off. */
 TEST(contact_pivot, one_contact_takes_what_it_can) {
     uint64_t seed = 121;
     unsigned gave = 0;

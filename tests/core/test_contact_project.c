@@ -100,7 +100,7 @@ TEST(contact_project, places_are_put_right_by_the_least_way) {
         spot.mover = draw_one_in(&seed, 3) ? draw_one_of(&seed, of->forced) : spot.mover;
         const unsigned count = members_of(&w, spot.but, member);
         const unsigned asked =
-            (unsigned)draw_bits(&seed) % (count + 1U); /* just below its limit, or at it */
+            (unsigned)draw_bits(&seed) % (count + 1U); /* contact with an error near its limit */
         spot.h = draw_whole(&seed, 0, 4) / WH_SLIP_COARSE;
         for (unsigned i = 0; i < count; i++) {
             const wh_real size = WH_ABS(off_of(&w, member[i]));
@@ -242,7 +242,7 @@ TEST(contact_project, what_slipped_is_put_back) {
         w.mode[1] = WH_FREE;
         w.mode[2] = slides ? 1 : WH_STUCK;
         const wh_real size =
-            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* the far range begins at half of this */
+            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* half of this counts as far */
         const wh_real off =
             draw_whole(&seed, -3, 3) * size * (draw_one_in(&seed, 2) ? 1 : WH_R(0.125));
         for (unsigned k = 0; k < 2; k++) {

@@ -294,7 +294,7 @@ TEST(fixed, edges) {
         for (unsigned places = draw() % 12U; places > 0; places--) {
             limit /= 10.0;
         }
-        double end = limit; /* in units, large or small */
+        double end = limit; /* in units of 2^-bits */
         const double many = 1U << (14U + draw() % 17U);
         while (end < many) {
             end += end;

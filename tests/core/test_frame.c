@@ -4,7 +4,7 @@
 #include "draw.h"
 #include "tests/suites.h"
 
-/* The payload is longer than two COBS blocks of 254 bytes (core/cobs.h), on an AVR than one. */
+/* The payload is longer than two COBS blocks of 254 bytes (core/cobs.h); on an AVR, longer than one. */
 #if defined(__AVR__)
 enum { PAYLOAD_BYTES = 280 };
 #else
@@ -64,8 +64,8 @@ TEST(frame, crc) {
     TEST_ASSERT_EQUAL_HEX32(0U, wh_frame_crc(0, digits, 0));
 }
 
-/* Payloads of every length and kind: the frame is read as written, has no zero inside, and is within the header's size
- * bound. */
+/* Payloads of every length and kind: the frame is read as written, has no zero inside, and is not longer than
+ * WH_FRAME_BYTES(). */
 TEST(frame, round_trip) {
     seed = 1;
     for (unsigned length = 0; length <= PAYLOAD_BYTES; length++) {
@@ -122,8 +122,8 @@ TEST(frame, flips) {
     }
 }
 
-/* Frames with missing bytes are rejected. If the final zero is missing, the next frame may be lost, too; the frame
- * after that is read. */
+/* Frames with missing bytes are rejected. If a frame breaks off before its final zero, the next frame is lost, too.
+ * The frame after that is read. */
 TEST(frame, truncations) {
     seed = 4;
     for (unsigned round = 0; round < 300; round++) {
@@ -136,9 +136,7 @@ TEST(frame, truncations) {
         unsigned frames = feed(line, from);
         frames += feed(line + from + gone, count - from - gone);
         TEST_ASSERT_EQUAL_UINT(0, frames);
-        const unsigned next =
-            /* the frame is whole if the zero before it came, or if nothing came */
-            feed(line, count);
+        const unsigned next = feed(line, count);
         const bool stuck = from > 0 && from + gone == count;
         TEST_ASSERT_EQUAL_UINT(stuck ? 0 : 1, next);
         TEST_ASSERT_EQUAL_UINT(1, feed(line, count));

@@ -100,8 +100,8 @@ static void shaft_accel(const void *model, const wh_phase *phase, const wh_real 
     accel[0] = WH_R(0.5) - input[0];
 }
 
-/* Computes the power of the torque, and of another entry that cancels in the sum. Its purpose is that the angle appears
- * in the powers. */
+/* Computes the power of the torque, and of another entry that cancels in the sum. The other entry's power contains
+ * the angle. */
 static void shaft_powers(const void *model, const wh_angle *angle, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *power) {
     (void)model;

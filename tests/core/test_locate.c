@@ -53,7 +53,7 @@ TEST(locate, flat_and_steep_crossings_are_found) {
         start(p);
         (void)add_crossing(place_at(p, t), 0);
         hand_now.bent =
-            i % (WH_DOUBLE ? 4U : 3U); /* the powers 1, 3, 9, 27 vanish only at the place */
+            i % (WH_DOUBLE ? 4U : 3U); /* the value is power 1, 3, 5 or 7 of the distance */
         hand_start(false);
         hand_looks = 0;
         hand_steps(1);

@@ -55,7 +55,7 @@ static bool is_nearest(wh_real value, uint64_t part, uint64_t of) {
         value *= WH_R(2.0);
         places++;
     }
-    /* part 2^places is compared with digits times `of`; half a digit is of / 2 */
+    /* `value` is nearest if digits times `of` differs from part 2^places by at most half of `of`. */
     wide exact = {0, part};
     for (int i = 0; i < places; i++) {
         exact = twice(exact);

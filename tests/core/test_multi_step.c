@@ -169,8 +169,8 @@ static void test_a_matrix_turns_as_far_as_its_power(void) {
 
 #endif
 
-/* The input accelerates a shaft (angle, rate). The matrix's list gives the mean rate r + u h/2 and the end rate r + u
- * h. With compensated sums it gives their changes. */
+/* The input u accelerates a shaft. The list gives the mean rate r + u h/2 and the end rate r + u h of a step h = 1/64
+ * s; with compensated sums, the change u h in place of the end rate. */
 static bool changes_only;
 static void speed_up(const void *model, const wh_phase *phase, const wh_real *real,
                      const wh_real *rate, const wh_real *input, wh_real *given) {
@@ -259,7 +259,7 @@ static void errors_after(wh_method method, wh_real rest, wh_real push, double *l
         TEST_ASSERT_TRUE(wh_step_second(NULL, pull, method, true, 1, 2,
                                         (wh_two_part){(wh_real)milli_s, rest}, &of) == WH_OK);
     }
-    /* Euler's methods use the rate at one end of the step as its mean */
+    /* Euler's method uses the rate at the begin as the mean, its semi-implicit form the rate at the end */
     const double ends = method == WH_EULER ? -1.0 : method == WH_SEMI_IMPLICIT_EULER ? 1.0 : 0.0;
     const double way = end_s + (double)push * 0.5 * end_s * (end_s + ends * milli_s);
     *line = size_of((double)real[0] + (double)carry[1] - way) / way;

@@ -9,8 +9,8 @@
 #define FOUR_SIGMA (WH_TEST_SMALL ? 0.0625 : 0.015625)
 #define ONE 65536 /* one standard deviation, in raw units */
 
-/* Reference values from a Python program with arbitrary integers, whose splitmix64 gives the published first outputs of
- * seed 1234567 (6457827717110365317, 3203168211198807973). */
+/* Reference values from a Python program, whose splitmix64 gives the published first outputs of seed 1234567
+ * (6457827717110365317, 3203168211198807973). */
 TEST(noise, fixed_values) {
     static const struct {
         uint64_t index;

@@ -110,7 +110,7 @@ static void test_near_halves(void) {
         const wide q = (scatter() & (ONE - 1U)) | ONE;
         const unsigned places = BITS + ((q * q) >> (2 * BITS + 1) != 0);
         const word fraction = (word)((q * q + q) >> places);
-        const word odd = places - BITS; /* if x is above 2, its exponent is larger by one */
+        const word odd = places - BITS; /* 1 if x is 2 or more */
         for (word next = 0; next < 2; next++) {
             const word x = (((word)BIAS + odd) << BITS) + (fraction - ONE) + next;
             TEST_ASSERT_TRUE(is_root(x, root_bits(x)));

@@ -25,7 +25,7 @@ static const wh_ledger_form books = {
 typedef struct flight {
     wh_real real[4]; /* positions, then rates */
     wh_real carry[4];
-    /* Correction so far, its carry, the levels at the start, the largest P. */
+    /* Correction so far, its carry, the levels at the start, the largest P (stabilize.h). */
     wh_real ledger[6];
     wh_state state;
 } flight;

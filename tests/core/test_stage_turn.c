@@ -162,7 +162,7 @@ TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
         wh_real looked_up[VALUES];
         wh_real exact[VALUES];
         if (!wh_method_turns(how.method) || (sizeof(wh_real) == 4 && order > 4)) {
-            continue; /* In float, fifth order shows only in steps with large shear angles. */
+            continue; /* In float, an order above 4 shows only in steps with large shear angles. */
         }
         if (!wh_method_takes(how.method, how.form)) {
             start();
@@ -173,7 +173,7 @@ TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
         after_1s(how, 2 * count, turned[1]);
         how.turns = false;
         after_1s(how, count, looked_up);
-        /* The error of a method of higher order would not be small enough. */
+        /* RK4 is accurate enough as a reference of orders up to 4. */
         how.method = order > 4 ? how.method : WH_RK4;
         after_1s(how, 16 * count, exact);
         const wh_real error = squares(components, turned[0], exact);

@@ -307,7 +307,7 @@ TEST(station_conf, list_has_all_and_can_be_typed) {
     TEST_ASSERT_EQUAL_UINT(WH_CONF_COUNT, told);
 }
 
-/* `conf list N` begins at setting N, without its fraction. A number that no setting has is refused. */
+/* `conf list N` begins at setting N. A fraction of N is ignored, and a number that no setting has is refused. */
 TEST(station_conf, where_a_list_begins) {
     begin();
     unsigned below = 0;

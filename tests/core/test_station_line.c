@@ -20,7 +20,7 @@ TEST(station_line, lines_end_in_each_of_three_ways) {
     static const char *const ends[] = {"\r", "\n", "\r\n"};
     for (unsigned i = 0; i < 9; i++) {
         line = (wh_line){.length = 0};
-        for (unsigned k = 0; k < 3; k++) { /* after any end of the previous line */
+        for (unsigned k = 0; k < 3; k++) { /* every kind of line end follows every kind */
             TEST_ASSERT_TRUE(take(k == 0 ? "arm" : "start 330") == WH_LINE_NOTHING);
             TEST_ASSERT_TRUE(take(ends[k == 1U ? i % 3U : i / 3U]) == WH_LINE_WHOLE);
             TEST_ASSERT_EQUAL_STRING(k == 0 ? "arm" : "start 330", line.text);

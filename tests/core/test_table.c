@@ -100,12 +100,12 @@ TEST(table, finer_cells_are_parts_of_coarse_ones) {
             const uint32_t units = (uint32_t)(draw_bits(&seed) << 16 ^ draw_bits(&seed));
             const uint32_t number =
                 ((units + (UINT32_C(1) << (31U - bits))) >> (32U - bits)) % (1U << bits);
-            const int32_t way = (int32_t)((units - (number << (32U - bits)))
-                                          << bits); /* 2^32 stands for one cell */
+            const int32_t way =
+                (int32_t)((units - (number << (32U - bits))) << bits); /* in units of 2^-32 cells */
             wh_real y;
             const size_t at = (size_t)(wh_table_cell(none, bits, 1, phase_of(units), &y) - none);
             if (way < INT32_MAX - 99999 && way > -INT32_MAX + 99999) {
-                /* except at the end of a cell */
+                /* not tested near the ends of a cell */
                 const wh_real off = y * (WH_DOUBLE ? WH_R(0x1p32) : WH_R(1.0)) - (wh_real)way;
                 TEST_ASSERT_TRUE(at == number);
                 TEST_ASSERT_TRUE(WH_ABS(off) <= (WH_DOUBLE ? WH_R(0.4) : WH_R(0.0)));

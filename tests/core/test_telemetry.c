@@ -272,7 +272,7 @@ TEST(telemetry, states_are_told) {
 static wh_captured truth[4096];
 static uint32_t truth_ticks[4096];
 
-/* If the ring must contain this step, records it in the reference; then reads the line. */
+/* Does a period of telemetry and records it as step `at` of the reference. */
 static void note_period(unsigned at, unsigned bytes) {
     tel_period(true, bytes);
     truth_ticks[at] = bench.seen.inputs.now_ticks;

@@ -21,9 +21,9 @@ static void test_unbalance_gives_the_dissertations_force(void) {
 
 static on_plant on;
 
-/* Checks that the run is done and that its force is S <w^2>, with the speed within 2 rpm. The force is within 0.1 % of
- * the value computed from the mean speed and the ripple, with the model's inertia. The phase is 0 within 0.1 degrees,
- * as for every rotor whose speed repeats each turn (docs/rig.md). */
+/* Checks that the run is done, with the speed within 2 rpm. The force is the unbalance times the mean square of the
+ * speed, within 0.1 %. The phase is 0 within 0.1 degrees, as for every rotor whose speed repeats each turn
+ * (docs/rig.md). */
 static void check_measurement(float target_rpm) {
     TEST_ASSERT_TRUE(plant_is_done(&on));
     const wh_measured *force = &on.rig.result.force;
@@ -145,7 +145,7 @@ static void test_data_sheet_agrees_with_the_model(void) {
     CHECK_NEAR(1e-5f, 100.0f * WH_RIG_UNBALANCE_KGM, output[2]);
     /* If the mass is on the axis, the cell measures the whole force. */
     CHECK_NEAR(1e-5f, output[2], output[1]);
-    /* If the arms are level, the force is S times the change of speed by gravity and damping. */
+    /* If the arms are level, the force is the unbalance times the angular acceleration by gravity and damping. */
     state.angle[0] = wh_angle_from_rad(0.25f * WH_RIG_TWO_PI);
     state.real[0] = 0.0f;
     state.input[0] = 0.0f;

@@ -11,7 +11,7 @@
 
 static on_plant on;
 
-/* Below the limit on set-points, the rotor stops at the top: so the limit is necessary. It also has a margin. */
+/* The limit is 170 rpm. At 100 and 140 rpm the rotor stops at the top; at 150 rpm it still passes the top. */
 static void test_slower_set_points_end_at_the_top(void) {
     static const float targets_rpm[] = {100.0f, 140.0f, 150.0f};
     for (unsigned i = 0; i < 3; i++) {
