@@ -266,7 +266,7 @@ TEST(lockin, missing_samples) {
     }
 }
 
-/* Outliers are not used, and counted. A turn has 91 samples. Eight successive outliers leave a gap; nine, a tenth of
+/* Outliers are counted but not used. A turn has 91 samples. Eight successive outliers leave a gap; nine, a tenth of
  * the samples, are too many. */
 TEST(lockin, outliers_are_left_out) {
     static const unsigned counts[] = {1, 8, 9, 14};
@@ -293,8 +293,8 @@ TEST(lockin, outliers_are_left_out) {
     }
 }
 
-/* From some turn on, the load has a bump in each turn. The first such turn does not count: its samples are outliers
- * and leave a gap. The next turn has no prediction, and gives the new one. */
+/* From turn 5 on, the load has a bump in each turn. The first of these turns does not count, because the bump's
+ * samples are outliers and leave a gap. The next turn is the first one of a new prediction. */
 TEST(lockin, what_stays_is_expected) {
     settings();
     made_up made = plain;

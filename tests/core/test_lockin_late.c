@@ -19,12 +19,12 @@ static const wh_cell_config cell = {
 static wh_lockin lockin;
 static wh_lockin fresh;
 
-/* Samples of a rotor with constant speed. Turn 0 begins `lead` samples after the first one (if `lead` is negative,
- * before it). */
+/* Samples of a rotor with constant speed. Turn 0 begins `lead` samples after the first sample, or before it if `lead`
+ * is negative. */
 typedef struct stream {
     uint32_t ticks; /* time of the first sample */
     int lead;
-    int32_t behind_ticks; /* offset from the sample near the turn's start */
+    int32_t behind_ticks; /* the turn begins this long before that sample */
     wh_real mean_N;
     wh_real cosine_N;
     wh_real sine_N;
@@ -56,7 +56,7 @@ static wh_real load_of(const stream *from, int32_t since_pulse) {
 
 /* Runs control steps. Returns the number of finished turns, at most TURNS. */
 static unsigned play(const stream *from, wh_lockin *to, unsigned steps, wh_lockin_turn *turns) {
-    /* In the rig, too, a step without samples does more work. */
+    /* as in the rig, a step without samples does more work */
     const unsigned halves = from->held + from->hold_more == 0 ? WH_LOCKIN_HALVES_AT_ONCE
                                                               : WH_LOCKIN_HALVES_AT_ONCE + 1U;
     const int32_t pulse = (int32_t)from->lead * (int32_t)PERIOD_TICKS - from->behind_ticks;

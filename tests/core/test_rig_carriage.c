@@ -79,7 +79,7 @@ TEST(rig_carriage, angle_on_a_carriage) {
     for (unsigned r = 0; r < sizeof ratios / sizeof ratios[0]; r++) {
         for (unsigned s = 0; s < sizeof speeds / sizeof speeds[0]; s++) {
             for (unsigned drag = 1; drag <= 4U; drag *= 2U) {
-                /* a steeper torque line shifts the phase of the term of twice the angle */
+                /* a steeper torque line; it shifts the phase of twice_rad */
                 mount(ratios[r]);
                 rotor.damping_Nms *= (wh_real)drag;
                 integrate(speeds[s]);
@@ -91,8 +91,8 @@ TEST(rig_carriage, angle_on_a_carriage) {
                 const wh_real wave = angle.twice_rad;
                 TEST_ASSERT_TRUE(unshaped.twice_rad == WH_R(0.0));
                 TEST_ASSERT_TRUE(wave > WH_R(0.0) && wave < WH_R(0.06));
-                /* Both angles are equal at the pulse. So the error of an angle of constant speed is the term of twice
-                 * the angle, minus this term's value at the pulse. */
+                /* even_off is the largest error of an angle of constant speed. The error is the term of twice the
+                 * angle, minus that term's value at the pulse. */
                 TEST_ASSERT_TRUE(even_off > WH_R(0.9) * wave && even_off < WH_R(2.1) * wave);
                 TEST_ASSERT_TRUE(left < WH_R(2.5) * wave * wave + WH_R(6e-5));
             }
@@ -122,7 +122,7 @@ TEST(rig_carriage, mount) {
     CHECK_NEAR(4e-9f, WH_RIG_UNBALANCE_KGM, turns->unbalance_kgm);
     CHECK_NEAR(1e-9f, WH_RIG_INERTIA_KGM2, turns->inertia_kgm2);
     CHECK_NEAR(1e-6f, 0.75f, config.measure.result.mount_factor);
-    /* S^2/(M + m), M three times m */
+    /* unbalance squared, divided by the mass of carriage and masses, four times 0.274 kg */
     CHECK_NEAR(3e-8f, 0.0351631f * 0.0351631f / (4.0f * 0.2739698f), turns->yields_kgm2);
     CHECK_NEAR(1e-8f, 0.75f * (float)wh_rig_standard.guard.load_still_kgm,
                config.guard.load_still_kgm);

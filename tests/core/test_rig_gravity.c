@@ -23,8 +23,8 @@ static void check_between(wh_real least, wh_real most, wh_real value) {
 
 static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
-/* The voltage is S g sin(theta - gamma) divided by the stall torque, with theta at the time after the lead. It is
- * limited, and fades in linearly. */
+/* The voltage is the torque of gravity, S g sin(theta - gamma), divided by the stall torque. theta is the angle after
+ * the lead. The voltage is limited, and fades in linearly. */
 TEST(rig_gravity, it_says_gravitys_voltage) {
     static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
     for (unsigned i = 0; i < 6; i++) {

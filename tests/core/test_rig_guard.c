@@ -18,7 +18,7 @@ TEST(rig_guard, speed_limit_follows_from_the_shaft) {
     const wh_real section_m3 = pi * d_m * d_m * d_m / WH_R(32.0);
     const wh_real carried_N = endurance_Pa / (WH_R(2.0) * WH_R(2.0)) * section_m3 / WH_R(0.0254);
     const wh_real others_N =
-        WH_R(1.34) + WH_R(2.10); /* one set's weight; its share of the ripple */
+        WH_R(1.34) + WH_R(2.10); /* one set's weight, and its part of the ripple */
     const wh_real limit = wh_rig_standard.guard.limit_radps;
     const wh_real at_limit_N = WH_RIG_UNBALANCE_KGM / WH_R(2.0) * limit * limit + others_N;
     TEST_ASSERT_TRUE(at_limit_N < carried_N);
@@ -88,13 +88,13 @@ TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     }
 }
 
-/* A speed that rises at two successive pulses, together with one interval beyond the bound, trips. Fewer signs do
- * not. */
+/* Over-speed trips if the speed rises at two successive pulses, and one interval is beyond the bound. Either sign
+ * alone does not trip. */
 TEST(rig_guard, what_climbs_and_is_fast_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
     for (unsigned fast = 0; fast < 2U; fast++) {
-        for (unsigned part = 0; part <= 10U; part++) { /* in tenths of twice the allowed rise */
+        for (unsigned part = 0; part <= 10U; part++) { /* the last rise, in tenths of both */
             wh_guard guard;
             wh_guard_start(&guard, 0);
             wh_pulses pulses;

@@ -62,7 +62,7 @@ TEST(rig_law, the_drive_keeps_its_law) {
         TEST_ASSERT_TRUE(wh_drive_at_target(&drive));
         double setpoint = (double)drive.setpoint_radps;
         double integral = (double)drive.integral_V;
-        /* the change in less than three steps; at slow speed, a quarter of it */
+        /* less than the set-point's change in three steps; at low speed it changes a quarter as fast */
         const double far = setpoint < (double)law->gentle_radps + 0.1 ? 0.009 : 0.03;
         drive.target_radps = (wh_real)(setpoint + between(-far, far));
         const double target = (double)drive.target_radps;

@@ -81,7 +81,7 @@ TEST(rig_lead, a_rotor_that_cannot_follow_is_not_too_fast) {
         leads_to(target_radps);
         go_on(AS_ASKED, 2500);
         TEST_ASSERT_TRUE(rig.guard.trip == WH_TRIP_NONE);
-        /* Counts the steps in which the set-point alone would give a lower bound. */
+        /* Counts the runs whose rotor is faster than the bound that the set-point alone would give. */
         left_behind +=
             rig.pulses.speed.turn_radps >
                     wh_guard_bound_radps(&config.guard, rig.run.drive.setpoint_radps, true)

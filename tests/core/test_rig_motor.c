@@ -290,7 +290,7 @@ TEST(rig_motor, any_order_of_settings) {
         }
         for (unsigned round = 0; round < 2U; round++) {
             const unsigned stride =
-                2U * draw_one_of(&seed, GIVEN / 2) + 1U; /* any order, by an odd step */
+                2U * draw_one_of(&seed, GIVEN / 2) + 1U; /* odd: visits each setting once */
             const unsigned from = draw_one_of(&seed, GIVEN);
             wh_conf_start(&conf, own, NULL, &config);
             for (unsigned k = 0; k < GIVEN; k++) {

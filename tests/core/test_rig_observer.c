@@ -67,7 +67,7 @@ TEST(rig_observer, the_rotor_it_knows_is_followed) {
     }
 }
 
-/* The jitter of the pulses causes an error of the angle that is below twice the jitter, or little above the jitter. */
+/* The RMS error of the angle is between half and twice the jitter of the pulses. */
 TEST(rig_observer, jitter_is_not_amplified) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 3; i++) {

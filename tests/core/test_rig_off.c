@@ -1,5 +1,5 @@
-/* test_rig_off.c: rotors with the motor off, which coast, swing, or are driven by a fault. Supply, inertia, friction, dead
- * sensors, stuck drive stages and the controller's state, one with the motor off, are random. */
+/* test_rig_off.c: rotors with the motor off, which coast, swing, or are driven by a fault. Supply, inertia, friction,
+ * dead sensors, and stuck drive stages are random. So is the controller's state, one in which the motor is off. */
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/polar.h"

@@ -207,7 +207,7 @@ static uint32_t apart_from_its_own(unsigned sensor, uint32_t ticks) {
     return least;
 }
 
-#define RAMP_FASTER WH_R(1.14) /* a turn that is shorter by 0.12, the window of the ramp */
+#define RAMP_FASTER WH_R(1.14) /* a turn shorter by the ramp's window of 0.12: 1/0.88 */
 
 /* Adds a false pulse. It must be rejected, so that the confirmed pulses are the true ones. Within the jitter of a true
  * pulse, either may be confirmed. */
@@ -234,7 +234,7 @@ static outcome disturb(wh_rig_phase phase, unsigned sensor, uint32_t ticks, bool
 static void check_disturbed(wh_rig_phase phase, unsigned sensor, uint32_t ticks) {
     for (unsigned behind = 0; behind < 2; behind++) {
         const outcome out = disturb(phase, sensor, ticks, behind == 1);
-        /* Largest error of the speed; outside the record, that of a pulse as early as the window allows. */
+        /* Bound on the error of the speed. Outside the record, a pulse may be as early as the window allows. */
         const wh_real most_rpm = phase == WH_PHASE_RECORD ? WH_R(2.0)
                                  : phase == WH_PHASE_SETTLE
                                      ? WH_R(0.035) * mean_radps / RPM

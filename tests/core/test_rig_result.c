@@ -207,7 +207,7 @@ static wh_why why_of(wh_real in_phase, wh_lockin_turn like) {
 TEST(rig_result, reasons_from_the_turns) {
     const wh_lockin_turn plain = {.samples = 0};
     const wh_lockin_turn gap = {.fault = WH_TURN_GAP};
-    const wh_real full_N = WH_R(42.146); /* S <w^2> at 330 rpm */
+    const wh_real full_N = WH_R(42.146); /* unbalance times mean square of the speed, at 330 rpm */
     TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
     CHECK_NEAR(0.01f, full_N, measured.expected_N);
     TEST_ASSERT_TRUE(measured.quality == WH_GOOD);
@@ -216,7 +216,7 @@ TEST(rig_result, reasons_from_the_turns) {
     odd.outliers = 1; /* a turn has 91 samples */
     TEST_ASSERT_TRUE(why_of(full_N, odd) == WH_WHY_OUTLIERS);
     odd = plain;
-    odd.second_seen = true; /* seen, but the turn's part is unknown */
+    odd.second_seen = true; /* sensor 2's pulse was seen, at an unknown part of the turn */
     TEST_ASSERT_TRUE(why_of(full_N, odd) == WH_WHY_ROTOR);
     for (unsigned i = 0; i < 4; i++) { /* inertias that differ from the rotor's */
         static const wh_real times[] = {WH_R(1.45), WH_R(0.7), WH_R(1.55), WH_R(0.6)};
@@ -241,7 +241,7 @@ TEST(rig_result, reasons_from_the_turns) {
         }
     }
     for (unsigned i = 0; i < 8U;
-         i++) { /* the second order of a ripple that is larger, smaller, earlier or later */
+         i++) { /* a second order that is off by 0.98 or 1.02 times the limit, in four directions */
         static const wh_real turns[] = {WH_R(0.0), WH_R(0.5), WH_R(0.25), WH_R(-0.25)};
         TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
         CHECK_NEAR(1e-5f, 0.0f, measured.ripple_off_rad);
@@ -259,8 +259,7 @@ TEST(rig_result, reasons_from_the_turns) {
         TEST_ASSERT_TRUE(measured.why == (i < 4U ? WH_WHY_NONE : WH_WHY_SWING));
         TEST_ASSERT_TRUE(measured.quality == (i < 4U ? WH_GOOD : WH_DOUBTFUL));
     }
-    for (unsigned i = 0; i < 2U;
-         i++) { /* the repeating residual, and the noise expected from this many samples */
+    for (unsigned i = 0; i < 2U; i++) { /* a repeating residual of 0.98 or 1.02 times its limit */
         TEST_ASSERT_TRUE(why_of(full_N, plain) == WH_WHY_NONE);
         merge.repeats.samples = 910;
         merge.repeats.changes_N2 = WH_R(2.0) * WH_R(910.0); /* noise of 1 N */
@@ -341,7 +340,7 @@ static wh_tare tare_of(wh_real noise_N, wh_real hum_N, wh_real hum_Hz, wh_real s
         wh_real hum;
         wh_real swing;
         wh_real unused;
-        const wh_real turn = WH_R(0.5) * WH_RIG_TWO_PI * part; /* a turn of 1 Hz */
+        const wh_real turn = WH_R(0.5) * WH_RIG_TWO_PI * part; /* 1 Hz over half a second */
         wh_sincos(wh_phase_from_rad(hum_Hz * turn + begins[0]), &hum, &unused);
         wh_sincos(wh_phase_from_rad(swing_Hz * turn + begins[1]), &swing, &unused);
         wh_tare_add(&tare, WH_R(56.0) + noise_N * scatter() + hum_N * hum + swing_N * swing +

@@ -52,7 +52,7 @@ TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
             failing.lose[sensor] = lost;
             run(WH_R(330.0), failing);
             if (sensor == 0 && lost > 1) {
-                /* Otherwise too many turns would lie between them. */
+                /* Too many turns are not used, because sensor 1 begins and ends the turns. */
                 TEST_ASSERT_TRUE(even.rig.result.force.quality == WH_DOUBTFUL);
                 TEST_ASSERT_TRUE(even.rig.result.force.why == WH_WHY_LEFT_OUT);
             } else {
@@ -138,7 +138,7 @@ static wh_real between(wh_real least, wh_real most) {
 TEST(rig_run, jitter_settles) {
     seed = 61;
     for (unsigned i = 0; i < 60U; i++) {
-        /* The load is that of 330 rpm. */
+        /* Half of the speeds are near 330 rpm, to which the imitated load belongs. */
         const wh_real target_rpm =
             i % 2U == 0 ? between(WH_R(324.0), WH_R(336.0)) : between(WH_R(170.0), WH_R(360.0));
         const wh_real jitter_s = i < 10U ? WH_R(120e-6) : between(WH_R(0.0), WH_R(150e-6));

@@ -39,7 +39,7 @@ static wh_real force_N[STEPS + 1U];
 static wh_real turn_s;
 static wh_real along_rad;  /* sine part of the angle's ripple over time */
 static wh_real across_rad; /* cosine part of the same ripple */
-/* S <w^2>: the first order of the load over the angle, in line with the masses. */
+/* Unbalance times mean square of the speed: the load's first order over the angle, in line with the masses. */
 static wh_real truth_N;
 
 static wh_real acceleration(const plant *p, wh_real theta, wh_real speed) {

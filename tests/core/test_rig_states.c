@@ -203,8 +203,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
         even_obeys(&even, event, WH_R(250.0) * EVEN_RPM);
         CHECK_NEAR(1e-3f, 250.0f, even.rig.run.target_radps / EVEN_RPM);
     }
-    stand_in(
-        WH_RIG_ARMED); /* the least supply suffices; the slowest set-point needs no compensation */
+    stand_in(WH_RIG_ARMED); /* the lowest supply and the slowest set-point, without compensation */
     const wh_real slowest = even.config.guard.target_min_radps;
     even.inputs.supply_V = wh_run_needs_V(&even.config.run, slowest);
     even.config.guard.supply_min_V = WH_R(1.0);
@@ -587,7 +586,7 @@ static uint64_t seed;
 TEST(rig_states_random, another_set_point_while_it_runs) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
         even_reach(&even, phase);
-        even_steps(&even, 100); /* drops the record so far */
+        even_steps(&even, 100); /* a record of these steps is dropped later */
         TEST_ASSERT_TRUE(even.rig.run.phase == phase);
         even_obeys(&even, WH_EVENT_SET, WH_R(250.0) * EVEN_RPM);
         TEST_ASSERT_TRUE(even.rig.run.phase == (phase > WH_PHASE_RAMP ? WH_PHASE_RAMP : phase));

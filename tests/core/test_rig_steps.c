@@ -65,7 +65,7 @@ static unsigned stay(wh_real speed_rpm, unsigned steps) {
     unsigned done = 0;
     while (done < steps && rig.run.phase == phase) {
         rig.pulses.speed.turn_radps = speed_rpm * RPM;
-        /* The mean over WH_RUN_TURNS shall equal this speed. */
+        /* The first WH_RUN_TURNS steps count as pulses, so that the mean over the turns is this speed. */
         rig.pulses.speed.taken += done < WH_RUN_TURNS ? 1U : 0U;
         wh_rig_load(&config, &rig, inputs.now_ticks + STEP_TICKS, done % 2U == 0 ? 0 : 450,
                     WH_LOAD_OK);
@@ -263,7 +263,7 @@ TEST(rig_steps, rest_is_waited_for) {
 /* Time differences wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
 TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
     const wh_trip trips[] = {WH_TRIP_WATCHDOG,
-                             WH_TRIP_PULSES}; /* after the second trip only the time counts */
+                             WH_TRIP_PULSES}; /* after this trip, only the time shows rest */
     for (unsigned i = 0; i < 2; i++) {
         stand_tripped(trips[i]);
         const uint32_t begins = inputs.now_ticks;
@@ -296,7 +296,7 @@ TEST(rig_steps, what_trips_in_which_phase) {
         TEST_ASSERT_FALSE(rig.rested);
         for (unsigned unknown = 0; unknown < 2; unknown++) {
             stand_in(phase);
-            rig.run.drive.setpoint_radps = WH_R(0.0); /* the set-point stays on the ramp */
+            rig.run.drive.setpoint_radps = WH_R(0.0); /* far from the target: the ramp goes on */
             rig.run.off_radps = unknown == 1 ? config.guard.limit_radps : WH_R(0.0);
             rig.pulses.speed.turn_radps = WH_R(401.0) * RPM;
             step_on();

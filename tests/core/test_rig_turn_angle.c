@@ -40,8 +40,8 @@ static wh_real beyond(const turn *of, wh_real found, wh_real ratio) {
     return wh_turn_angle_at(&angle, ratio) - of->rotor.pulse_rad[1];
 }
 
-/* Returns base_rad if sensor 2's pulse comes after the part `ratio` of the turn's time. Found by bisection on either
- * side of `about`. */
+/* Returns base_rad of the turn in which sensor 2's pulse comes after the part `ratio` of the turn's time. Bisection,
+ * near `about`, finds the turn's inertia or uncompensated part of gravity. */
 static wh_real base_at(const turn *of, wh_real about, wh_real ratio) {
     wh_real low = about - WH_R(0.5) * (of->compensated ? WH_R(1.0) : about);
     wh_real high = about + WH_R(0.5) * (of->compensated ? WH_R(1.0) : about);
@@ -65,7 +65,7 @@ static wh_real by_pulse(const turn *of, wh_real about, wh_real ratio) {
     return (base_at(&more, about, ratio) - base_at(&less, about, ratio)) / (WH_R(2.0) * LITTLE_RAD);
 }
 
-/* Returns base_rad for a larger lag psi, which acts like another direction of gravity. */
+/* Returns the derivative of base_rad with respect to the lag psi, which acts like another direction of gravity. */
 static wh_real by_lag(const turn *of, wh_real about, wh_real ratio) {
     turn more = *of;
     turn less = *of;
