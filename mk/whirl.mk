@@ -3,15 +3,15 @@
 MODELS := $(sort $(wildcard core/models/*.whirl))
 
 # --- libraries ----------------------------------------------------------------------------------
-# Of every build of the portable code:
+# Libraries of each build of the portable code:
 #   libwhirl    the core, all that a scene needs
 #   librig      the rig's controller
 #   libstation  its console
 #   libvirtual  the rig's hardware, played by a scene
 #   libframes   hardware at the other end of a line
 #   libscenes   the generated scenes
-# Archives, so that a program takes only what it calls. The double build's exported names carry a
-# suffix (core/real.h), so one program may hold both numbers.
+# They are archives, so a program links only the parts that it calls. Exported names of the double build have a suffix
+# (core/real.h), so a program may contain both builds.
 libraries = $(patsubst %,$(B)/$(1)/lib%.a,$(2))
 
 define portable_libraries
@@ -43,12 +43,12 @@ LIB_HOST := $(B)/host/libwhirl.a
 $(eval $(call library,$(LIB_HOST),$(call objects,host,$(WHIRL_C) $(GEN)/builtin_models.c)))
 
 # --- the program --------------------------------------------------------------------------------
-# The libraries of the host first: they call the two cores.
+# The host's libraries come first, because they call the two cores.
 $(B)/whirl: $(call objects,host,$(WHIRL_MAIN_C)) $(LIB_HOST) $(LIB_FLOAT) $(LIB_DOUBLE)
 	$(link)
 
 # --- built-in models ----------------------------------------------------------------------------
-# Depends on the list of models too: a removed model must leave the program.
+# A change of the list of models also renews the file: a removed model must leave the program.
 $(eval $(call listed,$(GEN)/models.list,$(MODELS) $(sort $(wildcard mk/figures/*.fig))))
 
 FIGURE_TEXTS := $(sort $(wildcard mk/figures/*.fig))
@@ -57,9 +57,9 @@ $(GEN)/builtin_models.c: mk/setup/embed_models.sh $(GEN)/models.list $(MODELS) $
 	$(Q)sh $< $(MODELS) -- $(FIGURE_TEXTS) >$@
 
 # --- generated scenes ---------------------------------------------------------------------------
-# build/gen/scenes.c, scenes.h and one C file a built-in scene. Only the main configuration makes
-# them; the gates compile the same files with other compilers and flags. Files that come out as they
-# were are left alone, so that a change in the program does not compile every scene anew.
+# build/gen has scenes.c, scenes.h and one C file per built-in scene. Only the main configuration makes them; the gates
+# compile the same files with other compilers and flags. Unchanged files are not touched, so that a change of the
+# program does not compile every scene again.
 #
 # The rig's observer uses the same model. It makes one step a control step and is corrected twice a turn. The error of a
 # second-order step over a turn is 1e-4 rad there.

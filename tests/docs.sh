@@ -1,14 +1,15 @@
 #!/bin/sh
 # docs.sh check|slow|renew PAGE...: runs the commands that pages print, and compares their output with the page.
 #
-# In a block ```console a line "$ command" is run and the lines below it are its output, on standard output and standard error.
-# A line "..." stands for any lines, "..." inside a line for any text, and a word ~X for any word in X's place: a figure of this
-# machine. A command without output below it must succeed, as must each line of a block ```sh run. A block with a file name, such
-# as ```whirl gear.whirl, is saved under that name. The commands of a page run in their order, in a folder of their own with
-# everything of the project in it.
+# In a block ```console, a line "$ command" is run, and the lines below it are its output, on standard output and
+# standard error. A line "..." stands for any lines, "..." inside a line for any text, and ~X for any word in place of
+# X, a figure of this machine. A command without output below it must succeed, and so must each line of a block ```sh
+# run. A block with a file name, such as ```whirl gear.whirl, is saved under that name. The commands of a page run in
+# order, in a folder of their own with a copy of the project.
 #
-# `check` leaves out the blocks marked slow (```console slow), and fails when another uses more than 15 s of processor or all use
-# more than 120 s (DOCS_MOST, DOCS_MOST_ALL). `slow` runs all blocks. `renew` runs all and writes their output into the page.
+# `check` omits the blocks marked slow (```console slow). It fails if another block uses more than 15 s of processor
+# time, or all use more than 120 s (DOCS_MOST, DOCS_MOST_ALL). `slow` runs all blocks. `renew` runs all and writes their
+# output into the page.
 set -u
 
 # --- one page: docs.sh MODE --one FOLDER PAGE ---------------------------------------------------------
@@ -57,8 +58,8 @@ split() {
     ' "$1"
 }
 
-# The comparison, and the renewed output on standard output: the lines of WANTED that are right stay, each other one is replaced
-# by the line of SAID that has its words, with other numbers. Exit status 1 when they differ.
+# Compares, and prints the renewed output. Lines of WANTED that are right stay. Any other line is replaced by the line
+# of SAID that has the same words with other numbers. Exit status 1 if they differ.
 compare='
     function key(line) { gsub(/~?[-+]?(0x[0-9a-f]+|[0-9]+([.][0-9]+)?(e[-+]?[0-9]+)?)/, "#", line); gsub(/[ \t]+/, " ", line); return line }
     function pattern(line,   i, n, word, out) {

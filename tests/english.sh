@@ -2,8 +2,8 @@
 # english.sh: the English of comments and of the user's pages in figures, against limits; `table` prints the figures, and
 # `long` the sentences of more than 35 words.
 #
-# "what" counts with its kin: whoever, whatever, nobody, none, behind, anew, likewise. A figure is a floor and not the aim:
-# docs/dev/style.md has the rules. A limit is lowered when sentences have been rewritten.
+# "what" is counted together with whoever, whatever, nobody, none, behind, anew and likewise. docs/dev/style.md has the
+# rules; a figure shows only a part of them. A limit is lowered when sentences have been rewritten.
 set -u
 
 # The name, and the limits: "what" in 1,000 words, vague words in 1,000, words of a mean sentence, sentences of more than 35.
@@ -25,7 +25,7 @@ files() { # files NAME
     esac
 }
 
-# prose NAME: its paragraphs, a line each, "FILE<tab>TEXT". Of pages, neither code nor tables nor headings.
+# prose NAME: prints its paragraphs, as lines "FILE<tab>TEXT", without the code, tables and headings of pages.
 prose() {
     if [ "$1" = pages ]; then
         files "$1" | xargs awk '

@@ -1,11 +1,12 @@
 #!/bin/sh
-# flags.sh [fast|quick]: the flag matrix. Scenes and core are compiled under other people's flags, in float and double, with
-# every compiler that is there, and must end in the interpreter's bits or be refused: by the compiler (#error) or
-# by wh_scene_start(). Anything else is a difference without a word, and fails. Where the flags leave the
-# arithmetic alone, or pragmas can cure them, refusing fails, too. The board's images run in its emulator.
+# flags.sh [fast|quick]: the flag matrix. Scenes and core are compiled with other people's flags, in float and double,
+# by every installed compiler. The result must be the interpreter's bits or a refusal, by the compiler (#error) or by
+# wh_scene_start(). If flags do not affect the arithmetic, or pragmas can restore it, a refusal fails, too. The board's
+# images run in its emulator.
 #
-# `quick` takes three sets, those with two stars, and one scene: seconds. `fast` takes a few of the sets, for `make test`, in float; with WHIRL_FULL=1 in double, too, with WHIRL_FULL=rest in double
-# alone; `make flags` takes all.
+# `quick` takes three sets of flags, those with two stars, and one scene: seconds. `fast`, for `make test`, takes the
+# sets with a star, in float; with WHIRL_FULL=1 also in double, with WHIRL_FULL=rest only in double. `make flags` takes
+# all.
 . "$(dirname "$0")/checks.sh"
 
 part=${1:-all}
@@ -14,7 +15,7 @@ refusals=0
 wrong=0
 
 # --- the flags: MUST is `same`, `either` (the same bits or a refusal), or `refuse` (guards are gone) ----------------------------------------------
-# A star begins what `fast` takes as well. What stands behind "link:" is given to the linker only.
+# A star marks the sets of `fast`. Flags after "link:" are for the linker only.
 cat >"$scratch/gcc" <<'END'
 same -std=c11 -O0
 same -std=c11 -O2
@@ -125,7 +126,7 @@ wanted_count=$(wc -l <"$scratch/scenes")
 
 # --- one build -------------------------------------------------------------------------------------------------------------
 can_fuse=$(grep -c -m 1 -w fma /proc/cpuinfo 2>/dev/null)
-# The emulator's programs end, and speak to nobody else; what is for images that are flashed has no place in them, nor has a line.
+# The emulator's programs end by themselves and use no line, so the files of flashed images and of lines are omitted.
 demo_sources=$(ls boards/cortexm/*.c boards/shared/*.c | grep -vE '/(flashed|kept|link|link_console|cmsdk_watchdog|remembered|reset_words|rig_time)\.c$')
 board=boards/mps2-an386
 emulate="sh tests/limit.sh 60 qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native -kernel"

@@ -1,6 +1,7 @@
 #!/bin/sh
-# fuzz.sh SECONDS FUZZER...: run each fuzzer, for so many seconds, on a copy of what was kept of the runs before
-# (tests/fuzz/kept); those of the language on the built-in models and the broken files, too. Words to try are in tests/fuzz/NAME.dict, if there is one.
+# fuzz.sh SECONDS FUZZER...: runs each fuzzer for so many seconds, on a copy of the inputs that are kept from earlier
+# runs (tests/fuzz/kept). Fuzzers of the language also get the built-in models and the broken files.
+# tests/fuzz/NAME.dict, if it exists, has words to try.
 set -u
 
 seconds=${1:?usage: fuzz.sh SECONDS FUZZER...}

@@ -1,7 +1,7 @@
 #!/bin/sh
-# gates.sh LOGS MAKE GATE...: run the quality gates `make gate-GATE`, a line for each. The last line is "N passed, N failed";
-# the exit status is 0 if none failed. Gates joined by a plus, a+b, run at the same time: each of them leaves processors idle.
-# A line has the seconds that passed and those that processors worked, which other work on the machine lengthens less.
+# gates.sh LOGS MAKE GATE...: runs the quality gates `make gate-GATE`, with a line for each. The last line is "N passed,
+# N failed"; the exit status is 0 if none failed. Gates joined by a plus, a+b, run at the same time, because each leaves
+# processors idle. A line has the seconds that passed and the processor's seconds, which depend less on other work.
 set -u
 
 logs=${1:?usage: gates.sh LOGS MAKE GATE...}
@@ -11,8 +11,8 @@ mkdir -p "$logs"
 passed=0
 failed=0
 
-# run GATE: its exit status, the seconds that passed and those of processors, into a file. Only the shell that waited knows the
-# latter: the second line of `times`, "0m3.21s 0m0.45s".
+# run GATE: writes to a file the exit status, the seconds that passed and the processor's. The shell that waited has the
+# latter in the second line of `times`, "0m3.21s 0m0.45s".
 run() {
     start=$(date +%s)
     $make "gate-$1" >"$logs/$1.log" 2>&1 </dev/null

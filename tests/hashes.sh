@@ -1,13 +1,12 @@
 #!/bin/sh
-# hashes.sh LOGS NAME COMMAND... [-- TITLE NAME COMMAND...]...: run the same scenes in several ways and compare their
+# hashes.sh LOGS NAME COMMAND... [-- TITLE NAME COMMAND...]...: runs the same scenes in several ways and compares their
 # bits.
 #
-# Each command prints a line "scene NAME steps N hash 0x..." for each scene. The first is what the
-# others are held against; behind a "--" and a title others begin, with a first of their own. Fails when a line is
-# missing or another. A command that cannot run a scene says so in a line "without NAME". HASH_SECONDS limits the
-# processor time of each (limit.sh).
-# Every command's name is printed when it begins; the last line is "N runs of the scenes: the same bits in all", or how
-# many are not so, and the exit status 0 or 1.
+# Each command prints a line "scene NAME steps N hash 0x..." for each scene, or "without NAME" if it cannot run the
+# scene. All lines must equal those of the first command. After a "--" and a title another comparison begins, with a
+# first command of its own. HASH_SECONDS limits the processor time of each command (limit.sh). Each command's name is
+# printed when it begins. The last line is "N runs of the scenes: the same bits in all", or the number of those that
+# differ; the exit status is 0 or 1.
 set -u
 
 [ "${HASH_SECONDS:=1800}" -gt 0 ] 2>/dev/null || {

@@ -1,12 +1,12 @@
 #!/bin/sh
-# run.sh LOGS [WHAT COMMAND]...: run test programs, keep what they print in the folder LOGS, add up.
+# run.sh LOGS [WHAT COMMAND]...: runs test programs, stores their output in the folder LOGS, and adds up the results.
 #
-# A program speaks Unity ("3 Tests 0 Failures 0 Ignored") or, as a script, prints "ok - what" and
-# "not ok - what" lines. One that crashes, hangs, fails without saying what, or runs no test counts
-# as a failure. The last line is "N passed, N failed"; the exit status is 0 if none failed.
-# TEST_SECONDS limits the processor time of each process (limit.sh); TEST_JOBS run at the same time, as many as there are
-# processors unless told. Each is reported when it ends, with the seconds that passed and those that processors worked for it,
-# which other work on the machine lengthens less; with TEST_BEGINS=1 each is also named when it begins.
+# A program ends with Unity's line ("3 Tests 0 Failures 0 Ignored"); a script prints "ok - what" and "not ok - what"
+# lines. A program that crashes, hangs, fails without a reason, or runs no test counts as a failure. The last line is "N
+# passed, N failed"; the exit status is 0 if none failed. TEST_SECONDS limits the processor time of each process
+# (limit.sh). TEST_JOBS processes run at the same time; the default is the number of processors. Each is reported when
+# it ends, with the seconds that passed and the processor's seconds, which depend less on other work. With TEST_BEGINS=1
+# each is also named when it begins.
 set -u
 
 # --- one program, in a process of its own: run.sh LOGS --one NUMBER ----------------------------------

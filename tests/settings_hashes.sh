@@ -1,7 +1,8 @@
 #!/bin/sh
-# settings_hashes.sh WHIRL OUT STEPS [INTERVAL SCENE]...: scenes with the settings of `whirl price`, as C into OUT. float.hashes,
-# double.hashes and fixed.hashes get the state hashes of their runs of STEPS steps, settings.txt their options. Of the
-# settings that give another C, every INTERVAL-th is written, and each with a new word; in fixed point, all.
+# settings_hashes.sh WHIRL OUT STEPS [INTERVAL SCENE]...: writes scenes with the settings of `whirl price` as C into
+# OUT, with the state hashes of runs of STEPS steps (float.hashes, double.hashes, fixed.hashes) and their options
+# (settings.txt). Among settings that give different C, every INTERVAL-th is taken, and each with a new word; in fixed
+# point, all.
 set -eu
 whirl=$1 out=$2 steps=$3
 shift 3

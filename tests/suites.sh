@@ -1,7 +1,7 @@
 #!/bin/sh
-# suites.sh FILE...: the table of the suites that these test files define, as C on standard output. `suites.sh list FILE...`:
-# a line "SUITE FILE" for each. A suite is its `TEST(SUITE, NAME) {` lines, or `SUITE(SUITE) {`, or both: this
-# is then called before the tests.
+# suites.sh FILE...: prints the table of the suites that these test files define, as C. `suites.sh list FILE...` prints
+# a line "SUITE FILE" for each. A suite has lines `TEST(SUITE, NAME) {`, or `SUITE(SUITE) {`, or both; then the latter
+# is called before the tests.
 set -eu
 
 list=

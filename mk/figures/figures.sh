@@ -1,22 +1,20 @@
 #!/bin/sh
-# figures.sh WHIRL OUT FIGURE.fig...: draw each figure as OUT/FIGURE.svg and OUT/FIGURE.png, from runs
-# of the program WHIRL. `whirl figure` draws (host/io/figure_draw.c); OUT/data keeps the numbers.
+# figures.sh WHIRL OUT FIGURE.fig...: draws each figure as OUT/FIGURE.svg and OUT/FIGURE.png, from runs of the program
+# WHIRL. `whirl figure` draws (host/io/figure_draw.c). OUT/data keeps the numbers.
 #
-# A .fig file describes one figure, a statement a line, # begins a comment:
+# A .fig file describes one figure, one statement per line. # begins a comment.
 #
 #   title TEXT                  above the figure
-#   caption TEXT                for docs/figures.md; more lines go on with the text
-#   run NAME SCENE OPTIONS      records of `whirl run`, known below as NAME
+#   caption TEXT                for docs/figures.md; a second caption line continues the text
+#   run NAME SCENE OPTIONS      records of `whirl run`, called NAME below
 #   sweep NAME SCENE OPTIONS    records of `whirl sweep`
-#   table NAME SCRIPT WORDS     what mk/figures/SCRIPT prints, a CSV with a header; it is called with
-#                               WHIRL and WORDS
-#   panel YLABEL                begins a panel; panels stand one above the other
-#   xlabel TEXT                 of the panel; "time [s]" at the last one when left out
+#   table NAME SCRIPT WORDS     the CSV that mk/figures/SCRIPT prints when called with WHIRL and WORDS
+#   panel YLABEL                begins a panel, below the one before
+#   xlabel TEXT                 of the panel; without it, the last panel has "time [s]"
 #   set TEXT                    a gnuplot setting for the panel
 #   curve NAME | X | Y | TITLE [| STYLE]
-#                               X and Y are gnuplot expressions in {column} names, which may hold no
-#                               brace; TITLE is the curve's name, - for none; STYLE is gnuplot's, when
-#                               it is not a line
+#                               X and Y: gnuplot expressions of {column} names, without further braces
+#                               TITLE: the curve's name; - for none. STYLE: gnuplot's; default: a line
 #   law X-EXPRESSION | TITLE    a function of x, drawn thin and dashed
 set -eu
 
@@ -28,8 +26,8 @@ figures=$*
 mkdir -p "$out/data"
 trap 'rm -f "$out"/data/*.records' EXIT
 
-# record KIND NAME WORDS...: make OUT/data/….csv unless another figure has, and print its path.
-# Files are named after the command, so that figures share their runs.
+# record KIND NAME WORDS...: makes OUT/data/....csv, unless another figure has made it, and prints its path. Files are
+# named after the command, so figures share their runs.
 record() {
     kind=$1
     shift 2

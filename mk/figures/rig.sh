@@ -3,11 +3,11 @@
 # (docs/plants), from the tape of a run or from its report. build/pil_rig and build/pil_carriage must be in WHIRL's folder.
 #
 #   samples   the load in 2 s of the record, after the firmware's tare: time [s], load [N]
-#   spikes    in the same 2 s a spike for each slot pulse, with the load at its time as height: time [s], sensor 1,
-#             sensor 2, as an oscilloscope shows them: 6 V for 10 lbf, pulses of 10 V and of 6 V
-#   ratios    the force on carriages, divided by that on a fixed mount: ratio of the weights, quotient
-#   speeds    the carriage's displacement from the measured force, over speed [rpm]: displacement [mm], frequency [Hz]
-#   radii     the same, over the radius of the discs [in]
+#   spikes    as an oscilloscope shows the same 2 s: time [s], sensor 1, sensor 2 [V]. Each slot pulse is a spike as
+#             high as the load at its time, with 6 V for 10 lbf; the pulses themselves have 10 V and 6 V
+#   ratios    the force on a carriage, divided by that on a fixed mount: ratio of the weights, quotient
+#   speeds    the carriage, by the measured force: speed [rpm], displacement [mm], frequency [Hz]
+#   radii     the same, for radii of the discs [in] instead of speeds
 set -eu
 whirl=$1 what=$2
 build=$(dirname "$whirl")

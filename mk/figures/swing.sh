@@ -1,15 +1,14 @@
 #!/bin/sh
 # swing.sh WHIRL cycles|law: the swing of disc 33 about the line BC of the driven hinge, cycle by cycle.
 #
-# With phi = theta2 - theta1 the only coordinate besides the cyclic theta1, the total angular momentum
-# is L = M t and phi swings under a Hamiltonian that changes with L alone. If L changes slowly, the
-# action, the integral of p dphi over a cycle, stays. In units with a = m r^2, b = I + m r^2:
+# phi = theta2 - theta1 is the only coordinate besides the cyclic theta1. So the total angular momentum is L = M t, and
+# phi swings under a Hamiltonian that changes with L alone. If L changes slowly, the action is constant: the integral of
+# p dphi over a cycle. With a = m r^2 and b = I + m r^2:
 #   p = (b + a cos phi) theta1' + b phi',   L = (a + b + 2 a cos phi) theta1' + (b + a cos phi) phi'
-# "cycles" runs the scene and prints for each cycle its middle time, amplitude [rad], action [J s] and
-# mean energy of the swing [J] (the kinetic energy less that of turning stiffly with the same L).
-#
-# "law" runs nothing: it prints `time,amplitude` for an action that stays at 7 J s. At an amplitude A
-# the action is L times 4 times the integral from 0 to A of
+# `cycles` runs the scene. For each cycle it prints the middle time, amplitude [rad], action [J s] and mean energy of
+# the swing [J]: the kinetic energy minus that of a rigid rotation with the same L.
+# `law` runs nothing. It prints `time,amplitude` for a constant action of 7 J s. At amplitude A the action is 4 L times
+# the integral from 0 to A of
 #   sqrt((b - B^2/C) (1/C(A) - 1/C(phi))),   B = b + a cos phi,   C(phi) = a + b + 2 a cos phi
 set -eu
 if [ "${2:?usage: swing.sh WHIRL cycles|law}" = law ]; then

@@ -1,25 +1,25 @@
 #!/bin/sh
-# mutants.sh: how many small changes of the code do the tests notice? For each folder of FOLDERS, MUTANTS changes
-# are drawn at random (SEED; candidates.awk, draw.awk), built and tested one by one (work.sh) in copies of the
-# tree under build/mutants; the table at the end is table.awk's. The tree itself is only read.
+# mutants.sh: how many small changes of the code do the tests notice? For each row of FOLDERS, MUTANTS changes are drawn
+# at random (candidates.awk, draw.awk), built and tested one by one (work.sh) in copies of the tree under build/mutants.
+# table.awk makes the table at the end. The tree itself is only read.
 #
 # FOLDERS   rows of the table: a folder, whose own .c and .h files are changed, or a pattern of files. A file that
-#           the pattern of one row has is in no other row (core/contact* and the rest of core)
-# MUTANTS   changes a row that compile to another object
-# SEED      of the draw; printed
-# EXCEPT    an extended regular expression: files that it matches are left alone
-# LONGEST   seconds: a suite or script that takes longer on the tree as it is, is not run
-# PATIENCE  seconds: a change that tests which take so long together did not notice has survived
-# ALWAYS    an extended regular expression: those that it matches are run, however long they take
-# NEVER     an extended regular expression: those that it matches are not asked
-# SLACK     how many times as long as it works a test may take, waiting for others: more on a busy machine
-# JOBS      how many work at the same time, each in a copy of its own, with niceness NICE
+#           belongs to a pattern is in no other row (core/contact* and the rest of core)
+# MUTANTS   number of changes per row; a change that compiles to the same object does not count
+# SEED      seed of the draw; it is printed
+# EXCEPT    extended regular expression: files that are not changed
+# LONGEST   seconds: a test that takes longer on the unchanged tree is not run
+# PATIENCE  seconds: if tests that take so long together do not notice a change, it has survived
+# ALWAYS    extended regular expression: tests that are run, however long they take
+# NEVER     extended regular expression: tests that are not run
+# SLACK     limit of a test's duration, divided by its processor time: more on a busy machine
+# JOBS      number of jobs at the same time, each in its own copy, with niceness NICE
 #
-# Of a change of the core are built and asked, one after the other: the portable suites in double, the program with its suites
-# and scripts, the portable suites in float. Of the program's only those are asked that reach the changed line.
+# For a change of the core, these run in this order: the portable suites in double, the program's suites and scripts,
+# the portable suites in float. Of the program's tests, only those run that reach the changed line.
 #
-# What was found stays in build/mutants/FOLDER.SEED.*: broken off, it goes on where it was. When tests change,
-# only what had survived is tried again; when the folder's code changes, it starts anew.
+# Results stay in build/mutants/FOLDER.SEED.*, and an interrupted run continues from them. If tests have changed, only
+# survivors are tried again. If the folder's code has changed, its row begins again.
 set -eu
 
 : "${FOLDERS:=core core/contact* core/rig host/algebra host/derive}" "${MUTANTS:=80}" "${EXCEPT:=^$}"
@@ -57,7 +57,7 @@ for job in $(seq "$JOBS"); do
 done
 
 # --- what every test takes on the tree as it is, and what it reaches --------------------------------------
-# A copy whose programs mark what they reach; the lines that each block of them has code of.
+# A copy whose programs record which lines they reach, with the lines of code of each block.
 if ! is "$top/reach/sum" "$sum"; then
     mkdir -p "$top/reach"
     if [ ! -d "$top/reaching" ]; then
@@ -83,7 +83,7 @@ if ! is "$top/times.sum" "$sum.$asked"; then
     mv "$top/times.new" "$top/times"
     echo "$sum.$asked" >"$top/times.sum"
 fi
-# What survived is tried again when there are other tests or more of them; what a test killed that is not to be asked, too.
+# A survivor is tried again if tests have changed or more of them are run. So is a mutant whose killer is no longer run.
 tests_sum=$(sum_of_all tests).$(echo "$asked" | cksum | tr -d ' ')
 
 # --- the draw, the work, the table ----------------------------------------------------------------------

@@ -1,13 +1,13 @@
 #!/bin/sh
-# times.sh TREE KNOWN: what each suite and each script takes in a built tree, quickest first:
-#   seconds of a processor, "host", "float", "double" or "cli", its name, a sum of what it is made of
-# Each is run, and must pass: what fails on the tree as it is would kill every change. What KNOWN, a file of such
-# lines, has of the same sum is not run again, unless it was cut off and would not be now; what NEVER matches is not run at
-# all. A suite that will not be asked for its length is not run to its end: what it had taken by then stands for its time.
-# Scripts that say nothing about the folders that are changed, or that need other compilers, are left out.
+# times.sh TREE KNOWN: prints the time of each suite and script in a built tree, the quickest first, in lines of
+#   seconds of a processor, "host", "float", "double" or "cli", its name, a sum of its files
+# Each test is run and must pass: a test that fails on the unchanged tree would kill every mutant. A test whose sum is
+# in KNOWN, a file of such lines, is not run again, unless it was cut off there and would not be now. Tests that match
+# NEVER are not run. A suite that is too long to be used is cut off, with the time so far. Scripts that do not depend on
+# the changed folders, or that need other compilers, are omitted.
 #
-# Suites of "host" and scripts are run in TREE/../reaching, whose programs mark what they reach (reach.c):
-# TREE/../reach/KIND.NAME.lines gets the lines. JOBS tests are run at the same time, each by a times.sh TREE KNOWN KIND NAME.
+# Suites of "host" and scripts run in TREE/../reaching, whose programs record the lines that they reach (reach.c), in
+# TREE/../reach/KIND.NAME.lines. JOBS tests run at the same time, each by a times.sh TREE KNOWN KIND NAME.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 known=$2

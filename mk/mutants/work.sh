@@ -1,10 +1,10 @@
 #!/bin/sh
-# work.sh TOP JOB MUTANTS TESTS NAME...: one of the jobs of mutants.sh. Takes from each NAME.drawn, in the order drawn,
-# the next change that no job has taken and that NAME.found does not have, until MUTANTS of it are mutants;
-# builds it in TOP/srcJOB, tests it, and writes what came of it to NAME.found:
+# work.sh TOP JOB MUTANTS TESTS NAME...: a job of mutants.sh. From each NAME.drawn it takes, in order, changes that no
+# job has taken and that are not in NAME.found, until there are MUTANTS mutants. It builds and tests each in TOP/srcJOB,
+# and appends a line to NAME.found:
 #   number  refused | same | killed | survived  by what  TESTS
-# refused: it does not compile. same: the same objects, thus no mutant. survived: by what was asked. TESTS names the tests' state.
-# Settings by the environment: those of mutants.sh.
+# refused: it does not compile. same: it gives the same objects, so it is no mutant. killed and survived: by which
+# tests. TESTS names the state of the tests. The environment has the settings of mutants.sh.
 set -u
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -50,12 +50,13 @@ build() {
 }
 
 # --- tests ----------------------------------------------------------------------------------------------
-# reaching FILE LINE: those that reach the changed line.
+# reaching FILE LINE: prints the tests that reach the changed line.
 reaching() {
     (cd "$top/reach" && grep -s -H "^$1 " counted *.lines) |
         awk -v file="$1" -v line="$2" -f "$here/reaching.awk" "$base/$1" -
 }
-# order FOUND REACHING: quick ones first, and those that killed before: in this row, and a little what killed in other rows or draws.
+# order FOUND REACHING: prints the tests in order. Quick tests come first, and those that have killed mutants, mostly of
+# this row.
 order() {
     awk -F '\t' -v own="$1" -v longest="$LONGEST" -v always="$ALWAYS" -v never="$NEVER" '
         FILENAME == ARGV[1] { reaches[$1]; next }

@@ -1,22 +1,22 @@
 #!/bin/sh
-# measure.sh CASES ROWS.csv: what a step of each case costs on a board, counted. `make price-rows` and measure_one.sh
-# call it with what TO_PRICE of mk/price.mk says (BOARD, its compiler, flags, objects and emulator), and
+# measure.sh CASES ROWS.csv: counts the cost of a step of each case on a board. `make price-rows` and measure_one.sh
+# call it with the settings TO_PRICE of mk/price.mk (BOARD, its compiler, flags, objects and emulator), and
 #
-#   OUT      a folder to work in; generated C is kept there for the next board
+#   OUT      working folder; generated C is kept there for the next board
 #   NUMBERS  some of "float", "double", "fixed"; LIB_BOARD is the core's library in float, LIB_DOUBLE in double.
 #            Default: float
 #   STEPS    counted steps of each. Default: 50
 #
-# CASES has lines "ID TARGET OPTIONS OF whirl derive...", ID a C identifier. Appends to ROWS.csv, with a header if it is
-# new, a row for each case that runs:
+# CASES has lines "ID TARGET OPTIONS OF whirl derive...", where ID is a C identifier. Appends a row to ROWS.csv for each
+# case that runs, and a header if the file is new:
 #
 #   commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most,
 #   cycles_obtained,flash_bytes,ram_bytes,stack_bytes
 #
-# Instructions and cycles are those of a step: mean and most of STEPS steps behind the first twenty. Flash and RAM are
-# those of the smallest firmware around the scene (boards/programs/size.c), the stack what the steps took of it. What
-# cannot be derived, has contacts, does not fit or does not run is told on standard error and left out; then the exit
-# status is 1.
+# Instructions and cycles are those of a step: the mean and the maximum of STEPS steps after the first twenty. Flash and
+# RAM are those of the smallest firmware with the scene (boards/programs/size.c). The stack is what the steps used of
+# it. A case that cannot be derived, has contacts, does not fit or does not run is reported on standard error and
+# omitted; then the exit status is 1.
 set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"

@@ -1,10 +1,9 @@
 #!/bin/sh
-# unity.sh DIR: put the Unity test framework (unity.c, unity.h, unity_internals.h) into DIR.
+# unity.sh DIR: puts the Unity test framework (unity.c, unity.h, unity_internals.h) into DIR.
 #
-# Debian has no binary package of Unity, but its source package ntpsec carries Unity 2.5.1. It is
-# fetched through apt with this machine's own package sources, so it needs no other host, and the
-# lists live in a folder of their own: nothing outside DIR is written and root is not needed.
-# UNITY=checkout copies from a checkout of Unity instead (its root or its src folder).
+# Debian has no binary package of Unity, but its source package ntpsec contains Unity 2.5.1. apt fetches it from this
+# machine's own package sources, with package lists in a folder of their own. So nothing outside DIR is written, and
+# root is not needed. UNITY=checkout copies from a checkout of Unity instead (its root or its src folder).
 set -eu
 
 package=ntpsec

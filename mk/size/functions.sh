@@ -1,10 +1,9 @@
 #!/bin/sh
-# functions.sh OBJECTS LIST LIBRARY...: prints the bytes of each library, of which a program links only the parts that
-# it calls; of each of the core's own functions with all that it calls, linked alone from the first library, and of
-# all functions together; and of steps. No scene of LIST, with lines "SCENE BYTES", may have a longer step. OBJECTS
-# has the scenes' objects. LIST has the bytes of steps that looked up every sine at every stage (commit 31fbe43);
-# later ones are cheaper and must not be larger. Exit status 1: a step is longer, or a scene is missing. CC, CPU and
-# SIZE are those of the board.
+# functions.sh OBJECTS LIST LIBRARY...: prints the bytes of each library, although a program links only the parts that
+# it calls. Then come the core's own functions, each linked alone from the first library with all that it calls, and all
+# of them together. No step of a scene in LIST (lines "SCENE BYTES", objects in OBJECTS) may be longer than its bytes
+# there. Those are the bytes of steps that looked up every sine at every stage (commit 31fbe43). Exit status 1: a step
+# is longer, or a scene is missing. CC, CPU and SIZE are those of the board.
 set -eu
 objects=$1 list=$2
 shift 2

@@ -4,17 +4,17 @@
 #   BOARD=mps2-an386 CC=arm-none-eabi-gcc FLAGS="-O2" SIZE=arm-none-eabi-size \
 #   NM=arm-none-eabi-nm OBJECTS=build/mps2-an386 size.sh figures.csv ELF...
 #
-# Appends rows to figures.csv (with a header if it is new; columns as for instruction counts, the
-# program in place of the scene) and prints a table.
+# Appends rows to figures.csv (with a header if it is new; columns as for instruction counts, with the program in place
+# of the scene) and prints a table.
 #   flash     code, constants and initial values
 #   ram       variables, without the stack
-#   computed  worst stack from the call graph: the folders OBJECTS hold the objects with gcc's .ci files, and
-#             the linker's map beside the image (.map for .elf) says which of them are in it; of an image that is optimised
-#             as a whole they are beside it
-#   handlers  the deepest interrupt handler (on_NAME), where the image has some: all have one priority
-# Fails on recursion, on a frame of unbounded size, and if the stack's room is too small for the
-# computed worst case, a handler and what the processor stacks for it and for a fault included. And where FLASH_MOST and RAM_MOST
-# are given, on more flash, or more memory (variables and that worst case), of the images MOST_OF.
+#   computed  worst stack by the call graph, from gcc's .ci files. They are in the folders OBJECTS, and the linker's map
+#             beside the image (.map for .elf) names the image's objects. For an image that is optimised as a whole, they
+#             are beside it
+#   handlers  stack of the deepest interrupt handler (on_NAME), if there is one: all have one priority
+# Fails on recursion, on a frame of unbounded size, and if the stack's room is too small. It must hold the computed
+# worst case, a handler, and what the processor stacks for the handler and for a fault. Images MOST_OF must have at most
+# FLASH_MOST and RAM_MOST (variables and this stack), if these are set.
 set -eu
 here=$(dirname "$0")
 . "$here/../count/common.sh"

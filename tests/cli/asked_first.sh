@@ -1,6 +1,6 @@
 #!/bin/sh
-# asked_first.sh: a process that writes all scenes one after the other writes the same as a process for each scene. Every
-# built-in scene, and generated mechanisms in one file. (Inside one algebra: tests/host/test_asked_first.c.)
+# asked_first.sh: a process that derives all scenes, one after the other, writes the same C as a process for each scene.
+# For every built-in scene, and generated mechanisms in one file. (Within one algebra: tests/host/test_asked_first.c.)
 . "$(dirname "$0")/../checks.sh"
 
 mkdir "$scratch/all" "$scratch/of_file"

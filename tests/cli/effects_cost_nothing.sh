@@ -1,8 +1,7 @@
 #!/bin/sh
-# effects_cost_nothing.sh: an effect that a scene does not use costs nothing. Every built-in mechanism without its effects
-# becomes the same code, or the same object, byte for byte, as a file that never mentions them. So does every scene without
-# effects; mechanisms also for the board, if its compiler is installed. Conversely, each effect that is used changes the
-# generated code.
+# effects_cost_nothing.sh: an effect that a scene does not use costs nothing. Each built-in mechanism without its
+# effects gives the same code, or the same objects, as a file that never mentions the effects; also for the board, if
+# its compiler is installed. So does each scene without effects. Conversely, each effect that is used changes the code.
 . "$(dirname "$0")/../checks.sh"
 
 root=$(pwd)

@@ -1,11 +1,11 @@
 #!/bin/sh
-# emitted_c.sh: `whirl derive --as c` compiles by itself without a warning, in float and double, with gcc and clang. It
-# steps to the interpreter's bits and outputs, with a step or many a call: every built-in scene, every file of tests/mechanisms, and
-# scenes for rare operations.
-# There are four builds and four parts of the list of scenes, two of them an eighth. `make gate-long` compiles the first
-# part by the usual build, the second by the one that differs most. WHIRL_FULL=rest compiles the other parts by these builds
-# and the first two by the other builds, WHIRL_FULL=1 all by all. WHIRL_FEW=1 derives and interprets every other scene and
-# compiles none.
+# emitted_c.sh: the C of `whirl derive --as c` compiles alone without a warning, in float and double, with gcc and
+# clang. It steps to the interpreter's bits and outputs, with one or many steps per call. The scenes are every built-in
+# one, every file of tests/mechanisms, and scenes for rare operations.
+# There are four builds. The list of scenes has four parts, two of which are an eighth of it. `make gate-long` compiles
+# the first part by the usual build, the second by the build that differs most. WHIRL_FULL=rest compiles the other parts
+# by these builds and the first two by the other builds; WHIRL_FULL=1 all by all. WHIRL_FEW=1 derives and interprets
+# every other scene and compiles none.
 . "$(dirname "$0")/../checks.sh"
 
 compared=0

@@ -35,9 +35,9 @@ output energy [J] = a'^2*1 [kg*m^2]/2 - 8 [J]*cos(a)
 scene pendulum_swings { start a = 1 [rad], a' = 2 [rad/s]; step 1 [ms]; until 2 [s] }
 END
 
-# again TARGET FORMULA OPTION...: some rows of a table, run again: the largest deviation of the column COLUMN from FORMULA
-# of t over the records is the row's error, to the digits that both are printed with ($scale: the column's size), or at most
-# its bound. Of the rows whose command line has $only in it every $every-th.
+# again TARGET COLUMN FORMULA OPTION...: runs some rows of a table again. COLUMN's largest deviation from FORMULA, a
+# function of t, must be the row's error to the printed digits ($scale: the column's size), or at most the row's bound.
+# Takes every $every-th row whose command line contains $only.
 only=whirl
 every=${WHIRL_FEW:+30}
 every=${every:-9}

@@ -77,8 +77,8 @@ END {
 }' "$scratch/names"
 verdict $? "mechanisms are made up" "$scratch/names"
 
-# agree DECLARED SI EPSILON: the last rows of two runs, tab-separated columns behind a header. Columns f_NAME hold
-# what one of NAME's units is; der(NAME) is in NAME's unit a second.
+# agree DECLARED SI EPSILON: compares the last rows of two runs, in tab-separated columns with a header. f_NAME is the
+# SI value of NAME's unit; der(NAME) is in NAME's unit per second.
 cat >"$scratch/agree.awk" <<'END'
 function abs(x) { return x < 0 ? -x : x }
 FNR == 1 { run++; columns[run] = NF; for (i = 1; i <= NF; i++) head[run, i] = $i }

@@ -3,9 +3,9 @@
 #
 #     known_names.sh ask             prints candidates, one per line: all words of the headers and of the compilers'
 #                                    own files
-#     known_names.sh judge FILE CPP  prints the words of FILE (for C++, of CPP) that a compiler rejects, or warns of, as
-#                                    the name of an object: without headers, with those of ISO C, and with those to
-#                                    which GNU dialects add names
+#     known_names.sh judge FILE CPP  prints the words of FILE (for C++, of CPP) that a compiler rejects as the name of an
+#                                    object, or warns of. It tries without headers, with those of ISO C, and with those
+#                                    to which GNU dialects add names
 set -u
 LC_ALL=C
 export LC_ALL
