@@ -278,7 +278,9 @@ static void say(FILE *out, const char *who, apart *a) {
     if ((!off || fit(a, 0, fit_places)) && fit(a, 1, fit_rates)) {
         say_values(out, a, was_place, was_rate);
     } else {
-        fputs("hint: choose other start values: none near the given ones satisfy the holds\n", out);
+        fputs(
+            "hint: choose other start values: Whirl found none near these that satisfy the holds\n",
+            out);
     }
 }
 

@@ -94,8 +94,8 @@ void energy_residual_print(FILE *out, const energy_residual *b) {
         fprintf(
             out, "energy residual    %.2e of %s, %.3g J\n", b->ratio,
             b->rounded && b->exact
-                ? "1000 times the round-off and the error of the balance's integrals, because every entry is smaller"
-            : b->rounded ? "1000 times the balance's round-off, because every entry is smaller"
+                ? "1000 times the balance's round-off and integration error (every entry is smaller)"
+            : b->rounded ? "1000 times the balance's round-off (every entry is smaller)"
                          : "the largest entry of the energy balance",
             b->largest_J);
     }

@@ -6,15 +6,16 @@
 #include "slow.h"
 
 const finding_row finding_rows[FINDINGS] = {
-    [FINDING_MASS] = {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
-                      "an upper bound, from rounding the matrix: the error of the steps is smaller",
-                      "have a mass matrix that is nearly singular"},
+    [FINDING_MASS] =
+        {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
+         "an upper bound on the error from rounding the matrix; the real error is smaller",
+         "have a mass matrix that is nearly singular"},
     [FINDING_CONSTANTS] = {"constants", FINDING_WARNING, 0.0, "numbers",
                            "a value is not finite if the file's numbers are rounded differently",
                            "have constants in which a small number is lost beside a large one"},
     [FINDING_ENERGY] =
         {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
-         "half of this limit is the error of an amplitude: too small to see in a plot",
+         "an energy error of this size changes an amplitude by half of it: too small to see in a plot",
          "fail the energy balance: the residual is too large compared with the balance's largest entry (" ENERGY_RESIDUAL_COLUMN
          "), at the end or at a time before"},
     [FINDING_ACCURACY] =
@@ -27,7 +28,7 @@ const finding_row finding_rows[FINDINGS] = {
                         "a contact or a force between two evaluations has not acted",
                         "passed, or may have passed, through a contact or over a force"},
     [FINDING_ALIASED] = {"aliased", FINDING_WARNING, HORIZON_TOLERANCE, "of a range",
-                         "the tolerance of a trusted run, to which the error of the steps is added",
+                         "the tolerance of a trusted run, plus the error of the steps",
                          "alias a force or motion that is faster than the step"},
     [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
                         "the remainder of such a step is computed as rest or sticking",
@@ -38,8 +39,8 @@ const finding_row finding_rows[FINDINGS] = {
     [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE,
                         "of the distance that the component "
                         "should cover",
-                        "the sum of the steps' round-off",
-                        "have a component whose steps are below its resolution"},
+                        "the round-off of all steps together may reach this part of the distance",
+                        "have a component that moves too slowly for its resolution"},
 };
 
 void finding_say_names(FILE *out, unsigned ids) {

@@ -418,12 +418,12 @@ static bool say_cause(FILE *out, const run_checks *v) {
     const char *hint = NULL;
     if (slid_off(v)) {
         hint =
-            "round the edge over the distance e of a few steps: sqrt(x^2 + e^2) for abs(x), (a + b + sqrt((a - b)^2 + e^2))/2 for max(a, b)";
+            "smooth the edge over a distance e that the motion covers in a few steps: write sqrt(x^2 + e^2) instead of abs(x), (a + b + sqrt((a - b)^2 + e^2))/2 instead of max(a, b)";
     } else if (is_reported(v, FINDING_MASS)) {
         hint =
             v->image->has_energies
                 ? "give the heavy body the absolute coordinate, and give the light body's position relative to it"
-                : "two equations are nearly the same: replace one by their difference";
+                : "replace one of two nearly equal equations by their difference";
     } else if (is_reported(v, FINDING_CONSTANTS)) {
         hint = "declare the small number as a parameter of its own";
     } else if (is_reported(v, FINDING_ENERGY) && b->stabilized &&

@@ -301,12 +301,12 @@ static void print_column(FILE *out, const horizon *h, int k) {
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(h, k, name));
     switch (c->verdict) {
     case HORIZON_TO_THE_END:
-        fprintf(out, "to the end      error %.2e of its range, %.4g %s", c->off / c->range,
+        fprintf(out, "to the end      error %.2e of its range of %.4g %s", c->off / c->range,
                 c->range, unit);
         break;
     case HORIZON_UNTIL:
-        fprintf(out, "%-15.9g of its range, %.4g %s, %.2e is %.2g %s", c->until_s, c->range, unit,
-                h->tolerance, h->tolerance * c->range, unit);
+        fprintf(out, "%-15.9g error at most %.2g %s; range %.4g %s", c->until_s,
+                h->tolerance * c->range, unit, c->range, unit);
         break;
     case HORIZON_STILL: fputs("to the end      constant in this run", out); break;
     case HORIZON_NOT_TOLD: say_untold(out, h, k); break;
@@ -422,8 +422,9 @@ void horizon_print(FILE *out, const horizon *h) {
 void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     fputs("trusted            ", out);
     if (h->to_the_end && doubted) {
-        fputs("unknown: the finer run agrees to the end, but may share the error of the warning",
-              out);
+        fputs(
+            "unknown: the finer run agrees to the end, but may have the same error, which the warning names",
+            out);
     } else if (h->to_the_end) {
         fprintf(out, "to the end: every coordinate to %.3g of its range", h->tolerance);
     } else if (h->of->aliased.column > 0) {

@@ -77,8 +77,8 @@ void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *r
     if (some) {
         fputs(
             kind->unit != NULL
-                ? "hint: use a larger --step or narrower ranges (turn angles have none), which round less, or --number float --compensated\n"
-                : "hint: use --compensated, or a larger --step, which rounds less\n",
+                ? "hint: use a larger --step or narrower ranges (not for turn angles), which reduce round-off; or use --number float --compensated\n"
+                : "hint: use --compensated or a larger --step: both reduce round-off\n",
             out);
     }
 }

@@ -46,7 +46,7 @@ static const command_usage usage = {
         "\n"
         "  --as text    one equation per coordinate, its events, and the first-order form (default)\n"
         "  --as latex   the same equations in LaTeX, for a paper (needs amsmath)\n"
-        "  --as octave  a function file for Octave and Matlab; events are listed only\n"
+        "  --as octave  a function file for Octave and Matlab; events only as comments\n"
         "  --as c       the scene as C for the core (docs/howto/firmware.md)\n"
         "  --steps, with --as text or latex: the derivation: the Lagrangian, and for each coordinate dL/dq',\n"
         "               its time derivative, dL/dq, dF/dq' and Q\n"

@@ -140,8 +140,7 @@ static void print_uncommon(const show *s, const equations *e, const symmetry *of
     if (moved[1] != NULL) {
         fprintf(
             s->out,
-            "%s%s and %s change by different amounts here, so this momentum is not the total momentum, "
-            "unless one of them is measured from the other, or in another direction\n",
+            "%s%s and %s change by different amounts here, so this momentum is not the total momentum if both coordinates are absolute and point in the same direction\n",
             prefix, moved[0]->name, moved[1]->name);
     }
 }

@@ -64,15 +64,15 @@ static bool sets_once(const plot_options *o) {
         const char *option = is_set ? "set" : "start";
         for (int k = 0; k < at; k++) {
             if (strcspn(all[k], "= ") == length && strncmp(all[k], all[at], length) == 0) {
-                fprintf(stderr,
-                        "whirl plot: error: %.*s is given twice, but an option changes both in "
-                        "the same way\n"
-                        "hint: record each run, then draw both:\n"
-                        "  whirl run %s --%s \"%s\" --csv a.csv\n"
-                        "  whirl run %s --%s \"%s\" --csv b.csv\n"
-                        "  whirl plot a.csv b.csv --out %s\n",
-                        (int)length, all[k], o->target[0], option, all[k],
-                        o->target[o->targets - 1], option, all[at], o->out);
+                fprintf(
+                    stderr,
+                    "whirl plot: error: %.*s is given twice, but an option changes all runs of the picture in the same way\n"
+                    "hint: record each run, then draw both:\n"
+                    "  whirl run %s --%s \"%s\" --csv a.csv\n"
+                    "  whirl run %s --%s \"%s\" --csv b.csv\n"
+                    "  whirl plot a.csv b.csv --out %s\n",
+                    (int)length, all[k], o->target[0], option, all[k], o->target[o->targets - 1],
+                    option, all[at], o->out);
                 return false;
             }
         }

@@ -432,7 +432,7 @@ static int show(pricing *p, const table *made) {
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
         fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->options->target,
-                p->trial.reliable ? ": no setting has a row" : ": there is no reliable reference");
+                p->trial.reliable ? ": the table has no row" : ": there is no reliable reference");
         return EXIT_RUN_FAILED;
     }
     if (csv != NULL && !write_csv(csv, &p->trial, made, &words)) {
@@ -666,7 +666,7 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
         if (is_short) {
             fprintf(
                 stderr,
-                "whirl choose: error: errors are known only until t = %.6g s, less than half of %.6g s\nhint: --horizon %.6gs\n",
+                "whirl choose: error: errors are known only until t = %.6g s, less than half of the motion of %.6g s\nhint: --horizon %.6gs\n",
                 horizon_s, p->until_s, horizon_s);
         }
     }

@@ -44,9 +44,8 @@ static const command_usage usage = {
         "  --effort 1.5e10      operations that it may evaluate: 1.5e10 take about a minute. After that it\n"
         "                       prints the proof so far.\n"
         "  --quiet              no progress; with --csv no report\n",
-    .why = {"the run did not fail, but the proof may end before it",
-            "the run diverged; the proof until then is printed", "",
-            "the proof so far is printed"}};
+    .why = {"the run did not fail; the proof may end earlier",
+            "the run diverged; Whirl printed the proof so far", "", "the proof so far is printed"}};
 
 typedef struct prove_options {
     common_options common;

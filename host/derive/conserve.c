@@ -284,7 +284,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     if (is_linear(e, momentum, law->mass)) {
         return true;
     }
-    diag_error(errors, e->unknowns[i].symbol->at, "integrate it: --without conserve",
+    diag_error(errors, e->unknowns[i].symbol->at, "integrate the coordinate: --without conserve",
                "the momentum of '%s' is not linear in the rates", e->unknowns[i].symbol->name);
     return false;
 }
@@ -329,7 +329,7 @@ conservation *conservation_make(const equations *e, const bool *wanted, diags *e
     if (c->count > CONSERVED_MAX || (c->count == n && n > 0)) {
         const scene *s = e->instance->scene;
         diag_error(errors, s != NULL ? s->at : e->instance->mechanism->at,
-                   "integrate one of them: leave it out of `conserve`",
+                   "leave one coordinate out of `conserve`, so that Whirl integrates it",
                    c->count == n ? "no coordinate is left to integrate"
                                  : "at most %d coordinates can be conserved at once",
                    CONSERVED_MAX);

@@ -254,11 +254,10 @@ void equations_report_growth(const equations *e, diags *errors) {
     if (m->parameter_count > 0) {
         snprintf(
             hint, sizeof hint,
-            "write let instead of parameter, which makes numbers of %d parameters; or use smaller powers of sums, or coordinates nearer to the joints",
+            "write let instead of parameter, so that %d parameters become numbers; or use smaller powers of sums, or coordinates nearer to the joints",
             m->parameter_count);
     }
-    diag_error(errors, m->at, hint, "the equations of '%s' grow beyond what can be handled: %s",
-               m->name, limit);
+    diag_error(errors, m->at, hint, "the equations of '%s' grow too large: %s", m->name, limit);
     free(limit);
 }
 

@@ -516,14 +516,15 @@ static bool is_possible(const image *im, diags *errors) {
             "the ledger of '%s' needs the stages of a step, which steps with --matrix do not have",
             im->name);
     } else if (im->settings.tables != TABLES_NONE) {
-        diag_error(errors, im->at, "leave out --tables, or --matrix",
-                   "a matrix has no place for tables: --matrix %s and --tables %s",
-                   image_matrix_words[im->settings.matrix],
-                   image_tables_words[im->settings.tables]);
+        diag_error(
+            errors, im->at, "leave out --tables, or --matrix",
+            "--matrix %s and --tables %s exclude each other: a step by one matrix looks up no tables",
+            image_matrix_words[im->settings.matrix], image_tables_words[im->settings.tables]);
     } else if (im->settings.method != WH_METHOD_DEFAULT) {
-        diag_error(errors, im->at, "leave out --method, or --matrix",
-                   "a matrix takes the place of a method's stages: --matrix %s and --method %s",
-                   image_matrix_words[im->settings.matrix], wh_methods[im->settings.method].word);
+        diag_error(
+            errors, im->at, "leave out --method, or --matrix",
+            "--matrix %s and --method %s exclude each other: the matrix takes the place of the method's stages",
+            image_matrix_words[im->settings.matrix], wh_methods[im->settings.method].word);
     } else if (affine_states(im) == 0) {
         diag_error(errors, im->at, hint, "'%s' has no state to step", im->name);
     } else {

@@ -221,13 +221,12 @@ static bool have_finite_laws(const equations *e, diags *errors) {
         const expr *const each[] = {h->value,           h->restitution,      h->condition,
                                     h->static_friction, h->kinetic_friction, h->normal};
         if (!are_finite(e, each, (int)(sizeof each / sizeof each[0]))) {
-            diag_error(errors, h->at, hint, "there is a number here that is not finite");
+            diag_error(errors, h->at, hint, "a number here is not finite");
             finite = false;
         }
         for (int i = 0; i < h->set_count; i++) {
             if (!are_finite(e, &h->sets[i].value, 1)) {
-                diag_error(errors, h->sets[i].at, hint,
-                           "there is a number here that is not finite");
+                diag_error(errors, h->sets[i].at, hint, "a number here is not finite");
                 finite = false;
             }
         }
@@ -254,9 +253,9 @@ static contact_lists *contact_lists_make(layout *map, const linear_system *s, di
     const equations *e = map->equations;
     const contact_laws *laws = e->contacts;
     if (map->form != WH_SECOND_ORDER) {
-        diag_error(errors, laws->law[0].from->at, "integrate the coordinate: --without conserve",
-                   "a coordinate that must be integrated from its momentum cannot be conserved "
-                   "beside stops, friction, holds or crossings");
+        diag_error(
+            errors, laws->law[0].from->at, "integrate the coordinate: --without conserve",
+            "with stops, friction, holds or crossings Whirl cannot compute a coordinate's rate from its conserved momentum");
         return NULL;
     }
     if (!have_impulses(e, errors) || !have_finite_laws(e, errors)) {
@@ -398,9 +397,9 @@ static bool can_keep(const layout *map, diags *errors) {
         return false;
     }
     if (map->form != WH_SECOND_ORDER) {
-        diag_error(errors, m->at, "integrate the coordinate: --without conserve",
-                   "a coordinate that must be integrated from its momentum cannot be conserved "
-                   "beside a ledger");
+        diag_error(
+            errors, m->at, "integrate the coordinate: --without conserve",
+            "with a ledger Whirl cannot compute a coordinate's rate from its conserved momentum");
         return false;
     }
     return true;
@@ -471,7 +470,7 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
         const contact_statement *first = contacts->row[0].from;
         diag_error(errors, first->at,
                    "leave the effect out with --without EFFECT, or leave out --stabilized",
-                   "--stabilized: '%s' has events, whose energy changes it would undo", m->name);
+                   "--stabilized would undo the energy changes at the events of '%s'", m->name);
     } else if (settings->matrix != MATRIX_NONE) {
         diag_error(
             errors, m->at, "leave out --matrix, or --stabilized",
@@ -488,11 +487,12 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
     } else if (map->form != WH_SECOND_ORDER) {
         diag_error(
             errors, m->at, "add --without conserve, or leave out --stabilized",
-            "--stabilized needs a ledger, which is not possible with a coordinate that is integrated from its momentum");
+            "--stabilized needs a ledger, which is not possible if a coordinate's rate follows from its conserved momentum");
     } else if (integral != NULL) {
-        diag_error(errors, m->at, no_stabilized,
-                   "--stabilized: the kinetic energy of '%s' is no quadratic form of its rates",
-                   m->name);
+        diag_error(
+            errors, m->at, no_stabilized,
+            "--stabilized needs a kinetic energy that is quadratic in the rates: that of '%s' is not",
+            m->name);
     } else {
         return true;
     }

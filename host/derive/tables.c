@@ -308,7 +308,7 @@ static void enter(collecting *c, product_sum *sum, const unsigned char *power, i
         return;
     }
     if (sum->count == PRODUCTS_MOST) {
-        refuse(c->why, "are sums of too many products of rates, inputs and reals",
+        refuse(c->why, "are sums of too many products of rates, inputs and coordinates",
                "leave out --tables: without tables these equations take fewer operations", -1);
         return;
     }
@@ -365,8 +365,8 @@ static product_sum multiplied(collecting *c, product_sum x, product_sum y) {
                 const int both = x.product[i].power[s] + y.product[k].power[s];
                 power[s] = (unsigned char)both;
                 if (both > 64) {
-                    refuse(c->why, "raise a rate, an input or a real to a power above 64", NULL,
-                           -1);
+                    refuse(c->why, "raise a rate, an input or a coordinate to a power above 64",
+                           NULL, -1);
                 }
             }
             enter(c, &sum, power,
@@ -380,8 +380,9 @@ static product_sum divided(collecting *c, product_sum x, product_sum y) {
     product_sum sum = {NULL, 0};
     int by;
     if (!is_of_angles(c, y, &by)) {
-        refuse(c->why, "have a denominator with a rate, an input or a real",
-               "leave out --tables: they allow only denominators that depend on the one turn angle",
+        refuse(c->why,
+               "have a denominator with a rate, an input or a coordinate that is no turn angle",
+               "leave out --tables: with tables, a denominator may depend only on the turn angle",
                -1);
         return sum;
     }
@@ -400,14 +401,14 @@ static product_sum function_of(collecting *c, const op *o) {
     if (!is_of_angles(c, c->sum[o->a], &a) ||
         (op_rows[o->code].values > 1 && o->b >= 0 && !is_of_angles(c, c->sum[o->b], &b))) {
         refuse(
-            c->why, "contain a function (a root, abs, sign, ...) of a rate, an input or a real",
-            "leave out --tables: they allow products of these quantities, but no functions of them",
-            -1);
+            c->why,
+            "contain a function (a root, abs, sign, ...) of a rate, an input or a coordinate that is no turn angle",
+            "leave out --tables: with tables, only products of these quantities are possible", -1);
         return (product_sum){NULL, 0};
     }
     if (o->code == OP_ABS || o->code == OP_SIGN || o->code == OP_MIN || o->code == OP_MAX) {
         refuse(c->why, "have a kink or a jump at some angle (abs, sign, min or max)",
-               "leave out --tables: a table would smooth it", -1);
+               "leave out --tables: a table would smooth the kink", -1);
         return (product_sum){NULL, 0};
     }
     return of_angles(c, o->code == OP_CALL  ? op_list_call(t, o->function, a, b)

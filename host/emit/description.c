@@ -333,7 +333,7 @@ static void put_name(FILE *out, const char *kind, int index, const char *name, i
 }
 
 static void tell_state(FILE *out, const image *im) {
-    fprintf(out, "\nstate, SI, as it starts (turn angles first)\n");
+    fprintf(out, "\nstart state in SI (turn angles first)\n");
     for (int i = 0; i < im->angles + im->reals; i++) {
         const component c = image_component(im, i);
         const image_unknown *u = &im->unknown[c.unknown];
@@ -465,7 +465,7 @@ void describe_text(FILE *out, const image *im, const char *file) {
     if (im->angles > 0 && im->settings.matrix == MATRIX_NONE &&
         im->settings.tables == TABLES_NONE) {
         fprintf(out, "\nsines of turn angles: looked up %s",
-                image_turns(im) ? "once a step, and turned" : "at each stage");
+                image_turns(im) ? "once per step, then rotated" : "at each stage");
     }
     fprintf(out, "\nmemory: %zu bytes in float, %zu in double\n", memory_float_bytes(im),
             memory_double_bytes(im));

@@ -51,8 +51,8 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
             put(text, ", ", wh_methods[i].word);
         }
     }
-    put_only(text, WH_SECOND_ORDER_ONLY, ", for second order only");
-    put_only(text, WH_NO_RATES, ", where accelerations take no rates");
+    put_only(text, WH_SECOND_ORDER_ONLY, " (second order only)");
+    put_only(text, WH_NO_RATES, " (if accelerations depend on no rates)");
     return text;
 }
 

@@ -684,7 +684,7 @@ static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     case OP_ACCEL:
     case OP_TIME:
     case OP_RADIANS:
-    case OP_NOISE: *lacks = "a value that only records have"; return made;
+    case OP_NOISE: *lacks = "a value that exists only in records"; return made;
     }
     made.index = op_rows[o->code].kind == OP_IS_LEAF ? o->a : 0;
     int operand[2];
@@ -742,7 +742,7 @@ fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors)
                                       : enter(l, copy_of(o, number, &lacks));
     }
     if (lacks != NULL) {
-        diag_error(errors, im->at, "--number float has one",
+        diag_error(errors, im->at, "choose --number float",
                    "the equations of '%s' contain %s, which has no fixed-point form", im->name,
                    lacks);
         free(number);

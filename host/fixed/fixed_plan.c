@@ -10,7 +10,7 @@
 #include "host/number/functions.h"
 
 static const char refused_part[] =
-    "--number float; or put it into an effect, and leave that out: --without EFFECT";
+    "choose --number float; or put this statement into an effect, and use --without EFFECT";
 
 /* Returns false, and reports the reason, if the scene has contacts, a ledger or noise, or another method or
  * setting. */
@@ -25,7 +25,7 @@ static bool fixed_has_step(const image *im, diags *errors) {
                    im->contact[0].word);
     } else if (im->drives > 0) {
         diag_error(errors, im->input[im->drive[0].input].at,
-                   "leave out its rate, or choose --number float",
+                   "leave out the rate of the input, or choose --number float",
                    "in fixed point inputs are constant within a step, but '%s' has a rate",
                    im->input[im->drive[0].input].name);
     } else if (s->stabilized) {
@@ -72,8 +72,10 @@ static bool ranges_are_bounded(const image *im, const enclosure *range, diags *e
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
         if (!(enclosure_size(range[i]) <= FIXED_SIZE_MOST)) {
-            diag_error(errors, im->range[i].at, "declare a narrower one: range NAME = A .. B",
-                       "the range of '%s' reaches beyond %.2g", im->range[i].name, FIXED_SIZE_MOST);
+            diag_error(
+                errors, im->range[i].at, "declare a narrower range: range NAME = A .. B",
+                "the range of '%s' reaches beyond %.2g (SI), the most that fixed point allows",
+                im->range[i].name, FIXED_SIZE_MOST);
             good = false;
         }
     }

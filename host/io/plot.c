@@ -86,10 +86,11 @@ static bool find_columns(const char *command, const char *name, const plot_run *
         }
         const char *own = runs[k].column[column[k]].unit;
         if (first >= 0 && own != NULL && *unit != NULL && strcmp(own, *unit) != 0) {
-            fprintf(stderr,
-                    "whirl %s: error: %s is in %s in %s, and in %s in %s: one axis has one unit\n"
-                    "hint: draw them in two pictures\n",
-                    command, name, *unit, runs[first].label, own, runs[k].label);
+            fprintf(
+                stderr,
+                "whirl %s: error: the unit of %s is %s in %s, but %s in %s: one axis has one unit\n"
+                "hint: draw them in two pictures\n",
+                command, name, *unit, runs[first].label, own, runs[k].label);
             return false;
         }
         first = first < 0 ? k : first;
@@ -133,7 +134,7 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
             other = p->quantity[i].panel == panel ? p->quantity[i].name : other;
         }
         fprintf(stderr,
-                "whirl %s: error: %s is in %s, %s in %s: one panel has one unit\n"
+                "whirl %s: error: %s is in %s, but %s is in %s: one panel has one unit\n"
                 "hint: --y \"%s, %s\" makes a panel for each unit\n",
                 command, other, unit_words(p->unit[panel]), q->name, unit_words(unit), other,
                 q->name);

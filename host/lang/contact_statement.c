@@ -47,7 +47,8 @@ static const expr *missing_comparison(parser *in, const reading *how) {
 static const expr *parse_group(parser *in, reading *how, bool *is_condition) {
     const place open = in->token.at;
     if (how->depth == NESTING_MAX) {
-        parser_fail(in, "name parts of it with let", "nested more than %d deep", NESTING_MAX);
+        parser_fail(in, "name parts of the expression with let",
+                    "this expression is nested more than %d deep", NESTING_MAX);
         return NULL;
     }
     how->depth++;
@@ -81,7 +82,7 @@ static const expr *parse_comparison(parser *in, reading *how, bool *is_condition
     }
     if (at_comparison(in)) {
         parser_fail(in, "join two comparisons with and: x > a and x < b",
-                    "one comparison at a time");
+                    "a condition compares two expressions, not three");
         return NULL;
     }
     const expr *by = expr_difference(in, sign.at, above ? left : right, above ? right : left);
@@ -160,7 +161,8 @@ static bool take_target(parser *in, const contact_statement *made, assignment *s
     const symbol *target = &found->symbol;
     if (target->kind != SYM_COORDINATE && target->kind != SYM_STATE) {
         diag_error(in->diags, name.at, NULL,
-                   "a crossing sets coordinates and their rates, and '%s' is none", target->name);
+                   "a crossing sets only coordinates and their rates, and '%s' is neither",
+                   target->name);
         return true;
     }
     if (target->kind == SYM_COORDINATE && name.primes > 1) {
@@ -298,7 +300,7 @@ bool read_when(parser *in, const statement_word *word) {
         return false;
     }
     parser_skip_newlines(in);
-    return parser_expect_sign(in, '{', "after what is crossed") && parse_block(in, &made) &&
+    return parser_expect_sign(in, '{', "after the crossing") && parse_block(in, &made) &&
            add_contact(in, &made);
 }
 
@@ -373,8 +375,8 @@ bool read_stop(parser *in, const statement_word *word) {
     const token sign = in->token;
     const bool above = parser_is_sign(in, SIGN_AT_LEAST);
     if (parser_is_sign(in, '>') || parser_is_sign(in, '<')) {
-        parser_fail(in, sign.sign == '>' ? "write >=" : "write <=",
-                    "a stop is touched where both sides are equal");
+        parser_fail(
+            in, sign.sign == '>' ? "write >=" : "write <=", "a stop needs >= or <=, not > or <");
     } else if (!above && !parser_is_sign(in, SIGN_AT_MOST)) {
         return parser_fail(in, word->form, "'>=' or '<=' is missing before %s",
                            token_words(&in->token, words, sizeof words));
@@ -389,7 +391,7 @@ bool read_stop(parser *in, const statement_word *word) {
     if (made.value == NULL) {
         return false;
     }
-    check_moves(in, at, made.value, "what a stop limits");
+    check_moves(in, at, made.value, "the expression of a stop");
     if (!parser_expect_word(in, WORD_RESTITUTION, WORD_STOP)) {
         return false;
     }
@@ -426,7 +428,7 @@ bool read_friction(parser *in, const statement_word *word) {
     const token name = in->token;
     if (name.kind != TOKEN_NAME || (token_is_word(&name, WORD_STATIC) &&
                                     names_find(in->names, name.text, name.length) == NULL)) {
-        return parser_fail(in, word->form, "friction needs its coordinate, not %s",
+        return parser_fail(in, word->form, "friction needs the name of a coordinate, not %s",
                            token_words(&in->token, words, sizeof words));
     }
     made.coordinate = find_coordinate(in, &name, "friction");
@@ -460,7 +462,7 @@ bool read_hold(parser *in, const statement_word *word) {
     if (made.value == NULL) {
         return false;
     }
-    check_moves(in, at, made.value, "what is held");
+    check_moves(in, at, made.value, "the expression of a hold");
     if (!parser_expect_word(in, WORD_WHILE, WORD_HOLD)) {
         return false;
     }

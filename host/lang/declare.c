@@ -15,9 +15,10 @@ static const symbol *find_output(parser *in, const token *name) {
         if (found->symbol.kind == SYM_OUTPUT && name->primes == 0) {
             return &found->symbol;
         }
-        snprintf(hint, sizeof hint, "declare one: output %.40s_read = %.40s", found->symbol.name,
-                 found->symbol.name);
-        diag_error(in->diags, name->at, hint, "noise goes onto an output, and %s is none", words);
+        snprintf(hint, sizeof hint, "declare an output: output %.40s_read = %.40s",
+                 found->symbol.name, found->symbol.name);
+        diag_error(in->diags, name->at, hint,
+                   "noise can be added only to an output, and %s is not one", words);
         return NULL;
     }
     const int later = name_declared_later(name);
@@ -26,7 +27,7 @@ static const symbol *find_output(parser *in, const token *name) {
         nearest_offer(&search, inside->outputs[i]->name);
     }
     if (later > 0) {
-        snprintf(hint, sizeof hint, "it is declared later, in line %d: move that line up", later);
+        snprintf(hint, sizeof hint, "move the declaration in line %d above this line", later);
     } else {
         nearest_hint(&search, hint, sizeof hint);
     }
@@ -80,7 +81,7 @@ bool read_noise(parser *in, const statement_word *word) {
     noise made = {.seed = 1, .effect = in->effect, .at = in->statement_at};
     const token name = in->token;
     if (name.kind != TOKEN_NAME) {
-        return parser_fail(in, word->form, "noise needs its output, not %s",
+        return parser_fail(in, word->form, "noise needs the name of an output, not %s",
                            token_words(&in->token, words, sizeof words));
     }
     made.output = find_output(in, &name);
@@ -232,7 +233,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
         char words[80];
         const bool is_input = word->kind == SYM_INPUT && made != NULL;
         char hint[NAME_LENGTH_MAX + 80];
-        snprintf(hint, sizeof hint, "an input has a value at the start: input %s = 0",
+        snprintf(hint, sizeof hint, "give the input a start value: input %s = 0",
                  is_input ? made->name : "");
         parser_fail(in, is_input ? hint : word->form, "'=' is missing before %s",
                     token_words(&in->token, words, sizeof words));
@@ -263,7 +264,7 @@ static bool parse_rate(parser *in, symbol *made) {
     token name;
     if (in->effect >= 0) {
         return parser_fail(in, "declare both inputs in the mechanism, before the effect",
-                           "an input of an effect takes no rate");
+                           "an input of an effect cannot have a rate");
     }
     if (!take_name(in, "rate", &name)) {
         return false;

@@ -83,7 +83,7 @@ static void report_unknown(parser *in, const token *name) {
     if (later == 0 && first != NULL) {
         snprintf(hint, sizeof hint, "%s", first);
     } else if (later > 0) {
-        snprintf(hint, sizeof hint, "it is declared later, in line %d: move that line up", later);
+        snprintf(hint, sizeof hint, "move the declaration in line %d above this line", later);
     } else if (!rate_hint(in, name, hint, sizeof hint)) {
         nearest search = nearest_start(name->text, name->length);
         names_offer(in->names, in->all_effects ? -2 : in->effect, &search);
@@ -105,7 +105,7 @@ static void report_reserved(parser *in, const token *name) {
     for (size_t i = 0; i < sizeof quantities / sizeof quantities[0]; i++) {
         if (word_is(quantities[i], name->text, name->length)) {
             const statement_word *word = word_row(quantities[i]);
-            diag_error(in->diags, name->at, "name its formula with let, and use that name here",
+            diag_error(in->diags, name->at, "name the formula with let, and use that name here",
                        "%s is %s and cannot be used in an expression", word->text,
                        term_meaning((term_kind)word->kind));
             return;
@@ -327,14 +327,13 @@ const symbol *find_coordinate(parser *in, const token *name, const char *whose) 
     if (found != NULL && !found->is_placeholder &&
         (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE)) {
         if (name->primes > 0) {
-            diag_error(in->diags, name->at, NULL, "%s belongs to a coordinate, without primes",
-                       whose);
+            diag_error(in->diags, name->at, NULL, "%s takes a coordinate without primes", whose);
             return NULL;
         }
         return &found->symbol;
     }
     if (found != NULL && !found->is_placeholder) {
-        diag_error(in->diags, name->at, NULL, "%s belongs to a coordinate, which %s is not", whose,
+        diag_error(in->diags, name->at, NULL, "%s takes a coordinate, and %s is not one", whose,
                    words);
         return NULL;
     }
@@ -351,8 +350,8 @@ static const expr *parse_signed(parser *in);
 
 static bool go_deeper(parser *in) {
     if (++in->nesting > NESTING_MAX) {
-        return parser_fail(in, "name parts of it with let", "nested more than %d deep",
-                           NESTING_MAX);
+        return parser_fail(in, "name parts of the expression with let",
+                           "this expression is nested more than %d deep", NESTING_MAX);
     }
     return true;
 }

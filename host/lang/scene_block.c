@@ -38,7 +38,8 @@ static bool has_range(parser *in, const token *name, const named *found) {
     const scene *made = in->draft->made;
     if (!moves && what->kind != SYM_INPUT) {
         diag_error(in->diags, name->at, NULL,
-                   "range takes coordinates, their rates and inputs, and '%s' is none", what->name);
+                   "range takes coordinates, their rates and inputs, but '%s' is none of these",
+                   what->name);
         return false;
     }
     if ((moves && what->order > 0 && name->primes >= what->order) || (!moves && name->primes > 0)) {
@@ -115,7 +116,8 @@ static bool scene_fail_name(parser *in, const statement_word *word) {
     char words[80];
     return parser_fail(
         in,
-        in->token.kind == TOKEN_NUMBER ? "NAME = VALUE; a number has a decimal point: 0.1" : NULL,
+        in->token.kind == TOKEN_NUMBER ? "write NAME = VALUE, and numbers with a decimal point: 0.1"
+                                       : NULL,
         "%s needs a name, not %s", word->text, token_words(&in->token, words, sizeof words));
 }
 
@@ -196,7 +198,8 @@ static bool set_item(parser *in, const statement_word *word) {
     if (usable && found->symbol.kind != SYM_PARAMETER && found->symbol.kind != SYM_INPUT) {
         const bool moves = found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE;
         diag_error(in->diags, name.at, moves ? "give its initial value with start" : NULL,
-                   "only parameters and inputs can be set, and '%s' is none", found->symbol.name);
+                   "only parameters and inputs can be set, and '%s' is neither",
+                   found->symbol.name);
         usable = false;
     } else if (usable && name.primes > 0) {
         diag_error(in->diags, name.at, NULL, "'%s' has no derivative", found->symbol.name);
@@ -261,13 +264,14 @@ static bool start_item(parser *in, const statement_word *word) {
     if (usable && found->symbol.kind != SYM_COORDINATE && found->symbol.kind != SYM_STATE) {
         const bool sets = found->symbol.kind == SYM_PARAMETER || found->symbol.kind == SYM_INPUT;
         diag_error(in->diags, name.at, sets ? "use set for it" : NULL,
-                   "start takes coordinates and their rates, and '%s' is none", found->symbol.name);
+                   "start takes coordinates and their rates, and '%s' is neither",
+                   found->symbol.name);
         usable = false;
     } else if (usable && name.primes >= found->symbol.order && found->symbol.order > 0) {
-        diag_error(in->diags, name.at, NULL,
-                   "start takes '%s' with at most %d prime%s: the next follows from the equations",
-                   found->symbol.name, found->symbol.order - 1,
-                   found->symbol.order == 2 ? "" : "s");
+        diag_error(
+            in->diags, name.at, NULL,
+            "start takes '%s' with at most %d prime%s: higher derivatives follow from the equations",
+            found->symbol.name, found->symbol.order - 1, found->symbol.order == 2 ? "" : "s");
         usable = false;
     } else if (usable) {
         check_started_once(in, into->made, &found->symbol, &name);
@@ -399,7 +403,7 @@ static bool parse_scene_statement(parser *in) {
     const bool uses = parser_is_word(in, WORD_USE);
     in->statement_at = in->token.at;
     if (uses && into->has_content) {
-        diag_error(in->diags, in->token.at, NULL, "'use' comes first in a scene");
+        diag_error(in->diags, in->token.at, NULL, "'use' must be the first statement of a scene");
     }
     if (!uses && into->of == NULL) {
         into->has_content = true;
@@ -409,7 +413,8 @@ static bool parse_scene_statement(parser *in) {
     }
     into->has_content |= !uses;
     if (word != NULL && (word->rules & INTO_EFFECT) != 0) {
-        return parser_fail(in, "put it into an effect and select that effect: with NAME",
+        return parser_fail(in,
+                           "put the statement into an effect, and select that effect: with NAME",
                            "'%s' belongs into a mechanism or an effect", word->text);
     }
     if (word == NULL || (word->stands & IN_SCENE) == 0) {

@@ -23,10 +23,10 @@ static bool parse_assign_sign(parser *in, const char *what) {
     }
     if (assigns && in->effect >= 0) {
         snprintf(hint, sizeof hint, "write %s += ...", what);
-        parser_fail(in, hint, "an effect adds to what the mechanism has");
+        parser_fail(in, hint, "'=' is not possible in an effect, which only adds");
     } else if (!assigns && in->effect < 0) {
         snprintf(hint, sizeof hint, "write %s = ... here, or put the line into an effect", what);
-        parser_fail(in, hint, "'+=' belongs into an effect");
+        parser_fail(in, hint, "'+=' is possible only in an effect");
     }
     parser_next(in);
     return true;
@@ -70,8 +70,9 @@ bool read_energy(parser *in, const statement_word *word) {
         char is[DIM_TEXT_SIZE];
         diag_error(in->diags, value_at,
                    needs_rate
-                       ? (kind == TERM_T ? "it contains no speed; write: T = m*l^2*theta'^2/2"
-                                         : "it contains no speed; write: F = b*theta'^2/2")
+                       ? (kind == TERM_T
+                              ? "the expression contains no speed; write: T = m*l^2*theta'^2/2"
+                              : "the expression contains no speed; write: F = b*theta'^2/2")
                        : "a number without a unit is dimensionless: write 2 [kg], 3 [N/m]",
                    "%s, but this is %s", term_rule(kind), dim_text(value->dim, is, sizeof is));
     }
@@ -87,12 +88,12 @@ bool read_force(parser *in, const statement_word *word) {
     snprintf(form, sizeof form, "write Q(%s) = ...",
              of->coordinate_count > 0 ? of->coordinates[0]->name : "x");
     if (!parser_is_sign(in, '(')) {
-        return parser_fail(in, form, "Q needs its coordinate in parentheses");
+        return parser_fail(in, form, "Q needs a coordinate in parentheses");
     }
     parser_next(in);
     const token name = in->token;
     if (name.kind != TOKEN_NAME) {
-        return parser_fail(in, form, "Q needs its coordinate in parentheses");
+        return parser_fail(in, form, "Q needs a coordinate in parentheses");
     }
     const symbol *coordinate = find_coordinate(in, &name, "Q");
     parser_next(in);
@@ -171,7 +172,7 @@ static void walk_orders(parser *in, const expr *tree) {
             s->order = tree->primes;
         } else if (above) {
             diag_error(in->diags, tree->at, NULL,
-                       "no equation has this derivative of '%s': its highest has %d prime%s",
+                       "no equation has this derivative of '%s': the highest has %d prime%s",
                        s->name, s->order, s->order == 1 ? "" : "s");
         }
         if (s->kind == SYM_LET && entry->mark == 0) {

@@ -141,7 +141,7 @@ double parameter_value(valuation *known, int index) {
     }
     const int height = known->parameter_expr[index]->height;
     if (known->depth + height > DEPTH_MAX) {
-        diag_error(known->diags, at, "set some of them to numbers",
+        diag_error(known->diags, at, "set some of these values to numbers",
                    "too many values depend on each other in a chain");
         return 0.0;
     }

@@ -662,7 +662,7 @@ static bool read_duration(words_of_fault *w, fault_case *f) {
 static bool read_one(fault_plan *plan, words_of_fault *w) {
     fault_case *f = &plan->fault[plan->count];
     if (plan->count == FAULTS_MAX) {
-        return wrong(w, "too many faults", "sixteen at most");
+        return wrong(w, "too many faults", "give at most sixteen faults");
     }
     *f = (fault_case){.note_at = -1};
     if (!read_kind(w, f) || !read_channel(w, f) || !read_size(w, f) || !read_when(w, f) ||

@@ -74,9 +74,9 @@ typedef enum fault_place {
       "the supply's voltage is multiplied by this factor") \
     X(FAULT_FREEWHEEL, "freewheel", FAULT_INPUT, 0, 0, 0, "", "the drive stage cannot brake") \
     X(FAULT_RUNAWAY, "runaway", FAULT_INPUT, 1, 0.01, 1, "", \
-      "the drive stage ignores the duty, at this share of the supply, but obeys its enable") \
+      "the drive stage ignores the duty, applies this share of the supply, and obeys its enable line") \
     X(FAULT_STUCK, "stuck", FAULT_INPUT, 1, 0.01, 1, "", \
-      "as for runaway, and the drive stage also ignores its enable") \
+      "as runaway, but the drive stage also ignores its enable line") \
     X(FAULT_MOTOR, "motor", FAULT_INPUT, 0.5, 0, 10, "", \
       "the motor's torque is multiplied by this factor") \
     X(FAULT_FRICTION, "friction", FAULT_INPUT, 0.2, 0, 1e3, "N*m", \

@@ -103,7 +103,7 @@ static bool take_end(talk *t, const wh_frame *frame) {
     t->said_end = frame->length == 4U;
     t->end_status = (int)(int32_t)wh_bytes_get(&bytes, 4);
     if (!t->said_end) {
-        return fail(t, "an invalid end");
+        return fail(t, "an invalid end message");
     }
     (void)ask(t);
     return ends(t->report, when_ended());
@@ -123,7 +123,7 @@ static bool hear_past_remembered(talk *t, wh_frame *frame) {
             return true;
         }
         if (frame->length > WH_REMEMBER_MAX) {
-            return fail(t, "more remembered bytes than the limit");
+            return fail(t, "more bytes to remember than the limit");
         }
         keep_heard(t, frame);
         t->report->hash = talk_hash_bytes(t->report->hash, frame->payload, frame->length);
@@ -617,9 +617,9 @@ static void print_computing(FILE *out, const lockstep_request *request, const lo
               out);
         return;
     }
-    fprintf(out, "until outputs set  %.0f instructions at most, %.4g ms, at t = %.6g s\n",
+    fprintf(out, "reading to outputs %.0f instructions at most, %.4g ms, at t = %.6g s\n",
             r->acted.value, 1e3 * r->acted.value * request->instruction_s, r->acted.at_s);
-    fprintf(out, "until it waits     %.0f instructions at most, %.4g ms, at t = %.6g s\n",
+    fprintf(out, "reading to wait    %.0f instructions at most, %.4g ms, at t = %.6g s\n",
             r->busy.value, 1e3 * r->busy.value * request->instruction_s, r->busy.at_s);
     fprintf(out, "overruns           %" PRIu64, r->overruns);
     if (r->overruns > 0) {
@@ -648,7 +648,7 @@ static void print_notes(FILE *out, const lockstep_report *r) {
     for (unsigned i = 0; i < r->notes; i++) {
         const last_note *note = &r->note[i];
         const bool bare = strcmp(note->unit, "1") == 0;
-        fprintf(out, "%s%s %.6g%s%s", i == 0 ? "it tells           " : ", ", note->name,
+        fprintf(out, "%s%s %.6g%s%s", i == 0 ? "notes              " : ", ", note->name,
                 note->value, bare ? "" : " ", bare ? "" : note->unit);
     }
     fputs(r->notes > 0 ? "\n" : "", out);

@@ -138,7 +138,7 @@ static bool take_reset(taped *t, wh_frame *frame, taped_turn *turn) {
         !talk_is_same_hello(&hello, &t->hello) || !read_frame(t, frame) ||
         frame->kind != WH_FRAME_RESET ||
         !wh_reset_get(&turn->reset, frame->payload, frame->length)) {
-        return is_no_tape(t, "it is broken");
+        return is_no_tape(t, "the tape is damaged");
     }
     turn->is_reset = true;
     turn->ticks = frame->ticks;
@@ -164,7 +164,7 @@ static bool taped_next(taped *t, taped_turn *turn) {
     wh_frame frame;
     *turn = (taped_turn){.is_reset = false};
     if (!read_frame(t, &frame)) {
-        return is_cut_off(t) ? is_no_tape(t, "it is broken") : false;
+        return is_cut_off(t) ? is_no_tape(t, "the tape is damaged") : false;
     }
     if (frame.kind == WH_FRAME_HELLO) {
         return take_reset(t, &frame, turn);
@@ -180,7 +180,7 @@ static bool taped_next(taped *t, taped_turn *turn) {
                               : !is_cut_off(t);
     }
     if (!good || !has_channels(t, turn)) {
-        return is_no_tape(t, "it is broken");
+        return is_no_tape(t, "the tape is damaged");
     }
     if (turn->answered) {
         t->hash = talk_hash(t->hash, &turn->orders);

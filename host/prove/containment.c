@@ -330,7 +330,7 @@ static const char *behind(const containment_found *h, const containment_state *s
                                            "; at that time the proof was interrupted"};
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return "";
-    case CONTAINMENT_LEFT: return "; proved: the error is larger after that";
+    case CONTAINMENT_LEFT: return "; proved: error too large after that";
     case CONTAINMENT_UNTOLD: return "; after that the tube is too wide to decide";
     case CONTAINMENT_UNENDED: return ends[h->end];
     }
@@ -349,8 +349,9 @@ static void print_state(FILE *out, const containment_found *h, const containment
     fprintf(out, "  %-*s ", NAME_WIDTH, name_of(w, i, name));
     if (!s->begun) {
         fprintf(out, "%-12s within %s %s: %s\n", "never", within.text, shown,
-                s->verdict == CONTAINMENT_LEFT ? "proved: the error at the start is larger"
-                                               : "the start value is not known so accurately");
+                s->verdict == CONTAINMENT_LEFT
+                    ? "proved: the error is too large at the start"
+                    : "the start value is known less accurately than that");
         return;
     }
     const figure off = not_less(image_shown(unit, s->off), 1);

@@ -24,7 +24,7 @@ static bool is_smooth(const instance *inst, diags *errors) {
         const contact_statement *c = &m->contacts[i];
         if (instance_has(inst, c->effect)) {
             diag_error(errors, c->at,
-                       "use whirl trust, which estimates; a proof needs a smooth scene",
+                       "use whirl trust, which estimates the error; a proof needs a smooth scene",
                        "%s changes the equations during a run, and the proof cannot enclose the "
                        "time of the change",
                        contact_called(c->kind));
@@ -35,14 +35,14 @@ static bool is_smooth(const instance *inst, diags *errors) {
         if (m->inputs[i]->rate != NULL) {
             diag_error(
                 errors, m->inputs[i]->at,
-                "leave out its rate, write it as a parameter, or use whirl trust, which estimates",
+                "leave out its rate, write it as a parameter, or use whirl trust, which estimates the error",
                 "an input with a rate changes inside a step, which the proof cannot enclose");
             return false;
         }
     }
     if (inst->scene != NULL && inst->scene->when_count > 0) {
         diag_error(errors, inst->scene->whens[0].at,
-                   "use whirl trust, which estimates; a proof needs a smooth scene",
+                   "use whirl trust, which estimates the error; a proof needs a smooth scene",
                    "%s changes the equations during a run, and the proof cannot enclose the time "
                    "of the change",
                    contact_called(CONTACT_WHEN));
@@ -100,9 +100,10 @@ static bool lagrange(making *k) {
 }
 
 static bool not_linear(making *k, const term *t) {
-    diag_error(k->errors, t->value->at,
-               "write each highest derivative times a factor without such derivatives",
-               "exact arithmetic does not show that this is linear in the highest derivatives");
+    diag_error(
+        k->errors, t->value->at,
+        "write each term as one highest derivative times a factor without highest derivatives",
+        "Whirl cannot prove that this is linear in the highest derivatives");
     return false;
 }
 

@@ -402,7 +402,7 @@ int graph_without(graph *g, int a, int first) {
 /* === conversion of a model's expressions ====================================================== */
 
 static int refused(reader_symbols *s, const expr *at, const char *what) {
-    diag_error(s->errors, at->at, "use whirl trust, which estimates",
+    diag_error(s->errors, at->at, "use whirl trust, which estimates the error",
                "whirl prove has no bounds for %s of a quantity that changes in the run", what);
     return -1;
 }

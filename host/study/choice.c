@@ -336,7 +336,7 @@ static void print_lines(FILE *out, const trials *t, const table_row *row,
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
     char *derive = table_derive_line(t, &row->setting, row->pace, words);
     char *measure = table_measure_line(t, &row->setting, row->pace, row->result.point, words);
-    fprintf(out, "  again       %s\n  as code     %s\n  counted by  %s\n", run, derive, measure);
+    fprintf(out, "  to run      %s\n  to print C  %s\n  to count    %s\n", run, derive, measure);
     free(measure);
     free(run);
     free(derive);

@@ -408,8 +408,8 @@ void figure_reference(FILE *out, const trials *t) {
         say_missing(out, t);
     }
     if (t->still != NULL) {
-        fprintf(out, "  left out    settings without motion:%.*s\n", (int)strlen(t->still) - 1,
-                t->still);
+        fprintf(out, "  left out    combinations in which nothing moves:%.*s\n",
+                (int)strlen(t->still) - 1, t->still);
     }
 }
 

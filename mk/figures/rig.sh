@@ -18,7 +18,7 @@ trap 'rm -rf "$scratch"' EXIT
 carriage() {
     "$whirl" pil docs/plants/carriage.whirl --with cell_noise --firmware "$build/pil_carriage" "$@" >"$scratch/said" &&
         awk '$1 == "speed" && !n++ { speed = $2 }
-            /^it tells/ { for (i = 1; i < NF; i++) told[$i] = $(i + 1) }
+            /^notes/ { for (i = 1; i < NF; i++) told[$i] = $(i + 1) }
             END { print told["amplitude"], told["displacement"], speed }' "$scratch/said"
 }
 

@@ -24,7 +24,7 @@ verdict $? "$plant moves as carriage_free with the same drive" "$scratch/plant"
 measure() {
     sh tests/limit.sh 60 "$whirl" pil $plant --firmware "$build/pil_carriage" "$@" </dev/null >"$scratch/said" 2>"$scratch/err"
     awk '$1 == "speed" && !n++ { speed = $2 }
-        /^it tells/ { for (i = 1; i < NF; i++) { sub(/,$/, "", $(i + 1)); told[$i] = $(i + 1) } }
+        /^notes/ { for (i = 1; i < NF; i++) { sub(/,$/, "", $(i + 1)); told[$i] = $(i + 1) } }
         END { print told["amplitude"] + 0, told["amplitude_half"] + 0, told["displacement"] + 0, told["quality"] + 0, told["turns"] + 0, speed + 0 }' \
         "$scratch/said"
 }

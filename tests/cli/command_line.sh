@@ -353,7 +353,7 @@ prints '^  "matrix": "none",$' describe two_mass_relative --json
 prints '^  "matrix": "rk4",$' describe two_mass_relative --json --matrix rk4
 prints '^  Phi  *X  *Y  *X. *Y.$' derive two_mass_relative --matrix exact
 prints '^function .Phi, Gamma, g0. = two_mass_relative..$' derive two_mass_relative --matrix exact --as octave
-prints 'sines of turn angles: looked up once a step, and turned' describe "$scratch/wheel.whirl"
+prints 'sines of turn angles: looked up once per step, then rotated' describe "$scratch/wheel.whirl"
 
 # --- float angles that turn too slowly ------------------------------------------------------------------
 cat >"$scratch/rotor.whirl" <<'END'
@@ -364,7 +364,7 @@ T = 1 [kg*m^2]*(a'^2 + b'^2)/2
 scene drift { start a' = 1e-7 [rad/s], b' = 3 [rad/s]; step 1 [ms]; until 3 [s] }
 END
 exits 0 "note: 'a' turns so slowly .* an error of up to 3e-07 rad, 1e\+02 % of the 3e-07 rad" run "$scratch/rotor.whirl" --number float
-exits 0 '^hint: use --compensated, or' run "$scratch/rotor.whirl" --number float
+exits 0 '^hint: use --compensated or' run "$scratch/rotor.whirl" --number float
 exits 0 "note: 'a' turns so slowly" run "$scratch/rotor.whirl" --number float --quiet
 prints 'float' run "$scratch/rotor.whirl" --number float --compensated
 prints 'float' run "$scratch/rotor.whirl" --number float --start "a'=0.1"
@@ -378,7 +378,7 @@ prints '^energy balance' run docs/hard/long.whirl:pendulum_swings --stabilized
 prints '^  "stabilized": true,$' describe docs/hard/long.whirl:gear_turns --json --stabilized
 prints '^    .stabilized = true,$' derive docs/hard/long.whirl:gear_turns --as c --stabilized
 prints 'Runge-Kutta 4 stabilized, double' trust docs/hard/long.whirl:pendulum_swings --stabilized --until 2s
-exits 2 "contacts.whirl:[0-9]+:[0-9]+: error: --stabilized: 'ball' has events" run ball_bounces --stabilized
+exits 2 "contacts.whirl:[0-9]+:[0-9]+: error: --stabilized would undo the energy changes at the events of 'ball'" run ball_bounces --stabilized
 exits 2 "error: --stabilized corrects .* 'lorenz' is given by equations" run "tests/mechanisms/lorenz.whirl" --stabilized
 exits 2 'thomson.whirl:[0-9]+:[0-9]+: error: --stabilized is for motion without drive or damping, but this statement drives or damps' run thomson_a --stabilized
 exits 2 "error: --stabilized needs a ledger, which is not possible with leapfrog" run docs/hard/long.whirl:pendulum_swings --stabilized --method leapfrog

@@ -36,7 +36,7 @@ exits 2 'excludes --fault' --replay "$scratch/none" --firmware "$build/pil_rig" 
 
 # --- effects of faults ------------------------------------------------------------------------------------------------------
 # told WORD FILE: prints the value of the firmware's note of that name
-told() { sed -n "s/^it tells .*$1 \([-0-9.e]*\).*/\1/p" "$2"; }
+told() { sed -n "s/^notes .*$1 \([-0-9.e]*\).*/\1/p" "$2"; }
 # run FAULTS: runs the rig with these faults
 run() {
     sh tests/limit.sh 60 "$whirl" pil $rig --fault "$1" >"$scratch/run" 2>"$scratch/err"

@@ -186,7 +186,7 @@ effect end { stop x >= -0.5 [m] restitution 0.5 }
 scene stopped_rings { with end; start x = 1 [m]; step 1 [ms]; until 1 [s]; range x = -2 .. 2 [m], x' = -9 .. 9 [m/s] }
 END
 refuse "fixed point has no events" "$scratch/w/stopped.whirl"
-grep -q 'put it into an effect, and leave that out: --without EFFECT$' "$scratch/err" &&
+grep -q 'put this statement into an effect, and use --without EFFECT$' "$scratch/err" &&
     "$whirl" derive "$scratch/w/stopped.whirl" --without end --as c --number fixed >"$scratch/out" 2>"$scratch/err" && [ -s "$scratch/out" ]
 verdict $? "and as the hint says, it has a step in fixed point without the effect"
 sed "s/x' = -300 .. 300/x' = 300 .. -300/" "$scratch/w/cart.whirl" >"$scratch/w/empty.whirl"

@@ -18,7 +18,7 @@ figure() { sed -n "s/^  $1  *\([0-9.e+]*\) .*/\1/p" "$scratch/out" | head -n 1; 
 step() { sed -n 's/^fewest cycles .*--step //p' "$scratch/out"; }
 
 # counted: runs the printed line, and writes the row that it counts to $scratch/row
-counted() { sh -c "$(sed -n 's/^  counted by  //p' "$scratch/out" | head -n 1)" 2>"$scratch/err" | tail -n 1 >"$scratch/row"; }
+counted() { sh -c "$(sed -n 's/^  to count    //p' "$scratch/out" | head -n 1)" 2>"$scratch/err" | tail -n 1 >"$scratch/row"; }
 
 awk -v n=3 -v seed=23 -f mk/price/scenes.awk </dev/null >"$scratch/drawn.whirl"
 for scene in ${WHIRL_FULL:+r23_1 r23_2} r23_3; do

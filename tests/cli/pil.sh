@@ -51,8 +51,8 @@ verdict $? "the rig's software on this machine runs to its end"
 close_to "$(number speed "$scratch/pc")" 330 0.5 && close_to "$(number 'measured \/ formula' "$scratch/pc")" 100 0.5 &&
     close_to "$(number 'mean force' "$scratch/pc")" 0 0.05
 verdict $? "330 rpm, and the formula's force" "$scratch/pc"
-grep -aq '^it tells .* quality 0, amplitude .* N, .* turns 10, reset 0$' "$scratch/pc" &&
-    close_to "$(sed -n 's/^it tells .* amplitude \([0-9.]*\) N.*/\1/p' "$scratch/pc")" "$(number 'force, once per turn' "$scratch/pc")" 0.006
+grep -aq '^notes .* quality 0, amplitude .* N, .* turns 10, reset 0$' "$scratch/pc" &&
+    close_to "$(sed -n 's/^notes .* amplitude \([0-9.]*\) N.*/\1/p' "$scratch/pc")" "$(number 'force, once per turn' "$scratch/pc")" 0.006
 verdict $? "and it tells so" "$scratch/pc"
 
 boards=
@@ -89,7 +89,7 @@ if [ -n "$boards" ]; then
     done
     [ "$(number overruns "$scratch/out.0")" -eq 0 ] && [ "$(number overruns "$scratch/out.1.5")" -eq 0 ] &&
         [ "$(number overruns "$scratch/out.15")" -ge 1 ] &&
-        [ "$(number 'until outputs set' "$scratch/out.0")" = "$(number 'until outputs set' "$scratch/out.1.5")" ] &&
+        [ "$(number 'reading to outputs' "$scratch/out.0")" = "$(number 'reading to outputs' "$scratch/out.1.5")" ] &&
         [ "$(line 'command stream' "$scratch/out.1.5")" != "$(line 'command stream' "$scratch/out.15")" ]
     verdict $? "what is slower overruns, with as many instructions" "$scratch/out.1.5"
 fi
@@ -132,7 +132,7 @@ fault='cell-open@6s,reset@6.4003,reset=0.05@7.7'
 sh tests/limit.sh 60 "$whirl" pil $rig --step 200us --fault "$fault" --firmware "$build/pil_rig" --tape "$scratch/reset.tape" >"$scratch/reset" 2>"$scratch/err"
 [ $? -eq 1 ] && grep -aq '^TRIPPED: the load cell' "$scratch/reset" && grep -aq '^RESET: the motor stays off' "$scratch/reset" &&
     [ "$(grep -ac '^Eccentric-mass rig on board' "$scratch/reset")" = 3 ] && [ "$(grep -ac '^0.000 s  tripped' "$scratch/reset")" = 2 ] &&
-    grep -aq '^resets  *2, the last at t = 7.7' "$scratch/reset" && grep -aq '^it tells .* state 4, trip 5, .* reset 2$' "$scratch/reset"
+    grep -aq '^resets  *2, the last at t = 7.7' "$scratch/reset" && grep -aq '^notes .* state 4, trip 5, .* reset 2$' "$scratch/reset"
 verdict $? "a trip is latched through two resets, and told" "$scratch/reset"
 for board in $boards pc; do
     image=build/$board/pil_rig.elf
@@ -192,7 +192,7 @@ done
 
 # --- invalid tapes --------------------------------------------------------------------------------------------------------
 head -c 3000 "$scratch/pc.tape" >"$scratch/cut.tape"
-exits 2 'it is broken' --replay "$scratch/cut.tape" --firmware "$build/pil_rig"
+exits 2 'the tape is damaged' --replay "$scratch/cut.tape" --firmware "$build/pil_rig"
 { head -c 3000 "$scratch/pc.tape" && printf X && tail -c +3002 "$scratch/pc.tape"; } >"$scratch/flip.tape"
 exits 2 'not a tape of this version' --replay "$build/pil_rig" --firmware "$build/pil_rig"
 exits 2 'cannot be read' --replay "$scratch/none" --firmware "$build/pil_rig"
@@ -214,7 +214,7 @@ awk -F, 'NF != 8 || $1 > $2 || ($3 == "sample") != ($8 == "good") || ($3 == "edg
     END { exit !(NR > 15000 && bad == 1) }' "$scratch/rows" # the only other line is the header
 verdict $? "its rows have eight columns, and a sample every 2 ms"
 # a supply of 24 V, the tare at rest, pulses in whole turns, and the firmware's last notes
-awk -F, -v told="$(sed -n 's/^it tells .* amplitude \([0-9.]*\) N.*/\1/p' "$scratch/pc")" '
+awk -F, -v told="$(sed -n 's/^notes .* amplitude \([0-9.]*\) N.*/\1/p' "$scratch/pc")" '
     BEGIN { before = -1 }
     $5 == "supply" && ($6 < 23.98 || $6 > 24.02) { bad++ }
     $5 == "cell_force" && $1 < 2 && ($6 < 56.05 || $6 > 56.08) { bad++ }
@@ -239,7 +239,7 @@ sh tests/limit.sh 60 "$whirl" pil $rig --fault edge-late=5ms@3s,cell-saturated@6
     $8 == "saturated" && ($1 < 6 || $4 != 1) { bad++ } $8 == "saturated" { full++ } END { exit !(n > 5 && bad == 0 && full > 1) }'
 verdict $? "what comes late has its stamp, and what is saturated says so" "$scratch/out"
 "$whirl" pil --read "$scratch/flip.tape" >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q 'error: it is broken after 20 exchanges' "$scratch/err" && [ "$(grep -c . "$scratch/out")" -gt 1 ]
+[ $? -eq 2 ] && grep -q 'error: the tape is damaged after 20 exchanges' "$scratch/err" && [ "$(grep -c . "$scratch/out")" -gt 1 ]
 verdict $? "a broken tape is read up to its fault" "$scratch/err"
 exits 2 'this is not a tape of this version' --read "$build/pil_rig"
 exits 2 'this is not a tape of this version' --read /dev/zero

@@ -54,11 +54,11 @@ grep '^build/whirl pil' "$scratch/commands" | sed -n 's/^build.whirl pil table.w
 [ "$(wc -l <"$scratch/runs")" -eq 2 ]
 verdict $? "the page runs it twice"
 while read -r words; do
-    run "$built" $words --tape "$scratch/tape" && grep -q '^it tells  *homed 1, place ' "$scratch/out"
+    run "$built" $words --tape "$scratch/tape" && grep -q '^notes  *homed 1, place ' "$scratch/out"
     verdict $? "as on the page: $words" "$scratch/out"
 done <"$scratch/runs"
 if [ -n "$elf" ]; then
-    run "$elf" && grep -q '^it tells  *homed 1, place 0.0[12]' "$scratch/out" && grep -q "board $board" "$scratch/out"
+    run "$elf" && grep -q '^notes  *homed 1, place 0.0[12]' "$scratch/out" && grep -q "board $board" "$scratch/out"
     verdict $? "and on $board" "$scratch/out"
 fi
 

@@ -140,7 +140,7 @@ refused "there is no quantity 'zzzzzz'" "the quantities are time, x, a, x', a', 
 refused "there is no quantity 'pul'" "did you mean pull?" run "$model" --y pul --plot "$scratch/no.svg"
 refused "one panel has one unit" '--y "x, pull" makes a panel for each unit' plot "$scratch/soft.csv" --panel x,pull "$out"
 refused "No such file" "whirl run SCENE --csv $scratch/none.csv writes one" plot "$scratch/none.csv" "$out"
-refused "x is in" "draw them in two pictures" plot "$scratch/hand.csv" "$scratch/inch.csv" --y x "$out" 2>/dev/null <<END
+refused "the unit of x is" "draw them in two pictures" plot "$scratch/hand.csv" "$scratch/inch.csv" --y x "$out" 2>/dev/null <<END
 $(printf 'time,x [in]\n0,1\n1,2\n' >"$scratch/inch.csv")
 END
 refused "the first line is no header" "begin the file with the names" plot "$scratch/bare.csv" "$out" <<END
@@ -151,7 +151,7 @@ refused "draws .svg, .pdf and .png files" "--out picture.svg" plot "$scratch/sof
 refused "--ylabel has 3 texts for 1 panel" 'write a comma between' plot "$scratch/soft.csv" --y x --ylabel "a, b, c" "$out"
 refused "--legend has 1 name for 2 runs" '--legend "first, second"' plot "$scratch/soft.csv" "$scratch/stiff.csv" --legend one "$out"
 refused "--set changes a scene" "whirl plot SCENE --set" plot "$scratch/soft.csv" --set k=1 "$out"
-refused "k is given twice, but an option changes both in the same way" "record each run, then draw both:" plot "$model" --set k=5 "$model" --set=k=90 "$out"
+refused "k is given twice, but an option changes all runs of the picture in the same way" "record each run, then draw both:" plot "$model" --set k=5 "$model" --set=k=90 "$out"
 sed -n 's/^  whirl //p' "$scratch/err" | (cd "$scratch" && while read -r line; do eval "\"$program\" $line" || exit 1; done) >"$scratch/said" 2>&1 && [ -s "$scratch/no.svg" ]
 verdict $? "whose commands do" "$scratch/said"
 rm -f "$scratch/no.svg"

@@ -192,13 +192,13 @@ for request in '1e-3 200Hz' '1e-2 100Hz' '1e-4 500Hz' '1e-5 1kHz'; do
     set -- $request
     "$whirl" choose --predict "$scratch/spring.whirl" --of x --error "$1" --rate "$2" --clock 16MHz --effort 8e7 >"$scratch/out" 2>"$scratch/err"
     verdict $? "choose --error $1 --rate $2"
-    line=$(first '  again *whirl ')
+    line=$(first '  to run *whirl ')
     "$whirl" $line --csv - --quiet | tr -d '\r' | awk -F, -v allowed="$1" '
         function abs(v) { return v < 0 ? -v : v }
         NR == 1 { next } { off = abs($2 - cos(8 * $1)); if (off > worst) { worst = off } n++ }
         END { if (n < 10 || worst * 2 > allowed * 1.02) { print worst, n; exit 1 } }' >"$scratch/err"
     verdict $? "choose --error $1: the line it prints keeps it twice"
-    derive=$(first '  as code *whirl ')
+    derive=$(first '  to print C *whirl ')
     "$whirl" $derive 2>"$scratch/err" | grep -q 'wh_scene'
     verdict $? "choose --error $1: its code"
     grep -q '^  load  .*%.* of a period of' "$scratch/out" && grep -q '^least flash ' "$scratch/out" &&
@@ -208,9 +208,9 @@ done
 # Without an FPU fixed point is chosen. The printed lines contain everything that its bits depend on.
 "$whirl" choose --predict "$scratch/pendulum.whirl" --error 1e-4 --rate 100Hz --effort 8e7 --board mps2-an385-m0 >"$scratch/out" 2>"$scratch/err"
 [ $? -eq 0 ] && grep -q '^fewest cycles .*--number fixed' "$scratch/out" &&
-    grep -q '^  counted by .* mps2-an385-m0 fixed .* --until 2$' "$scratch/out"
+    grep -q '^  to count .* mps2-an385-m0 fixed .* --until 2$' "$scratch/out"
 verdict $? "choose on a Cortex-M0: fixed point" "$scratch/out"
-derive=$(first '  as code *whirl ')
+derive=$(first '  to print C *whirl ')
 "$whirl" $derive 2>"$scratch/err" | grep -q 'wh_fixed_scene'
 verdict $? "and its code"
 for effort in 4e5 8e5; do
@@ -288,7 +288,7 @@ asked 0 '^fewest cycles' "$odd:odd_tiny" --of x --error 1mm
 asked 1 'nothing moves' "$odd:odd_rests" --error 1e-3
 usual asked 0 'left out .*: X' laskowitz_shifted --error 1e-2 --horizon 0.2s
 # places of a range at which nothing moves are omitted, and named
-asked 0 'left out *settings without motion: --start x=0$' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
+asked 0 'left out *combinations in which nothing moves: --start x=0$' "$odd:odd_rings" --error 1e-2 --vary "x=0..1 [m]"
 asked 1 'with --start x=0: nothing moves' "$odd:odd_rings" --error 1e-2 --start "x=0 [m]" --vary "x=0..0 [m]:1"
 # a component that rests at a single place of a range is kept
 cat >"$scratch/two.whirl" <<'END'
@@ -322,7 +322,7 @@ for horizon in 1ms 1ns; do
 done
 # the printed lines work although file and value contain blanks
 asked 0 '^fewest cycles' "$odd:odd_rings" --error 1e-3 --rate 100Hz --set 'k=20 [N/m]' --start "x'=3 [m/s]"
-again=$(first '  again *whirl ')
+again=$(first '  to run *whirl ')
 eval "\"$whirl\" $again --quiet --csv $scratch/again.csv" && [ "$(wc -l <"$scratch/again.csv")" -gt 100 ]
 verdict $? "a line with blanks runs" "$scratch/out"
 # if no single limit can be met, all are named

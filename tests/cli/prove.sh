@@ -35,9 +35,9 @@ proved '^proved to the end, t = 0 s$' epicyclic_from_rest --until 0
 "$whirl" trust epicyclic_from_rest --until 0.1s --proved --csv - 2>&1 >"$scratch/out" | cmp - "$scratch/err" && cmp "$scratch/rows" "$scratch/out" && [ -s "$scratch/rows" ]
 verdict $? "whirl trust --proved says the same"
 # with a step that is too coarse, the error is larger, and that is proved, too
-proved 'proved: the error is larger after that$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
+proved 'proved: error too large after that$' epicyclic_from_rest --until 3s --method semi-implicit-euler --step 10ms --tolerance 1e-4
 # a start that float cannot represent has an error from the beginning
-proved '^  theta  *never  *within 1.00e-12 rad: proved: the error at the start is larger$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
+proved '^  theta  *never  *within 1.00e-12 rad: proved: the error is too large at the start$' epicyclic_from_rest --until 0.1s --number float --start theta=0.1 --within theta=1e-12
 grep -q '^nothing is proved: theta is not within its tolerance at the start$' "$scratch/out"
 verdict $? "a start that is off: nothing is proved" "$scratch/out"
 # noise is added to records only: the motion is the same

@@ -72,7 +72,7 @@ done
 for number in double float; do
     for sums in '' --compensated; do
         "$whirl" trust mk/stability/spring.whirl --matrix exact --step 100ms --until 10s --number $number $sums --csv "$scratch/rows" >"$scratch/words" 2>"$scratch/err" &&
-            [ "$(end_of "$scratch/rows")" = end ] && grep -q '^  x  *to the end .* of its range, 0.2 m$' "$scratch/words"
+            [ "$(end_of "$scratch/rows")" = end ] && grep -q '^  x  *to the end .* of its range of 0.2 m$' "$scratch/words"
         verdict $? "an exact matrix, $number $sums: to the end" "$scratch/words"
     done
 done

@@ -103,8 +103,8 @@ TEST(apart, four_bars) {
         char *values = strstr(told, "write: start ");
         TEST_ASSERT_TRUE_MESSAGE(values != NULL || b.turned_rad > 0.05, text);
         if (values == NULL) {
-            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "none near the given ones satisfy the holds"),
-                                         text);
+            TEST_ASSERT_NOT_NULL_MESSAGE(
+                strstr(told, "Whirl found none near these that satisfy the holds"), text);
             free(told);
             continue;
         }

@@ -291,8 +291,10 @@ static void expect_repeated(const char *piece, size_t times, const char *tail, c
 }
 
 TEST(bad_input, ten_thousand_deep) {
-    expect_repeated("(", 10000, "1\n", "x.whirl:3:209: error: nested more than 200 deep");
-    expect_repeated("-", 10000, "1\n", "x.whirl:3:209: error: nested more than 200 deep");
+    expect_repeated("(", 10000, "1\n",
+                    "x.whirl:3:209: error: this expression is nested more than 200 deep");
+    expect_repeated("-", 10000, "1\n",
+                    "x.whirl:3:209: error: this expression is nested more than 200 deep");
     expect_repeated("2^", 10000, "1\n", "nested more than 200 deep");
     expect_repeated("sin(", 10000, "1\n", "nested more than 200 deep");
     expect_repeated("1+", 10000, "1\n", "x.whirl:3:2008: error: this expression is more than 1000");

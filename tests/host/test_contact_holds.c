@@ -278,7 +278,8 @@ TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
         }
         motion_close(&m);
     }
-    printf("  what is held to a raised body is off by %.1e m, float %.1e m\n", worst[0], worst[1]);
+    printf("  the expression of a hold to a raised body is off by %.1e m, float %.1e m\n", worst[0],
+           worst[1]);
     TEST_ASSERT_TRUE(worst[0] <= 1e-15 && worst[1] <= 1e-6);
 }
 

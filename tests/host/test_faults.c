@@ -659,7 +659,7 @@ TEST(replay, not_replayed) {
             talk_on_tape.length -= 3;
             talk_say_all(talk_drawn.turns);
             const char *told = replay(LOCKSTEP_BAD, talk_drawn.turns - 1U, true);
-            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "error: it is broken after "), told);
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, "error: the tape is damaged after "), told);
         } else { /* no tape */
             talk_on_tape.length = 2;
             const char *told = replay(LOCKSTEP_BAD, 0, false);

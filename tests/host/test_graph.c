@@ -905,7 +905,7 @@ static void expect_refused(const char *formula, const char *name) {
         "x.whirl:6:%d: error: whirl prove has no bounds for %s of a quantity that changes in the run\n",
         (int)(strstr(formula, name) - formula) + 9, name);
     TEST_ASSERT_EQUAL_STRING_LEN(wanted, told, strlen(wanted));
-    TEST_ASSERT_NOT_NULL(strstr(told, "hint: use whirl trust, which estimates"));
+    TEST_ASSERT_NOT_NULL(strstr(told, "hint: use whirl trust, which estimates the error"));
     free(told);
     close_text();
 }

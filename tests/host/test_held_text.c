@@ -83,7 +83,7 @@ static const char *read_not_less(const char *at, const image_unit *unit, double 
 static const char *said_behind(const char *at, const containment_state *s) {
     switch (s->verdict) {
     case CONTAINMENT_TO_THE_END: return said_exactly(at, "\n");
-    case CONTAINMENT_LEFT: return said_exactly(at, "; proved: the error is larger after that\n");
+    case CONTAINMENT_LEFT: return said_exactly(at, "; proved: error too large after that\n");
     case CONTAINMENT_UNTOLD:
         return said_exactly(at, "; after that the tube is too wide to decide\n");
     case CONTAINMENT_UNENDED: break;
@@ -124,8 +124,8 @@ static const char *said_state(const char *at, int i, const char *name) {
     at = said_exactly(at, ": ");
     if (!s->begun) {
         return said_exactly(at, s->verdict == CONTAINMENT_LEFT
-                                    ? "proved: the error at the start is larger\n"
-                                    : "the start value is not known so accurately\n");
+                                    ? "proved: the error is too large at the start\n"
+                                    : "the start value is known less accurately than that\n");
     }
     at = said_exactly(at, "error at most ");
     at = read_not_less(at, unit, s->off, 1);

@@ -539,7 +539,7 @@ TEST(underivable, a_hint_about_parameters_helps) {
         char wanted[100];
         const unsigned sums = 11 + dice_one_of(&d, 3);
         snprintf(wanted, sizeof wanted,
-                 "hint: write let instead of parameter, which makes numbers of %u parameters",
+                 "hint: write let instead of parameter, so that %u parameters become numbers",
                  3 * sums);
         for (int lets = 0; lets < 2; lets++) {
             const dice drawn = d;
@@ -577,14 +577,13 @@ TEST(underivable, expressions_that_explode_are_refused) {
                                          "let a# = atan2(a@, a@ + 2) + max(a@, x)\n"};
     for (size_t i = 0; i < sizeof pieces / sizeof pieces[0]; i++) {
         char *text = repeated(front, pieces[i], 30, tail);
-        expect_refused(text,
-                       "t.whirl:1:11: error: the equations of 'm' grow beyond what can be handled");
+        expect_refused(text, "t.whirl:1:11: error: the equations of 'm' grow too large");
         free(text);
     }
     /* few objects, but 2^40 leaves for a traversal that visits an object again for each use */
     char *doubled = repeated(front, "let a# = exp(a@) + atan(a@)\n", 40,
                              "T = 1 [kg*m^2]*(x'^2 + y'^2)\noutput o = a40\n");
-    expect_refused(doubled, "error: the equations of 'm' grow beyond what can be handled");
+    expect_refused(doubled, "error: the equations of 'm' grow too large");
     free(doubled);
     /* at a smaller depth, the derivation may succeed, but must end in time */
     for (int deep = 4; deep < 12; deep++) {

@@ -367,7 +367,7 @@ static const struct {
      "more than one turn angle", "2:12"},
     {"mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
      "T = 1 [kg*m^2]*a'^2/2 + 1 [kg]*x'^2/2 + 1 [kg]*x^2*a'^2/2\nV = 1 [J]*cos(a)\n",
-     "have a denominator with a rate, an input or a real", "1:11"},
+     "have a denominator with a rate, an input or a coordinate that is no turn angle", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*cos(a)\n"
      "Q(a) = -0.1 [N*m]*sign(a')\n",
      "contain a function", "1:11"},

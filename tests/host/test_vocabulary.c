@@ -155,10 +155,10 @@ TEST(vocabulary, first_words_get_a_hint) {
         "V = 1 [J]*%s", "V = 1 [J]*%s(x/1 [m])", "let l2 = 3*%s + 2", "output w = sin(%s*2)",
         "%s y x",       "effect e {\n%s x\n}"};
     static const char *const attempts[][2] = {
-        {"F = m*x", "hint: it contains no speed; write: F = "},
+        {"F = m*x", "hint: the expression contains no speed; write: F = "},
         {"V = 1/2*m*9.81", "hint: a number without a unit"},
         {"friction x - l static 1 kinetic 1 normal 1 [N]", "hint: for friction between two bodies"},
-        {"input w", "hint: an input has a value at the start: input w = 0"},
+        {"input w", "hint: give the input a start value: input w = 0"},
         {"input F", "hint: choose another name, such as F_1"},
         {"Q = 3", "hint: write Q(x) = "},
         {"V = 1 [J]*arctan(x/1 [m])", "hint: did you mean 'atan'?"},
