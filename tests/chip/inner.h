@@ -58,7 +58,7 @@ __attribute__((format(printf, 2, 3))) void forbid_if(bool broken, const char *wo
 uint64_t now_units(void);
 bool core_halted(void);
 uint64_t drawn(void); /* a random number */
-/* Resets the chip. Returns only in chip_pass(), never to the program. */
+/* Resets the chip. Within chip_try() it does not return. */
 void core_resets(chip_cause cause);
 volatile void *memory_at(uint32_t address); /* set by reg_address() */
 

@@ -313,7 +313,7 @@ TEST(chip_cell, fallback) {
     }
 }
 
-/* The supply channel gives a value of the supply from the last 2 ms. */
+/* The supply's reading is not older than 2 ms. */
 static float supply;
 static void read_supply(void) { supply = hal_motor_supply_V(); }
 TEST(chip_cell, supply) {

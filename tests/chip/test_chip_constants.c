@@ -1,6 +1,7 @@
-/* test_chip_constants.c: compares every constant of boards/stm32f4/rm0090.h with a second source; the drivers' author
- * used the manual. ST's header for the chip (stm32f405xx.h of STM32CubeF4) gives bases, offsets and interrupts. Headers
- * generated from ST's SVD files give clocks, flash, timers, DMA, converter, serial interface, watchdog and debug. */
+/* test_chip_constants.c: compares every constant of boards/stm32f4/rm0090.h, which the author took from the manual,
+ * with a second source. ST's header for the chip (stm32f405xx.h of STM32CubeF4) gives bases, offsets and interrupts.
+ * Headers generated from ST's SVD files give clocks, flash, timers, DMA, converter, serial interface, watchdog and
+ * debug. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>

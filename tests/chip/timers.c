@@ -24,7 +24,7 @@ enum {
 #define URS BIT(2)
 #define UIF BIT(0)
 #define FLAGS 0x1E5FU
-#define TIM3_TRGO 8U /* EXTSEL of the ADC (table 69) */
+#define TIM3_TRGO 8U /* the ADC's number of this trigger (EXTSEL, table 69) */
 
 typedef struct timer {
     uint32_t r[21];
@@ -33,7 +33,7 @@ typedef struct timer {
     uint64_t most; /* largest count */
     unsigned interrupt;
     unsigned debug_bit; /* bit of DBGMCU_APB1_FZ that stops this timer */
-    unsigned trigger;   /* trigger of the ADC at this timer's update */
+    unsigned trigger;   /* the ADC's number of this timer's update */
     struct {
         bool level, filtered;
         uint64_t accepted_at; /* time at which the filter passes the new level */

@@ -1,6 +1,7 @@
 /* test_contact_dips.c: stops that a body passes and leaves within one step (contact_dip.h), for random bodies under
- * constant loads, whose motion is known. wh_contact_attempt_dipped() must report such stops, as a hit if the stop was
- * open or closing at the begin. wh_contact_dip() must find the pass if both ends are open. */
+ * constant loads, whose motion is known. wh_contact_attempt_dipped() must report a hit if the stop was open or
+ * closing at the begin. If both ends of the step are open, wh_contact_dip() must find a time at which the body is
+ * beyond the stop. */
 #include "draw.h"
 #include "hand.h"
 

@@ -12,8 +12,8 @@ static void draw_places(uint64_t *seed, unsigned count, int8_t *at) {
     }
 }
 
-/* Returns the sum of the magnitudes of the terms of a contact's acceleration: its bias, and each coordinate's part of
- * the accelerations and of every force. */
+/* Returns the sum of the magnitudes of the terms of a contact's acceleration. The terms are its bias and, for each
+ * coordinate, the parts of the acceleration and of each force. */
 static wh_real terms_of(const wh_contact_work *w, unsigned k, const wh_real *accel) {
     wh_real size = WH_ABS(bench_now.bias[k]);
     for (unsigned c = 0; c < bench_now.system.coordinates; c++) {

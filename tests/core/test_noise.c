@@ -58,7 +58,8 @@ TEST(noise, moments) {
 }
 
 /* The shares beyond one to four standard deviations are a Gaussian's. The tolerances are four standard errors of a
- * count, sqrt(p (1 - p)/(16 DRAWS)): small enough to distinguish 0.0027 from the 0.0020 of a sum of twelve. */
+ * count, sqrt(p (1 - p)/(16 DRAWS)). A sum of twelve uniform numbers would fail: 0.0020 instead of 0.0027 are beyond
+ * three. */
 TEST(noise, tails) {
     enum { SEEDS = 16 };
     static const double part[] = {0.31731, 0.045500, 0.0026998, 6.33e-5};

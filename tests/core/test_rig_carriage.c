@@ -129,7 +129,7 @@ TEST(rig_carriage, mount) {
     TEST_ASSERT_TRUE(turns->gravity_mps2 == WH_R(0.0) && config.feeds == WH_COMPENSATION_NEVER &&
                      config.observer.scene == NULL);
 
-    /* Arms without discs: the model neglects their unbalance. */
+    /* Without discs, only the arms have unbalance, and the carriage's model neglects it. */
     const wh_carriage bare = {.disc_m = WH_R(0.0), .ratio = WH_R(0.0)};
     wh_carriage_mount(&config, &bare);
     CHECK_NEAR(1e-8f, 2.0f * 0.152f * 3.625f * 0.45359237f * 0.0254f, turns->unbalance_kgm);

@@ -62,7 +62,7 @@ TEST(rig_guard, over_speed_trips) {
     TEST_ASSERT_TRUE(trip_at(WH_R(200.0), 2) == WH_TRIP_RUNS_ON);
 }
 
-/* Over-speed trips when no accepted pulse can contradict it: at once for a turn that is too fast, or after two short
+/* Over-speed trips for a turn that is too fast, unless a later pulse may still contradict it, or after two short
  * intervals in succession. */
 TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     const wh_guard_config *config = &wh_rig_standard.guard;

@@ -214,7 +214,7 @@ TEST(rig_off, healthy_rotors_run_out) {
     TEST_ASSERT_TRUE(!OFF_ALL || (brakes > 0 && 2U * swings > draw_cases(OFF_BENCHES / 3U)));
 }
 
-/* One false pulse of either sensor while a rotor coasts causes no trip. The exception are some rotors that are about to
+/* One false pulse of either sensor while a rotor coasts causes no trip, except for some rotors that are about to
  * reverse at the top. */
 TEST(rig_off, one_invented_pulse_is_no_drive) {
     unsigned benches = 0;

@@ -11,7 +11,7 @@
 #define STEP_TICKS EVEN_STEP_TICKS
 #define TRAIN_PULSES 24U
 #define SETTLED 6U    /* from this pulse on the speed must be right */
-#define DISTURBED 12U /* the false pulse follows this one */
+#define DISTURBED 12U /* number of the pulse before the false one */
 #define MOST_PULSES (TRAIN_PULSES * 5U)
 #define JITTER_TICKS 60U
 /* Within this time, a false pulse may replace a true one of the same sensor, because a pulse's time is uncertain by

@@ -185,7 +185,7 @@ TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
     }
 }
 
-/* The column .turns follows from the shares, or is empty. */
+/* A method's column .turns follows from its shares of the step, or is empty. */
 TEST(stage_turn, turns_follow_from_the_shares) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const wh_tableau *by = wh_tableau_of(m);

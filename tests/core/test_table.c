@@ -1,6 +1,6 @@
-/* test_table.c: tabulated functions, one polynomial per cell. A lookup at any phase gives the polynomial, and the
- * function to the accuracy of a cell's width. Tested with whole tables and, if the build has them, tables of half a
- * turn. */
+/* test_table.c: tabulated functions, one polynomial per cell. At any phase a lookup must give the polynomial, and the
+ * function as accurately as a cell's width allows. Tested with whole tables and, if the build has them, tables of
+ * half a turn. */
 #include "core/angle.h"
 #if __STDC_HOSTED__ && !WH_DOUBLE
 #define WH_TABLE_FOLD 1 /* the setting of boards without an FPU; other builds have the default */

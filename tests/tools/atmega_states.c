@@ -148,7 +148,7 @@ bool all_resets(unsigned times) {
             uint8_t flag;
             const char *cause;
         } rows[] = {{EXTERNAL, "# reset: other"}, {BROWN_OUT, "# reset: supply"}, {POWER_ON, NULL}};
-        const unsigned row = below(3); /* memory survives a short power loss */
+        const unsigned row = below(3); /* POWER_ON: a power loss so short that memory survives */
         if (!draw_state(&tripped)) {
             return false;
         }

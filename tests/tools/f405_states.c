@@ -208,7 +208,6 @@ static bool resets_once(unsigned number) {
     }
     emulated_wait(&board, 20);
     if (!says_state(after, sizeof after, &trip_after)) {
-        /* this is also the answer to a line typed in part */
         return false;
     }
     if (strcmp(after, trip != 0 ? "tripped" : "idle") != 0 || trip_after != trip) {

@@ -62,7 +62,7 @@ uint32_t mega_symbol(const char *name);
 /* The supply's voltage, and whether stop's contacts are open, from now on. */
 extern float mega_supply_V;
 extern bool mega_stop;
-extern float mega_noise_mV; /* noise of the load cell's amplifier, uniform, both ways */
+extern float mega_noise_mV; /* noise of the load cell's amplifier, uniform, plus or minus this */
 
 /* The plant gives no more slot pulses: the caller sets the levels at the capture pins. */
 extern bool mega_no_pulses;

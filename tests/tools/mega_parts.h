@@ -19,7 +19,7 @@ typedef struct mega_next {
     bool hears;                     /* the instruction is `wdr` */
     bool writes;                    /* the instruction begins to write or erase an EEPROM byte */
     unsigned address;               /* that byte's address */
-    uint8_t overflows; /* bit 0: timer 4, bit 1: timer 5: an overflow that stays pending */
+    uint8_t overflows;              /* overflows that stay pending; bits 0 and 1: timers 4 and 5 */
 } mega_next;
 
 /* To be called after a reset. */

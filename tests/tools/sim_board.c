@@ -50,7 +50,7 @@ static unsigned ordered; /* orders given in this minute */
 static uint64_t minute;
 
 static const struct {
-    double at_s; /* time of each minute, s */
+    double at_s; /* seconds after the begin of each minute */
     const char *line;
 } orders[] = {
     {0.5, ""}, {3.0, "arm\n"}, {3.5, "start 330\n"}, {20.0, "set 250\n"}, {50.0, "stop\n"}};
@@ -185,7 +185,7 @@ bool board_converse(void) {
         (link_name != NULL && symlink(name, link_name) != 0)) {
         return false;
     }
-    if (!alone) { /* until a reader opens it */
+    if (!alone) { /* waits until a reader opens the terminal */
         struct pollfd wait = {.fd = line, .events = POLLIN};
         (void)poll(&wait, 1, PATIENCE_MS);
     }
