@@ -31,7 +31,7 @@ typedef struct bench {
     /* Growth of the unconstrained accelerations per metre of motion of the first coordinate. */
     wh_real ramp[WH_COORDS];
     wh_real signal[2 * BENCH_CONTACTS]; /* constant parts of the signals */
-    bool moves; /* the signals also contain J x and J x' (no angles; J grows with `lean`) */
+    bool moves; /* the signals also contain J x and J x'; only without angles */
     wh_contact contact[BENCH_CONTACTS];
     wh_contact_system system;
     wh_ledger_form books;

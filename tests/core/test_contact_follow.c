@@ -37,7 +37,7 @@ TEST(contact_follow, a_stop_takes_along_what_rests_on_it) {
     }
 }
 
-/* If the stop is lowered by more, the ball falls freely. */
+/* If the stop is lowered by more than the ball's fall in a step, the ball falls freely. */
 TEST(contact_follow, a_stop_that_drops_away_leaves_the_ball) {
     const wh_real moves[] = {WH_R(-1.2) * REACH_M, WH_R(-2.0) * REACH_M, WH_R(-1e-3), WH_R(-2.0)};
     for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {

@@ -242,7 +242,7 @@ TEST(contact_project, what_slipped_is_put_back) {
         w.mode[1] = WH_FREE;
         w.mode[2] = slides ? 1 : WH_STUCK;
         const wh_real size =
-            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* half of this counts as far */
+            WH_DOUBLE ? WH_R(0x1p-29) : WH_R(0x1p-16); /* an error of half this size is far */
         const wh_real off =
             draw_whole(&seed, -3, 3) * size * (draw_one_in(&seed, 2) ? 1 : WH_R(0.125));
         for (unsigned k = 0; k < 2; k++) {

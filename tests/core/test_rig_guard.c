@@ -94,7 +94,7 @@ TEST(rig_guard, what_climbs_and_is_fast_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
     for (unsigned fast = 0; fast < 2U; fast++) {
-        for (unsigned part = 0; part <= 10U; part++) { /* the last rise, in tenths of both */
+        for (unsigned part = 0; part <= 10U; part++) { /* tenths of the sum that the last rise has */
             wh_guard guard;
             wh_guard_start(&guard, 0);
             wh_pulses pulses;

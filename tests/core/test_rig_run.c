@@ -180,7 +180,7 @@ TEST(rig_run, a_speed_that_hunts_or_drifts_does_not_settle) {
         TEST_ASSERT_TRUE(even.rig.guard.trip != WH_TRIP_NONE && !even.rig.has_result);
         unsettled += even.rig.guard.trip == WH_TRIP_UNSETTLED ? 1U : 0U;
     }
-    /* In the other runs the drive's voltage reached its limit. */
+    /* These runs do not settle. In the others the drive's voltage reached its limit. */
     TEST_ASSERT_TRUE(unsettled >= 20U);
 }
 

@@ -40,7 +40,7 @@ void emulated_end(emulated *e);
 
 void emulated_say(emulated *e, const char *words);
 
-/* Reads the console's next line. Returns false after `ms` of processor time, or 20 `ms` asleep. */
+/* Reads the console's next line. Returns false after `ms` of the emulator's processor time, or 20 `ms` in all. */
 bool emulated_hear(emulated *e, char *line, unsigned room, unsigned ms);
 
 void emulated_wait(emulated *e, unsigned ms);

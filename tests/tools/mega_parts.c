@@ -108,8 +108,8 @@ static uint8_t overflows_now(const avr_t *avr, unsigned word) {
     return waits;
 }
 
-/* simavr clears all flags of a timer if one is written; the chip clears this one only (DS 17.11.37). Restores
- * overflows that simavr has lost. An overflow's own interrupt clears the flag on the chip, too. */
+/* If a flag of a timer is written, simavr clears all flags, the chip only the written flag (DS 17.11.37). Restores
+ * overflows that simavr has lost. On the chip, too, an overflow's interrupt clears it. */
 static void keep_overflows(avr_t *avr, uint8_t overflows) {
     for (avr_io_t *io = avr->io_port; io != NULL && overflows != 0; io = io->next) {
         avr_timer_t *timer = (avr_timer_t *)io;
