@@ -176,7 +176,7 @@ static void control(uint32_t value) {
         f.sr |= WRPERR;
     } else {
         static const uint16_t least_ms[4] = {
-            400, 300, 250, 250}; /* typical times (table 40), of which an erase takes one to two */
+            400, 300, 250, 250}; /* typical times (table 40); an erase takes up to twice as long */
         const uint32_t ms = least_ms[FIELD(value, 8, 2)];
         begins(ERASES, sector, 0, 1000U * (ms + drawn() % ms));
     }

@@ -247,7 +247,7 @@ void chip_tim2_count_is(uint32_t count) {
 }
 uint32_t chip_tim2_count(void) { return (uint32_t)(count_now(&tim2) % ((uint64_t)tim2.arr + 1U)); }
 
-/* Defines the part of a timer, with the functions above. */
+/* Defines the struct part of a timer, with the functions above. */
 #define TIMER_PART(tim, called, at, bit) \
     static uint32_t tim##_load(uint32_t offset) { return load_of(&tim, offset); } \
     static void tim##_store(uint32_t offset, uint32_t value) { store_of(&tim, offset, value); } \

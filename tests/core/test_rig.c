@@ -80,7 +80,7 @@ TEST(rig, only_a_known_turn_can_be_overdue) {
     TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, 100000000U));
     speed.known = true;
     TEST_ASSERT_TRUE(wh_speed_is_overdue(&speed, 100000000U));
-    TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, 1000U + 181000U)); /* a turn takes 181818 */
+    TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, 1000U + 181000U)); /* a turn takes 181818 ticks */
     TEST_ASSERT_TRUE(wh_speed_is_overdue(&speed, 1000U + 183000U));
 }
 

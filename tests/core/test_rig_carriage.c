@@ -147,7 +147,7 @@ TEST(rig_carriage, swing) {
             wh_carriage_mount(&config, &carriage);
             const wh_real part = config.measure.result.mount_factor;
             const wh_real moment = config.measure.rotor.unbalance_kgm;
-            /* without the discs, 0.136 kg, the inertia is smaller */
+            /* without the discs of 0.136 kg, the inertia is smaller */
             CHECK_NEAR(1e-8f, 0.136077711f * (float)(radii[r] * radii[r] - WH_R(0.02725801)),
                        config.measure.rotor.inertia_kgm2 - WH_RIG_INERTIA_KGM2);
             /* if the force is 10 % above the expected one, so is the motion of the carriage */

@@ -94,7 +94,7 @@ TEST(rig_guard, what_climbs_and_is_fast_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
     for (unsigned fast = 0; fast < 2U; fast++) {
-        for (unsigned part = 0; part <= 10U; part++) { /* tenths of the sum that the last rise has */
+        for (unsigned part = 0; part <= 10U; part++) { /* tenths of both rises in the last one */
             wh_guard guard;
             wh_guard_start(&guard, 0);
             wh_pulses pulses;
@@ -239,8 +239,8 @@ TEST(rig_guard, an_overloaded_or_disconnected_load_cell_trips) {
     }
 }
 
-/* A load cell without samples for more than load_silence_max_s, ten periods of 2 ms, trips, even while the timer wraps.
- * A repeated sample does not count as new. */
+/* If a load cell gives no samples for more than load_silence_max_s, ten periods of 2 ms, the rig trips, even while
+ * the timer wraps. A repeated sample does not count as new. */
 TEST(rig_guard, a_silent_load_cell_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const uint32_t last = UINT32_MAX - 4000U;

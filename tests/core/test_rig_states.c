@@ -203,7 +203,7 @@ TEST(rig_states, what_start_and_set_ask_for) {
         even_obeys(&even, event, WH_R(250.0) * EVEN_RPM);
         CHECK_NEAR(1e-3f, 250.0f, even.rig.run.target_radps / EVEN_RPM);
     }
-    stand_in(WH_RIG_ARMED); /* the lowest supply and the slowest set-point, without compensation */
+    stand_in(WH_RIG_ARMED); /* allowed: lowest supply, slowest set-point, no compensation */
     const wh_real slowest = even.config.guard.target_min_radps;
     even.inputs.supply_V = wh_run_needs_V(&even.config.run, slowest);
     even.config.guard.supply_min_V = WH_R(1.0);

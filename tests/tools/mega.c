@@ -421,7 +421,7 @@ uint32_t mega_pc(void) { return avr->pc; }
 void mega_set_pc(uint32_t at) { avr->pc = at; }
 uint16_t mega_sp(void) { return word_at(REG_SPL); }
 
-/* Pushes a return address like a call: in words, three bytes, the highest at the lowest address. */
+/* Pushes a return address as a call does: three bytes, a count of words, the highest byte at the lowest address. */
 void mega_push_pc(void) {
     const uint16_t sp = mega_sp();
     const uint32_t words = avr->pc / 2U;
