@@ -35,7 +35,7 @@ static unsigned strike(exact *e, unsigned set, unsigned beside, const double *ta
     return opens;
 }
 
-/* True if a flight that starts with this speed is too short. */
+/* True if a flight that starts with this speed is so short that the stop rests. */
 static bool rests(exact *e, unsigned k, double speed, const double *a) {
     const int pressed = exact_sign(e, -exact_along(k, a));
     return pressed == 0
@@ -55,7 +55,7 @@ static unsigned closing(exact *e) {
     return bits;
 }
 
-/* Hits the free stops in `found` and all stops that close with them. Returns all stops that were hit. */
+/* Hits the free stops in `found`, and all others that touch and close. Returns all stops that were hit. */
 static unsigned hit(exact *e, unsigned found, double *impulse) {
     double a[2];
     double force[HAND_CONTACTS];

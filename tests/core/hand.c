@@ -80,8 +80,7 @@ static void hand_forces(const void *model, const wh_phase *phase, const wh_real 
     }
 }
 
-/* Assigns what a crossing of this mechanism assigns: minus half of the first rate, or the place of the first
- * coordinate. */
+/* Computes the value that a crossing assigns: minus half of the first rate, or `place` for the first coordinate. */
 static void hand_sets(const void *model, const wh_phase *phase, const wh_real *linear,
                       const wh_real *rate, const wh_real *input, wh_real *result) {
     const hand *m = model;

@@ -82,7 +82,7 @@ static void run(const made_up *made, unsigned wanted) {
     turns_done = 0;
     unsigned turn = 0;                       /* number of the pulse that ends the present turn */
     unsigned second = 0;                     /* number of sensor 2's next pulse */
-    uint32_t pulse_ticks = made->late_ticks; /* of pulse `turn`, after the first sample */
+    uint32_t pulse_ticks = made->late_ticks; /* time of pulse `turn`, from the first sample on */
     uint32_t before = pulse_ticks - TURN_TICKS;
     wh_real kept_N = WH_R(0.0);
     for (uint32_t i = 0; turn < wanted + 4U && turns_done < TURNS_MOST; i++) {

@@ -9,8 +9,8 @@
 
 static double root(double x) { return (double)WH_SQRT((wh_real)x); }
 
-/* docs/rig.md: reversed bending at the bearing, 1 in from the arm, with notch factor 2 and safety factor 2. The limit
- * is the corrected endurance limit of steel with 440 MPa tensile strength. */
+/* The limit follows from reversed bending at the bearing, 1 in from the arm, with notch factor 2 and safety factor 2
+ * (docs/rig.md). The stress may reach the corrected endurance limit of steel with 440 MPa tensile strength. */
 TEST(rig_guard, speed_limit_follows_from_the_shaft) {
     const wh_real pi = WH_R(3.14159265);
     const wh_real endurance_Pa = WH_R(220e6) * WH_R(0.899) * WH_R(0.753);
@@ -88,7 +88,7 @@ TEST(rig_guard, over_speed_trips_when_it_is_sure) {
     }
 }
 
-/* Over-speed trips if the speed rises at two successive pulses, and one interval is beyond the bound. Either sign
+/* Over-speed trips if the speed rises at two successive pulses, and one interval is beyond the bound. One of these
  * alone does not trip. */
 TEST(rig_guard, what_climbs_and_is_fast_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;

@@ -8,7 +8,7 @@
 #include "tests/suites.h"
 
 /* The time without a pulse is counted from the last pulse, even while the timer wraps. If the pulse is later than the
- * step's own time, it is 0. */
+ * step's own time, the time without a pulse is 0. */
 TEST(rig_law, silence_goes_on_over_the_wrap) {
     scattered_state = UINT64_C(0x5eed0017);
     for (unsigned i = 0; i < 1000U; i++) {

@@ -24,7 +24,7 @@ static wh_real scatter(void) {
 }
 
 /* Sets the second order of a rotor's force, for a speed ripple of this size and direction. By energy, a rotor without
- * losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta). */
+ * losses has w^2 = A + B cos(theta + lag), and F = S (w^2 cos theta + w' sin theta), with the unbalance S. */
 static void put_second(wh_lockin_turn *turn, wh_real ripple_rad, wh_real lag_rad) {
     wh_real size_N;
     wh_real phase_rad;

@@ -160,7 +160,7 @@ TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
         const drawn rotor = draw_rotor(WH_R(0.004), WH_R(0.012));
         const wh_swung swung = swing_out(&config, &rotor, true);
         const wh_real root = WH_SQRT(rotor.kind.weight_Nm / rotor.kind.inertia_kgm2);
-        /* At 2, the rotor would reach the top. */
+        /* If this is 2, the rotor reaches the top. */
         const wh_real first = passed_radps[0] / root;
         if (first > WH_R(1.92) && first < WH_R(2.0) && passed > 20U && passed < PASSED_MOST) {
             near_top++; /* 147 degrees or more */

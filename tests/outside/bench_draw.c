@@ -8,11 +8,11 @@ const fault_kind kinds[] = {
     {"none", 0, 0, 0, false},
     KIND(noise, 0.2, 3, false)          /* N, standard deviation */
     KIND(hum, 0.05, 3, false)           /* amplitude in N, at 50 or 60 Hz */
-    KIND(pickup, 0.1, 5, false)         /* N, once in a turn */
-    KIND(clip_above, 0.9, 0.995, false) /* share of the record's upper peak */
-    KIND(clip_below, 0.9, 0.995, false) /* share of the record's lower peak */
+    KIND(pickup, 0.1, 5, false)         /* amplitude in N, once per turn */
+    KIND(clip_above, 0.9, 0.995, false) /* limit, as a share of the record's upper peak */
+    KIND(clip_below, 0.9, 0.995, false) /* limit, as a share of the record's lower peak */
     KIND(play, 0.5, 2, false)           /* N, full width of the hysteresis */
-    KIND(cubic, 0.005, 0.02, true)      /* error at the nominal amplitude */
+    KIND(cubic, 0.005, 0.02, true)      /* relative error at the nominal amplitude */
     KIND(drift, 0.01, 0.5, true)        /* N/s */
     KIND(gain, 0.005, 0.3, true)        /* relative error */
     KIND(quantized, 0.02, 0.5, false)   /* N per count */
@@ -24,7 +24,7 @@ const fault_kind kinds[] = {
     {"dead_1", offsetof(bench, dead), 1, 1, false},
     {"dead_2", offsetof(bench, dead), 2, 2, false},
     KIND(doubled, 0, 1, false)                            /* share of pulses that come twice */
-    KIND(torque_2, 0.02, 0.12, false)                     /* N*m, twice in a turn */
+    KIND(torque_2, 0.02, 0.12, false)                     /* amplitude in N*m, twice per turn */
     KIND(inertia, 0.5, 6, false)                          /* times the nominal inertia */
     {"friction", offsetof(bench, dry), 0.02, 0.2, false}, /* N*m */
     KIND(weak, -0.2, 0.5, false) /* share of the motor's torque that is missing */

@@ -30,6 +30,6 @@ const char *get_string(message *m);
 void line_start(line *l, const char *firmware);
 void line_say(const line *l, message *m);  /* adds the CRC */
 bool line_hear(const line *l, message *m); /* reads the next frame; false at the end */
-int line_end(const line *l);               /* closes the line; exit status or -1 */
+int line_end(const line *l);               /* closes the line; returns the exit status or -1 */
 
 #endif

@@ -182,7 +182,7 @@ static void on_convert(struct avr_irq_t *irq, uint32_t value, void *data) {
 static struct {
     uint32_t wait;
     uint32_t console;
-    uint32_t back; /* where the wait returns to */
+    uint32_t back; /* address to which the wait returns */
     bool waits;
     bool steps;
     uint64_t began;

@@ -53,7 +53,7 @@ uint16_t mega_sp(void);
 /* Calls code of the chip with the arguments in r22 to r25, then continues as if nothing had happened. */
 void mega_call(uint32_t at, const uint8_t arguments[4]);
 
-/* Overwrites executed flash, two bytes; returns the old ones. */
+/* Overwrites two bytes of the flash that is executed. Returns the old bytes. */
 uint16_t mega_set_flash(uint32_t at, uint16_t word);
 
 /* An address of flash, or of memory as for mega_data(); 0: no such symbol. */
@@ -74,7 +74,7 @@ extern void (*mega_on_eeprom)(unsigned address);
 /* A reset other than power-on: `flag` of MCUSR. Memory stays. */
 void mega_reset(uint8_t flag);
 
-/* Sends to the console at its speed; reads its next line within `ms`. */
+/* mega_say() sends a line at the console's speed; mega_hear() reads the console's next line within `ms`. */
 void mega_say(const char *line);
 bool mega_hear(char *line, unsigned room, unsigned ms);
 
