@@ -155,7 +155,7 @@ TEST(price_states, references_say_how_far_they_are_trusted) {
         TEST_ASSERT_EQUAL_INT(20, r->wanted);
         TEST_ASSERT_FALSE(r->stopped);
         TEST_ASSERT_NOT_NULL(
-            strstr(r->how, "nystroem5 in double with compensated sums by steps of "));
+            strstr(r->how, "nystroem5 in double with compensated sums and steps of "));
         TEST_ASSERT_TRUE_MESSAGE(row->why != NULL || r->why == NULL, row->text);
         TEST_ASSERT_TRUE_MESSAGE(
             row->why == NULL || row->why[0] == '\0' || strstr(r->why, row->why) != NULL, row->text);
