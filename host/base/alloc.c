@@ -148,6 +148,15 @@ char *alloc_copy(const char *text, size_t length) {
     return copy;
 }
 
+char *alloc_trimmed(const char *text, size_t length) {
+    static const char blank[] = " \t\r\n";
+    const size_t before = strspn(text, blank);
+    while (length > before && strchr(blank, text[length - 1]) != NULL) {
+        length--;
+    }
+    return alloc_copy(text + before, length > before ? length - before : 0);
+}
+
 char *alloc_words(const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);

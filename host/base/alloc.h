@@ -20,6 +20,8 @@ void *alloc_tail(size_t head, int64_t count, size_t size);
 
 /* A copy of `length` bytes with a zero byte after them. */
 char *alloc_copy(const char *text, size_t length);
+/* The same without blanks, tabs and line ends at both ends. */
+char *alloc_trimmed(const char *text, size_t length);
 
 /* The formatted text, as printf() would print it. */
 char *alloc_words(const char *format, ...) __attribute__((format(printf, 1, 2)));

@@ -70,13 +70,14 @@ static int column_of(const subsets *s, const char *name) {
 /* "X=1mm" */
 static bool read_limit(subsets *s, const char *text) {
     const size_t length = strcspn(text, "=");
-    char *name = alloc_copy(text, length);
+    char *name = alloc_trimmed(text, length);
     double si = 0.0;
     const int column = column_of(s, name);
     bool good = column > 0;
     if (good && text[length] == '\0') {
-        fprintf(stderr, "whirl effects: error: --error %s has no value\nhint: --error %s=1e-3\n",
-                text, text);
+        fprintf(stderr,
+                "whirl effects: error: --error %s has no value\nhint: --error \"%s=1e-3 [%s]\"\n",
+                text, name, s->columns->column[column].unit->shown);
         good = false;
     }
     if (good && isfinite(s->limit[column])) {
@@ -84,8 +85,7 @@ static bool read_limit(subsets *s, const char *text) {
                 name);
         good = false;
     }
-    good = good &&
-           pricing_quantity("effects", s->of, name, "--error", text + length + 1, dim_none(), &si);
+    good = good && pricing_quantity("effects", s->of, name, "--error", text, dim_none(), &si);
     if (good) {
         s->limit[column] = image_shown(s->columns->column[column].unit, si);
     }
@@ -182,7 +182,7 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     diags *unsaid = diags_new();
     assignment change;
     bool is = false;
-    if (override_parse(s->of, OVERRIDE_SET, set, memory, unsaid, &change)) {
+    if (override_parse(s->of, OVERRIDE_SET, set, NULL, memory, unsaid, &change)) {
         for (int k = 0; k < s->effects; k++) {
             is = is || (change.symbol->effect == s->effect[k] && (out >> (unsigned)k & 1U) != 0);
         }

@@ -172,9 +172,9 @@ static void push(const char ***list, int *count, const char *text) {
     longer[(*count)++] = text;
 }
 
-/* A copy of text[length], owned by the options. */
+/* A copy of text[length] without blanks at its ends, owned by the options. */
 static const char *keep(change_options *c, const char *text, size_t length) {
-    char *name = alloc_copy(text, length);
+    char *name = alloc_trimmed(text, length);
     c->owned = alloc_more(c->owned, c->owned_count + 1, sizeof *c->owned);
     c->owned[c->owned_count++] = name;
     return name;
@@ -193,22 +193,16 @@ static bool is_in(const char *const *list, int count, const char *name) {
  * repeated in the list or on the command line. */
 static bool push_names(change_options *c, const char ***list, int *count, const char *option,
                        const char *text) {
-    static const char blank[] = " \t\r\n";
     for (const char *at = text;; at++) {
         const size_t field = strcspn(at, ",");
-        const size_t before = strspn(at, blank);
-        size_t end = field;
-        while (end > before && strchr(blank, at[end - 1]) != NULL) {
-            end--;
-        }
-        if (end <= before) {
+        const char *name = keep(c, at, field);
+        if (name[0] == '\0') {
             fprintf(stderr,
                     "whirl: error: a name is missing in %s \"%s\"\n"
                     "hint: write names with commas between them: %s drag,ledger\n",
                     option, text, option);
             return false;
         }
-        const char *name = keep(c, at + before, end - before);
         if (strcmp(name, "conserve") == 0 && list == &c->with) {
             fputs("whirl: error: 'conserve' is not an effect, so --with cannot add it: write "
                   "conserve in the scene\n",

@@ -168,8 +168,8 @@ static bool read_error(pricing *p) {
     if (equals != NULL && p->quantity != NULL) {
         fprintf(stderr,
                 "whirl %s: error: --of and --error must not both name a quantity\nhint: --error "
-                "%s\n",
-                command, equals + 1);
+                "\"%s\"\n",
+                command, equals + 1 + strspn(equals + 1, " "));
         return false;
     }
     if (equals != NULL && equals == text) {
@@ -180,8 +180,7 @@ static bool read_error(pricing *p) {
         return false;
     }
     if (equals != NULL) {
-        p->quantity = p->named = alloc_copy(text, (size_t)(equals - text));
-        text = equals + 1;
+        p->quantity = p->named = alloc_trimmed(text, (size_t)(equals - text));
     }
     return text == NULL ||
            pricing_quantity(command, p->of, p->quantity, "--error", text, dim_none(), &p->error_si);

@@ -78,7 +78,7 @@ static bool read_within(const prove_options *o, const mechanism *of, const exact
     const size_t before = diags_calls(errors);
     for (int i = 0; i < o->within_count; i++) {
         assignment a;
-        if (!override_parse(of, OVERRIDE_START, o->within[i], memory, errors, &a)) {
+        if (!override_parse(of, OVERRIDE_START, o->within[i], NULL, memory, errors, &a)) {
             continue;
         }
         const double value = expr_value(a.value, NULL);

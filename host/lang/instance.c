@@ -338,7 +338,7 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
     for (int i = 0; i < count; i++) {
         assignment change;
         diags *all = into->values.diags;
-        if (override_parse(made->mechanism, kind, texts[i], made->arena, all, &change) &&
+        if (override_parse(made->mechanism, kind, texts[i], NULL, made->arena, all, &change) &&
             takes_part(made, kind, &change, all) && is_first(taken, taken_count, &change, all)) {
             taken[taken_count++] = change;
             apply(into, &change);

@@ -138,7 +138,8 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 
-/* Reports a missing unit, and returns false. If `with_name` is true, the hint begins with the symbol's name. */
+/* Reports a missing unit, and returns false. If `with_name` is true, the hint begins with the symbol's name; on the
+ * command line only if the name was typed. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
     enum { SHOWN_MAX = 60 };
@@ -158,22 +159,26 @@ static bool has_unit(parser *in, place at, const expr *value, const symbol *of, 
         length--;
     }
     const bool plain = is_bare_number(value) && text[length - 1] != ')';
-    const char *quote = in->builder == NULL ? "\"" : "";
+    const bool typed = in->builder == NULL; /* on the command line, perhaps after "NAME=" */
+    const char *quote = typed ? "\"" : "";
+    const bool has_name =
+        typed ? memchr(at.source->text, '=', at.offset) != NULL : with_name && in->around == NULL;
+    const char *lead = typed || has_name ? "" : "write ";
+    const char *before = in->around != NULL ? in->around[0] : "";
+    const char *after = in->around != NULL ? in->around[1] : "";
+    char name[NAME_LENGTH_MAX + 16] = "";
     char *unit = shown_unit_name(of, primes);
     char *si = shown_si_name(of, primes);
     char number_text[SHOWN_MAX + 8];
     char hint[400];
     snprintf(number_text, sizeof number_text, plain ? "%.*s" : "(%.*s)*1",
              (int)(length > SHOWN_MAX ? SHOWN_MAX : length), text);
-    const char *primes_text = "'''''''''";
-    if (with_name) {
-        snprintf(hint, sizeof hint, "%s%s%.*s = %s [%s]%s, or in SI: %s%s%.*s = %s [%s]%s", quote,
-                 of->name, primes, primes_text, number_text, unit, quote, quote, of->name, primes,
-                 primes_text, number_text, si, quote);
-    } else {
-        snprintf(hint, sizeof hint, "write %s [%s], or in SI: %s [%s]", number_text, unit,
-                 number_text, si);
+    if (has_name) {
+        snprintf(name, sizeof name, "%s%.*s = ", of->name, primes, "'''''''''");
     }
+    snprintf(hint, sizeof hint, "%s%s%s%s%s [%s]%s%s, or in SI: %s%s%s%s [%s]%s%s", lead, quote,
+             name, before, number_text, unit, after, quote, quote, name, before, number_text, si,
+             after, quote);
     diag_error(in->diags, at, hint, is_declared, of->name, of->unit);
     free(si);
     free(unit);

@@ -107,10 +107,12 @@ static bool check_target(parser *in, override_kind kind, const token *name, cons
     return problem == NULL;
 }
 
-bool override_parse(const mechanism *of, override_kind kind, const char *text, struct arena *arena,
-                    diags *all, assignment *made) {
+bool override_parse(const mechanism *of, override_kind kind, const char *text,
+                    const char *const around[2], struct arena *arena, diags *all,
+                    assignment *made) {
     const size_t before = diags_calls(all);
     parser in = begin(of, text, arena, all);
+    in.around = around;
     const token name = in.token;
     if (name.kind != TOKEN_NAME) {
         return parser_fail(&in, "write NAME=VALUE, such as m=3 or \"theta'=1.2\"",
@@ -163,15 +165,18 @@ static const symbol *quantity_named(const mechanism *of, const char *name, int *
 
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *all) {
-    const size_t before = diags_calls(all);
+    const size_t calls = diags_calls(all);
     int primes;
     const symbol *known = quantity_named(of, name, &primes);
     dimension wanted = dim_none();
     wanted.unknown = known == NULL || !dim_derivative(known->dim, primes, &wanted);
     parser in = begin(of, text, arena, all);
+    for (bool before = strchr(text, '=') != NULL; before; parser_next(&in)) {
+        before = in.token.kind != TOKEN_END && !parser_is_sign(&in, '=');
+    }
     const place at = in.token.at;
     const expr *made = parse_quantity(&in, wanted, what);
-    return diags_calls(all) == before && (known == NULL || check_unit(&in, at, made, known, primes))
+    return diags_calls(all) == calls && (known == NULL || check_unit(&in, at, made, known, primes))
                ? made
                : NULL;
 }

@@ -8,9 +8,11 @@
 typedef enum override_kind { OVERRIDE_SET, OVERRIDE_START, OVERRIDE_EITHER } override_kind;
 
 /* Reads "NAME=EXPR" or "NAME'=EXPR". A number without a unit is SI, and is refused if the declared unit is not. "2
- * N*m" needs no brackets. Returns false after an error, reported in a source called "<command line>". */
-bool override_parse(const mechanism *of, override_kind kind, const char *text, struct arena *arena,
-                    diags *diags, assignment *made);
+ * N*m" needs no brackets. around: the texts before and after the value in the hint for a missing unit; NULL: none.
+ * Returns false after an error, reported in a source called "<command line>". */
+bool override_parse(const mechanism *of, override_kind kind, const char *text,
+                    const char *const around[2], struct arena *arena, diags *diags,
+                    assignment *made);
 
 /* Reads "1ms", "1 [ms]" or "0.001", in seconds. `what` is "step" or "until". Returns NULL after an error. */
 const expr *override_duration(const mechanism *of, const char *what, const char *text,
@@ -20,7 +22,7 @@ const expr *override_duration(const mechanism *of, const char *what, const char 
 const expr *override_quantity(const mechanism *of, const char *what, const char *text,
                               dimension wanted, struct arena *arena, diags *diags);
 
-/* Reads a value of `name`, a coordinate ("X"), a rate ("theta'") or an output, and converts it to SI. The unit may be
+/* Reads "VALUE" or "NAME=VALUE", a value of `name`, a coordinate ("X"), a rate ("theta'") or an output, in SI. The unit may be
  * omitted only if the declared unit is SI. Returns NULL after an error; an unknown name is not reported. */
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *diags);

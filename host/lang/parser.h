@@ -89,6 +89,7 @@ typedef struct parser {
     expr_context context;
     unit_scale number_unit; /* the unit after the last number, and its text */
     const char *number_unit_text;
+    const char *const *around; /* of override_parse() */
     const expr *ready;         /* first operand of the next expression, if already read */
     int effect;                /* index of the current effect, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */

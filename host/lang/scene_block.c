@@ -95,6 +95,8 @@ static bool range_item(parser *in, const statement_word *word) {
     if (!usable) {
         return true;
     }
+    static const char *const nothing[] = {"", ""};
+    in->around = nothing; /* the hint for a missing unit is one end, without the name */
     low = with_unit(in, low, high);
     dimension_rule(rule, words, "is", wanted);
     if (check_unit(in, high_at, high, &found->symbol, name.primes) &&
@@ -104,6 +106,7 @@ static bool range_item(parser *in, const statement_word *word) {
         const range_statement one = {&found->symbol, name.primes, low, high, name.at};
         made->ranges = arena_push(in->arena, made->ranges, &made->range_count, &one, sizeof one);
     }
+    in->around = NULL;
     return true;
 }
 

@@ -93,18 +93,6 @@ bool changes_are_apart(const grid *g, const overrides *base) {
 
 /* === points and their order =================================================================== */
 
-/* A copy of text[length] without blanks at its ends. */
-static char *trimmed(const char *text, size_t length) {
-    while (length > 0 && (*text == ' ' || *text == '\t')) {
-        text++;
-        length--;
-    }
-    while (length > 0 && (text[length - 1] == ' ' || text[length - 1] == '\t')) {
-        length--;
-    }
-    return alloc_copy(text, length);
-}
-
 /* Begins a message with the option and its value. */
 static void say(const grid *g, const char *over) {
     fprintf(stderr, "whirl %s: error: %s \"%s\"", command_of(g), option_of(g), over);
@@ -145,10 +133,10 @@ static bool range_split(const grid *g, const char *text, range_text *r) {
                 problem, option_of(g));
         return false;
     }
-    r->name = trimmed(text, (size_t)(equals - text));
-    r->from = trimmed(equals + 1, (size_t)(dots - equals - 1));
-    r->to = trimmed(dots + 2, (size_t)(colon - dots - 2));
-    r->count = trimmed(colon + 1, strlen(colon + 1));
+    r->name = alloc_trimmed(text, (size_t)(equals - text));
+    r->from = alloc_trimmed(equals + 1, (size_t)(dots - equals - 1));
+    r->to = alloc_trimmed(dots + 2, (size_t)(colon - dots - 2));
+    r->count = alloc_trimmed(colon + 1, strlen(colon + 1));
     return true;
 }
 
@@ -201,16 +189,22 @@ static bool read_count(const grid *g, const char *over, const char *text, axis *
 
 /* --- its values --------------------------------------------------------------------------------*/
 
-/* Reads one end of the range as an expression, and sets the axis's symbol. */
-static const expr *read_end(const mechanism *of, const char *name, const char *text,
+/* Reads FROM or TO as an expression, and sets the axis's symbol. The hint for a missing unit is the whole range. */
+static const expr *read_end(const mechanism *of, const range_text *r, const char *text,
                             struct arena *arena, diags *errors, axis *made) {
-    if (strcmp(name, "step") == 0) {
+    if (strcmp(r->name, "step") == 0) {
         return override_duration(of, "step", text, arena, errors);
     }
-    char *whole = alloc_words("%s=%s", name, text);
+    const bool is_to = text == r->to;
+    char *whole = alloc_words("%s=%s", r->name, text);
+    char *before = alloc_words("%s%s", is_to ? r->from : "", is_to ? ".." : "");
+    char *after = alloc_words("%s%s:%s", is_to ? "" : "..", is_to ? "" : r->to, r->count);
+    const char *around[] = {before, after};
     assignment change;
-    const bool good = override_parse(of, OVERRIDE_EITHER, whole, arena, errors, &change);
+    const bool good = override_parse(of, OVERRIDE_EITHER, whole, around, arena, errors, &change);
     free(whole);
+    free(before);
+    free(after);
     if (!good) {
         return NULL;
     }
@@ -246,11 +240,12 @@ static bool take_ends(const grid *g, const char *over, const expr *from, const e
 static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
                       diags *errors, axis *made) {
     struct arena *arena = arena_new();
-    const expr *from = read_end(of, r->name, r->from, arena, errors, made);
-    const expr *to = from == NULL ? NULL : read_end(of, r->name, r->to, arena, errors, made);
+    /* TO first: if both have no unit, FROM shares the unit that the hint gives TO */
+    const expr *to = read_end(of, r, r->to, arena, errors, made);
+    const expr *from = to == NULL ? NULL : read_end(of, r, r->from, arena, errors, made);
     diags_flush(errors, stderr);
     const bool good =
-        to != NULL && take_ends(g, over, from, to, made) && read_count(g, over, r->count, made);
+        from != NULL && take_ends(g, over, from, to, made) && read_count(g, over, r->count, made);
     arena_free(arena);
     return good;
 }
@@ -281,7 +276,7 @@ bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors) {
     const bool good = read_axis(g, of, text, &r, errors, &made) && fits_in(g, text, &made);
     if (good) {
         axis *longer = alloc_more(g->axes, g->count + 1, sizeof *longer);
-        made.name = trimmed(r.name, strlen(r.name));
+        made.name = alloc_trimmed(r.name, strlen(r.name));
         const bool is_start = made.symbol != NULL && (made.symbol->kind == SYM_COORDINATE ||
                                                       made.symbol->kind == SYM_STATE);
         made.column = alloc_words(is_start ? "start(%s)" : "%s", made.name);

@@ -187,4 +187,37 @@ awk -F '\t' '$3 != 1 { print $1 }' "$scratch/names" | while read -r unit; do
 done >"$scratch/limits"
 [ ! -s "$scratch/limits" ]
 verdict $? "a limit without its unit is refused, in each unit that is not SI" "$scratch/limits"
+
+# a value without its unit, of each option that takes one; each of the two printed hints, pasted, is accepted
+printf '%s\n' 'mechanism m' 'coordinate th [deg]' 'parameter l = 400 [mm]' 'parameter J = 1 [kg*m^2]' "T = J*th'^2/2" 'V = 5 [N]*l*th^2' \
+    'effect e { V += 1 [J]*th^2 }' 'scene s { with e; start th = 5 [deg]; step 1 [ms]; until 50 [ms] }' >"$scratch/bare.whirl"
+for command in run derive examine sweep map price choose effects trust prove; do
+    "$whirl" $command --help >"$scratch/help"
+    options_of "$scratch/help" | while read -r option value; do
+        of=
+        case "$option $value" in
+        --set*) value=l=300 ;;
+        --start* | *X=*) value="th=1" ;;
+        --error*) of='--of th' value=1.5 ;;
+        *RANGE) value=th=1..2:2 ;;
+        *) continue ;;
+        esac
+        case "$command $option" in
+        map\ --over | sweep\ --s*) of='--over J=1..2:2' ;;
+        map*) of='--over J=1..2:2 --over step=1ms..2ms:2' ;;
+        choose\ --error) of="--predict $of" ;;
+        choose*) of='--predict --error 1e-3' ;;
+        esac
+        for typed in "$value" 1 2; do
+            case $typed in [12]) typed=$(sed -n 's/^hint: "\(.*\)", or in SI: "\(.*\)"$/\'$typed'/p' "$scratch/hint") ;; esac
+            "$whirl" $command "$scratch/bare.whirl" $of "$option" "$typed" >"$scratch/out" 2>"$scratch/err"
+            code=$?
+            [ "$typed" = "$value" ] && mv "$scratch/err" "$scratch/hint" && [ $code -eq 2 ] || [ $code -lt 2 ] ||
+                { echo "$command $of $option '$typed': status $code" && cat "$scratch/err"; }
+        done
+        echo "$command $option" >>"$scratch/asked"
+    done
+done >"$scratch/hints"
+[ ! -s "$scratch/hints" ] && [ "$(sort -u "$scratch/asked" | wc -l)" -ge 20 ]
+verdict $? "the hint for a missing unit, pasted, is accepted: $(wc -l <"$scratch/asked") options" "$scratch/hints"
 exit $failed
