@@ -220,6 +220,24 @@ static const char *given_for(const figure_options *o, const char *name) {
     return NULL;
 }
 
+/* Does the command line replace the option at word[at] of a figure? Lists of effects add up instead. */
+static bool is_replaced(const figure_options *o, char **word, int at, int count) {
+    char *option = alloc_copy(word[at], strcspn(word[at], "="));
+    const char *value = options_value(count, word, at, option);
+    const bool named = strcmp(option, "--set") == 0 || strcmp(option, "--start") == 0;
+    const size_t length = named ? strcspn(value, "= ") : 0;
+    bool is = false;
+    for (int i = 0; option[0] == '-' && i < o->passed_count; i++) {
+        if (options_is(o->passed[i], option) && strncmp(option, "--with", 6) != 0) {
+            const char *given = options_value(o->passed_count, o->passed, i, option);
+            is = is || (strncmp(given, value, length) == 0 &&
+                        (!named || strchr("= ", given[length]) != NULL));
+        }
+    }
+    free(option);
+    return is;
+}
+
 /* Runs a description's line, `kind NAME WORDS`. The records go into a temporary file. */
 static int make_data(const figure_options *o, const char *kind, char **word, int count,
                      figure_data *data) {
@@ -241,7 +259,11 @@ static int make_data(const figure_options *o, const char *kind, char **word, int
     char **all = alloc(count + o->passed_count + 3, sizeof *all);
     int n = 0;
     for (int i = 1; i < count; i++) {
-        all[n++] = word[i];
+        if (!is_replaced(o, word, i, count)) {
+            all[n++] = word[i];
+        } else if (strchr(word[i], '=') == NULL && i + 1 < count && word[i + 1][0] != '-') {
+            i++;
+        }
     }
     for (int i = 0; i < o->passed_count; i++) {
         all[n++] = o->passed[i];

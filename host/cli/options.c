@@ -108,25 +108,24 @@ bool options_help(int count, char **words, const command_usage *usage) {
     return wanted;
 }
 
-static bool is_option(const char *word, const char *name) {
+bool options_is(const char *word, const char *name) {
     const size_t length = strlen(name);
     return strncmp(word, name, length) == 0 && (word[length] == '\0' || word[length] == '=');
 }
 
-/* The value of the option at `at`; "" if it is missing. */
-static const char *value_at(int count, char **words, int at, const char *name) {
+const char *options_value(int count, char **words, int at, const char *name) {
     const size_t length = strlen(name);
     return words[at][length] == '=' ? words[at] + length + 1 : at + 1 < count ? words[at + 1] : "";
 }
 
 static bool is_new(int count, char **words, int at, const char *name) {
     for (int i = 0; i < at; i++) {
-        if (is_option(words[i], name)) {
+        if (options_is(words[i], name)) {
             fprintf(stderr, "whirl: error: %s is given twice: '%s' and '%s'\n", name, words[i],
                     words[at]);
             if (strcmp(name, "--y") == 0) { /* --y takes a list */
-                fprintf(stderr, "hint: --y \"%s, %s\"\n", value_at(count, words, i, name),
-                        value_at(count, words, at, name));
+                fprintf(stderr, "hint: --y \"%s, %s\"\n", options_value(count, words, i, name),
+                        options_value(count, words, at, name));
             } else {
                 fputs("hint: leave one out\n", stderr);
             }
@@ -142,7 +141,7 @@ static const char *value_of(int count, char **words, int *at, const char *name, 
                             bool *bad) {
     const size_t length = strlen(name);
     const char *word = words[*at];
-    if (!is_option(word, name)) {
+    if (!options_is(word, name)) {
         return NULL;
     }
     if (!repeats && !is_new(count, words, *at, name)) {
@@ -189,8 +188,8 @@ static bool is_in(const char *const *list, int count, const char *name) {
     return false;
 }
 
-/* Adds each name of "E, E,...", with optional blanks. Returns false, and reports the reason, if a name is missing, or
- * repeated in the list or on the command line. */
+/* Adds each name of "E, E,...", with optional blanks. Returns false, and reports the reason, if a name is missing or
+ * contradicts another. */
 static bool push_names(change_options *c, const char ***list, int *count, const char *option,
                        const char *text) {
     for (const char *at = text;; at++) {
@@ -207,10 +206,6 @@ static bool push_names(change_options *c, const char ***list, int *count, const 
             fputs("whirl: error: 'conserve' is not an effect, so --with cannot add it: write "
                   "conserve in the scene\n",
                   stderr);
-            return false;
-        }
-        if (is_in(*list, *count, name)) {
-            fprintf(stderr, "whirl: error: %s names '%s' twice\n", option, name);
             return false;
         }
         push(list, count, name);

@@ -139,6 +139,10 @@ void options_forget(common_options *options);
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 
+/* Is the word the option `name`, alone or as NAME=VALUE? options_value() is the value of words[at]; "" if it is missing. */
+bool options_is(const char *word, const char *name);
+const char *options_value(int count, char **words, int at, const char *name);
+
 /* Is it a name as in a .whirl file, with at most `most` letters? If not, reports it with a hint. */
 bool options_is_name(const char *command, const char *name, int most);
 

@@ -50,11 +50,18 @@ void gnuplot_quote(FILE *to, const char *text) {
     fputc('"', to);
 }
 
+/* Shows gnuplot's messages. A panel without points makes it complain about an axis: Whirl says the reason instead. */
 static void show_said(FILE *said) {
+    char *text = NULL;
+    size_t size = 0;
     rewind(said);
-    for (int c = fgetc(said); c != EOF; c = fgetc(said)) {
-        fputc(c, stderr);
+    if (getdelim(&text, &size, '\0', said) > 0) {
+        const bool empty =
+            strstr(text, "undefined!") != NULL || strstr(text, "range is invalid") != NULL;
+        fputs(empty ? "whirl: error: a panel has no points\nhint: use a later --until\n" : text,
+              stderr);
     }
+    free(text);
 }
 
 bool gnuplot_is_there(void) {

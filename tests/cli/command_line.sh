@@ -192,7 +192,6 @@ for list in '' ' ' , 'rail_drag,' ',rail_drag' 'rail_drag, ,ledger'; do
     exits 2 'a name is missing in --with "' run epicyclic_from_rest --with "$list"
     exits 2 'a name is missing in --without "' sweep epicyclic_rail_drag --over X=0..0:1 "--without=$list"
 done
-exits 2 "names 'ledger' twice" run epicyclic_from_rest --with ledger --with 'rail_drag, ledger'
 exits 2 'step must be above zero' run thomson_a --step 0
 exits 2 'step must be above zero' run thomson_a --step -1ms
 exits 2 'until must not be negative' run thomson_a --until -1s

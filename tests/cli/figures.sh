@@ -144,6 +144,20 @@ refused "a sweep of which a point fails" "title t" \
     "sweep a epicyclic_from_rest --over m=0..1:2 --measure X --until 10ms" "panel y" \
     "curve a | {m} | {X} | -"
 
+# An option replaces the same option of the figure; --with adds to it.
+for fig in mk/figures/f*.fig; do
+    "$whirl" figure "$fig" --until 0.1s --with ledger --out "$scratch/varied.svg" 2>&1
+done >"$scratch/log"
+! grep -E 'twice|multiplot>' "$scratch/log" && grep -q 'error: a panel has no points' "$scratch/log"
+verdict $? "every figure varied is drawn, or refused for another reason"
+for own in "" "--until 9s --set=m=2kg --start \"theta'=1 [rpm]\" --with ledger"; do
+    printf '%s\n' "title t" "run a epicyclic_from_rest $own" "panel y" "curve a | {time} | {X} | -" >"$scratch/own.fig"
+    "$whirl" figure "$scratch/own.fig" --until=0.1s --set 'm =3kg' --start="theta'=2 [rpm]" --with rail_drag,ledger \
+        --out "$scratch/own${own:+_replaced}.svg"
+done
+cmp "$scratch/own.svg" "$scratch/own_replaced.svg"
+verdict $? "and an own option that is replaced leaves nothing behind"
+
 # Of the working files only the numbers remain, after good and after bad runs.
 left=$(find "$scratch" -path '*/data/*' ! -name '*.csv')
 [ -z "$left" ] || echo "$left"
