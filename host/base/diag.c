@@ -15,15 +15,18 @@ void statement_text(place at, char *text, size_t size) {
         return;
     }
     size_t start = at.offset < from->length ? at.offset : from->length;
-    while (start > 0 && from->text[start - 1] != '\n' && from->text[start - 1] != '{') {
+    while (start > 0 && strchr("\n{;", from->text[start - 1]) == NULL) {
         start--;
     }
     size_t end = start;
-    int open = 0; /* depth of the statement's own braces */
-    while (end < from->length && strchr("\n#", from->text[end]) == NULL &&
-           (from->text[end] != '}' || open > 0)) {
-        open += from->text[end] == '{' ? 1 : 0;
-        open -= from->text[end] == '}' ? 1 : 0;
+    int open = 0;        /* depth of the statement's own braces */
+    bool quoted = false; /* inside a text, which may have any of these signs */
+    while (end < from->length && from->text[end] != '\n' &&
+           (quoted || (from->text[end] != '#' &&
+                       (open > 0 || (from->text[end] != '}' && from->text[end] != ';'))))) {
+        quoted ^= from->text[end] == '"';
+        open += !quoted && from->text[end] == '{' ? 1 : 0;
+        open -= !quoted && from->text[end] == '}' ? 1 : 0;
         end++;
     }
     while (start < end && (from->text[start] == ' ' || from->text[start] == '\t')) {

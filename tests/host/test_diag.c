@@ -120,17 +120,21 @@ TEST(diag, statements) {
     }
 }
 
-/* A quoted statement ends before the bracket that closes the block around it, and has no comment. */
+/* A quoted statement has neither the block around it nor its neighbours on the line, and no comment. */
 TEST(diag, statements_in_braces) {
-    static const char *const own[] = {"a = 1", "when x { set y }", "when x { a { b } }", "e {}"};
-    static const char *const begin[] = {"", "scene s { ", "\n  ", "effect e {"};
-    static const char *const end[] = {"", " }", " } }\n", "\n}", " # {", "}"};
-    for (size_t k = 0; k < 4 * 4 * 6; k++) {
+    static const char *const own[] = {"a = 1", "when x { set y; b = 2 }", "when x { a { b } }",
+                                      "e {}", "a = 1 \"# b; } {\""};
+    static const char *const begin[] = {"",           "scene s { ", "\n  ",
+                                        "effect e {", "p = 1; ",    "e { a \"p\";"};
+    static const char *const end[] = {"",     " }", " } }\n",    "\n}",
+                                      " # {", "}",  "; q = 2 }", " ; # }"};
+    for (size_t k = 0; k < 5 * 6 * 8; k++) {
+        const char *before = begin[k / 5 % 6];
         char text[80];
         char shown[60];
-        snprintf(text, sizeof text, "%s%s%s", begin[k / 4 % 4], own[k % 4], end[k / 16]);
+        snprintf(text, sizeof text, "%s%s%s", before, own[k % 5], end[k / 30]);
         const source from = {"file", text, strlen(text)};
-        statement_text((place){&from, 1, 1, strlen(begin[k / 4 % 4])}, shown, sizeof shown);
-        TEST_ASSERT_EQUAL_STRING(own[k % 4], shown);
+        statement_text((place){&from, 1, 1, strlen(before)}, shown, sizeof shown);
+        TEST_ASSERT_EQUAL_STRING(own[k % 5], shown);
     }
 }
