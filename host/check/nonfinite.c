@@ -97,7 +97,7 @@ bool *blamed_parts(const image *im, int node) {
 /* === which expression it is =================================================================== */
 
 static const char hint_domain[] =
-    "keep the motion or the expression away from it: a root or logarithm of a negative number, a division by zero, or an overflow";
+    "avoid a root or logarithm of a negative number, a division by zero, or an overflow";
 
 /* --- values ------------------------------------------------------------------------------------*/
 

@@ -51,8 +51,8 @@ static void say(FILE *out, const image *im, const engine_kind *kind, const void 
     }
     fprintf(out, " causes an error of up to %.2g%s%s", off, space, unit);
     if (span > 0.0) {
-        fprintf(out, ", %.2g %% of the %.2g%s%s that this value should change by",
-                100.0 * off / span, span, space, unit);
+        fprintf(out, " (%.3g %% of its true change, %.2g%s%s)", 100.0 * off / span, span, space,
+                unit);
     }
 }
 

@@ -393,10 +393,10 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
         return EXIT_DONE;
     }
     if (s->name[0] == '\0') {
-        fprintf(stderr, "%s: error: it has more than one %s\n", s->file,
+        fprintf(stderr, "%s: error: the file has more than one %s\n", s->file,
                 prefer_scene && m->scene_count > 1 ? "scene" : "mechanism");
     } else {
-        fprintf(stderr, "%s: error: it has no scene or mechanism '%s'\n", s->file, s->name);
+        fprintf(stderr, "%s: error: the file has no scene or mechanism '%s'\n", s->file, s->name);
     }
     say_choices(s, prefer_scene);
     return EXIT_BAD_INPUT;

@@ -194,7 +194,7 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
     int count;
     influence_on(e, i, text, &count);
     snprintf(hint, sizeof hint, "leave %s out, or integrate %s: --without conserve",
-             count == 1 ? "that" : "those", q->name);
+             count == 1 ? "this statement" : "these statements", q->name);
     diag_error(errors, at, hint, "the momentum of '%s' is not conserved: it is changed by %s",
                q->name, count > 0 ? text : "a force or a loss");
     return false;
@@ -331,7 +331,7 @@ conservation *conservation_make(const equations *e, const bool *wanted, diags *e
         diag_error(errors, s != NULL ? s->at : e->instance->mechanism->at,
                    "leave one coordinate out of `conserve`, so that Whirl integrates it",
                    c->count == n ? "no coordinate is left to integrate"
-                                 : "at most %d coordinates can be conserved at once",
+                                 : "more than %d coordinates cannot be conserved at once",
                    CONSERVED_MAX);
         good = false;
     }

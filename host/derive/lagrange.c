@@ -206,11 +206,12 @@ static void report_singular_system(const equations *e, diags *errors) {
             "this equation contains none",
             e->instance->mechanism->name);
     } else {
-        diag_error(errors, row < 0 ? e->instance->mechanism->at : place_of_equation(e, row),
-                   "two equations may say the same, or one may lack its highest derivative",
-                   "the equations of '%s' cannot be solved for the highest derivatives: "
-                   "this equation has the same combination of them as the equations above it",
-                   e->instance->mechanism->name);
+        diag_error(
+            errors, row < 0 ? e->instance->mechanism->at : place_of_equation(e, row),
+            "two equations may say the same, or one may lack its highest derivative",
+            "the equations of '%s' cannot be solved for the highest derivatives: "
+            "this equation has the same combination of highest derivatives as the equations above it",
+            e->instance->mechanism->name);
     }
 }
 

@@ -83,7 +83,7 @@ bool start_angles_are_held(const image *im, diags *errors) {
         const image_unknown *u = &im->unknown[im->angle[i].unknown];
         if (!phase_holds_start(u->start[0])) {
             diag_error(errors, u->start_at[0].source != NULL ? u->start_at[0] : u->at,
-                       "start it within a turn: a sine does not change with whole turns",
+                       "start the angle within a turn: a sine does not change with whole turns",
                        "'%s' starts at %.9g rad, but float represents angles only up to %g rad",
                        u->name, u->start[0], PHASE_START_MOST_RAD);
             held = false;

@@ -26,7 +26,7 @@ static enclosure twice(enclosure seen) {
 /* Shows the progress, at intervals that are short for a reader and cost little time. */
 static void show(uint64_t step, uint64_t steps) {
     if ((step & 0x3fffU) == 0x3fffU) {
-        fprintf(stderr, "\rranges, from a run in double: %5.1f %%",
+        fprintf(stderr, "\rmeasuring ranges in double: %5.1f %%",
                 100.0 * (double)step / (double)steps);
     }
 }

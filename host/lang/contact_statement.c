@@ -412,10 +412,10 @@ static const expr *parse_normal(parser *in, const symbol *coordinate) {
         snprintf(what, sizeof what, "the normal force on '%s'", coordinate->name);
         dimension_rule(rule, what, "must be", wanted);
         if (coordinate->is_angle) {
-            snprintf(rule, sizeof rule,
-                     "'%s' is an angle: its normal force, times the radius it acts at, must be a "
-                     "torque [kg*m^2/s^2]",
-                     coordinate->name);
+            snprintf(
+                rule, sizeof rule,
+                "'%s' is an angle: its normal force times the radius must be a torque [kg*m^2/s^2]",
+                coordinate->name);
         }
         check_dimension(in, at, value, wanted, rule);
     }

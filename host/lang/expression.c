@@ -135,7 +135,7 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
         return false;
     }
     if (found->kind == SYM_OUTPUT && in->context != CONTEXT_OUTPUT) {
-        diag_error(in->diags, name->at, "give its expression a name with let",
+        diag_error(in->diags, name->at, "name the output's expression with let",
                    "%s is an output: only later outputs can use it", words);
         return false;
     }

@@ -312,8 +312,7 @@ const expr *expr_difference(parser *in, place at, const expr *left, const expr *
     if (made != NULL) {
         made->dim = common_dimension(in, at, left, right, "compare", "with");
         if (are_same(left, right)) {
-            diag_error(in->diags, at,
-                       "compare two different quantities, of which one can pass the other",
+            diag_error(in->diags, at, "compare two quantities whose difference can change its sign",
                        "both sides are the same, so this comparison never changes");
         }
     }

@@ -89,7 +89,7 @@ static bool check_target(parser *in, override_kind kind, const token *name, cons
     const char *problem = NULL;
     const char *hint = NULL;
     if (!moves && !is_constant) {
-        problem = "follows from the others and cannot be given";
+        problem = "follows from other quantities and cannot be given";
     } else if (kind == OVERRIDE_SET && moves) {
         problem = "is not a parameter or an input";
         hint = "give its initial value with --start";

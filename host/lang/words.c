@@ -42,7 +42,7 @@ const char *energy_hint(const char *text, size_t length) {
         {" t k K Ek Ekin kinetic ", "the kinetic energy is T = ..."},
         {" v u U Ep Epot potential ", "the potential energy is V = ..."},
         {" f D dissipation ", "the dissipation function is F = ..."},
-        {" L lagrangian Lagrangian ", "write its parts, L = T - V: T = ... and V = ..."}};
+        {" L lagrangian Lagrangian ", "write the parts of L = T - V: T = ... and V = ..."}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         for (const char *at = rows[i][0]; at[1] != '\0'; at = strchr(at + 1, ' ')) {
             if (strncmp(at + 1, text, length) == 0 && at[1 + length] == ' ') {

@@ -98,7 +98,8 @@ typedef enum fault_place {
     X(FAULT_UNKICKED, "unkicked", FAULT_ORDERS, 0, 0, 0, "", \
       "the firmware's kicks do not reach " \
       "the watchdog") \
-    X(FAULT_UNWATCHED, "unwatched", FAULT_ORDERS, 0, 0, 0, "", "the watchdog never cuts")
+    X(FAULT_UNWATCHED, "unwatched", FAULT_ORDERS, 0, 0, 0, "", \
+      "the watchdog never cuts the outputs")
 #define FAULT_LINE_ROWS(X) \
     X(FAULT_READINGS_LOST, "readings-lost", FAULT_LINE, 0.1, 0, 1, "", \
       "this share of the readings arrives empty") \

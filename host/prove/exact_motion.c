@@ -35,7 +35,7 @@ static bool is_smooth(const instance *inst, diags *errors) {
         if (m->inputs[i]->rate != NULL) {
             diag_error(
                 errors, m->inputs[i]->at,
-                "leave out its rate, write it as a parameter, or use whirl trust, which estimates the error",
+                "leave out the rate of the input, write the input as a parameter, or use whirl trust, which estimates the error",
                 "an input with a rate changes inside a step, which the proof cannot enclose");
             return false;
         }

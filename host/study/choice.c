@@ -321,7 +321,7 @@ static void print_answer(FILE *out, const trials *t, const choice_request *w, co
     print_figure(out, "RAM", &c->ram_bytes, "bytes without the stack");
     print_figure(out, "stack", &c->stack_bytes, "bytes");
     if (c->state_bytes.basis != COST_NOT_KNOWN) {
-        print_figure(out, "state", &c->state_bytes, "bytes of these");
+        print_figure(out, "state", &c->state_bytes, "bytes of the RAM");
     }
     for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
         if (by->unknown[i]) {

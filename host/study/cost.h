@@ -85,7 +85,7 @@ const cost_board *cost_board_named(const char *name); /* NULL: unknown */
     X(ROOT, "a square root") \
     X(MOVE, "a size, a sign, a choice, or a value that is loaded or stored") \
     X(LOOKED_UP, "a sine and cosine, looked up") \
-    X(TURNED, "a sine and cosine, rotated on") \
+    X(TURNED, "a sine and cosine, rotated") \
     X(CELL, "the search for an angle's table cell") \
     X(LINE, "a value of a linear table") \
     X(CUBIC, "a value of a cubic table") \

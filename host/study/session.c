@@ -218,7 +218,7 @@ int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s) {
     }
     int code = EXIT_DONE;
     if (!system_lock(sh->out)) {
-        fprintf(stderr, "%s: error: another sweep is writing it\n", s->path);
+        fprintf(stderr, "%s: error: another sweep is writing this file\n", s->path);
         code = EXIT_BAD_INPUT;
     } else if (fstat(file, &about) != 0) {
         code = cannot_write(s->path);

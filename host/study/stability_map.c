@@ -228,7 +228,7 @@ void map_print(FILE *out, const stability_map *m, const char *words) {
     if (m->unlooked > 0) {
         fprintf(
             out,
-            "  not checked: [aliased] in %llu runs, because it takes longer than the two runs\n",
+            "  not checked: [aliased] in %llu runs, because this check takes longer than the two runs\n",
             (unsigned long long)m->unlooked);
     }
 }

@@ -81,7 +81,7 @@ if [ -r /proc/self/mem ]; then # a file that breaks off while it is read must no
     exits 2 '/proc/self/mem: error: cannot be read: ' run /proc/self/mem
     exits 2 '/proc/self/mem: error: cannot be read: ' list /proc/self/mem
 fi
-exits 2 'it has more than one scene' run core/models/thomson.whirl
+exits 2 'the file has more than one scene' run core/models/thomson.whirl
 exits 2 'hint: name one: core/models/thomson.whirl:thomson_a ' run core/models/thomson.whirl:foo
 # if a file has several scenes, the message names exactly these; for a mechanism, all its effects
 for file in core/models/*.whirl; do
@@ -362,7 +362,7 @@ coordinate b [rad]
 T = 1 [kg*m^2]*(a'^2 + b'^2)/2
 scene drift { start a' = 1e-7 [rad/s], b' = 3 [rad/s]; step 1 [ms]; until 3 [s] }
 END
-exits 0 "note: 'a' turns so slowly .* an error of up to 3e-07 rad, 1e\+02 % of the 3e-07 rad" run "$scratch/rotor.whirl" --number float
+exits 0 "note: 'a' turns so slowly .* an error of up to 3e-07 rad \(100 % of its true change, 3e-07 rad\)" run "$scratch/rotor.whirl" --number float
 exits 0 '^hint: use --compensated or' run "$scratch/rotor.whirl" --number float
 exits 0 "note: 'a' turns so slowly" run "$scratch/rotor.whirl" --number float --quiet
 prints 'float' run "$scratch/rotor.whirl" --number float --compensated

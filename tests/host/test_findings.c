@@ -149,7 +149,7 @@ TEST(small_told, slow_angles) {
             at = said_exactly(said_number(at, &figure[1]), " % of the ");
             at = said_exactly(
                 said_number(at, &figure[2]),
-                " rad that this value should change by\nhint: use --compensated or a larger --step: both reduce round-off\n");
+                " rad)\nhint: use --compensated or a larger --step: both reduce round-off\n");
             TEST_ASSERT_TRUE_MESSAGE(
                 *at == '\0' || strncmp(at, "whirl run: exit status 1 ", 25) == 0, at);
             expect_figure(off_rad, figure[0], what.err);

@@ -85,7 +85,7 @@ static void test_wrong_overrides(void) {
     expect_set_refused("m=1\n", "<command line>:1:4: error: unexpected the end of the line");
     expect_set_refused("theta=1",
                        "<command line>:1:1: error: 'theta' is not a parameter or an input");
-    expect_set_refused("vx=1", "<command line>:1:1: error: 'vx' follows from the others");
+    expect_set_refused("vx=1", "<command line>:1:1: error: 'vx' follows from other quantities");
     expect_set_refused("r=theta", "<command line>:1:3: error: 'theta' depends on the motion");
     expect_set_refused("m=m", "error: 'm' is set to a value that depends on itself");
     expect_set_refused("m=log(0)", "error: parameter 'm' is not a finite number");

@@ -606,7 +606,8 @@ TEST(sheet, locked) {
     int status = -1;
     TEST_ASSERT_EQUAL_INT(child, waitpid(child, &status, 0));
     const char *told = errors_caught();
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, ": error: another sweep is writing it\n"), told);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(told, ": error: another sweep is writing this file\n"),
+                                 told);
     TEST_ASSERT_EQUAL_INT(0, status);
     TEST_ASSERT_TRUE(resumable_csv_close(&sh));
     close_folder();
