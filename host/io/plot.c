@@ -108,7 +108,7 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     const char *unit = NULL;
     if (p->quantities == PANELS_QUANTITIES) {
         fprintf(stderr,
-                "whirl %s: error: more than the limit of %d quantities\nhint: --y NAME,NAME\n",
+                "whirl %s: error: the plot has more than %d quantities\nhint: --y NAME,NAME\n",
                 command, PANELS_QUANTITIES);
         return false;
     }
@@ -123,7 +123,7 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     }
     panel = panel < 0 ? p->count : panel;
     if (panel == PANELS_MOST) {
-        fprintf(stderr, "whirl %s: error: more than the limit of %d panels\nhint: --y NAME,NAME\n",
+        fprintf(stderr, "whirl %s: error: the plot has more than %d panels\nhint: --y NAME,NAME\n",
                 command, PANELS_MOST);
         return false;
     }

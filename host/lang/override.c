@@ -71,7 +71,8 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
     }
     if (in->token.kind != TOKEN_END) {
         char words[80];
-        parser_fail(in, NULL, "unexpected %s", token_words(&in->token, words, sizeof words));
+        parser_fail(in, NULL, "%s is unexpected here",
+                    token_words(&in->token, words, sizeof words));
         return NULL;
     }
     const bool is_bare = made->uses == 0 && dim_is_none(made->dim);

@@ -284,17 +284,18 @@ bool parser_end_statement(parser *in, const char *what) {
             return parser_fail(in, NULL, "')' without '('");
         }
         return parser_fail(in,
-                           is_decimal_comma(&in->token) ? "a decimal point: 2.5"
+                           is_decimal_comma(&in->token) ? "write a decimal point: 2.5"
                            : first != NULL              ? first
                            : parser_is_sign(in, '(')    ? parser_operator_hint(in, hint)
-                                                        : "a statement ends with its line",
-                           "unexpected %s after %s", words, what);
+                                                        : "begin a new line after the statement",
+                           "%s is unexpected after %s", words, what);
     case TOKEN_STRING:
     case TOKEN_BAD:
     case TOKEN_END:
     case TOKEN_NEWLINE: break;
     }
-    return parser_fail(in, "a statement ends with its line", "unexpected %s after %s", words, what);
+    return parser_fail(in, "begin a new line after the statement", "%s is unexpected after %s",
+                       words, what);
 }
 
 char *parser_copy_text(parser *in, const token *each) {

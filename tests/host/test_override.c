@@ -81,8 +81,9 @@ static void test_wrong_overrides(void) {
     expect_set_refused("m", "<command line>:1:2: error: '=' is missing after 'm'");
     expect_set_refused("", "<command line>:1:1: error: a name is missing");
     expect_set_refused("m=1 2", "<command line>:1:5: error: an operator is missing before '2'");
-    expect_set_refused("m=1;r=2", "<command line>:1:4: error: unexpected ';'");
-    expect_set_refused("m=1\n", "<command line>:1:4: error: unexpected the end of the line");
+    expect_set_refused("m=1;r=2", "<command line>:1:4: error: ';' is unexpected here");
+    expect_set_refused("m=1\n",
+                       "<command line>:1:4: error: the end of the line is unexpected here");
     expect_set_refused("theta=1",
                        "<command line>:1:1: error: 'theta' is not a parameter or an input");
     expect_set_refused("vx=1", "<command line>:1:1: error: 'vx' follows from other quantities");
