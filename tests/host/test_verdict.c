@@ -457,7 +457,7 @@ static void write_chain(dice d, double speed, char text[TEXT]) {
 }
 
 TEST(verdict, a_common_speed_changes_nothing) {
-    dice d = dice_of("frames", 4701);
+    dice d = dice_of("frames", 4729);
     const unsigned cases = dice_cases(few_or_all(20, 300));
     unsigned told = 0;
     for (unsigned i = 0; i < cases; i++) {
