@@ -120,7 +120,7 @@ same "none but one, whatever the order" "ball_in_air --with ceiling --without al
 same "none" "ball_in_air --without=all" "ball_in_air --without floor,air"
 same "the ledger is not among all" "ball_bounces --without all --with ledger" "ball_bounces --without floor --with ledger"
 exits 2 'contradict each other' derive ball_bounces --with all --without all --as c
-exits 2 'names .all. twice' derive ball_bounces --with all,all --as c
+same "a name that --with repeats" "ball_bounces --with all,all,air" "ball_bounces --with all"
 
 # --- conserve ----------------------------------------------------------------------------------------------
 cat >"$scratch/slide.whirl" <<'END'
