@@ -33,6 +33,21 @@ size_t utf8_length(const char *text, size_t left) {
     return is_control || is_overlong || is_no_character ? 0 : length;
 }
 
+const char *ascii_hint(const char *text, size_t left, const char *otherwise) {
+    static const char *const signs[][2] = {
+        {"\xe2\x88\x92", "write -"}, {"\xe2\x80\x93", "write -"},  {"\xe2\x80\x99", "write '"},
+        {"\xe2\x80\xb2", "write '"}, {"\xc3\x97", "write *"},      {"\xc2\xb7", "write *"},
+        {"\xc2\xb2", "write ^2"},    {"\xc2\xb3", "write ^3"},     {"\xc2\xb0", "write deg"},
+        {"\xce\xa9", "write ohm"},   {"\xe2\x84\xa6", "write ohm"}};
+    for (size_t i = 0; i < sizeof signs / sizeof signs[0]; i++) {
+        const size_t length = strlen(signs[i][0]);
+        if (length <= left && memcmp(text, signs[i][0], length) == 0) {
+            return signs[i][1];
+        }
+    }
+    return otherwise;
+}
+
 /* === the known name closest to a misspelt one ================================================= */
 /* Edit distance with swaps of neighbours (optimal string alignment). An edit costs 2, a change of case 1, so
  * that `x` finds `X` before `y`. */

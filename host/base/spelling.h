@@ -9,6 +9,8 @@
 /* Length in bytes of the character at `text`; `left` > 0 bytes of the text remain. Returns 0 if the character is
  * malformed, or is a control character above ASCII, which could steer a terminal. */
 size_t utf8_length(const char *text, size_t left);
+/* The hint that names what to write instead of the sign at `text`; `otherwise` for an unknown sign. */
+const char *ascii_hint(const char *text, size_t left, const char *otherwise);
 
 /* === the known name closest to a misspelt one ================================================= */
 

@@ -247,11 +247,9 @@ static void read_stray(lexer *in, token *made) {
     const int c = at_offset(in, 0);
     made->kind = TOKEN_BAD;
     if (c >= 0x80) {
-        size_t length = 1;
-        while (length < 4 && (at_offset(in, length) & 0xc0) == 0x80 && at_offset(in, length) > 0) {
-            length++;
-        }
-        diag_error(in->diags, made->at, "other letters may stand in comments and in quoted texts",
+        diag_error(in->diags, made->at,
+                   ascii_hint(made->text, in->at.source->length - in->at.offset,
+                              "other letters may stand in comments and in quoted texts"),
                    "names, numbers and signs are written in ASCII");
         while (at_offset(in, 0) >= 0x80) {
             advance(in, 1);

@@ -22,8 +22,8 @@ const expr *override_duration(const mechanism *of, const char *what, const char 
 const expr *override_quantity(const mechanism *of, const char *what, const char *text,
                               dimension wanted, struct arena *arena, diags *diags);
 
-/* Reads "VALUE" or "NAME=VALUE", a value of `name`, a coordinate ("X"), a rate ("theta'") or an output, in SI. The unit may be
- * omitted only if the declared unit is SI. Returns NULL after an error; an unknown name is not reported. */
+/* Reads "VALUE" or "NAME=VALUE", a value of `name`, a coordinate ("X"), a rate ("theta'") or an output, in SI. The unit
+ * may be omitted only if the declared unit is SI. Returns NULL after an error; an unknown name is not reported. */
 const expr *override_size(const mechanism *of, const char *name, const char *what, const char *text,
                           struct arena *arena, diags *diags);
 

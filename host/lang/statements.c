@@ -73,7 +73,7 @@ bool read_energy(parser *in, const statement_word *word) {
                        ? (kind == TERM_T
                               ? "the expression contains no speed; write: T = m*l^2*theta'^2/2"
                               : "the expression contains no speed; write: F = b*theta'^2/2")
-                       : "a number without a unit is dimensionless: write 2 [kg], 3 [N/m]",
+                       : "check the unit of each parameter; a number without one is dimensionless",
                    "%s, but this is %s", term_rule(kind), dim_text(value->dim, is, sizeof is));
     }
     add_term(in, (term){kind, NULL, value, NULL, in->effect, at});

@@ -129,6 +129,11 @@ static bool fail(reader *in, size_t offset, const char *message, const char *hin
     return false;
 }
 
+static bool fail_ascii(reader *in) {
+    return fail(in, in->at, "units are written in ASCII",
+                ascii_hint(in->text + in->at, in->length - in->at, "write N*m, m^2, ohm, um, deg"));
+}
+
 static char peek(reader *in) {
     while (in->at < in->length && strchr(" \t\r\n", in->text[in->at]) != NULL &&
            in->text[in->at] != '\0') {
@@ -193,7 +198,8 @@ static bool unknown_unit(reader *in, size_t start, size_t length) {
         }
         nearest_hint(&search, hint, sizeof hint);
     }
-    return fail(in, start, message, hint);
+    return fail(in, start, message,
+                hint[0] != '\0' ? hint : "`whirl list --units` lists the units");
 }
 
 static bool read_whole(reader *in, int *value) {
@@ -301,7 +307,7 @@ static bool read_factor(reader *in, unit_scale *result) {
     } else if (c == '\0' && in->at >= in->length) {
         return fail(in, start, "a unit is missing here", is_all(in, "") ? BARE : "");
     } else if ((unsigned char)c >= 0x80) {
-        return fail(in, start, "units are written in ASCII", "write N*m, m^2, ohm, um, deg");
+        return fail_ascii(in);
     } else {
         return fail(in, start, "a unit was expected here",
                     is_all(in, "-") ? BARE : "write it like N*s/m or kg*m^2");
@@ -366,7 +372,7 @@ bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error 
             return fail(&in, in.at, "an operator is missing between two units", "write N*m, m/s");
         }
         if ((unsigned char)in.text[in.at] >= 0x80) {
-            return fail(&in, in.at, "units are written in ASCII", "write N*m, m^2, ohm, um, deg");
+            return fail_ascii(&in);
         }
         return fail(&in, in.at, "this does not belong into a unit", "write it like N*s/m");
     }

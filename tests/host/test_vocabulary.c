@@ -156,7 +156,7 @@ TEST(vocabulary, first_words_get_a_hint) {
         "%s y x",       "effect e {\n%s x\n}"};
     static const char *const attempts[][2] = {
         {"F = m*x", "hint: the expression contains no speed; write: F = "},
-        {"V = 1/2*m*9.81", "hint: a number without a unit"},
+        {"V = 1/2*m*9.81", "hint: check the unit of each parameter"},
         {"friction x - l static 1 kinetic 1 normal 1 [N]", "hint: for friction between two bodies"},
         {"input w", "hint: give the input a start value: input w = 0"},
         {"input F", "hint: choose another name, such as F_1"},
@@ -164,7 +164,12 @@ TEST(vocabulary, first_words_get_a_hint) {
         {"V = 1 [J]*arctan(x/1 [m])", "hint: did you mean 'atan'?"},
         {"V = 1 [J]*arcsin(x/1 [m])", "hint: did you mean 'asin'?"},
         {"V = 1 [J]*arccos(x/1 [m])", "hint: did you mean 'acos'?"},
-        {"hold x given 1 > 0", "hint: hold x - y while"}};
+        {"hold x given 1 > 0", "hint: hold x - y while"},
+        {"V = 1 [J] \xe2\x88\x92 x", "hint: write -\n"},
+        {"let v = x\xe2\x80\x99", "hint: write '\n"},
+        {"let c = 3 [m\xc2\xb2]", "hint: write ^2\n"},
+        {"let c = 3 [\xc2\xb0]", "hint: write deg\n"},
+        {"let c = 3 [centimetre]", "hint: `whirl list --units` lists the units"}};
     for (size_t w = 0; w < sizeof words / sizeof words[0]; w++) {
         for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
             expect_word_hint(places[k], words[w]);
