@@ -162,7 +162,7 @@ static bool put_times(const mechanism *of, const scene *in, diags *errors) {
 }
 
 static bool put_rows(const source_model *from, const mechanism *m) {
-    put_place("mechanism", m->name, m, from->file, m->at.line, m->at.line);
+    put_place("mechanism", m->name, m, from->file, m->at.line, m->last_line);
     put_effects(m, NULL, false);
     put_what_is_in(m, OUTSIDE);
     fputs("-\t-\t", stdout);

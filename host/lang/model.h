@@ -175,6 +175,7 @@ typedef struct mechanism {
     const char *name;
     const char *title;
     place at;
+    int last_line; /* before the next mechanism, or the last of the file */
     const symbol **coordinates;
     int coordinate_count; /* coordinates, or states */
     const symbol **parameters;

@@ -469,6 +469,9 @@ static void parse_all(parser *in, place start) {
         diag_error(in->diags, start, FILE_FORM, "this text contains no mechanism");
     }
     for (int i = 0; i < in->builder_count; i++) {
+        const bool last = i + 1 == in->builder_count;
+        const place end = last ? in->token.at : in->builders[i + 1]->made->at;
+        in->builders[i]->made->last_line = end.line - (last && end.column > 1 ? 0 : 1);
         finish_mechanism(in, in->builders[i]);
     }
     for (int i = 0; i < in->pending_count && diags_count(in->diags) <= DIAG_MAX; i++) {

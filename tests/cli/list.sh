@@ -17,12 +17,14 @@ for number in $(seq "$cases"); do
             rows[++count] = kind "\t" name "\t" "m" k "\t" file "\t" first "\t" last "\t" effects "\t" holds "\t" step "\t" until "\t" title
         }
         function blank() { if (pick(2)) put("") ; if (pick(3) == 0) put("# { a brace in a comment") }
+        function ends(line) { if (mine) sub(/\t[0-9]+\t[0-9]+\t/, "\t" first "\t" line "\t", rows[mine]) }
         BEGIN {
             srand(seed)
             for (k = 1; k <= 1 + pick(3); k++) {
                 blank()
                 title = pick(2) ? "a } in a title" : ""
                 put("mechanism m" k (title ? " \"" title "\"" : ""))
+                ends(at - 1)
                 first = at
                 put("coordinate x [m]")
                 put("coordinate y [m]")
@@ -60,6 +62,7 @@ for number in $(seq "$cases"); do
                     row("scene", "s" k "_" i, from, at, with ? with : "-", conserve ? "conserve" : "-", ms / 1000, i, "-")
                 }
             }
+            ends(at)
             for (i = 1; i <= count; i++) print rows[i] >wanted
         }'
     "$whirl" list --as table "$scratch/m.whirl" >"$scratch/got" 2>"$scratch/err" || bad=1
