@@ -149,7 +149,8 @@ static bool write_header(const image *im, const fixed_plan *plan, const char *fi
 }
 
 /* Can code of that form have the scene's name? Otherwise reports the reason. */
-static bool has_name(const image *im, const source_model *from, const form_row *as, bool header) {
+static bool has_name(const image *im, const source_model *from, place at, const form_row *as,
+                     bool header) {
     const char *taken_by = NULL;
     if (as == &forms[OCTAVE]) {
         taken_by = emit_octave_name_is_free(im->name) ? NULL : "a word of Octave or Matlab";
@@ -160,9 +161,9 @@ static bool has_name(const image *im, const source_model *from, const form_row *
     }
     if (taken_by != NULL) {
         fprintf(stderr,
-                "%s: error: '%s' is %s: the generated scene cannot have that name\n"
+                "%s:%d:%d: error: '%s' is %s: the generated scene cannot have that name\n"
                 "hint: rename the scene, or choose a name for the code only: --name NAME\n",
-                from->file, im->name, taken_by);
+                from->file, at.line, at.column, im->name, taken_by);
     }
     return taken_by == NULL;
 }
@@ -225,7 +226,9 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         plan = plan_of(made.image, from, options->number, &good);
     }
     if (code == EXIT_DONE &&
-        (!good || ((as->is & NAMED) != 0 && !has_name(made.image, from, as, header != NULL)) ||
+        (!good ||
+         ((as->is & NAMED) != 0 &&
+          !has_name(made.image, from, in != NULL ? in->at : of->at, as, header != NULL)) ||
          (runs && !has_c_form(made.image, from)) ||
          (header != NULL && !write_header(made.image, plan, from->file, header)))) {
         code = EXIT_BAD_INPUT;

@@ -62,7 +62,7 @@ while read -r form; do
         grep -qw other "$scratch/out" && ! grep -q 'it_bounces' "$scratch/out"
         verdict $? "--as $form: the name is that" "$scratch/out"
         ask "$form" --name while
-        [ $? -eq 2 ] && grep -q "error: 'while' is a word of .*: the generated scene cannot have that name" "$scratch/err"
+        [ $? -eq 2 ] && grep -q "[0-9]: error: 'while' is a word of .*: the generated scene cannot have that name" "$scratch/err"
         verdict $? "--as $form: and no word of its language"
     fi
     rm -f "$scratch/x.h"
