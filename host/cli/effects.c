@@ -94,19 +94,17 @@ static bool read_limit(subsets *s, const char *text) {
 }
 
 static bool read_error(subsets *s, const char *error) {
-    char *copy = alloc_words("%s", error == NULL ? "" : error);
     bool good = true;
     for (int i = 1; i < s->columns->columns; i++) {
         s->limit[i] = (double)INFINITY;
     }
-    for (char *at = copy, *end; error != NULL && good && at != NULL; at = end) {
-        end = strchr(at, ',');
-        if (end != NULL) {
-            *end++ = '\0';
-        }
-        good = read_limit(s, at);
+    for (const char *at = error; good && at != NULL;) {
+        const size_t length = strcspn(at, ",");
+        char *limit = alloc_trimmed(at, length);
+        good = read_limit(s, limit);
+        free(limit);
+        at = at[length] == ',' ? at + length + 1 : NULL;
     }
-    free(copy);
     return good;
 }
 

@@ -320,7 +320,8 @@ bool options_number(const char *command, const char *option, const char *text, d
 }
 
 /* Reads --strict, --strict=off or --strict=LIMIT, for run_checks_fails(). Returns false for another word. */
-static bool take_strict(const char *command, char **words, int *at, double *strict, bool *bad) {
+static bool take_strict(const char *command, int count, char **words, int *at, double *strict,
+                        bool *bad) {
     static const char name[] = "--strict";
     const size_t length = sizeof name - 1;
     const char *value = words[*at] + length;
@@ -335,6 +336,8 @@ static bool take_strict(const char *command, char **words, int *at, double *stri
         const char *end;
         *strict = decimal_read(value + 1, &end);
         *bad = end == value + 1 || *end != '\0' || !(*strict > 0.0 && *strict <= 1.0);
+    } else { /* "--strict 1e-3" */
+        *bad = *at < count && isdigit((unsigned char)words[*at][0]);
     }
     if (*bad) {
         fprintf(
@@ -442,7 +445,7 @@ static void say_unknown(const target_reader *r, const char *word) {
     }
     nearest_offer(&search, "--help");
     fprintf(stderr, "whirl %s: error: unknown option '%s'\n", r->command, word);
-    if (search.best != NULL) {
+    if (search.best != NULL && strcmp(word, "--") != 0) {
         fprintf(stderr, "hint: did you mean %s?\n", search.best);
     } else {
         fprintf(stderr, "hint: whirl %s --help lists the options\n", r->command);
@@ -480,7 +483,7 @@ static bool take_own(const target_reader *r, int count, char **words, int *at, b
     for (const own_option *o = r->table; o != NULL && o->word != NULL && !*bad; o++) {
         const char *value = NULL;
         if (o->strict != NULL) {
-            if (take_strict(r->command, words, at, o->strict, bad)) {
+            if (take_strict(r->command, count, words, at, o->strict, bad)) {
                 return true;
             }
         } else if (o->flag == NULL && !o->is_bare) {
@@ -508,17 +511,12 @@ static bool take_target(const target_reader *r, char *word, const char **target)
     if (r->many != NULL) {
         r->many[(*r->many_count)++] = word;
     } else if (*target != NULL) {
-        if (r->derives) {
-            fprintf(stderr,
-                    "whirl %s: error: the command takes only one scene or mechanism: '%s' is a "
-                    "second one\n",
-                    r->command, word);
-        } else {
-            fprintf(stderr,
-                    "whirl %s: error: the command takes only one %s: '%s' is a second "
-                    "one\n",
-                    r->command, r->one != NULL ? r->one : "scene", word);
-        }
+        fprintf(stderr, "whirl %s: error: the command takes only one %s: '%s' is a second one\n",
+                r->command,
+                r->derives       ? "scene or mechanism"
+                : r->one != NULL ? r->one
+                                 : "scene",
+                word);
         return false;
     }
     *target = word;

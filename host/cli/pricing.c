@@ -202,7 +202,7 @@ static bool read_methods(pricing *p) {
     }
     while (at != NULL) {
         const size_t length = strcspn(at, ",");
-        char *word = alloc_copy(at, length);
+        char *word = alloc_trimmed(at, length);
         const int chosen = options_choose(p->options->command, "method", word, words,
                                           sizeof words[0], WH_METHODS + 1);
         free(word);

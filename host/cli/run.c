@@ -182,6 +182,10 @@ static bool count_every(const run_options *o, double spacing_s, const image *im,
             o->every, im->step_s);
         return false;
     }
+    if (o->settings.csv == NULL && o->settings.columns == NULL && o->settings.vcd == NULL) {
+        fputs("whirl run: error: --every needs records\nhint: --csv FILE\n", stderr);
+        return false;
+    }
     return true;
 }
 

@@ -402,9 +402,6 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
 static int map_scene(const sweep_options *o, source_model *from, const mechanism *of,
                      const scene *in, grid *g, const overrides *changes) {
     const sweep s = sweep_of(o, of, in, g, changes);
-    if (!changes_are_apart(g, changes)) {
-        return EXIT_BAD_INPUT;
-    }
     loaded base;
     int code = load_base(o, from, &s, &base);
     if (code == EXIT_DONE) {
@@ -446,6 +443,7 @@ static int work_on(const sweep_options *o, sweep_work *work) {
             good = grid_add(&g, of, o->over[i], from.errors);
         }
         diags_flush(from.errors, stderr);
+        good = good && changes_are_apart(&g, &changes);
         code = good ? work(o, &from, of, in, &g, &changes) : EXIT_BAD_INPUT;
         grid_free(&g);
     }

@@ -153,13 +153,10 @@ static char *panels_next(const char **list) {
     if (*list == NULL) {
         return NULL;
     }
-    const char *from = *list + strspn(*list, " ");
-    size_t length = strcspn(from, ",");
+    const char *from = *list;
+    const size_t length = strcspn(from, ",");
     *list = from[length] == ',' ? from + length + 1 : NULL;
-    while (length > 0 && from[length - 1] == ' ') {
-        length--;
-    }
-    return alloc_copy(from, length);
+    return alloc_trimmed(from, length);
 }
 
 static bool add_list(panels *p, const char *command, const char *list, const plot_run *runs,

@@ -15,12 +15,7 @@
 
 #include "host/lang/parser.h"
 
-static const char *skip_blanks(const char *text) {
-    while (*text == ' ' || *text == '\t') {
-        text++;
-    }
-    return text;
-}
+static const char *skip_blanks(const char *text) { return text + strspn(text, " \t"); }
 
 static bool continues_name(char c) { return isalnum((unsigned char)c) || c == '_'; }
 

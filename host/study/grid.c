@@ -144,11 +144,7 @@ static bool range_split(const grid *g, const char *text, range_text *r) {
 static const char *behind_number(const char *text) {
     const char *end;
     (void)decimal_read(text, &end);
-    const bool none = end == text;
-    while (*end == ' ' || *end == '\t') {
-        end++;
-    }
-    return none ? NULL : end;
+    return end == text ? NULL : end + strspn(end, " \t");
 }
 
 /* Gives FROM the unit of TO if FROM has none: "10..60 [mm]". */

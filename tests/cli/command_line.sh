@@ -210,7 +210,11 @@ prints ', 1001 steps to t = 1.001 s' run ball_elastic --until 1.0007s --step 1ms
 prints 'steps = UINT64_C\(31536000000\),' derive ball_elastic --as c --step 1ms --until 31536000s
 prints 'step = \{UINT64_C\(1\), UINT64_C\(1000000000\)\},' derive ball_elastic --as c --step 1ns --until 1577880000s
 prints 'steps = UINT64_C\(1577880000000000000\),' derive ball_elastic --as c --step 1ns --until 1577880000s
-prints ', 100 steps to t = 0.01 s' run ball_elastic --until 10ms --step 0.1ms --every 0.5ms
+prints ', 100 steps to t = 0.01 s' run ball_elastic --until 10ms --step 0.1ms --every 0.5ms --vcd /dev/null
+exits 2 '--every needs records' run epicyclic_from_rest --every 2ms
+exits 2 'hint: --strict=off or --strict=1e-6' run epicyclic_from_rest --strict 1e-3
+exits 2 'hint: whirl run --help lists the options' run epicyclic_from_rest --
+exits 2 "--over sweeps 'm', but --set sets it, too" sweep epicyclic_from_rest --over m=1..2:2 --measure theta --set m=3
 exits 2 '--every 1.5ms is not a multiple of the step' run epicyclic_from_rest --every 1.5ms
 exits 2 '--every 0 is not a multiple of the step' run epicyclic_from_rest --every 0
 exits 2 'hint: the step is 0.001 s' run epicyclic_from_rest --every 1.5ms
