@@ -102,9 +102,9 @@ typedef struct sweep_options {
     const char **measure; /* [word count] */
     int measure_count;
     /* Options as typed; NULL: not given. */
-    const char *from, *csv, *jobs_text, *shard_text, *plot;
+    const char *from, *csv, *shard_text, *plot;
     shard part;
-    int jobs;
+    double jobs;
     double strict;
     double tolerance;
     double effort;
@@ -118,18 +118,6 @@ static bool read_whole(const char *text, char end, unsigned long long limit,
     *value = digits > 0 && digits < 10 ? strtoull(text, NULL, 10) : 0;
     *rest = text + digits + (text[digits] == '\0' ? 0 : 1);
     return *value >= 1 && *value <= limit && text[digits] == end;
-}
-
-static bool read_jobs(const char *text, sweep_options *o) {
-    unsigned long long wanted;
-    const char *rest;
-    if (!read_whole(text, '\0', JOBS_WORKERS_MAX, &wanted, &rest)) {
-        fprintf(stderr, "whirl sweep: error: --jobs takes a number from 1 to %d\n",
-                JOBS_WORKERS_MAX);
-        return false;
-    }
-    o->jobs = (int)wanted;
-    return true;
 }
 
 static bool read_shard(const char *text, sweep_options *o) {
@@ -147,8 +135,7 @@ static bool read_shard(const char *text, sweep_options *o) {
 
 /* Checks for missing and contradicting options. */
 static bool is_whole_sweep(sweep_options *o) {
-    if ((o->jobs_text != NULL && !read_jobs(o->jobs_text, o)) ||
-        (o->shard_text != NULL && !read_shard(o->shard_text, o))) {
+    if (o->shard_text != NULL && !read_shard(o->shard_text, o)) {
         return false;
     }
     if (o->json && o->csv != NULL && !options_is_standard(o->csv)) {
@@ -250,7 +237,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
                                        .first = first,
                                        .end = end,
                                        .header = o->part.number == 1,
-                                       .jobs = o->jobs,
+                                       .jobs = (int)o->jobs,
                                        .fresh = o->fresh,
                                        .quiet = o->quiet,
                                        .json = o->json};
@@ -471,7 +458,7 @@ int command_sweep(int count, char **words) {
                               {.word = "--from", .text = &o.from},
                               {.word = "--csv", .text = &o.csv},
                               {.word = "--fresh", .flag = &o.fresh},
-                              {.word = "--jobs", .text = &o.jobs_text},
+                              OWN_WHOLE("--jobs", o.jobs, 1.0, JOBS_WORKERS_MAX, "--jobs 4"),
                               {.word = "--shard", .text = &o.shard_text},
                               {.word = "--json", .flag = &o.json},
                               {.word = "--strict", .strict = &o.strict},
