@@ -334,9 +334,8 @@ static bool open_outputs(monitor *m) {
         if (name == NULL) {
             continue;
         }
-        m->file[i] = strcmp(name, "-") == 0 ? stdout : fopen(name, "wb");
+        m->file[i] = strcmp(name, "-") == 0 ? stdout : atomic_file_open_in_place(name);
         if (m->file[i] == NULL) {
-            write_error_say(name);
             return false;
         }
     }

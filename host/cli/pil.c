@@ -294,10 +294,7 @@ static bool open_tape(const pil_options *o, const source_model *from, FILE **fil
     if (would_be_lost(o, from, "--tape", o->tape)) {
         return false;
     }
-    *file = fopen(o->tape, "wb");
-    if (*file == NULL) {
-        write_error_say(o->tape);
-    }
+    *file = atomic_file_open_in_place(o->tape);
     return *file != NULL;
 }
 

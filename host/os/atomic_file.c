@@ -16,7 +16,9 @@ void write_error_say(const char *name) {
     const int reason = errno;
     failed = failed || reason == ENOSPC || reason == EDQUOT || reason == EFBIG || reason == EIO;
     fprintf(stderr, "%s: error: cannot be written: %s\n", name[0] != '\0' ? name : "''",
-            reason != 0 ? strerror(reason) : "only a part was written");
+            reason == EBUSY ? "another whirl is writing it\nhint: use another file"
+            : reason != 0   ? strerror(reason)
+                            : "only a part was written");
 }
 
 void atomic_file_not_whole(void) { failed = true; }
@@ -35,16 +37,44 @@ static bool can_be_replaced(const char *name, struct stat *there) {
     return S_ISREG(there->st_mode) && there->st_nlink == 1 && access(name, W_OK) == 0;
 }
 
-/* Opens NAME.part; or `name` itself, with fopen()'s mode `in_place`, if that file cannot be replaced. */
-static FILE *open_part(const char *name, const char *in_place) {
+/* Is the open file the one at the path `name`? */
+static bool is_at(FILE *file, const char *name) {
+    struct stat one;
+    struct stat other;
+    return fstat(fileno(file), &one) == 0 && stat(name, &other) == 0 &&
+           one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
+/* Opens an ordinary file for this process alone; other files are shared. NULL, with errno: EBUSY if another process writes
+ * the file, or has just replaced it. */
+static FILE *open_alone(const char *name, bool empties) {
+    FILE *file = fopen(name, "ab");
+    if (file != NULL && atomic_file_is_regular(file)) {
+        const bool alone = system_lock(file) && is_at(file, name);
+        if (!alone || (empties && ftruncate(fileno(file), 0) != 0)) {
+            const int reason = alone ? errno : EBUSY;
+            fclose(file);
+            errno = reason;
+            return NULL;
+        }
+    }
+    return file;
+}
+
+/* Opens NAME.part; or `name` itself if that file cannot be replaced. It is then emptied if `empties` is true. */
+static FILE *open_part(const char *name, bool empties) {
     struct stat there;
     if (!can_be_replaced(name, &there)) {
-        return fopen(name, in_place);
+        return open_alone(name, empties);
+    }
+    FILE *old = there.st_mode != 0 ? open_alone(name, false) : NULL;
+    if (old == NULL ? there.st_mode != 0 : fclose(old) != 0) {
+        return NULL; /* a sweep, for example, writes it in place */
     }
     char *part = part_of(name);
-    FILE *file = fopen(part, "wb");
+    FILE *file = open_alone(part, true);
     if (file == NULL && (errno == EACCES || errno == ENAMETOOLONG)) {
-        file = fopen(name, in_place);
+        file = open_alone(name, empties);
     }
     if (file != NULL && there.st_mode != 0) {
         system_set_mode(file, there.st_mode & 0777U);
@@ -53,23 +83,20 @@ static FILE *open_part(const char *name, const char *in_place) {
     return file;
 }
 
-static FILE *open_as(const char *name, const char *in_place) {
-    FILE *file = strcmp(name, "-") == 0 ? stdout : open_part(name, in_place);
+static FILE *or_say(FILE *file, const char *name) {
     if (file == NULL) {
         write_error_say(name);
     }
     return file;
 }
 
-FILE *atomic_file_open(const char *name) { return open_as(name, "wb"); }
-
-/* Is the open file the one at the path `name`? */
-static bool is_at(FILE *file, const char *name) {
-    struct stat one;
-    struct stat other;
-    return fstat(fileno(file), &one) == 0 && lstat(name, &other) == 0 &&
-           one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+static FILE *open_as(const char *name, bool empties) {
+    return strcmp(name, "-") == 0 ? stdout : or_say(open_part(name, empties), name);
 }
+
+FILE *atomic_file_open(const char *name) { return open_as(name, true); }
+
+FILE *atomic_file_open_in_place(const char *name) { return or_say(open_alone(name, true), name); }
 
 bool atomic_file_close(FILE *file, const char *name, bool keep) {
     if (file == NULL || file == stdout) {
@@ -84,16 +111,17 @@ bool atomic_file_close(FILE *file, const char *name, bool keep) {
         fputc('\n', file);
         (void)fflush(file);
     }
-    bool good = fclose(file) == 0 && taken;
-    if (good && keep && !in_place) {
-        good = rename(part, name) == 0;
+    /* Renamed and removed while it is locked: afterwards NAME.part may belong to another process. */
+    bool good = taken && (in_place || !keep || rename(part, name) == 0);
+    if (!in_place && !(good && keep)) {
+        const int reason = errno;
+        (void)unlink(part);
+        errno = reason;
     }
+    good = fclose(file) == 0 && good;
     if (!good) {
         write_error_say(name);
         atomic_file_not_whole();
-    }
-    if (!in_place && !(good && keep)) {
-        (void)unlink(part);
     }
     free(part);
     return good;
@@ -105,7 +133,7 @@ bool atomic_file_is_regular(FILE *file) {
 }
 
 bool atomic_file_can(const char *name) {
-    FILE *file = name != NULL ? open_as(name, "ab") : stdout;
+    FILE *file = name != NULL ? open_as(name, false) : stdout;
     return file != NULL && atomic_file_close(file, name, false);
 }
 

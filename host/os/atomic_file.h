@@ -6,8 +6,10 @@
 #include <stdio.h>
 
 /* Opens a file for writing. "-" is standard output. Devices, pipes, links, and files in folders without write
- * permission are written in place. Returns NULL after reporting an error. */
+ * permission are written in place. An ordinary file is locked until it is closed. Returns NULL after reporting an error. */
 FILE *atomic_file_open(const char *name);
+/* As atomic_file_open(), but writes in place, so that the file can be read while it grows. "-" is a name like others. */
+FILE *atomic_file_open_in_place(const char *name);
 
 /* Closes the file, and replaces the old one if all text was written and `keep` is true. Returns false after reporting
  * a failed write. `file` may be NULL. A file that another function opened is only closed. Standard output is checked

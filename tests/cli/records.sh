@@ -79,6 +79,23 @@ run tests/mechanisms/lorenz.whirl --start x=1 --step 1 --method euler --csv "$sc
 [ $? -eq 1 ] && grep -Eq 'after t = [0-9]+ s: [xyz] grew without bound' "$scratch/err" && well_formed "$scratch/l.csv"
 verdict $? "a system of first order in float: status 1, records well formed"
 
+# --- two runs that write one file -------------------------------------------------------------------------
+for output in csv columns vcd; do
+    run epicyclic_from_rest --until 3s --quiet --$output "$scratch/alone"
+    for way in part link; do # written as FILE.part, and in place
+        [ $way = part ] || ln -sf "$scratch/place" "$scratch/same.$way"
+        "$whirl" run epicyclic_from_rest --until 1000000s --quiet --$output "$scratch/same.$way" 2>/dev/null &
+        first=$!
+        await has_bytes 9000 "$([ $way = part ] && echo "$scratch/same.part.part" || echo "$scratch/place")"
+        exits 2 'same.*another whirl is writing it' run epicyclic_from_rest --quiet --$output "$scratch/same.$way"
+        kill -INT $first
+        wait $first
+        head -n 99 "$scratch/alone" >"$scratch/wanted"
+        head -n 99 "$scratch/same.$way" | cmp - "$scratch/wanted" 2>"$scratch/err"
+        verdict $? "--$output, $way: the first run's records are whole"
+    done
+done
+
 # --- plain columns ----------------------------------------------------------------------------------------
 run epicyclic_from_rest --until 1s --every 10ms --quiet --csv "$scratch/run.csv" --columns "$scratch/run.txt"
 [ "$(head -n 1 "$scratch/run.txt")" = '% time theta X der(theta) der(X) projection x_2 x_cm' ]
