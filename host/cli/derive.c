@@ -122,7 +122,7 @@ static bool header_is_apart(const source_model *from, const char *header) {
               stderr);
         return false;
     }
-    if (source_would_be_lost(from, "--header", header, "")) {
+    if (source_would_be_lost(from, "--header", header)) {
         return false;
     }
     if (fstat(STDOUT_FILENO, &about_output) == 0 && S_ISREG(about_output.st_mode) &&

@@ -102,13 +102,9 @@ static bool is_whole(const plot_options *o) {
                 o->targets, RUNS_MOST);
         return false;
     }
-    for (int i = 0; i < o->targets; i++) {
-        if (files_same(o->target[i], o->out)) {
-            fprintf(stderr, "whirl plot: error: --out would overwrite %s\n", o->out);
-            return false;
-        }
-    }
-    return sets_once(o) && gnuplot_can_draw_for("plot", "--out", o->out) && gnuplot_is_there();
+    return files_are_apart("plot", (const char *[]){"--out"}, &o->out, 1,
+                           (const char *const *)o->target, o->targets) &&
+           sets_once(o) && gnuplot_can_draw_for("plot", "--out", o->out) && gnuplot_is_there();
 }
 
 static int plot_work(void *options) {

@@ -64,6 +64,40 @@ bool files_same(const char *one, const char *other) {
             files_are_one(&first, one, &second, other));
 }
 
+/* What a command may add to the name of an output: its unfinished text, its description, a sweep's settings. */
+static const char *const beside[] = {"", ".part", ".toml", ".toml.part", ".sweep"};
+enum { BESIDE = sizeof beside / sizeof beside[0] };
+
+/* Are these files, or files beside them, the same? Beside an input there are none. */
+static bool files_meet(const char *output, const char *other, bool is_input) {
+    bool met = false;
+    for (int i = 0; i < (is_input ? BESIDE : BESIDE * BESIDE) && !met; i++) {
+        char *one = alloc_words("%s%s", output, beside[i % BESIDE]);
+        char *two = alloc_words("%s%s", other, beside[i / BESIDE]);
+        met = files_same(one, two);
+        free(one);
+        free(two);
+    }
+    return met;
+}
+
+bool files_are_apart(const char *command, const char *const *option, const char *const *output,
+                     int outputs, const char *const *input, int inputs) {
+    for (int i = 0; i < outputs; i++) {
+        for (int k = i + 1; k < outputs + inputs && output[i] != NULL; k++) {
+            const bool is_input = k >= outputs;
+            const char *other = is_input ? input[k - outputs] : output[k];
+            if (other != NULL && files_meet(output[i], other, is_input)) {
+                fprintf(stderr, "whirl %s: error: %s %s %s%s\n", command, option[i],
+                        is_input ? "would overwrite" : "and", is_input ? other : option[k],
+                        is_input ? "" : " cannot share a file");
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 /* === mechanisms and scenes ==================================================================== */
 
 /* The parts of the target. */
@@ -260,8 +294,7 @@ static bool file_exists(const char *path) {
     return strcmp(path, "-") == 0 || stat(path, &about) == 0;
 }
 
-bool source_would_be_lost(const source_model *s, const char *option, const char *path,
-                          const char *ending) {
+bool source_would_be_lost(const source_model *s, const char *option, const char *path) {
     struct stat about_model;
     struct stat about_output;
     if (path == NULL || strcmp(path, "-") == 0 || s->path == NULL) {
@@ -271,8 +304,8 @@ bool source_would_be_lost(const source_model *s, const char *option, const char 
     const bool model_known =
         (from_stdin ? fstat(fileno(stdin), &about_model) : stat(s->path, &about_model)) == 0;
     bool lost = false;
-    for (int i = 0; i < 2 && !lost; i++) { /* the file and its temporary NAME.part */
-        char *name = alloc_words("%s%s%s", path, ending, i == 0 ? "" : ".part");
+    for (int i = 0; i < BESIDE && !lost; i++) {
+        char *name = alloc_words("%s%s", path, beside[i]);
         lost = model_known && S_ISREG(about_model.st_mode) && stat(name, &about_output) == 0 &&
                files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);
         if (lost) {

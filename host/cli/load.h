@@ -22,6 +22,11 @@ bool files_are_one(const struct stat *one, const char *path, const struct stat *
 /* Are both the same file, by name or, if they exist, by identity? */
 bool files_same(const char *one, const char *other);
 
+/* Is each output, with the files that a command may write beside it, another file than each other output and input? If not,
+ * this is reported. option [outputs] are the words of the outputs. A name may be NULL: no file. */
+bool files_are_apart(const char *command, const char *const *option, const char *const *output,
+                     int outputs, const char *const *input, int inputs);
+
 /* === a built-in scene or mechanism by its name ================================================ */
 
 /* Find `target`, SCENE, MECHANISM or MECHANISM:SCENE, in models [count]. *found is then parsed (free with
@@ -47,10 +52,9 @@ void source_close(source_model *source);
 /* Free the model and its text when they are no longer needed; names and errors stay until source_close(). */
 void source_forget(source_model *source);
 
-/* Would writing the file `path` + `ending` overwrite the model, by any name or link? This is then reported, with the
- * option of the file. `path` may be NULL or "-": no file. */
-bool source_would_be_lost(const source_model *source, const char *option, const char *path,
-                          const char *ending);
+/* Would writing the file `path`, or one beside it, overwrite the model, by any name or link? This is then reported, with
+ * the option of the file. `path` may be NULL or "-": no file. */
+bool source_would_be_lost(const source_model *source, const char *option, const char *path);
 
 /* The scene, or the mechanism (scene NULL), of `source->name`. Without a name: with `prefer_scene` the file's only
  * scene, else its only mechanism. Returns an exit status. */

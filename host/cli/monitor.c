@@ -71,20 +71,8 @@ static bool are_apart(const monitor_options *o) {
             fprintf(stderr, "whirl monitor: error: %s takes a file's name\n", output_option[i]);
             return false;
         }
-        if (files_same(o->output[i], o->port)) {
-            fprintf(stderr, "whirl monitor: error: %s would overwrite %s\n", output_option[i],
-                    o->port);
-            return false;
-        }
-        for (int k = 0; k < i; k++) {
-            if (o->output[k] != NULL && files_same(o->output[i], o->output[k])) {
-                fprintf(stderr, "whirl monitor: error: %s and %s cannot share a file\n",
-                        output_option[k], output_option[i]);
-                return false;
-            }
-        }
     }
-    return true;
+    return files_are_apart("monitor", output_option, o->output, OUTPUTS, &o->port, 1);
 }
 
 static bool are_possible(const monitor_options *o) {

@@ -118,10 +118,6 @@ static bool is_read_alone(const pil_options *o) {
         fprintf(stderr, "whirl pil: error: --read only prints a tape, so it excludes %s\n", beside);
         return false;
     }
-    if (o->csv != NULL && files_same(o->read, o->csv)) {
-        fputs("whirl pil: error: --csv would overwrite the tape\n", stderr);
-        return false;
-    }
     return true;
 }
 
@@ -274,28 +270,10 @@ static void close_line(const pil_options *o, port *line) {
     }
 }
 
-static bool would_be_lost(const pil_options *o, const source_model *from, const char *option,
-                          const char *name) {
-    if (name == NULL || source_would_be_lost(from, option, name, "")) {
-        return name != NULL;
-    }
-    const bool lost = o->firmware != NULL && files_same(name, o->firmware);
-    if (lost) {
-        fprintf(stderr, "whirl pil: error: %s would overwrite the firmware\n", option);
-    }
-    return lost;
-}
-
 static bool open_tape(const pil_options *o, const source_model *from, FILE **file) {
-    *file = NULL;
-    if (o->tape == NULL) {
-        return true;
-    }
-    if (would_be_lost(o, from, "--tape", o->tape)) {
-        return false;
-    }
-    *file = atomic_file_open_in_place(o->tape);
-    return *file != NULL;
+    const bool opens = o->tape != NULL && !source_would_be_lost(from, "--tape", o->tape);
+    *file = opens ? atomic_file_open_in_place(o->tape) : NULL;
+    return o->tape == NULL || *file != NULL;
 }
 
 static int run_image(const pil_options *o, const source_model *from, const image *im,
@@ -307,7 +285,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    if (would_be_lost(o, from, "--csv", o->csv) || !open_tape(o, from, &request->tape) ||
+    if (source_would_be_lost(from, "--csv", o->csv) || !open_tape(o, from, &request->tape) ||
         !recorded_open(&rows, o->csv, im, o->every != NULL ? every_s : -1.0)) {
         return EXIT_BAD_INPUT;
     }
@@ -415,7 +393,10 @@ static int pil_work(void *options) {
             return EXIT_BAD_INPUT;
         }
     }
-    if (!is_known_board(o) || !go_together(o)) {
+    if (!is_known_board(o) || !go_together(o) ||
+        !files_are_apart("pil", (const char *[]){"--csv", "--tape"},
+                         (const char *[]){o->csv, o->tape}, 2,
+                         (const char *[]){o->firmware, o->read}, 2)) {
         return EXIT_BAD_INPUT;
     }
     if (o->kinds) {

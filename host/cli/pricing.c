@@ -469,7 +469,7 @@ static int price_scene(pricing *p) {
               stderr);
         return EXIT_BAD_INPUT;
     }
-    if (source_would_be_lost(&p->from, "--csv", csv, "") || !atomic_file_can(csv) ||
+    if (source_would_be_lost(&p->from, "--csv", csv) || !atomic_file_can(csv) ||
         (measure && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }

@@ -215,7 +215,7 @@ static int prove_source(source_model *from, void *options) {
     const mechanism *of;
     const scene *in;
     int code = source_pick(from, true, &of, &in);
-    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv, "")) {
+    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv)) {
         return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
     }
     const overrides changes = options_overrides(&o->common.change);

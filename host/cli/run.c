@@ -75,25 +75,8 @@ typedef struct run_options {
     simulation_settings settings;
 } run_options;
 
-static bool files_are_apart(const simulation_settings *s) {
-    const struct {
-        const char *option;
-        const char *file;
-    } outputs[] = {
-        {"--csv", s->csv}, {"--columns", s->columns}, {"--vcd", s->vcd}, {"--plot", s->plot}};
-    const int count = (int)(sizeof outputs / sizeof outputs[0]);
-    for (int i = 0; i < count; i++) {
-        for (int k = i + 1; k < count; k++) {
-            if (outputs[i].file != NULL && outputs[k].file != NULL &&
-                files_same(outputs[i].file, outputs[k].file)) {
-                fprintf(stderr, "whirl run: error: %s and %s cannot share a file\n",
-                        outputs[i].option, outputs[k].option);
-                return false;
-            }
-        }
-    }
-    return true;
-}
+static const char *const output_option[] = {"--csv", "--columns", "--vcd", "--plot"};
+enum { OUTPUTS = sizeof output_option / sizeof output_option[0] };
 
 static bool read_options(int count, char **words, run_options *o) {
     simulation_settings *to = &o->settings;
@@ -138,15 +121,16 @@ static bool read_options(int count, char **words, run_options *o) {
               stderr);
         return false;
     }
-    return files_are_apart(&o->settings);
+    return files_are_apart("run", output_option,
+                           (const char *[]){to->csv, to->columns, to->vcd, to->plot}, OUTPUTS, NULL,
+                           0);
 }
 
 static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {
-    return source_would_be_lost(from, "--csv", s->csv, "") ||
-           source_would_be_lost(from, "--csv", s->csv, ".toml") ||
-           source_would_be_lost(from, "--columns", s->columns, "") ||
-           source_would_be_lost(from, "--vcd", s->vcd, "") ||
-           source_would_be_lost(from, "--plot", s->plot, "");
+    return source_would_be_lost(from, "--csv", s->csv) ||
+           source_would_be_lost(from, "--columns", s->columns) ||
+           source_would_be_lost(from, "--vcd", s->vcd) ||
+           source_would_be_lost(from, "--plot", s->plot);
 }
 
 /* The value of --every in seconds; 0 without it, below 0 if it is not a time. */

@@ -58,10 +58,7 @@ static int each_scene(int files, char **file, scene_visitor *visit, void *contex
 /* The file FOLDER/NAME + ending, to write; NULL, reported. */
 static FILE *scenes_open(const char *folder, const char *name, const char *ending) {
     char *path = alloc_words("%s/%s%s", folder, name, ending);
-    FILE *out = fopen(path, "w");
-    if (out == NULL) {
-        write_error_say(path);
-    }
+    FILE *out = atomic_file_open_in_place(path);
     free(path);
     return out;
 }

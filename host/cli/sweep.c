@@ -153,7 +153,6 @@ static bool is_whole_sweep(sweep_options *o) {
 }
 
 static bool is_whole_map(sweep_options *o) {
-    const char *problem = NULL;
     if (o->over_count > AXES) {
         fprintf(stderr,
                 "whirl map: error: a map needs exactly two --over, but '%.60s' is a third "
@@ -172,14 +171,13 @@ static bool is_whole_map(sweep_options *o) {
         return false;
     }
     if (o->json && options_is_standard(o->csv)) {
-        problem = "--json and rows cannot share standard output\nhint: --csv rows.csv";
-    } else if (o->csv != NULL && o->plot != NULL && files_same(o->csv, o->plot)) {
-        problem = "--csv and --plot cannot share a file";
+        fputs(
+            "whirl map: error: --json and rows cannot share standard output\nhint: --csv rows.csv\n",
+            stderr);
+        return false;
     }
-    if (problem != NULL) {
-        fprintf(stderr, "whirl map: error: %s\n", problem);
-    }
-    return problem == NULL;
+    return files_are_apart("map", (const char *[]){"--csv", "--plot"},
+                           (const char *[]){o->csv, o->plot}, 2, NULL, 0);
 }
 
 /* --- common beginning ----------------------------------------------------------------------------*/
@@ -403,9 +401,8 @@ static int map_scene(const sweep_options *o, source_model *from, const mechanism
 /* Refuses to overwrite the model's file with the rows or with FILE.sweep (host/study/session.h). For a map also tests, before
  * the work, if the file can be written. */
 static bool can_write(const sweep_options *o, const source_model *from, bool maps) {
-    if (source_would_be_lost(from, "--csv", o->csv, "") ||
-        source_would_be_lost(from, maps ? "--plot" : "--csv", maps ? o->plot : o->csv,
-                             maps ? "" : ".sweep")) {
+    if (source_would_be_lost(from, "--csv", o->csv) ||
+        source_would_be_lost(from, "--plot", o->plot)) {
         return false;
     }
     return !maps || (atomic_file_can(o->csv) && atomic_file_can(o->plot) &&

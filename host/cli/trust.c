@@ -177,7 +177,7 @@ static int trust_source(const trust_options *o, source_model *from) {
     const scene *in;
     int code = source_open(from, o->target);
     code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
-    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv, "")) {
+    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv)) {
         return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
     }
     overrides changes = options_overrides(&o->common.change);

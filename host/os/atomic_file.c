@@ -114,9 +114,7 @@ bool atomic_file_close(FILE *file, const char *name, bool keep) {
     /* Renamed and removed while it is locked: afterwards NAME.part may belong to another process. */
     bool good = taken && (in_place || !keep || rename(part, name) == 0);
     if (!in_place && !(good && keep)) {
-        const int reason = errno;
         (void)unlink(part);
-        errno = reason;
     }
     good = fclose(file) == 0 && good;
     if (!good) {

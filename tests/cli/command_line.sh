@@ -290,7 +290,25 @@ verdict $? "nor is what standard input reads"
 cmp -s "$scratch/own.whirl" "$scratch/kept" && cmp -s "$scratch/own.svg" "$scratch/kept" &&
     cmp -s "$scratch/x.sweep" "$scratch/kept"
 verdict $? "the models are as they were"
-exits 2 'error: --csv and --plot cannot share a file' run "$own" --csv "$scratch/a.svg" --plot "$scratch/a.svg"
+# Each output, with the files beside it, is apart from each other output and from what is read.
+for ending in '' .part .toml .toml.part .sweep; do
+    beside=$scratch/b.svg$ending
+    for one in --csv --columns --vcd --plot; do
+        for other in --csv --columns --vcd; do
+            [ $one = $other ] || exits 2 "error: --[a-z]* and --[a-z]* cannot share a file" run "$own" $one "$scratch/b.svg" $other "$beside"
+        done
+    done
+    exits 2 'error: --csv and --plot cannot share a file' map "$own" --over x=1..2:2 --over step=1ms..2ms:2 --plot "$scratch/b.svg" --csv "$beside"
+    exits 2 'error: --csv and --vcd cannot share a file' monitor "$scratch/kept" --vcd "$scratch/b.svg" --csv "$beside"
+    exits 2 'error: --csv and --tape cannot share a file' pil "$own" --firmware "$scratch/kept" --csv "$scratch/b.svg" --tape "$beside"
+    cp "$scratch/kept" "$beside"
+    for command in run trust prove price 'sweep --over x=1..2:2'; do
+        exits 2 'error: --csv would overwrite the model' $command "$beside" --csv "$scratch/b.svg"
+    done
+    exits 2 "error: --csv would overwrite $beside" pil "$own" --firmware "$beside" --csv "$scratch/b.svg"
+    exits 2 "error: --raw would overwrite $beside" monitor "$beside" --raw "$scratch/b.svg"
+    rm "$beside"
+done
 exits 2 'error: --csv and --columns cannot share a file' run "$own" --csv - --columns -
 echo >"$scratch/b"
 ln "$scratch/b" "$scratch/c"
