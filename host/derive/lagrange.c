@@ -600,13 +600,6 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
     e->output = polys(m->output_count);
     for (int i = 0; i < n; i++) {
         e->unknowns[i] = (unknown){m->coordinates[i], 2};
-        poly_symbol(e->algebra, m->coordinates[i], 0);
-    }
-    for (int i = 0; i < m->parameter_count; i++) {
-        poly_symbol(e->algebra, m->parameters[i], 0);
-    }
-    for (int i = 0; i < n; i++) {
-        poly_symbol(e->algebra, m->coordinates[i], 1);
     }
     e->contacts = contact_laws_make(e->algebra, inst);
     bool good = m->is_system ? derive_system(e, errors) : derive_lagrange(e, errors);
