@@ -241,7 +241,8 @@ static int tell(const pil_options *o, const lockstep_request *request, const ima
     if (!o->quiet && r->end != LOCKSTEP_BAD) {
         pil_print(options_is_standard(o->csv) ? stderr : stdout, request, im, r);
     }
-    return code_of(r);
+    const int code = code_of(r);
+    return code == EXIT_DONE && !fault_all_occurred(&o->faults) ? EXIT_RUN_FAILED : code;
 }
 
 /* Opens the serial line of --port, if this option is given. */

@@ -514,6 +514,23 @@ static void tap_readings(void *of, double time_s, wh_readings *readings) {
     }
 }
 
+bool fault_all_occurred(const fault_plan *plan) {
+    bool all = true;
+    for (unsigned i = 0; i < plan->count; i++) {
+        const fault_case *f = &plan->fault[i];
+        if (!f->happened) {
+            fprintf(
+                stderr, "whirl pil: error: the fault '%s' did not occur: %s\nhint: %s\n",
+                fault_rows[f->kind].word,
+                f->reached ? "the run ended before its time" : "its note did not get this value",
+                f->reached ? "use an earlier time, or a longer --until"
+                           : "the run's report prints the notes; its tape (--tape) has all values");
+            all = false;
+        }
+    }
+    return all;
+}
+
 tap fault_tap(fault_plan *plan) {
     return (tap){.of = plan, .start = tap_start, .orders = tap_orders, .readings = tap_readings};
 }

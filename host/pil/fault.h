@@ -189,6 +189,9 @@ char *fault_parameter(const fault_plan *plan, unsigned i);
 /* Returns a tap that applies the faults, for one run. */
 tap fault_tap(fault_plan *plan);
 
+/* After a run: reports each fault that never occurred. Returns true if all occurred. */
+bool fault_all_occurred(const fault_plan *plan);
+
 void fault_print_kinds(FILE *out);
 
 #endif

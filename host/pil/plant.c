@@ -77,13 +77,19 @@ static const char *find_set(bound *b, const image *im, const char *name) {
     return b->index >= 0 ? im->input[b->index].unit.si : NULL;
 }
 
+/* `name`: the scene's name that the signal is bound to. */
 static void say_unknown(const bound *b, const image *im, const char *name) {
+    const char *kind = is_output(b) ? "input" : "output or coordinate";
     nearest search = nearest_start(name, strlen(name));
-    fprintf(stderr,
-            "whirl pil: error: the firmware %s '%s', which '%s' does not have\nhint: the scene has",
-            is_output(b) ? "sets" : "reads", name, im->name);
+    fprintf(stderr, "whirl pil: error: the firmware %s '%s', but '%s' has no %s '%s'\nhint: ",
+            is_output(b) ? "sets" : "reads", b->signal.name, im->name, kind, name);
     const int count = is_output(b) ? im->inputs : im->own_outputs;
     const image_quantity *of = is_output(b) ? im->input : im->output;
+    if (count == 0 && is_output(b)) {
+        fputs("the mechanism needs an input for it (`input NAME = 0 [UNIT]`)\n", stderr);
+        return;
+    }
+    fprintf(stderr, "bind '%s' to one of:", b->signal.name);
     for (int i = 0; i < count; i++) {
         fprintf(stderr, " %s", of[i].name);
         nearest_offer(&search, of[i].name);
@@ -92,7 +98,7 @@ static void say_unknown(const bound *b, const image *im, const char *name) {
         fprintf(stderr, " %s", im->unknown[i].name);
         nearest_offer(&search, im->unknown[i].name);
     }
-    fprintf(stderr, "; to choose one: --bind %s=%s\n", b->signal.name,
+    fprintf(stderr, " (--bind %s=%s)\n", b->signal.name,
             search.best != NULL ? search.best : "NAME");
 }
 

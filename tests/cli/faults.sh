@@ -30,6 +30,9 @@ exits 2 'not a valid time' --fault jam@noon
 exits 2 'not a valid duration' --fault jam@1+long
 exits 2 "declares no note 'mood'" --fault jam@mood=3
 exits 2 'has only 2 channels of this kind' --fault edge-dead:3
+for when in jam@100s jam@state=99 reset@100s edge-lost@trip=77 "supply=0.5@state=4~300"; do
+    exits 1 "the fault '${when%%[=@]*}' did not occur" --until 30ms --fault "cell-noise=0.07,$when"
+done
 about=pil
 exits 2 "has no input 'runaway'" docs/plants/cart.whirl --firmware "$build/pil_cart" --fault runaway
 exits 2 'excludes --fault' --replay "$scratch/none" --firmware "$build/pil_rig" --fault jam

@@ -261,7 +261,7 @@ exits 2 'not a firmware image' rig_coupled --firmware README.md
 exits 2 'ended without its first message' rig_coupled --firmware "$build/whirl"
 cp "$build/pil_rig" "$scratch/closed" && chmod a-x "$scratch/closed"
 exits 2 'cannot be run' rig_coupled --firmware "$scratch/closed"
-exits 2 "sets 'push', which 'rig_coupled' does not have" rig_coupled --firmware "$build/pil_cart"
+exits 2 "sets 'push', but 'rig_coupled' has no input 'push'" rig_coupled --firmware "$build/pil_cart"
 sed 's/theta/tilt/g' docs/plants/cart.whirl >"$scratch/tilt.whirl"
 exits 2 "reads 'theta', which" "$scratch/tilt.whirl" --firmware "$build/pil_cart"
 exits 2 "'push' is in N, but 'duty' of 'rig_coupled' is in 1" rig_coupled --bind push=duty --firmware "$build/pil_cart"
