@@ -244,6 +244,7 @@ static double rule_off_J(double step_s, double begin_W, double middle_W, double 
 /* Simpson's rule needs pairs of steps. A single last step counts as a trapezoid until the next entry completes the pair. */
 static void add_work(books *b, const double power_W[2]) {
     double *work[2] = {&b->input_J, &b->loss_J};
+    double off_J = 0.0;
     for (int k = 0; k < 2; k++) {
         if (b->entries % 2 == 1) {
             *work[k] += 0.5 * b->step_s * (b->power_W[0][k] + power_W[k]);
@@ -253,10 +254,17 @@ static void add_work(books *b, const double power_W[2]) {
             const double ends_W = b->power_W[0][k] + power_W[k];
             const double middle_W = b->power_W[1][k];
             *work[k] += b->step_s / 3.0 * (ends_W + 4.0 * middle_W);
-            b->rule_J += rule_off_J(b->step_s, b->power_W[0][k], middle_W, power_W[k]);
+            off_J += rule_off_J(b->step_s, b->power_W[0][k], middle_W, power_W[k]);
             b->power_W[0][k] = power_W[k];
         }
     }
+    b->rule_J += off_J;
+    b->pair_J = number_most(b->pair_J, off_J);
+}
+
+double books_rule_J(const books *b) {
+    const bool is_even = b->entries % 2 == 1; /* the first entry is the start */
+    return is_even ? b->rule_J : b->entries > 2 ? b->rule_J + b->pair_J : (double)INFINITY;
 }
 
 /* --- terms linear in the rates -------------------------------------------------------------------*/

@@ -64,6 +64,7 @@ typedef struct books {
     double computing_J; /* largest sampled round-off of the evaluation of the energy */
     double lost_J;      /* largest sampled underflow of a step's entries in float */
     double rule_J;      /* error bound of the integration rule, over the whole run */
+    double pair_J;      /* the largest part of rule_J that two steps have */
     double kept_J;      /* residual at the last even step */
     double most_J;      /* largest size of the residual at an even step */
     double jump_J;      /* largest change of the residual between two even steps */
@@ -90,6 +91,8 @@ double books_swing_J(const books *b);
 /* Energy change by the round-off of one step in numbers of this kind. Counts the round-off of the state, of the accelerations
  * and of the integrated powers. *computing_J: the round-off of one evaluation of the energy in double. */
 double books_rounding_J(books *b, const engine_kind *kind, const void *run, double *computing_J);
+/* Error bound of the integration rule, with that of a single last step, which is a trapezoid; infinite after one step. */
+double books_rule_J(const books *b);
 /* Energy lost to underflow over all steps, in the ledger of a float run with contacts. Call books_rounding_J() first. */
 double books_lost_J(const books *b);
 

@@ -134,8 +134,7 @@ static void judge_energy(run_checks *v) {
     const double way_J = v->image->contacts == 0 ? v->books->most_J : 0.0;
     const bool on_the_way =
         way_J > v->part * RUN_CHECKS_ON_THE_WAY * b->largest_J && way_J > b->rounding_J;
-    const bool in_doubt = v->kind->steps(v->run) % 2U == 1U || /* the last step is a trapezoid */
-                          number_most(fabs(b->left_J), way_J) <= v->books->rule_J;
+    const bool in_doubt = number_most(fabs(b->left_J), way_J) <= books_rule_J(v->books);
     const bool by_the_rule = v->image->contacts == 0 && in_doubt && is_right(v);
     const bool is_lost = energy_residual_lost(b, v->part * finding_rows[FINDING_ENERGY].limit);
     const bool is_reported = (is_lost || on_the_way) && !by_the_rule;

@@ -467,13 +467,18 @@ TEST(verdict, a_common_speed_changes_nothing) {
         const double speed = pow(10.0, dice_between(&d, -1.0, 2.0));
         for (int k = 0; k < 2; k++) {
             write_chain(drawn, k == 0 ? 0.0 : speed, text[k]);
-            const char *words[] = {model_keep(text[k]), "--quiet", NULL};
+            const char *words[] = {model_keep(text[k]), "--quiet", "--method",
+                                   i % 2 == 0 ? "rk4" : "semi-implicit-euler", NULL};
             command_say(command_run, words, &what[k]);
         }
         for (int k = 0; k < FINDINGS; k++) {
             char id[20];
             snprintf(id, sizeof id, "[%s]", finding_rows[k].word);
             const bool still = strstr(what[0].err, id) != NULL;
+            if (k == FINDING_ACCURACY &&
+                i % 2 == 1) { /* a part of a range, which the speed enlarges */
+                continue;
+            }
             if (still != (strstr(what[1].err, id) != NULL)) {
                 printf("%s%s\n%s%s\n", text[0], what[0].err, text[1], what[1].err);
             }
