@@ -372,8 +372,10 @@ static void look(pair *p, double time_s) {
         const double now = isfinite(off) ? off : (double)INFINITY;
         const double ranged = t->otherwise ? t->shape->row[k] : value;
         c->start = p->looks == 0 ? value : c->start;
-        c->low = p->looks == 0 || ranged < c->low ? ranged : c->low;
-        c->high = p->looks == 0 || ranged > c->high ? ranged : c->high;
+        if (t->cut_s < 0.0) { /* after a jump over a pole the finer run may explode */
+            c->low = p->looks == 0 || ranged < c->low ? ranged : c->low;
+            c->high = p->looks == 0 || ranged > c->high ? ranged : c->high;
+        }
         if (events) {
             passages_enter(&c->off, p->before_s, number_least(now, c->last));
         } else {

@@ -51,8 +51,8 @@ double passages_until_s(const passages *p, double level);
 
 typedef struct step_doubling_column {
     double start;    /* first value of the finer run, in the column's unit */
-    double low;      /* least value of the finer run, or of the run if `otherwise` */
-    double high;     /* largest value of the finer run, or of the run if `otherwise` */
+    double low;      /* least value of the finer run, or of the run if `otherwise`, before cut_s */
+    double high;     /* largest such value */
     double rounding; /* bound on the column's round-off in the finer run */
     double last;     /* difference at the last comparison */
     /* the rate of this column is in the state, so the column's origin is arbitrary */
