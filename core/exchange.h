@@ -67,9 +67,6 @@ typedef struct wh_hello {
     unsigned signals;
 } wh_hello;
 
-/* Size of a hello payload with `signals` signals and strings of `words` characters together. */
-#define WH_HELLO_BYTES(signals, words) (15U + 19U * (signals) + (words))
-
 enum { WH_ORDER_ALIVE = 1 }; /* wh_orders.flags: the watchdog is kicked */
 
 typedef struct wh_orders {

@@ -185,8 +185,6 @@ WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 
 /* --- sine and cosine -----------------------------------------------------------------------------------------*/
 
-/* Binary digits of a sine after the point. */
-#define WH_FIXED_SINE_BITS 30
 #define WH_FIXED_SECTOR_BITS 7
 #define WH_FIXED_QUARTER (1U << (WH_FIXED_SECTOR_BITS - 2))
 

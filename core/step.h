@@ -9,13 +9,7 @@
  *
  * For q'' = f(q, q', u) the position stages are written out. The result is that of the same method on the first-order
  * form, up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
- * section II.14). The classic method:
- *
- *      v2 = v + h/2 a1          q2 = q + h/2 v          a2 = f(q2, v2)
- *      v3 = v + h/2 a2          q3 = q + h/2 v2         a3 = f(q3, v3)
- *      v4 = v + h a3            q4 = q + h v3           a4 = f(q4, v4)
- *      q+ = q + h (v + h/6 (a1 + (a2 + a3)))
- *      v+ = v + h/6 ((a1 + (a2 + a3)) + ((a2 + a3) + a4)) */
+ * section II.14). rk4.h has the classic method in full. */
 #ifndef WH_STEP_H
 #define WH_STEP_H
 

@@ -98,11 +98,8 @@
 #define EXTI_PR 0x40013C14U
 
 /* DMA controller 2, 10.5. ADC1 uses channel 0 of stream 0. */
-#define DMA2_LISR 0x40026400U
 #define DMA2_LIFCR 0x40026408U
 #define DMA2_S0_ALL_FLAGS 0x3DU
-#define DMA2_S0_HALF (1U << 4)
-#define DMA2_S0_WHOLE (1U << 5)
 #define DMA2_S0CR 0x40026410U
 #define DMA2_S0NDTR 0x40026414U
 #define DMA2_S0PAR 0x40026418U
@@ -142,15 +139,12 @@
 #define TIM3 0x40000400U
 #define TIM_CR1(timer) ((timer) + 0x00U)
 #define TIM_CR1_CEN (1U << 0)
-#define TIM_CR1_ARPE (1U << 7)
 #define TIM_CR1_CKD_4 (2U << 8) /* the filters sample at a quarter of the timer's clock */
 #define TIM_CR2(timer) ((timer) + 0x04U)
 #define TIM_CR2_MMS_UPDATE (2U << 4)
-#define TIM_CR2_OIS1N (1U << 9)
 #define TIM_DIER(timer) ((timer) + 0x0CU)
 #define TIM_SR(timer) ((timer) + 0x10U)
 #define TIM_SR_CCIF(channel) (1U << (channel)) /* for channels 1 to 4 */
-#define TIM_SR_CCOF(channel) (1U << (8U + (channel)))
 #define TIM_SR_BIF (1U << 7)
 #define TIM_EGR(timer) ((timer) + 0x14U)
 #define TIM_EGR_UG (1U << 0)
@@ -219,6 +213,5 @@
  * for each interrupt. */
 #define NVIC_ISER(word) (0xE000E100U + 4U * (word))
 #define NVIC_IPR(word) (0xE000E400U + 4U * (word))
-#define NVIC_ICER(word) (0xE000E180U + 4U * (word))
 
 #endif

@@ -20,8 +20,7 @@
  * The pivoting with these tests is not proved to end. So the number of rounds is limited to 4 n + 1, and a step that
  * reaches this limit counts as an overrun.
  *
- * Checked by: tests/core/test_contact_pivot.c. Its random problems, with and without redundant rows, stay below the
- * limit. */
+ * The random problems of tests/core/test_contact_pivot.c stay below the limit. */
 #ifndef WH_CONTACT_LCP_H
 #define WH_CONTACT_LCP_H
 

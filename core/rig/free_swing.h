@@ -14,18 +14,14 @@
  * gives the friction. This first guess, from pulses alone, has an error of some 10 %.
  *
  * Gauss's regression refines the guess. The unknowns are q and q' at the first backward passage of the bottom, g,
- * Coulomb and viscous friction over I, and both sensors' positions. The data are the times of all pulses. The equation
- * of motion is integrated forwards over the swings and backwards over the last turns. In those turns, and at amplitudes
- * above 90 deg, the rotor passes sensor 2, which gives a second known angle. Pulses with a large residual end a pass.
- * In the first pass all pulses have an uncertainty of some degrees; each later pass lowers it. A single pass would not
- * always converge.
+ * Coulomb and viscous friction over I, and both sensors' positions. The data are the times of all pulses. In the last
+ * turns, and at amplitudes above 90 deg, the rotor passes sensor 2, which gives a second known angle. The passes begin
+ * with an uncertainty of some degrees for each pulse and lower it, because a single pass would not always converge.
  *
  * The confidence interval is that of the regression. It is widened by floor_rad, and if the residuals of the pulses are
  * larger than expected.
  *
- * Pulses are stored while the rotor swings. After the rotor has come to rest, each control step does a part of a pass:
- * three steps of the equation, or one pulse, or part of the solution of the normal equations. The whole takes some
- * seconds. */
+ * After the rotor has come to rest, each control step does a part of a pass; the whole takes some seconds. */
 #ifndef WH_RIG_FREE_SWING_H
 #define WH_RIG_FREE_SWING_H
 

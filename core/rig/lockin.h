@@ -14,11 +14,7 @@
  * Samples wait until the pulse that ends their turn. Then each control step evaluates a few of them, to bound its work.
  * The prediction from the previous turn (mean, first and second order) is subtracted first and added again at the end.
  * So the trapezoidal rule integrates only the small differences. A sample far from the prediction is an outlier: it is
- * not used, and counted.
- *
- *     every control step:
- *         wh_lockin_pulse() for each confirmed slot pulse, wh_lockin_load() for each sample
- *         if (wh_lockin_work(...)) lockin.turn is the result of another turn */
+ * not used, and counted. */
 #ifndef WH_RIG_LOCKIN_H
 #define WH_RIG_LOCKIN_H
 

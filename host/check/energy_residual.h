@@ -1,23 +1,9 @@
 /* energy_residual.h: the energy residual of a run: its definition, its limit and its words.
  *
  * The residual is the change of the energy (T + V, or the energy integral if that differs) less the work of inputs, losses
- * and contacts. It is zero for an exact solution. The ratio is the residual divided by the largest entry of the balance:
- *   - The net changes of the kinetic and of the stored energy, the work of the inputs, the losses, and each contact's work.
- *   - The swing of the kinetic and of the stored energy: sqrt(8) times the standard deviation over the steps, the range of a
- *     sine.
- *   - For each coordinate, half the root mean square of its momentum times the swing of its rate. This is the energy that the
- *     coordinate exchanges if kinetic energy only moves between coordinates.
- *
- * Terms of the kinetic energy linear in the rates, such as those of a magnetic field, and their momenta do not count,
- * because they depend on the origin.
- *
- * All entries are changes: neither a constant in V nor a heavy clock that turns evenly counts. They are sums or means over
- * time, so that the moment of passing a singular position does not set the measure.
- *
- * Round-off is not an error of the step: the largest entry counts as at least 1/ENERGY_RESIDUAL_LIMIT times the round-off.
- * At each step the state and the accelerations are rounded to the run's numbers. The evaluation of the energy at the start
- * and at the end is rounded, too. This rounding is large if a sum such as V = k (x - b)^2/2 is multiplied out and x is far
- * from the origin.
+ * and contacts. It is zero for an exact solution. The ratio is the residual divided by the largest entry of the balance;
+ * docs/dev/events.md#the-energy-residual lists the entries, and the allowance for round-off. All entries are changes, sums or
+ * means over time, so that the moment of passing a singular position does not set the measure.
  *
  * With --matrix exact a step of any length is the motion itself, but the integration of the powers is not exact: the
  * difference of two integration rules then counts as round-off. With --stabilized the residual is the larger of two: with

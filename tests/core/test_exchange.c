@@ -139,7 +139,7 @@ static bool get_hello(unsigned length) {
 TEST(exchange, hello) {
     const wh_hello hello = {"rig", "mps2", 1000000U, 25000000U, 0xFFB3B4C0U, signals, 4};
     const unsigned length = wh_hello_put(&hello, bytes, sizeof bytes);
-    TEST_ASSERT_EQUAL_UINT(WH_HELLO_BYTES(4U, 3U + 4U + 4U + 1U + 10U + 1U + 5U + 3U + 5U + 1U),
+    TEST_ASSERT_EQUAL_UINT(15U + 19U * 4U + (3U + 4U + 4U + 1U + 10U + 1U + 5U + 3U + 5U + 1U),
                            length);
     expect_length(length, get_hello);
     TEST_ASSERT_TRUE(get_hello(length));

@@ -6,15 +6,8 @@
  * off; its exit status is the byte in GPIOR0 (boards/avr/board.c). Exit status 125: simavr cannot run the program. 123:
  * the program crashed, or its stack ran into its variables, which these chips do not detect.
  *
- * FILE gets the log of count_plugin.c, for a program with wh_count_begin() and wh_count_end()
- * (boards/programs/counted.h), and also the cycles:
- *
- *     interval NUMBER INSTRUCTIONS             from the return of wh_count_begin() to that of wh_count_end(), both excluded
- *     cycles NUMBER CYCLES                     of the same interval
- *     sums NUMBER HOW-MANY INSTRUCTIONS CYCLES with every=N, N above 1: N intervals count as one, which has the largest of
- *                                              each number; the sums are these
- *     unfinished INSTRUCTIONS                  if the program ended inside an interval
- *     intervals TOTAL                          always the last line
+ * For a program with wh_count_begin() and wh_count_end() (boards/programs/counted.h), FILE gets the log that
+ * mk/count/count_plugin.c describes, with the cycles of each interval, and a last line "intervals TOTAL".
  *
  * The cycles are those of the data sheet's instruction set, exact for these chips: no caches, no wait states. */
 #include <simavr/avr_uart.h>
