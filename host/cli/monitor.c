@@ -39,7 +39,7 @@ static const command_usage monitor_usage = {
         "\n"
         "A terminal for the console of a rig, on a serial line or a pseudo-terminal (docs/console.md). It\n"
         "sends your input, shows the answers, and records the telemetry until Ctrl-C. If the line goes away,\n"
-        "it waits. It sends an empty line every 0.3 s, because the rig stops a run without a host. PORT may\n"
+        "it waits. It sends an empty line every 0.3 s, because boards stop a run without a host. PORT may\n"
         "also be a file recorded with --raw.\n"
         "\n",
     .tail =

@@ -53,9 +53,11 @@ run() {
 grep '^build/whirl pil' "$scratch/commands" | sed -n 's/^build.whirl pil table.whirl --firmware build.pil_table//p' >"$scratch/runs"
 [ "$(wc -l <"$scratch/runs")" -eq 2 ]
 verdict $? "the page runs it twice"
+shown=$(grep -o 'homed 1, place [0-9.]* m' docs/pil.md)
 while read -r words; do
-    run "$built" $words --tape "$scratch/tape" && grep -q '^notes  *homed 1, place ' "$scratch/out"
+    run "$built" $words --tape "$scratch/tape" && grep -q "^notes  *$shown" "$scratch/out"
     verdict $? "as on the page: $words" "$scratch/out"
+    shown='homed 1, place ' # the page has the first run's place
 done <"$scratch/runs"
 if [ -n "$elf" ]; then
     run "$elf" && grep -q '^notes  *homed 1, place 0.0[12]' "$scratch/out" && grep -q "board $board" "$scratch/out"
