@@ -117,10 +117,9 @@ static bool header_is_apart(const source_model *from, const char *header) {
     struct stat about_output;
     struct stat about_header;
     if (strcmp(header, "-") == 0 || header[0] == '\0') {
-        fputs("whirl derive: error: --header needs the name of a file, because standard output is "
-              "for the C code\n",
-              stderr);
-        return false;
+        return options_fail("derive",
+                            "--header needs the name of a file, because standard output is "
+                            "for the C code");
     }
     if (source_would_be_lost(from, "--header", header)) {
         return false;

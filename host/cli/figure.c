@@ -64,16 +64,15 @@ static bool sets_once(const plot_options *o) {
         const char *option = is_set ? "set" : "start";
         for (int k = 0; k < at; k++) {
             if (strcspn(all[k], "= ") == length && strncmp(all[k], all[at], length) == 0) {
-                fprintf(
-                    stderr,
-                    "whirl plot: error: %.*s is given twice, but an option changes all runs of the picture in the same way\n"
+                return options_fail(
+                    "plot",
+                    "%.*s is given twice, but an option changes all runs of the picture in the same way\n"
                     "hint: record each run, then draw both:\n"
                     "  whirl run %s --%s \"%s\" --csv a.csv\n"
                     "  whirl run %s --%s \"%s\" --csv b.csv\n"
-                    "  whirl plot a.csv b.csv --out %s\n",
+                    "  whirl plot a.csv b.csv --out %s",
                     (int)length, all[k], o->target[0], option, all[k], o->target[o->targets - 1],
                     option, all[at], o->out);
-                return false;
             }
         }
     }
@@ -87,20 +86,17 @@ static bool is_whole(const plot_options *o) {
         scenes = scenes || !is_csv(o->target[i]);
     }
     if (o->out == NULL) {
-        fputs("whirl plot: error: no file for the picture\nhint: --out picture.svg\n", stderr);
-        return false;
+        return options_fail("plot", "no file for the picture\nhint: --out picture.svg");
     }
     if (o->passed_count > 0 && !scenes) {
-        fprintf(stderr,
-                "whirl plot: error: %s changes a scene, but the command names only files\n"
-                "hint: whirl plot SCENE %s ... runs it\n",
-                o->passed[1], o->passed[1]);
-        return false;
+        return options_fail("plot",
+                            "%s changes a scene, but the command names only files\n"
+                            "hint: whirl plot SCENE %s ... runs it",
+                            o->passed[1], o->passed[1]);
     }
     if (o->targets > RUNS_MOST) {
-        fprintf(stderr, "whirl plot: error: the command names %d runs; the limit is %d\n",
-                o->targets, RUNS_MOST);
-        return false;
+        return options_fail("plot", "the command names %d runs; the limit is %d", o->targets,
+                            RUNS_MOST);
     }
     return files_are_apart("plot", (const char *[]){"--out"}, &o->out, 1,
                            (const char *const *)o->target, o->targets) &&

@@ -68,8 +68,7 @@ static bool are_apart(const monitor_options *o) {
             continue;
         }
         if (strcmp(o->output[i], "-") == 0 && i != CSV) {
-            fprintf(stderr, "whirl monitor: error: %s takes a file's name\n", output_option[i]);
-            return false;
+            return options_fail("monitor", "%s takes a file's name", output_option[i]);
         }
     }
     return files_are_apart("monitor", output_option, o->output, OUTPUTS, &o->port, 1);
@@ -77,9 +76,7 @@ static bool are_apart(const monitor_options *o) {
 
 static bool are_possible(const monitor_options *o) {
     if (!port_has_speed(o->baud)) {
-        fputs("whirl monitor: error: --baud: this speed is not supported\nhint: " PORT_SPEEDS "\n",
-              stderr);
-        return false;
+        return options_fail("monitor", "--baud: this speed is not supported\nhint: " PORT_SPEEDS);
     }
     if (o->output[PLOT] != NULL && !gnuplot_can_draw_for("monitor", "--plot", o->output[PLOT])) {
         return false;
@@ -382,9 +379,8 @@ static bool has_source(const monitor *m) {
     if (!records || !silent || m->recording.counts.samples > 0) {
         return true;
     }
-    fprintf(stderr, "whirl monitor: error: nothing was recorded: %s%s\n", m->o->port,
-            m->met ? " cannot send samples at this --rate" : " has not answered");
-    return false;
+    return options_fail("monitor", "nothing was recorded: %s%s", m->o->port,
+                        m->met ? " cannot send samples at this --rate" : " has not answered");
 }
 
 /* Returns false, and reports the reason, if a file could not be read to its end. */

@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include <ctype.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -264,6 +265,16 @@ void options_forget(common_options *options) {
     free(c->without);
 }
 
+bool options_fail(const char *command, const char *format, ...) {
+    va_list values;
+    va_start(values, format);
+    fprintf(stderr, "whirl %s: error: ", command);
+    vfprintf(stderr, format, values);
+    fputc('\n', stderr);
+    va_end(values);
+    return false;
+}
+
 bool options_is_standard(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
 
 bool options_same(const char *a, const char *b) {
@@ -472,9 +483,8 @@ static bool take_value(const char *command, const own_option *o, const char *val
         return false;
     }
     if (o->whole && number_floor(*o->number) < *o->number) {
-        fprintf(stderr, "whirl %s: error: %s takes a whole number, not '%.40s'\nhint: %s\n",
-                command, o->word, value, o->hint);
-        return false;
+        return options_fail(command, "%s takes a whole number, not '%.40s'\nhint: %s", o->word,
+                            value, o->hint);
     }
     return true;
 }
@@ -511,13 +521,11 @@ static bool take_target(const target_reader *r, char *word, const char **target)
     if (r->many != NULL) {
         r->many[(*r->many_count)++] = word;
     } else if (*target != NULL) {
-        fprintf(stderr, "whirl %s: error: the command takes only one %s: '%s' is a second one\n",
-                r->command,
-                r->derives       ? "scene or mechanism"
-                : r->one != NULL ? r->one
-                                 : "scene",
-                word);
-        return false;
+        return options_fail(r->command, "the command takes only one %s: '%s' is a second one",
+                            r->derives       ? "scene or mechanism"
+                            : r->one != NULL ? r->one
+                                             : "scene",
+                            word);
     }
     *target = word;
     return true;

@@ -148,6 +148,9 @@ bool options_is_name(const char *command, const char *name, int most);
 
 overrides options_overrides(const change_options *changes);
 
+/* Prints "whirl COMMAND: error: MESSAGE" and a line end on standard error. Returns false. */
+bool options_fail(const char *command, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 /* Is this output, which may be NULL, standard output? */
 bool options_is_standard(const char *file);
 

@@ -115,8 +115,7 @@ static bool is_read_alone(const pil_options *o) {
                          : o->fault_count > 0  ? "--fault"
                                                : NULL;
     if (beside != NULL) {
-        fprintf(stderr, "whirl pil: error: --read only prints a tape, so it excludes %s\n", beside);
-        return false;
+        return options_fail("pil", "--read only prints a tape, so it excludes %s", beside);
     }
     return true;
 }
@@ -132,12 +131,10 @@ static bool go_together(const pil_options *o) {
         return is_read_alone(o);
     }
     if (o->every != NULL && o->csv == NULL) {
-        fputs("whirl pil: error: --every needs --csv FILE\n", stderr);
-        return false;
+        return options_fail("pil", "--every needs --csv FILE");
     }
     if (o->port == NULL && o->baud > 0.0) {
-        fputs("whirl pil: error: --baud needs --port\n", stderr);
-        return false;
+        return options_fail("pil", "--baud needs --port");
     }
     if (o->port != NULL &&
         (o->firmware != NULL || o->board != NULL || !port_has_speed(baud_of(o)))) {
@@ -154,26 +151,21 @@ static bool go_together(const pil_options *o) {
         return false;
     }
     if (o->firmware == NULL && o->port == NULL) {
-        fprintf(stderr, "whirl pil: error: --firmware IMAGE is missing\nhint: `make pil-images` "
-                        "builds "
-                        "build/mps2-an386/pil_rig.elf, which runs against docs/plants/rig.whirl\n");
-        return false;
+        return options_fail(
+            "pil", "--firmware IMAGE is missing\nhint: `make pil-images` builds "
+                   "build/mps2-an386/pil_rig.elf, which runs against docs/plants/rig.whirl");
     }
     if (o->target == NULL && o->replay == NULL) {
-        fprintf(stderr,
-                "whirl pil: error: a scene for the plant is missing\nhint: name a scene, such as "
-                "docs/plants/rig.whirl, or a tape: --replay TAPE\n");
-        return false;
+        return options_fail("pil", "a scene for the plant is missing\nhint: name a scene, such as "
+                                   "docs/plants/rig.whirl, or a tape: --replay TAPE");
     }
     if (o->replay != NULL &&
         (o->target != NULL || o->tape != NULL || o->csv != NULL || o->fault_count > 0)) {
-        fprintf(stderr,
-                "whirl pil: error: --replay excludes %s, because the tape replaces the plant\n",
-                o->target != NULL ? "scene"
-                : o->tape != NULL ? "--tape"
-                : o->csv != NULL  ? "--csv"
-                                  : "--fault");
-        return false;
+        return options_fail("pil", "--replay excludes %s, because the tape replaces the plant",
+                            o->target != NULL ? "scene"
+                            : o->tape != NULL ? "--tape"
+                            : o->csv != NULL  ? "--csv"
+                                              : "--fault");
     }
     return true;
 }

@@ -136,9 +136,7 @@ bool pricing_quantity(const char *command, const mechanism *of, const char *name
     diags_free(errors);
     arena_free(arena);
     if (made != NULL && !(number && isfinite(*value) && *value > 0.0)) {
-        fprintf(stderr, "whirl %s: error: %s takes a number above zero, not %s\n", command, what,
-                text);
-        return false;
+        return options_fail(command, "%s takes a number above zero, not %s", what, text);
     }
     return made != NULL;
 }
@@ -166,18 +164,16 @@ static bool read_error(pricing *p) {
     p->asks_error = text != NULL;
     p->quantity = p->options->value[PRICING_OF];
     if (equals != NULL && p->quantity != NULL) {
-        fprintf(stderr,
-                "whirl %s: error: --of and --error must not both name a quantity\nhint: --error "
-                "\"%s\"\n",
-                command, equals + 1 + strspn(equals + 1, " "));
-        return false;
+        return options_fail(command,
+                            "--of and --error must not both name a quantity\nhint: --error "
+                            "\"%s\"",
+                            equals + 1 + strspn(equals + 1, " "));
     }
     if (equals != NULL && equals == text) {
-        fprintf(stderr,
-                "whirl %s: error: --error '%s': a quantity is missing before '='\nhint: --error "
-                "x%s\n",
-                command, text, text);
-        return false;
+        return options_fail(command,
+                            "--error '%s': a quantity is missing before '='\nhint: --error "
+                            "x%s",
+                            text, text);
     }
     if (equals != NULL) {
         p->quantity = p->named = alloc_trimmed(text, (size_t)(equals - text));
@@ -247,17 +243,13 @@ static bool read_ranges(pricing *p) {
             return false;
         }
         if (p->grid.axes[i].symbol == NULL) {
-            fprintf(
-                stderr,
-                "whirl %s: error: --vary cannot change the step: whirl tries the steps itself\n",
-                o->command);
-            return false;
+            return options_fail(o->command,
+                                "--vary cannot change the step: whirl tries the steps itself");
         }
     }
     if (p->grid.count > 0 && p->grid.points > PRICING_PLACES_MAX) {
-        fprintf(stderr, "whirl %s: error: --vary: %llu combinations exceed the limit of %d\n",
-                o->command, (unsigned long long)p->grid.points, PRICING_PLACES_MAX);
-        return false;
+        return options_fail(o->command, "--vary: %llu combinations exceed the limit of %d",
+                            (unsigned long long)p->grid.points, PRICING_PLACES_MAX);
     }
     return true;
 }
@@ -298,11 +290,8 @@ static bool read_times(pricing *p) {
     }
     instance_free(inst);
     if (good && !(p->until_s > 0.0)) {
-        fprintf(stderr,
-                "whirl %s: error: the motion to compare has a length of 0 s\nhint: "
-                "--horizon 1s\n",
-                p->options->command);
-        return false;
+        return options_fail(p->options->command, "the motion to compare has a length of 0 s\nhint: "
+                                                 "--horizon 1s");
     }
     return good;
 }
@@ -522,8 +511,7 @@ static const char choose_head[] =
     "\n";
 static bool fits(const pricing *p) {
     if (p->options->value[PRICING_MEASURE] != NULL && p->options->value[PRICING_PREDICT] != NULL) {
-        fputs("whirl choose: error: --measure and --predict contradict each other\n", stderr);
-        return false;
+        return options_fail("choose", "--measure and --predict contradict each other");
     }
     if (!p->asks_error) {
         fputs("whirl choose: error: --error is missing\nhint: --error 1e-3 (a part of the largest "
@@ -553,11 +541,10 @@ static bool read_bytes(const char *option, const char *text, double *bytes) {
             }
         }
     }
-    fprintf(stderr,
-            "whirl choose: error: %s takes a number of bytes above zero, not %s\n"
-            "hint: such as 32KB, or 32768\n",
-            option, text);
-    return false;
+    return options_fail("choose",
+                        "%s takes a number of bytes above zero, not %s\n"
+                        "hint: such as 32KB, or 32768",
+                        option, text);
 }
 
 static bool read_limits(const pricing *p, choice_request *w) {
@@ -598,17 +585,14 @@ static bool space_records(const pricing *p, choice_request *w, whole_ratio *spac
     const uint64_t common = ratio_divisor(periods, rate.numerator);
     *spacing = (whole_ratio){rate.denominator * (periods / common), rate.numerator / common};
     if (rate.numerator == 0 && w->table.rate_Hz > 1.0) {
-        fprintf(stderr,
-                "whirl choose: error: --rate %.9g Hz is faster than the shortest possible step\n",
-                w->table.rate_Hz);
-        return false;
+        return options_fail("choose", "--rate %.9g Hz is faster than the shortest possible step",
+                            w->table.rate_Hz);
     }
     if (rate.numerator == 0 || p->until_s * w->table.rate_Hz < 1.0 - 1e-9) {
-        fprintf(stderr,
-                "whirl choose: error: one period of --rate %.9g Hz is longer than the motion of "
-                "%.9g s\nhint: use a later --until, or a higher --rate\n",
-                w->table.rate_Hz, p->until_s);
-        return false;
+        return options_fail("choose",
+                            "one period of --rate %.9g Hz is longer than the motion of "
+                            "%.9g s\nhint: use a later --until, or a higher --rate",
+                            w->table.rate_Hz, p->until_s);
     }
     return true;
 }

@@ -110,16 +110,12 @@ static bool read_options(int count, char **words, run_options *o) {
     o->settings.kind = o->common.number;
     if (o->settings.plot == NULL && o->settings.taken == NULL &&
         memcmp(&o->settings.choice, &(plot_choice){0}, sizeof(plot_choice)) != 0) {
-        fputs("whirl run: error: --x, --y and other plot options need --plot\n"
-              "hint: --plot picture.svg\n",
-              stderr);
-        return false;
+        return options_fail("run", "--x, --y and other plot options need --plot\n"
+                                   "hint: --plot picture.svg");
     }
     if (o->settings.json && simulation_summary(&o->settings) != stdout) {
-        fputs("whirl run: error: --json and records cannot share standard output\n"
-              "hint: --csv records.csv\n",
-              stderr);
-        return false;
+        return options_fail("run", "--json and records cannot share standard output\n"
+                                   "hint: --csv records.csv");
     }
     return files_are_apart("run", output_option,
                            (const char *[]){to->csv, to->columns, to->vcd, to->plot}, OUTPUTS, NULL,
@@ -153,22 +149,18 @@ static bool count_every(const run_options *o, double spacing_s, const image *im,
         return true;
     }
     if (spacing_s < 0.0) {
-        fprintf(stderr,
-                "whirl run: error: --every %s is not a time\nhint: write a time such as 2ms, or "
-                "0.002 in seconds; the step is %.9g s\n",
-                o->every, im->step_s);
-        return false;
+        return options_fail("run",
+                            "--every %s is not a time\nhint: write a time such as 2ms, or "
+                            "0.002 in seconds; the step is %.9g s",
+                            o->every, im->step_s);
     }
     if (!ratio_count_each(spacing_s, im->step, steps)) {
-        fprintf(
-            stderr,
-            "whirl run: error: --every %s is not a multiple of the step\nhint: the step is %.9g s\n",
-            o->every, im->step_s);
-        return false;
+        return options_fail("run",
+                            "--every %s is not a multiple of the step\nhint: the step is %.9g s",
+                            o->every, im->step_s);
     }
     if (o->settings.csv == NULL && o->settings.columns == NULL && o->settings.vcd == NULL) {
-        fputs("whirl run: error: --every needs records\nhint: --csv FILE\n", stderr);
-        return false;
+        return options_fail("run", "--every needs records\nhint: --csv FILE");
     }
     return true;
 }

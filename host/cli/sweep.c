@@ -126,8 +126,7 @@ static bool read_shard(const char *text, sweep_options *o) {
     const char *rest;
     if (!read_whole(text, '/', 1000000, &number, &rest) ||
         !read_whole(rest, '\0', 1000000, &of, &rest) || number > of) {
-        fprintf(stderr, "whirl sweep: error: --shard takes K/N with 1 <= K <= N <= 1000000\n");
-        return false;
+        return options_fail("sweep", "--shard takes K/N with 1 <= K <= N <= 1000000");
     }
     o->part = (shard){number, of};
     return true;
@@ -139,9 +138,8 @@ static bool is_whole_sweep(sweep_options *o) {
         return false;
     }
     if (o->json && o->csv != NULL && !options_is_standard(o->csv)) {
-        fprintf(stderr, "whirl sweep: error: --json prints the rows, and --csv FILE writes them\n"
-                        "hint: leave one of them out\n");
-        return false;
+        return options_fail("sweep", "--json prints the rows, and --csv FILE writes them\n"
+                                     "hint: leave one of them out");
     }
     o->csv = o->json ? "/dev/null" : o->csv != NULL ? o->csv : "-";
     if (o->over_count == 0) {
@@ -154,27 +152,23 @@ static bool is_whole_sweep(sweep_options *o) {
 
 static bool is_whole_map(sweep_options *o) {
     if (o->over_count > AXES) {
-        fprintf(stderr,
-                "whirl map: error: a map needs exactly two --over, but '%.60s' is a third "
-                "one\n",
-                o->over[AXES]);
-        return false;
+        return options_fail("map",
+                            "a map needs exactly two --over, but '%.60s' is a third "
+                            "one",
+                            o->over[AXES]);
     }
     if (o->over_count < AXES) {
-        fprintf(stderr,
-                "whirl map: error: a map needs two --over: %s\nhint: write ranges such as --over "
-                "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'\n",
-                o->over_count == 0 ? "there is none" : "there is one");
-        return false;
+        return options_fail("map",
+                            "a map needs two --over: %s\nhint: write ranges such as --over "
+                            "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'",
+                            o->over_count == 0 ? "there is none" : "there is one");
     }
     if (o->plot != NULL && !gnuplot_can_draw_for("map", "--plot", o->plot)) {
         return false;
     }
     if (o->json && options_is_standard(o->csv)) {
-        fputs(
-            "whirl map: error: --json and rows cannot share standard output\nhint: --csv rows.csv\n",
-            stderr);
-        return false;
+        return options_fail("map",
+                            "--json and rows cannot share standard output\nhint: --csv rows.csv");
     }
     return files_are_apart("map", (const char *[]){"--csv", "--plot"},
                            (const char *[]){o->csv, o->plot}, 2, NULL, 0);
@@ -341,11 +335,9 @@ static double operations_of(const grid *g, const image *base) {
 
 static bool is_affordable(const sweep_options *o, const grid *g, const image *base) {
     if (g->points > PAIRS_MOST) {
-        fprintf(
-            stderr,
-            "whirl map: error: %llu pairs exceed the limit of %d\nhint: use a smaller COUNT in each --over\n",
+        return options_fail(
+            "map", "%llu pairs exceed the limit of %d\nhint: use a smaller COUNT in each --over",
             (unsigned long long)g->points, PAIRS_MOST);
-        return false;
     }
     const double wanted = operations_of(g, base);
     if (wanted > o->effort) {
