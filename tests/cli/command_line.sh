@@ -130,7 +130,6 @@ verdict $? "a mechanism from standard input"
 exits 2 "unknown option '--metod'" run thomson_a --metod rk4
 exits 2 'hint: did you mean --method' run thomson_a --metod rk4
 exits 2 'hint: whirl run --help lists' run thomson_a --bogus
-exits 2 "unknown option '--'" run --
 exits 2 'whirl list: error: unknown option' list --all
 exits 2 "there is no form 'fortran'" derive epicyclic --as fortran
 exits 2 'hint: choose one of text, latex, octave, c' derive epicyclic --as fortran
@@ -166,18 +165,14 @@ exits 2 'hint: choose one of double, float' run thomson_a --number half
 exits 2 "hint: --as VALUE" derive epicyclic --as
 
 exits 2 "'q' is unknown in mechanism 'thomson'" run thomson_a --set q=3
-exits 2 "'=' is missing after 'm'" run thomson_a --set m
 exits 2 'hint: write NAME=VALUE' run thomson_a --set m
-exits 2 'a value is missing' run thomson_a --set m=
 exits 2 'division by zero' run thomson_a --set m=1/0
 exits 2 "'sqrt' of a negative|not a finite number|finite" run thomson_a --set 'm=sqrt(-1)'
 exits 2 "unknown name 'nan'" run thomson_a --set m=nan
 exits 2 "unknown name 'inf'" run thomson_a --until inf
 exits 2 'too large' run thomson_a --set m=1e400
 exits 2 "'foo' is unknown" run thomson_a --start foo=1
-exits 2 'follows from the equations' run thomson_a --start "theta1''=1"
 exits 2 "unknown effect 'spin'" run thomson_a --with spin
-exits 2 "unknown effect 'spin'" run thomson_a --without spin
 # parameters and inputs of an effect can be changed only if the effect takes part
 for call in 'run --set b=1' 'derive --set b=1' 'sweep --over b=1..2:2' 'sweep --over X=0..0:1 --set b=1'; do
     exits 2 "'b' belongs to the effect 'rail_drag', which is not selected here" $call epicyclic_from_rest
@@ -192,14 +187,11 @@ for list in '' ' ' , 'rail_drag,' ',rail_drag' 'rail_drag, ,ledger'; do
     exits 2 'a name is missing in --with "' run epicyclic_from_rest --with "$list"
     exits 2 'a name is missing in --without "' sweep epicyclic_rail_drag --over X=0..0:1 "--without=$list"
 done
-exits 2 'step must be above zero' run thomson_a --step 0
 exits 2 'step must be above zero' run thomson_a --step -1ms
-exits 2 'until must not be negative' run thomson_a --until -1s
 exits 2 'until must be at most 1e\+18 s, and this is 1e\+300 s' run thomson_a --until 1e300
 exits 2 'a step must be from 1e-18 s to 1e\+18 s, and this is 1e-300 s' run thomson_a --step 1e-300
 exits 2 'more than 2\^63 steps of 1e-09 s' run thomson_a --step 1ns --until 1e11
 exits 2 'hint: use a larger step or an earlier until' run thomson_a --step 1ns --until 1e11
-exits 2 'until 1 s is less than one step of 3 s' run thomson_a --until 1s --step 3s
 exits 2 'hint: use a later until or a shorter step' run thomson_a --until 1s --step 3s
 prints ', 0 steps to t = 0 s' run thomson_a --until 0
 prints ', 1 steps to t = 3 s' run ball_elastic --until 3s --step 3s
