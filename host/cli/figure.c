@@ -363,14 +363,13 @@ static int figure_work(void *options) {
     }
     const size_t length = strlen(o->name);
     if (length > 4 && strcmp(o->name + length - 4, ".fig") == 0) {
+        if (o->out == NULL) {
+            fputs("whirl figure: error: no file for the picture\nhint: --out figure.svg\n", stderr);
+            return EXIT_BAD_INPUT;
+        }
         size_t size;
         char *text = read_all(o->name, MODEL_BYTES_MAX, &size);
-        const int code = text == NULL     ? EXIT_BAD_INPUT
-                         : o->out == NULL ? EXIT_BAD_INPUT
-                                          : draw(o, o->name, text);
-        if (text != NULL && o->out == NULL) {
-            fputs("whirl figure: error: no file for the picture\nhint: --out figure.svg\n", stderr);
-        }
+        const int code = text != NULL ? draw(o, o->name, text) : EXIT_BAD_INPUT;
         free(text);
         return code;
     }

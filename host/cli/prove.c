@@ -64,8 +64,8 @@ static bool is_affordable(const image *im, double effort) {
     if (wanted > effort) {
         fprintf(
             stderr,
-            "whirl prove: error: the run alone, of %.3g steps, would take about %.0f minutes\nhint: use an earlier --until, or a longer --step",
-            (double)im->steps, effort_minutes(wanted));
+            "whirl prove: error: the run alone, of %.3g steps, would take about %s\nhint: use an earlier --until, or a longer --step",
+            (double)im->steps, effort_time(wanted));
         effort_say(wanted);
     }
     return wanted <= effort;

@@ -343,8 +343,8 @@ static bool is_affordable(const sweep_options *o, const grid *g, const image *ba
     if (wanted > o->effort) {
         fprintf(
             stderr,
-            "whirl map: error: this would take about %.0f minutes: %llu pairs with two runs each\nhint: use fewer pairs, longer steps or an earlier --until",
-            effort_minutes(wanted), (unsigned long long)g->points);
+            "whirl map: error: this would take about %s: %llu pairs with two runs each\nhint: use fewer pairs, longer steps or an earlier --until",
+            effort_time(wanted), (unsigned long long)g->points);
         effort_say(wanted);
     }
     return wanted <= o->effort;

@@ -151,9 +151,9 @@ static int trust_loaded(const trust_options *o, image *im, const image *plain, d
     if (wanted > o->effort) {
         fprintf(
             stderr,
-            "whirl trust: error: this would take about %.0f minutes: two runs of %.3g and %.3g steps\n"
+            "whirl trust: error: this would take about %s: two runs of %.3g and %.3g steps\n"
             "hint: use an earlier --until, or a longer --step: a chaotic motion loses its accuracy early anyway",
-            effort_minutes(wanted), (double)im->steps, 2.0 * (double)im->steps);
+            effort_time(wanted), (double)im->steps, 2.0 * (double)im->steps);
         effort_say(wanted);
     }
     if (wanted > o->effort || !can_start(im, o->common.number, errors)) {

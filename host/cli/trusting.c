@@ -38,8 +38,13 @@ int trusting_plan(const char *command, image *im, bool progress, diags *errors, 
     return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
 }
 
-double effort_minutes(double operations) {
-    return number_ceiling(operations / BUDGET_LEAST / 60.0);
+const char *effort_time(double operations) {
+    static char text[24];
+    const double time_ms = 1e3 * operations / BUDGET_LEAST;
+    const double unit_ms = time_ms < 1e3 ? 1.0 : time_ms < 6e4 ? 1e3 : 6e4;
+    const char *unit = time_ms < 1e3 ? "ms" : time_ms < 6e4 ? "s" : "min";
+    snprintf(text, sizeof text, "%.0f %s", number_ceiling(time_ms / unit_ms), unit);
+    return text;
 }
 
 void effort_say(double operations) {
