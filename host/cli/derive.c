@@ -277,8 +277,7 @@ static int derive_opened(source_model *from, const derive_options *o) {
         }
         return code;
     }
-    /* the file's only scene; if there are several scenes, its mechanism */
-    code = source_pick(from, from->model->scene_count == 1, &of, &in);
+    code = source_pick(from, true, &of, &in); /* code has the values of one scene */
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(from, o->header)) {
         code = EXIT_BAD_INPUT;
     }
@@ -303,7 +302,10 @@ int command_derive(int count, char **words) {
         {.word = "--as", .text = &o.form},       {.word = "--name", .text = &o.common.change.name},
         {.word = "--header", .text = &o.header}, {.word = "--steps", .flag = &o.steps},
         {.word = "--folded", .flag = &o.folded}, {.word = NULL}};
-    const target_reader reader = {
-        .command = "derive", .usage = &usage, .table = own, .derives = true, .work = derive_work};
+    const target_reader reader = {.command = "derive",
+                                  .usage = &usage,
+                                  .table = own,
+                                  .one = "scene or mechanism",
+                                  .work = derive_work};
     return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

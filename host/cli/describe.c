@@ -238,7 +238,7 @@ int command_describe(int count, char **words) {
     const target_reader reader = {.command = "describe",
                                   .usage = &usage,
                                   .table = own,
-                                  .derives = true,
+                                  .one = "scene or mechanism",
                                   .work_on = describe_source};
     return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

@@ -326,7 +326,7 @@ int command_examine(int count, char **words) {
     const target_reader reader = {.command = "examine",
                                   .usage = &usage,
                                   .table = own,
-                                  .derives = true,
+                                  .one = "scene or mechanism",
                                   .work_on = examine_source};
     return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

@@ -333,12 +333,10 @@ bool options_number(const char *command, const char *option, const char *text, d
 /* Reads --strict, --strict=off or --strict=LIMIT, for run_checks_fails(). Returns false for another word. */
 static bool take_strict(const char *command, int count, char **words, int *at, double *strict,
                         bool *bad) {
-    static const char name[] = "--strict";
-    const size_t length = sizeof name - 1;
-    const char *value = words[*at] + length;
-    if (*bad || strncmp(words[*at], name, length) != 0 || (*value != '\0' && *value != '=')) {
+    if (*bad || !options_is(words[*at], "--strict")) {
         return false;
     }
+    const char *value = words[*at] + sizeof "--strict" - 1;
     ++*at;
     *strict = STRICT_FINDINGS;
     if (strcmp(value, "=off") == 0) {
@@ -467,17 +465,16 @@ static void say_unknown(const target_reader *r, const char *word) {
 static bool take_value(const char *command, const own_option *o, const char *value) {
     if (o->number == NULL) {
         const int at = o->count != NULL ? *o->count : 0;
-        const bool full = o->limit > 0 && at == o->limit;
-        if (full) {
+        if (o->limit > 0 && at == o->limit) {
             fprintf(stderr, "whirl %s: error: more than %d %s options\n", command, o->limit,
                     o->word);
-        } else {
-            o->text[at] = value;
+            return false;
         }
-        if (o->count != NULL && !full) {
+        o->text[at] = value;
+        if (o->count != NULL) {
             *o->count = at + 1;
         }
-        return !full;
+        return true;
     }
     if (!options_number(command, o->word, value, o->least, o->most, o->hint, o->number)) {
         return false;
@@ -522,10 +519,7 @@ static bool take_target(const target_reader *r, char *word, const char **target)
         r->many[(*r->many_count)++] = word;
     } else if (*target != NULL) {
         return options_fail(r->command, "the command takes only one %s: '%s' is a second one",
-                            r->derives       ? "scene or mechanism"
-                            : r->one != NULL ? r->one
-                                             : "scene",
-                            word);
+                            r->one != NULL ? r->one : "scene", word);
     }
     *target = word;
     return true;
@@ -578,6 +572,7 @@ int target_load(loaded *made, source_model *from, const common_options *common,
     const overrides changes = options_overrides(&common->change);
     *made = (loaded){0};
     request.settings = common->integration;
-    const int code = source_pick(from, from->model->scene_count == 1, &of, &in);
+    const bool one = request.use == IMAGE_TO_WRITE || from->model->scene_count == 1;
+    const int code = source_pick(from, one, &of, &in);
     return code == EXIT_DONE ? load(made, from, of, in, &changes, &request) : code;
 }

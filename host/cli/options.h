@@ -198,7 +198,6 @@ typedef struct target_reader {
     char **passed; /* gets the words of all common options of `whirl run`, for runs; or NULL */
     int *passed_count;
     const char *one; /* word for a target in the error about a second target; NULL: "scene" */
-    bool derives;    /* a target may also be a mechanism; the error about a second target says so */
     bool none;       /* the command may have no target */
     /* The work of target_command(). work_on() gets the opened target; if it is NULL, work() runs without a target. Both
      * return an exit status. */
@@ -211,7 +210,7 @@ typedef struct target_reader {
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  const char **target);
 
-/* load() of the named scene, or of the file's only scene, with the common options. */
+/* load() of the named or only scene, with the common options. One of several that is to be written must be named. */
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 

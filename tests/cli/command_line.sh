@@ -92,9 +92,11 @@ for file in core/models/*.whirl; do
     read -r mechanisms count name effects <"$scratch/of"
     [ "$mechanisms" -eq 1 ] || continue
     if [ "$count" -gt 1 ]; then
-        "$whirl" run "$file" >"$scratch/out" 2>"$scratch/err"
-        [ $? -eq 2 ] && [ "$(sed -n 2p "$scratch/err")" = "$(sed -n 2p "$scratch/of")" ]
-        verdict $? "$file: $count scenes are named"
+        for command in run describe "derive --as c" "derive --as octave"; do
+            "$whirl" $command "$file" >"$scratch/out" 2>"$scratch/err"
+            [ $? -eq 2 ] && [ "$(sed -n 2p "$scratch/err")" = "$(sed -n 2p "$scratch/of")" ]
+            verdict $? "$command $file: $count scenes are named"
+        done
     fi
     if [ "$effects" != - ]; then
         exits 2 "hint: choose one of $effects\$" run "$file:$name" --with zzzzzzzzz
