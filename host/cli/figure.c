@@ -203,10 +203,9 @@ static int words_of(char *line, char **word) {
 }
 
 static const char *given_for(const figure_options *o, const char *name) {
-    const size_t length = strlen(name);
     for (int i = 0; i < o->given_count; i++) {
-        if (strncmp(o->given[i], name, length) == 0 && o->given[i][length] == '=') {
-            return o->given[i] + length + 1;
+        if (options_is(o->given[i], name)) {
+            return o->given[i] + strlen(name) + 1;
         }
     }
     return NULL;
@@ -309,18 +308,16 @@ static int take_data(const figure_options *o, const char *text, figure_data *dat
 
 /* "51", "fig51" or "finding_spin" of mk/figures. */
 static const struct builtin_model *figure_named(const char *name) {
-    for (size_t i = 0; i < builtin_figure_count; i++) {
-        char *one = alloc_words("/fig%s.fig", name);
-        char *other = alloc_words("/%s.fig", name);
-        const bool is = strstr(builtin_figures[i].file, one) != NULL ||
-                        strstr(builtin_figures[i].file, other) != NULL;
-        free(one);
-        free(other);
-        if (is) {
-            return &builtin_figures[i];
-        }
+    const struct builtin_model *found = NULL;
+    char *file = alloc_words("/%s.fig", name);
+    char *numbered = alloc_words("/fig%s.fig", name);
+    for (size_t i = 0; i < builtin_figure_count && found == NULL; i++) {
+        const char *own = strrchr(builtin_figures[i].file, '/');
+        found = strcmp(own, file) == 0 || strcmp(own, numbered) == 0 ? &builtin_figures[i] : NULL;
     }
-    return NULL;
+    free(file);
+    free(numbered);
+    return found;
 }
 
 static int draw(const figure_options *o, const char *where, const char *text) {
