@@ -220,8 +220,10 @@ static wh_status go(simulation *sim, bool *ended) {
 static void say_interrupted(const simulation *sim) {
     const uint64_t done = sim->settings->kind->steps(sim->run);
     const double step_s = sim->image->step_s;
-    fprintf(stderr, "whirl run: interrupted at t = %.9g s of %.9g s%s\n", (double)done * step_s,
-            (double)sim->steps * step_s, has_records(sim) ? "; the records so far are kept" : "");
+    const char *command = sim->settings->taken != NULL ? "" : " run"; /* or `plot`, `figure` */
+    fprintf(stderr, "whirl%s: interrupted at t = %.9g s of %.9g s%s\n", command,
+            (double)done * step_s, (double)sim->steps * step_s,
+            has_records(sim) ? "; the records so far are kept" : "");
 }
 
 /* Values were clamped to their ranges. The run has not failed, but this is hardly intended. */

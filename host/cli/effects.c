@@ -266,10 +266,7 @@ static void print_answer(const effects_options *o, subsets *s) {
 
 static int effects_of(const effects_options *o, subsets *s, diags *errors) {
     s->board = pricing_board("effects", o->board);
-    if (s->board == NULL) {
-        return EXIT_BAD_INPUT;
-    }
-    if (!subsets_open(s, errors)) {
+    if (s->board == NULL || !subsets_open(s, errors)) {
         return EXIT_BAD_INPUT;
     }
     if (s->effects == 0) {

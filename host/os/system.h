@@ -17,7 +17,8 @@ void interrupts_catch(void);
  * the wait. */
 void interrupts_catch_waiting(void);
 
-/* Must be called at the program's start. A write beyond `ulimit -f` then fails as on a full disk. */
+/* Must be called at the program's start. A write beyond `ulimit -f` then fails as on a full disk. Until interrupts are
+ * caught, an interrupt ends the program with a message. */
 void system_begin(void);
 
 /* Returns the seconds of a clock that never goes back. */

@@ -295,12 +295,11 @@ for ending in '' .part .toml .toml.part .sweep; do
     exits 2 'error: --csv and --vcd cannot share a file' monitor "$scratch/kept" --vcd "$scratch/b.svg" --csv "$beside"
     exits 2 'error: --csv and --tape cannot share a file' pil "$own" --firmware "$scratch/kept" --csv "$scratch/b.svg" --tape "$beside"
     cp "$scratch/kept" "$beside"
-    for command in run trust prove price 'sweep --over x=1..2:2'; do
+    for command in run trust prove price 'sweep --over x=1..2:2' 'map --over x=1..2:2 --over step=1ms..2ms:2'; do
         exits 2 'error: --csv would overwrite the model' $command "$beside" --csv "$scratch/b.svg"
     done
     exits 2 "error: --csv would overwrite $beside" pil "$own" --firmware "$beside" --csv "$scratch/b.svg"
     exits 2 "error: --raw would overwrite $beside" monitor "$beside" --raw "$scratch/b.svg"
-    rm "$beside"
 done
 exits 2 'error: --csv and --columns cannot share a file' run "$own" --csv - --columns -
 echo >"$scratch/b"

@@ -47,6 +47,13 @@ lost sweep "$scene" --over step=1..2:2 --until 2 --quiet --fresh
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2
 lost map "$scene" --over step=1ms..2ms:2 --over x=0..1:2 --csv - --quiet
 
+# Without a reader a command ends, without a message.
+for command in run 'sweep --over x=1..2:20 --jobs 2' 'map --over x=1..2:20 --over step=1ms..2ms:2' trust prove; do
+    code=$({ { sleep 0.2 && "$whirl" $command "$scene" --quiet --until 20s --csv - 2>"$scratch/err" || echo $? >&3; } | :; } 3>&1)
+    [ "$code" -eq 141 ] && [ ! -s "$scratch/err" ]
+    verdict $? "whirl $command without a reader: no message"
+done
+
 # A command without output does not notice. After another error, the exit status is that error's.
 check "nothing said, nothing lost" sh -c '"$1" run "$2" --quiet >/dev/full' - "$whirl" "$scene"
 check "or to nothing at all" sh -c '"$1" run "$2" --quiet >&-' - "$whirl" "$scene"

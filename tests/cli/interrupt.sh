@@ -58,6 +58,10 @@ verdict $? "run without records: exit status 130, and when"
 grep -q '^energy balance' "$scratch/out"
 verdict $? "run without records: its books are there" "$scratch/out"
 
+stop INT "has_worked 20" plot epicyclic_from_rest --until 1000000s --out "$scratch/plot.svg"
+[ "$code" -eq 130 ] && grep -q '^whirl: interrupted at t = ' "$scratch/err"
+verdict $? "plot: exit status 130, and no name of another command"
+
 # a run in fixed point first determines its ranges
 cat >"$scratch/long.whirl" <<'END'
 mechanism long
@@ -144,13 +148,13 @@ ends_soon() { # ends_soon WORD...
     await has_spent "$at" $process
     kill -STOP $process 2>/dev/null
     at=$(spent_by $process)
-    kill -INT $process 2>/dev/null
+    kill "-$([ $((seed % 2)) -eq 0 ] && echo INT || echo TERM)" $process 2>/dev/null
     kill -CONT $process 2>/dev/null
     wait $shell
     code=$?
     more=$(awk -v at="$at" 'NR == 2 { for (i = 1; i <= 2; i++) { split($i, part, "[ms]"); sum += 60 * part[1] + part[2] }
         print int(100 * sum) - at }' "$scratch/times")
-    { [ $code -eq 130 ] || [ $code -le 1 ]; } && { [ "$more" -le 15 ] || [ "$at" -eq 0 ]; } # 0: it had ended
+    { { [ $code -eq 130 ] && grep -q interrupted "$scratch/err"; } || [ $code -le 1 ]; } && { [ "$more" -le 15 ] || [ "$at" -eq 0 ]; } # 0: it had ended
     verdict $? "$*: interrupted after $at hundredths, $more more, exit status $code"
 }
 # One moment of each command; WHIRL_FULL=1: eight.
@@ -159,6 +163,8 @@ for moment in 1 ${WHIRL_FULL:+2 3 4 5 6 7 8}; do
     ends_soon run halvorson_ground
     ends_soon sweep tests/reference/stack.whirl --over step=0.2..2[ms]:30 --measure 'max(y15)' --csv -
     ends_soon trust thomson_plane_b
+    ends_soon effects halvorson_ground --with all --until 10000s
+    ends_soon derive "$scratch/long.whirl" --as c --number fixed
     ends_soon map epicyclic_from_rest --over m=1..3:100 --over step=1..10[ms]:10 --effort 1e14
     ends_soon price epicyclic_from_rest
     ends_soon choose epicyclic_from_rest --error 1e-3 --effort 1e10

@@ -123,8 +123,6 @@ exits 2 'cannot be opened: Is a directory' "$scratch"
 exits 2 '--rate takes a whole number' "$scratch/raw" --rate 2.5
 exits 2 'this speed is not supported' "$scratch/raw" --baud 7
 exits 2 'draws .svg, .pdf and .png files' "$scratch/raw" --plot a.txt
-exits 2 'cannot share a file' "$scratch/raw" --csv "$scratch/x" --vcd "$scratch/x"
-exits 2 'would overwrite' "$scratch/raw" --raw "$scratch/raw"
 exits 2 "takes a file's name" "$scratch/raw" --vcd -
 exits 2 '--for takes a number from' "$scratch/raw" --for 0
 exits 2 'takes only one line' "$scratch/raw" "$scratch/csv"

@@ -45,7 +45,8 @@ typedef struct pool {
     const jobs *jobs;
     worker *workers;
     int started;
-    int tickets; /* write end of the pipe with the points' numbers */
+    /* The pipe with the points' numbers. Its read end stays open, so that a write cannot fail if all workers are lost. */
+    int tickets[2];
     slot *slots; /* [window], by point % window */
     uint64_t window;
     uint64_t sent;
@@ -104,7 +105,7 @@ static void work(const jobs *j, int tickets, int results) {
 
 /* --- in the parent -----------------------------------------------------------------------------*/
 
-static bool start_worker(pool *p, int tickets) {
+static bool start_worker(pool *p) {
     int results[2];
     if (pipe(results) != 0) {
         return false;
@@ -125,12 +126,12 @@ static bool start_worker(pool *p, int tickets) {
                   &(struct sigaction){.sa_handler = ask_for_parent, .sa_flags = SA_RESTART}, NULL);
         setitimer(ITIMER_REAL, &(struct itimerval){{0, ASK_US}, {0, ASK_US}}, NULL);
         sigprocmask(SIG_SETMASK, &usual, NULL);
-        close(p->tickets);
+        close(p->tickets[1]);
         close(results[0]);
         for (int i = 0; i < p->started; i++) {
             close(p->workers[i].results);
         }
-        work(p->jobs, tickets, results[1]);
+        work(p->jobs, p->tickets[0], results[1]);
         _exit(0);
     }
     sigprocmask(SIG_SETMASK, &usual, NULL);
@@ -144,19 +145,11 @@ static bool start_worker(pool *p, int tickets) {
 }
 
 static bool start(pool *p) {
-    int tickets[2];
-    if (pipe(tickets) != 0) {
+    if (pipe(p->tickets) != 0) {
         return false;
     }
-    p->tickets = tickets[1];
     parent = getpid();
-    while (p->started < p->jobs->workers && start_worker(p, tickets[0])) {
-    }
-    close(tickets[0]);
-    if (p->started == 0) {
-        const int why = errno;
-        close(p->tickets);
-        errno = why;
+    while (p->started < p->jobs->workers && start_worker(p)) {
     }
     return p->started > 0;
 }
@@ -164,7 +157,7 @@ static bool start(pool *p) {
 /* Hands out numbers as far as the window reaches. */
 static void send(pool *p) {
     while (p->sent < p->jobs->end && p->sent < p->delivered + p->window &&
-           write_all(p->tickets, &p->sent, sizeof p->sent)) {
+           write_all(p->tickets[1], &p->sent, sizeof p->sent)) {
         p->sent++;
     }
 }
@@ -262,19 +255,18 @@ int jobs_workers(void) {
 }
 
 jobs_result jobs_run(const jobs *j) {
-    pool p = {.jobs = j, .sent = j->first, .delivered = j->first};
+    pool p = {.jobs = j, .tickets = {-1, -1}, .sent = j->first, .delivered = j->first};
     p.window = AHEAD * (uint64_t)j->workers;
     p.workers = alloc(j->workers, sizeof *p.workers);
     p.slots = alloc((int64_t)p.window, sizeof *p.slots);
-    /* a write to a lost worker must not end the program */
-    void (*const before)(int) = signal(SIGPIPE, SIG_IGN);
     jobs_result result = JOBS_WORKER_LOST;
     if (start(&p)) {
         result = attend(&p);
-        close(p.tickets);
     } else {
         fprintf(stderr, "whirl sweep: error: no worker could be started: %s\n", strerror(errno));
     }
+    close(p.tickets[0]);
+    close(p.tickets[1]);
     for (int i = 0; i < p.started; i++) {
         if (result != JOBS_DONE) {
             kill(p.workers[i].pid, SIGTERM);
@@ -289,7 +281,6 @@ jobs_result jobs_run(const jobs *j) {
     for (uint64_t i = 0; i < p.window; i++) {
         free(p.slots[i].row);
     }
-    signal(SIGPIPE, before);
     free(p.workers);
     free(p.slots);
     return result;

@@ -9,6 +9,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "host/base/exit.h"
+
 volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int signal_number) {
@@ -16,8 +18,16 @@ static void on_interrupt(int signal_number) {
     interrupted = 1;
 }
 
-static void catch_with(int flags) {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = flags};
+/* Before a command catches interrupts, it has nothing to finish. */
+static void end_at_once(int signal_number) {
+    static const char said[] = "whirl: interrupted\n";
+    (void)signal_number;
+    (void)!write(STDERR_FILENO, said, sizeof said - 1);
+    _exit(EXIT_INTERRUPTED);
+}
+
+static void catch_with(void (*handler)(int), int flags) {
+    struct sigaction action = {.sa_handler = handler, .sa_flags = flags};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     if ((flags & SA_RESTART) == 0) {
@@ -25,11 +35,12 @@ static void catch_with(int flags) {
     }
 }
 
-void interrupts_catch(void) { catch_with(SA_RESTART | (int)SA_RESETHAND); }
+void interrupts_catch(void) { catch_with(on_interrupt, SA_RESTART | (int)SA_RESETHAND); }
 
-void interrupts_catch_waiting(void) { catch_with((int)SA_RESETHAND); }
+void interrupts_catch_waiting(void) { catch_with(on_interrupt, (int)SA_RESETHAND); }
 
 void system_begin(void) {
+    catch_with(end_at_once, SA_RESTART);
 #ifdef SIGXFSZ
     signal(SIGXFSZ, SIG_IGN);
 #endif
