@@ -73,7 +73,10 @@ static int line_length(const char *text) { return (int)strcspn(text, "\n"); }
 static int check_fingerprint(resumable_csv *sh, const resumable_csv_settings *s) {
     char *there = read_text(sh->beside);
     if (there == NULL) {
-        return refuse(s->path, "the file is not from a sweep: FILE.sweep is missing beside it");
+        char *why = alloc_words("the file is not from a sweep: %s is missing", sh->beside);
+        const int code = refuse(s->path, why);
+        free(why);
+        return code;
     }
     const char *old = there;
     const char *new = s->fingerprint;
@@ -387,7 +390,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     char *text = NULL;
     size_t length = 0;
     FILE *out = alloc_text(&text, &length);
-    fprintf(out, "whirl " WH_VERSION " sweep: settings of the CSV beside this file, format 3\n");
+    fprintf(out, "whirl " WH_VERSION " sweep: settings of the CSV beside this file, format 4\n");
     fprintf(out, "scene: %s\n", base->name);
     fprintf(out, "model text: 0x%08" PRIx32 "\n", hash_text(model_text, strlen(model_text)));
     fprintf(out, "number: %s%s\n", s->kind->name, s->engine.compensated ? ", compensated" : "");
@@ -409,8 +412,10 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     for (int i = 0; i < s->grid->count; i++) {
         const axis *a = &s->grid->axes[i];
         char *unit = sweep_unit(a->symbol, a->primes);
-        fprintf(out, "over %s%s: %.17g to %.17g, %" PRIu64 " values%s\n", a->name, unit, a->from,
-                a->to, a->count, a->is_log ? ", logarithmic" : "");
+        char end[2][NUMBER_SIZE];
+        fprintf(out, "over %s%s: %s to %s, %" PRIu64 " values%s\n", a->name, unit,
+                sweep_swept_value(a, a->from, end[0]), sweep_swept_value(a, a->to, end[1]),
+                a->count, a->is_log ? ", logarithmic" : "");
         free(unit);
     }
     for (int i = 0; i < s->measures->count; i++) {

@@ -131,6 +131,11 @@ sed -i 's/^measure: max(th) .*/measure: max(th)/' "$scratch/shown.csv.sweep"
 check "refused: an older file, in SI" status 2 shown --csv "$scratch/shown.csv" --measure 'max(th)' --measure 'max(2*th)' \
     --measure 'period(th)'
 check "with both units" grep -q '^  here:  measure: max(th) \[deg\]' "$scratch/said"
+check "refused: another range" status 2 "$whirl" sweep "$scratch/shown.whirl" --over 'l=10..90 [cm]:2' --csv "$scratch/shown.csv"
+check "with both in the declared unit" sh -c "grep -q 'there: over l \[cm\]: 40 to 80, 2 values' '$scratch/said' && grep -q 'here:  over l \[cm\]: 10 to 90, 2 values' '$scratch/said'"
+rm "$scratch/shown.csv.sweep"
+check "refused: rows without their settings" status 2 shown --csv "$scratch/shown.csv"
+check "whose file is named" grep -q "shown.csv: error: .*/shown.csv.sweep is missing" "$scratch/said"
 check "--fresh starts anew" status 0 small --csv "$scratch/small.csv" --measure X --fresh
 check "--fresh: the right rows" cmp "$scratch/small.csv" "$scratch/kept.csv"
 
