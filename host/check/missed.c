@@ -483,7 +483,7 @@ struct missed {
     taylor_bounds *
         signals; /* bounds of each contact's gap, condition, rate or value; NULL without contacts */
     taylor_bounds *accel; /* bounds of the accelerations, if one must be tested; or NULL */
-    bool hills;           /* the accelerations contain an exponential function */
+    bool hills;           /* the accelerations may have a narrow hill */
     bool edges;           /* a gap may have an edge */
     taylor_bounds *laws;  /* bounds of the contacts' laws, if a friction's limits move; or NULL */
     double *from;         /* [angles + reals] state before the step */
@@ -496,10 +496,13 @@ struct missed {
     int parts;                 /* number of parts tested so far */
 };
 
-static bool has_exponential(const op_list *t) {
-    bool some = false;
+/* May the list have a narrow hill: a kink, or a function that decays like an exponential? */
+static bool has_hills(const op_list *t) {
+    bool some = op_list_has_kinks(t);
     for (int i = 0; i < t->count; i++) {
-        some = some || (t->ops[i].code == OP_CALL && t->ops[i].function == FN_EXP);
+        const function_id f = t->ops[i].function;
+        some = some || (t->ops[i].code == OP_CALL &&
+                        (f == FN_EXP || f == FN_TANH || f == FN_SINH || f == FN_COSH));
     }
     return some;
 }
@@ -524,7 +527,7 @@ static bool has_moving_limits(const image *im, int k) {
 
 missed *missed_open(const image *im) {
     const op_list *signals = im->contacts > 0 ? im->list[IMAGE_SIGNALS] : NULL;
-    const bool hills = im->form == WH_SECOND_ORDER && has_exponential(im->list[IMAGE_STEP]);
+    const bool hills = im->form == WH_SECOND_ORDER && has_hills(im->list[IMAGE_STEP]);
     const op_list *laws = has_edges(im) ? im->list[IMAGE_FORCES] : NULL;
     for (int k = 0; k < im->forced; k++) {
         laws = has_moving_limits(im, k) ? im->list[IMAGE_FORCES] : laws;

@@ -6,10 +6,10 @@
  * two events. Taylor forms bound each gap and condition on the path. The path is halved until a point inside the contact is
  * found or excluded. If that fails, the contact is reported as undecided.
  *
- * Accelerations with an exponential function are bounded in the same way. A step has passed over a force if the
- * acceleration is far above both ends and large enough to turn the rate. Moving limits of a friction are bounded, too. A
- * step has passed over the friction if, between its ends, the limits of a sliding friction are far larger, or those of a
- * sticking friction too small to keep it. If the bounds do not decide, the force is undecided.
+ * Accelerations with a kink, an exponential or a hyperbolic function are bounded in the same way. A step has passed over a
+ * force if the acceleration is far above both ends and large enough to turn the rate. Moving limits of a friction are bounded,
+ * too. A step has passed over the friction if, between its ends, the limits of a sliding friction are far larger, or those of
+ * a sticking friction too small to keep it. If the bounds do not decide, the force is undecided.
  *
  * A stop's gap with abs, max, min or sign may have edges. The core keeps a resting body on the face that it rests on, and
  * does not release it at an edge. A step is reported if the slope of such a gap jumps while the body rests. */
@@ -20,7 +20,7 @@
 
 typedef struct missed missed;
 
-/* NULL without any contact or exponential force. */
+/* NULL without any contact or force that may have a narrow hill. */
 missed *missed_open(const image *im);
 void missed_close(missed *m); /* NULL is fine */
 /* `what`: the index of the contact that a step passed through; or the number of contacts plus the index of the coordinate
