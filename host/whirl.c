@@ -53,7 +53,8 @@ enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
 static void print_usage(FILE *out) {
     static const char *const why[EXITS] = {
-        "", "a run failed, or an output could not be written (full disk)", "", ""};
+        "", "a run failed, or an output could not be written (full disk)",
+        "or an output cannot be opened (missing folder)", ""};
     fputs("usage: whirl COMMAND ...\n"
           "\n"
           "Whirl derives equations of motion from energies, runs them, and writes C for firmware.\n"

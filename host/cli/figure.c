@@ -100,7 +100,8 @@ static bool is_whole(const plot_options *o) {
     }
     return files_are_apart("plot", (const char *[]){"--out"}, &o->out, 1,
                            (const char *const *)o->target, o->targets) &&
-           sets_once(o) && gnuplot_can_draw_for("plot", "--out", o->out) && gnuplot_is_there();
+           sets_once(o) && gnuplot_can_draw_for("plot", "--out", o->out) &&
+           atomic_file_can(o->out) && gnuplot_is_there();
 }
 
 static int plot_work(void *options) {

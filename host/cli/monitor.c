@@ -81,7 +81,8 @@ static bool are_possible(const monitor_options *o) {
     if (o->output[PLOT] != NULL && !gnuplot_can_draw_for("monitor", "--plot", o->output[PLOT])) {
         return false;
     }
-    return are_apart(o) && (o->output[PLOT] == NULL || gnuplot_is_there());
+    return are_apart(o) && atomic_file_can(o->output[PLOT]) &&
+           (o->output[PLOT] == NULL || gnuplot_is_there());
 }
 
 /* === the command ============================================================================== */

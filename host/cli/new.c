@@ -60,10 +60,11 @@ static int write_new(const char *name, const char *file) {
         return EXIT_BAD_INPUT;
     }
     FILE *out = atomic_file_open(file);
-    if (out != NULL) {
-        fprintf(out, template, name, name, suffix);
+    if (out == NULL) {
+        return EXIT_BAD_INPUT;
     }
-    if (out == NULL || !atomic_file_close(out, file, true)) {
+    fprintf(out, template, name, name, suffix);
+    if (!atomic_file_close(out, file, true)) {
         return EXIT_RUN_FAILED;
     }
     printf("whirl wrote %s. Next:\n"

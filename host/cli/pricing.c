@@ -424,7 +424,7 @@ static int show(pricing *p, const table *made) {
         return EXIT_RUN_FAILED;
     }
     if (csv != NULL && !write_csv(csv, &p->trial, made, &words)) {
-        return EXIT_BAD_INPUT;
+        return EXIT_RUN_FAILED;
     }
     return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
 }

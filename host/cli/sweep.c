@@ -293,9 +293,9 @@ static int show_map(const sweep_options *o, const stability_map *m, const char *
     if (!o->json && (!o->quiet || (o->csv == NULL && o->plot == NULL))) {
         map_print(options_is_standard(o->csv) ? stderr : stdout, m, words);
     }
-    int code = o->csv == NULL || write_map(o, m, name) ? EXIT_DONE : EXIT_BAD_INPUT;
+    int code = o->csv == NULL || write_map(o, m, name) ? EXIT_DONE : EXIT_RUN_FAILED;
     if (o->plot != NULL && !map_plot(o->plot, m, words)) {
-        code = EXIT_BAD_INPUT;
+        code = EXIT_RUN_FAILED;
     }
     if (m->done < m->grid->points) {
         fprintf(stderr, "whirl map: interrupted after %llu of %llu runs\n",

@@ -101,7 +101,7 @@ static int write_rows(const trust_options *o, const horizon *h) {
     return o->csv == NULL || (rows != NULL &&
                               plot_run_csv_end(rows, o->csv, true, "trust", h->of->finer.name))
                ? EXIT_DONE
-               : EXIT_BAD_INPUT;
+               : EXIT_RUN_FAILED;
 }
 
 static int answer(const trust_options *o, const image *im, const image *plain) {

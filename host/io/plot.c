@@ -366,6 +366,9 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
         fputs(tables, to);
         good = atomic_file_close(to, file, true);
     }
+    if (!good) {
+        atomic_file_not_whole(); /* too late for bad input */
+    }
     free(file);
     free(title);
     free(label);
@@ -387,6 +390,9 @@ bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *comman
                 scene);
     }
     const bool good = to != NULL && atomic_file_close(to, file, true);
+    if (!good) {
+        atomic_file_not_whole(); /* too late for bad input */
+    }
     free(file);
     return good;
 }

@@ -40,6 +40,12 @@ static int cannot_write(const char *path) {
     return EXIT_RUN_FAILED;
 }
 
+/* A wrong path is bad input, as for `run`. */
+static int cannot_open(const char *path) {
+    write_error_say(path);
+    return EXIT_BAD_INPUT;
+}
+
 /* --- the fingerprint ---------------------------------------------------------------------------*/
 
 static char *read_text(const char *path) {
@@ -181,7 +187,7 @@ static int go_on(resumable_csv *sh, const resumable_csv_settings *s, off_t size)
         return cannot_write(s->path);
     }
     if (!write_fingerprint(sh, s->fingerprint)) {
-        return EXIT_RUN_FAILED;
+        return EXIT_BAD_INPUT;
     }
     if (ftruncate(fileno(sh->out), whole) != 0 || fseeko(sh->out, whole, SEEK_SET) != 0) {
         return cannot_write(s->path);
@@ -205,19 +211,18 @@ int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s) {
     const bool exists = !is_stdout && stat(s->path, &about) == 0;
     if (is_stdout || (exists && !S_ISREG(about.st_mode))) {
         sh->out = is_stdout ? stdout : fopen(s->path, "wb");
-        if (sh->out == NULL || fputs(s->header, sh->out) < 0) {
-            forget(sh);
-            return cannot_write(s->path);
+        if (sh->out != NULL && fputs(s->header, sh->out) >= 0) {
+            return EXIT_DONE;
         }
-        return EXIT_DONE;
+        forget(sh);
+        return sh->out != NULL ? cannot_write(s->path) : cannot_open(s->path);
     }
     sh->is_file = true;
     const int file = open(s->path, O_RDWR | O_CREAT, 0666);
     sh->out = file < 0 ? NULL : fdopen(file, "r+b");
     if (sh->out == NULL) {
-        cannot_write(s->path);
         forget(sh);
-        return EXIT_BAD_INPUT; /* a wrong path is bad input, as for `run` */
+        return cannot_open(s->path);
     }
     int code = EXIT_DONE;
     if (!system_lock(sh->out)) {
