@@ -358,22 +358,20 @@ static void figure_legend(FILE *out, const cost *c) {
     }
 }
 
-/* Does this column count (reference_run.h) at any point? */
-static bool counts(const trials *t, int column) {
+/* Is this coordinate or rate left out, because it counts (reference_run.h) at no point? */
+static bool is_missing(const trials *t, int column) {
+    bool counts = t->what.column >= 0 || t->reference[0]->shape->column[column].unknown < 0;
     for (int p = 0; p < t->points; p++) {
-        if (t->reference[p]->column[column].counts) {
-            return true;
-        }
+        counts = counts || t->reference[p]->column[column].counts;
     }
-    return false;
+    return !counts;
 }
 
 static void say_missing(FILE *out, const trials *t) {
-    const reference *r = t->reference[t->worst];
     bool first = true;
-    for (int k = 1; k < r->columns; k++) {
+    for (int k = 1; k < t->reference[0]->columns; k++) {
         char name[TRIAL_NAME];
-        if (r->shape->column[k].unknown >= 0 && !counts(t, k)) {
+        if (is_missing(t, k)) {
             fprintf(out, "%s%s",
                     first ? "  left out    these are zero except for round-off: " : ", ",
                     trial_column(t, k, name));
@@ -392,10 +390,12 @@ void figure_reference(FILE *out, const trials *t) {
                 where[0] != '\0' ? ", with" : "", where, r->why);
         return;
     }
-    fprintf(out,
-            "              both references agree within %.1e of each component's largest "
-            "value\n",
-            reference_agreement(r));
+    char name[TRIAL_NAME];
+    const int of = t->what.column;
+    fprintf(out, "              both references agree within %.1e of %s%s\n",
+            reference_agreement(r, of),
+            of < 0 ? "each component's largest value" : "the largest value of ",
+            of < 0 ? "" : trial_column(t, of, name));
     fprintf(out, "  horizon     %.9g s", trial_horizon_s(t));
     if (t->records < t->request.records) {
         fprintf(out, " of %.9g s: %s\n",
@@ -404,9 +404,7 @@ void figure_reference(FILE *out, const trials *t) {
     } else {
         fprintf(out, ", %d records\n", t->records);
     }
-    if (t->what.column < 0) {
-        say_missing(out, t);
-    }
+    say_missing(out, t);
     if (t->still != NULL) {
         fprintf(out, "  left out    combinations in which nothing moves:%.*s\n",
                 (int)strlen(t->still) - 1, t->still);
@@ -701,6 +699,14 @@ void table_json_begin(json *j, const char *command, const trials *t) {
     json_text(j, "reference", t->reference[t->worst]->how);
     json_number(j, "horizon_s", t->reliable ? trial_horizon_s(t) : (double)NAN);
     json_whole(j, "places", t->points);
+    json_open(j, "left_out", '[');
+    for (int k = 1; k < t->reference[0]->columns; k++) {
+        char name[TRIAL_NAME];
+        if (t->reliable && is_missing(t, k)) {
+            json_text(j, NULL, trial_column(t, k, name));
+        }
+    }
+    json_close(j, ']');
 }
 
 void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words) {

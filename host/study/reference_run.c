@@ -88,17 +88,21 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 /* === the reference ============================================================================ */
 
 /* The method of a reference, if `by` requests no other. Its steps are at first FINER times shorter than the scene's. They are
- * halved until both runs agree within ENOUGH of each column's largest value, or until they are FINEST times shorter. */
+ * halved until both runs agree within ENOUGH of each column's largest value, or until they are FINEST times shorter. If the
+ * last halving at least doubled a short horizon, the limit is LAST. */
 #define METHOD WH_NYSTROEM5
 #define FINER 4.0
 #define FINEST 16.0
+#define LAST 256.0
 #define ENOUGH 1e-11
 /* A record is trusted while the two runs differ by less than this part of a column's largest value. When the difference reaches
  * the limit, the motion has amplified the round-off. */
 #define LIMIT 1e-9
-/* A column is known if the two runs agree up to a record at which its value has reached this part of its largest value.
- * Otherwise it is only round-off. */
+/* A column is known if the two runs agree up to a record at which its value has reached this part of its largest value. */
 #define KNOWN_BY 1e-6
+/* An unknown column is only round-off if a run in float makes it this many times larger: float's round-off is 2^29 times that
+ * of double. Motion has nearly the same size in both. */
+#define ROUGHER 0x1p15
 /* Round-off that both runs share, as a part of the largest value: that of constants and of the start. */
 #define SHARED (16.0 * DBL_EPSILON)
 /* The search for events takes about this many times the evaluations of a step. */
@@ -112,7 +116,7 @@ typedef struct computed {
     int records; /* number of records after the start */
 } computed;
 
-static computed compute(const reference_request *w, uint64_t steps) {
+static computed compute(const reference_request *w, uint64_t steps, const engine_kind *kind) {
     image copy = *w->image;
     copy.settings = (image_settings)IMAGE_SETTINGS_DEFAULT;
     copy.settings.compensated = true;
@@ -121,58 +125,82 @@ static computed compute(const reference_request *w, uint64_t steps) {
     copy.step = (whole_ratio){w->spacing.numerator, w->spacing.denominator * steps};
     copy.step_s = ratio_times(1, copy.step);
     copy.steps = steps * (uint64_t)w->records;
-    records *r = records_open(NULL, &copy, &engine_double);
-    void *run = engine_double.start(&copy);
+    records *r = records_open(NULL, &copy, kind);
+    void *run = kind->start(&copy);
     computed c = {alloc((int64_t)(w->records + 1) * r->columns, sizeof(double)), 0};
     for (;; c.records++) {
         records_read(r, run, ratio_times((uint64_t)c.records, w->spacing));
         memcpy(c.row + (size_t)c.records * (size_t)r->columns, r->row,
                (size_t)r->columns * sizeof *r->row);
-        if (c.records == w->records || interrupted ||
-            loop_steps(&engine_double, run, steps) != WH_OK) {
+        if (c.records == w->records || interrupted || loop_steps(kind, run, steps) != WH_OK) {
             break;
         }
     }
-    engine_double.stop(run);
+    kind->stop(run);
     records_close(r);
     return c;
 }
 
-static double value_at(const reference *r, int record, int column) {
-    return r->row[(size_t)record * (size_t)r->columns + (size_t)column];
+static double value_at(const reference *r, const double *rows, int record, int column) {
+    return rows[(size_t)record * (size_t)r->columns + (size_t)column];
+}
+
+/* A column's largest value in the rows of a run. */
+static double largest_of(const reference *r, const double *rows, int until, int column) {
+    double largest = 0.0;
+    for (int i = 0; i <= until; i++) {
+        largest = number_most(largest, fabs(value_at(r, rows, i, column)));
+    }
+    return largest;
 }
 
 static double row_off(const reference *r, const computed *other, int record, int column) {
-    const size_t at = (size_t)record * (size_t)r->columns + (size_t)column;
-    const double off = fabs(r->row[at] - other->row[at]);
+    const double off =
+        fabs(value_at(r, r->row, record, column) - value_at(r, other->row, record, column));
     return isfinite(off) ? off : (double)INFINITY;
 }
 
 /* Finds a column's largest value and largest difference over the records up to `until`. Returns true if it is known
  * (KNOWN_BY). */
 static bool measure(reference *r, const computed *other, int until, int column) {
-    const double enough =
-        KNOWN_BY * r->column[column].largest; /* the largest value comes from an earlier call */
-    reference_column c = {.largest = 0.0};
+    const double enough = KNOWN_BY * largest_of(r, r->row, until, column);
+    reference_column *c = &r->column[column];
     bool known = false;
+    *c = (reference_column){.largest = 0.0};
     for (int i = 0; i <= until; i++) {
-        c.largest = number_most(c.largest, fabs(value_at(r, i, column)));
-        c.off = number_most(c.off, row_off(r, other, i, column));
-        known = known ||
-                (i > 0 && c.largest > 0.0 && c.largest >= enough && c.off <= r->limit * c.largest);
+        c->largest = number_most(c->largest, fabs(value_at(r, r->row, i, column)));
+        c->off = number_most(c->off, row_off(r, other, i, column));
+        known = known || (i > 0 && c->largest > 0.0 && c->largest >= enough &&
+                          c->off <= r->limit * c->largest);
     }
-    r->column[column].largest = c.largest;
-    r->column[column].off = number_most(c.off, SHARED * c.largest);
+    c->off = number_most(c->off, SHARED * c->largest);
     return known;
 }
 
-/* Decides which columns count, and up to which record the two runs agree. */
-static void judge(reference *r, const computed *other, int reached) {
+/* Measures all columns up to record r->records, and decides which ones count. *rough: a run in float with the steps of `other`,
+ * computed when an unknown column needs it. */
+static void weigh(reference *r, const reference_request *w, uint64_t steps, const computed *other,
+                  computed *rough) {
+    const int until = r->records < 0 ? 0 : r->records;
     for (int k = 1; k < r->columns; k++) {
-        (void)measure(r, other, reached, k);
-        r->column[k].counts = measure(r, other, reached, k) && r->shape->column[k].unknown >= 0;
+        reference_column *c = &r->column[k];
+        const bool known = measure(r, other, until, k);
+        c->counts = r->shape->column[k].unknown >= 0 && c->largest > 0.0;
+        if (c->counts && !known) {
+            *rough = rough->row == NULL ? compute(w, steps, &engine_float) : *rough;
+            const int both = until < rough->records ? until : rough->records;
+            c->counts =
+                ROUGHER * largest_of(r, other->row, both, k) >= largest_of(r, rough->row, both, k);
+        }
     }
+}
+
+/* Decides which columns count, and up to which record the two runs agree. `steps`: those of `other`. */
+static void judge(reference *r, const reference_request *w, uint64_t steps, const computed *other,
+                  int reached) {
+    computed rough = {NULL, 0};
     r->records = reached;
+    weigh(r, w, steps, other, &rough);
     for (int k = 1; k < r->columns; k++) {
         const reference_column *c = &r->column[k];
         for (int i = 0; i <= r->records && c->counts; i++) {
@@ -181,9 +209,8 @@ static void judge(reference *r, const computed *other, int reached) {
             }
         }
     }
-    for (int k = 1; k < r->columns; k++) {
-        (void)measure(r, other, r->records < 0 ? 0 : r->records, k);
-    }
+    weigh(r, w, steps, other, &rough);
+    free(rough.row);
 }
 
 /* Does a coordinate or a rate move? Outputs do not matter. */
@@ -191,19 +218,9 @@ static bool moves(const reference *r) {
     for (int k = 1; k < r->columns; k++) {
         for (int i = 0; r->shape->column[k].unknown >= 0 && i <= (r->records < 0 ? 0 : r->records);
              i++) {
-            if (value_at(r, i, k) != r->row[k]) {
+            if (value_at(r, r->row, i, k) != r->row[k]) {
                 return true;
             }
-        }
-    }
-    return false;
-}
-
-/* Is any column known? If not, the agreement of all records proves nothing. */
-static bool knows(const reference *r) {
-    for (int k = 1; k < r->columns; k++) {
-        if (r->column[k].counts) {
-            return true;
         }
     }
     return false;
@@ -237,7 +254,7 @@ static void say(const reference_request *w, reference *r, uint64_t steps, int re
     } else if (reached < r->wanted) {
         r->why = alloc_words("the run fails after %.9g s", time_of(w, r->records));
     }
-    r->reliable = r->records >= 1 && knows(r);
+    r->reliable = r->records >= 1 && reference_agreement(r, -1) > 0.0; /* 0: no column counts */
     r->still = !r->reliable && r->why == NULL && !moves(r);
     if (!r->reliable && r->why == NULL) {
         r->why = alloc_words(
@@ -250,7 +267,6 @@ static void say(const reference_request *w, reference *r, uint64_t steps, int re
 
 reference *reference_new(const reference_request *w) {
     const bool fixed = w->by.steps > 0;
-    const uint64_t most = fixed ? w->by.steps : steps_of(w, FINEST);
     uint64_t steps = fixed ? w->by.steps : steps_of(w, FINER);
     reference *r = alloc(1, sizeof *r);
     r->shape = records_open(NULL, w->image, &engine_double);
@@ -258,15 +274,17 @@ reference *reference_new(const reference_request *w) {
     r->wanted = w->records;
     r->column = alloc(r->columns, sizeof *r->column);
     r->limit = fixed ? w->by.limit : LIMIT;
-    computed other = compute(w, steps / 2U);
-    for (;; steps *= 2U) {
-        const computed best = compute(w, steps);
+    computed other = compute(w, steps / 2U, &engine_double);
+    for (int before = 0;; before = r->records, steps *= 2U) {
+        const computed best = compute(w, steps, &engine_double);
         const int reached = best.records < other.records ? best.records : other.records;
         r->row = best.row;
-        judge(r, &other, reached);
+        judge(r, w, steps / 2U, &other, reached);
+        const double agreement = reference_agreement(r, -1);
+        const bool grows = r->records < r->wanted && r->records >= 2 * before;
         free(other.row);
-        if (interrupted || 2U * steps > most ||
-            (r->records == r->wanted && knows(r) && reference_agreement(r) <= ENOUGH)) {
+        if (interrupted || fixed || 2U * steps > steps_of(w, grows ? LAST : FINEST) ||
+            (r->records == r->wanted && agreement > 0.0 && agreement <= ENOUGH)) {
             say(w, r, steps, reached);
             break;
         }
@@ -286,19 +304,16 @@ void reference_cut(reference *r, int until) {
     r->records = until < r->records ? until : r->records;
     for (int k = 1; k < r->columns; k++) {
         reference_column *c = &r->column[k];
-        c->largest = 0.0;
-        for (int i = 0; i <= r->records; i++) {
-            c->largest = number_most(c->largest, fabs(value_at(r, i, k)));
-        }
+        c->largest = largest_of(r, r->row, r->records, k);
         c->counts = c->counts && c->largest > 0.0;
     }
 }
 
-double reference_agreement(const reference *r) {
+double reference_agreement(const reference *r, int column) {
     double worst = 0.0;
     for (int k = 1; k < r->columns; k++) {
         const reference_column *c = &r->column[k];
-        if (c->counts) {
+        if (column >= 0 ? k == column : c->counts) {
             worst = number_most(worst, c->off / c->largest);
         }
     }

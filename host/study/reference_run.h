@@ -27,7 +27,7 @@ typedef struct reference_request {
 
 /* The size of a column's values. */
 typedef struct reference_column {
-    /* a coordinate or rate that is more than round-off, so that its error counts */
+    /* a coordinate or rate that is more than round-off up to the last trusted record, so that its error counts */
     bool counts;
     double largest; /* largest size over the records */
     double off;     /* largest difference of the two runs */
@@ -52,8 +52,8 @@ typedef struct reference {
 reference *reference_new(const reference_request *w);
 /* From now on use at most this many records after the start. */
 void reference_cut(reference *r, int until);
-/* The largest difference of the two runs in columns that count, as a part of the column's largest value. */
-double reference_agreement(const reference *r);
+/* The largest difference of the two runs in a column, or, with -1, in those that count, as a part of the column's largest value. */
+double reference_agreement(const reference *r, int column);
 void reference_free(reference *r); /* NULL is fine */
 
 /* The column of a name, "X", "X'" or an output's, or -1. *noisy: it is an output with its own noise, which has no reference. */

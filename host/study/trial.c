@@ -324,7 +324,7 @@ static void cut(trials *t) {
     for (int p = 0; p < t->points; p++) {
         const reference *r = t->reference[p];
         t->reliable = t->reliable && r->reliable;
-        const double agreement = reference_agreement(r);
+        const double agreement = reference_agreement(r, t->what.column);
         if (r->records < t->records || (r->records == t->records && agreement > least)) {
             t->records = r->records;
             t->worst = p;

@@ -294,7 +294,7 @@ TEST(price_words, tables_of_nothing_say_why) {
     const char *at = behind(text, "both references agree within ");
     double number;
     (void)said_number(at, &number);
-    TEST_ASSERT_TRUE(fabs(number / reference_agreement(p.trial.reference[0]) - 1) <= 0.051);
+    TEST_ASSERT_TRUE(fabs(number / reference_agreement(p.trial.reference[0], -1) - 1) <= 0.051);
     (void)behind(text, "  horizon     0.4 s, 20 records\n");
     free(text);
     made.unpriced = 0;
