@@ -15,12 +15,12 @@ extern "C" {
     X(WH_STATION_LINE, 101, "the line is too long, or has an invalid character") \
     X(WH_STATION_WORDS, 102, "too many words") \
     X(WH_STATION_NO_NUMBER, 103, "give a number, such as 330 or 330.5") \
-    X(WH_STATION_NO_RESULT, 104, "the last run has given no result") \
+    X(WH_STATION_NO_RESULT, 104, "there is no result") \
     X(WH_STATION_ON_OFF, 105, "give on or off") \
     X(WH_STATION_SECONDS, 106, "give 0, or a number of seconds from 1 to 3600") \
     X(WH_STATION_BUSY, 107, "this works only while the rig is idle") \
     X(WH_STATION_CONF_HOW, 108, "conf has no such subcommand; help conf shows them") \
-    X(WH_STATION_CONF_NONE, 109, "no such setting; conf list shows all") \
+    X(WH_STATION_CONF_NONE, 109, "no such setting; conf list shows them, FROM = next") \
     X(WH_STATION_CONF_VALUE, 110, "not a value of this setting; conf get shows its type") \
     X(WH_STATION_CONF_RANGE, 111, "outside the setting's range; conf get shows it") \
     X(WH_STATION_CONF_AGAINST, 112, "conflicts with another speed, supply or motor setting") \

@@ -85,7 +85,7 @@ static void check_answers(void) {
     check_told(" ended=", ended);
     ask("measure");
     if (!has_result) {
-        TEST_ASSERT_EQUAL_STRING_LEN("ERR 104 ", heard, 8);
+        check_told("ERR 104 ", "there is no result"); /* true during a run, too */
         return;
     }
     check_told(" result=", verdict);

@@ -46,7 +46,7 @@ static bool boots(unsigned times) {
         {"conf set swings on", "ERR 114 this program does not support it"},
         {"tel list", "ERR 114 this program does not support it"},
         {"help talk", "OK talk on|off: echo typed"},
-        {"measure", "ERR 104 the last run has given no result"},
+        {"measure", "ERR 104 there is no result"},
         {"nonsense", "ERR 100 no such command"}};
     (void)times;
     mega_start(image);

@@ -37,7 +37,7 @@ static bool converses(unsigned times) {
                 /* the whole line: it shows that packed words are printed right */
                 {"fault", "OK trip=0 ended=none: no fault"},
                 {"clear", "ERR 6 there is no trip to clear"},
-                {"measure", "ERR 104 the last run has given no result"},
+                {"measure", "ERR 104 there is no result"},
                 {"set 20", "ERR 7 the rig is not running"},
                 {"nonsense", "ERR 100 no such command; help lists them"},
                 {"start much", "ERR 103 give a number, such as 330 or 330.5"},
