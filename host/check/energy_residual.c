@@ -7,8 +7,8 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 
-/* After N steps the allowance for round-off is the energy change by the rounding of one step, times ROUNDINGS, times the
- * root of N. Up to a thousand steps it covers N errors of the same sign, as those of an evenly growing rate. */
+/* Round-off that is allowed after N steps: ROUNDINGS sqrt(N) times the energy change by the rounding of one step. For N up to
+ * 1000 this allows for N errors of one sign. */
 #define ROUNDINGS 32.0
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }

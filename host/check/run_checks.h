@@ -41,8 +41,8 @@ typedef struct run_checks {
     unsigned warned; /* the warnings, as bits */
 } run_checks;
 
-/* `plain`: the finer run's image (step_doubling_plain()); NULL: `im`. `of`: the budget; NULL: the checks use their own, which the
- * run's loop fills. All arguments must outlive the result. */
+/* `plain` is the image of the finer run (step_doubling_plain()). If it is NULL, `im` serves both runs. If the budget is NULL,
+ * the checks have one of their own, and the run's loop fills it. All arguments must outlive the result. */
 run_checks *run_checks_open(const image *im, const image *plain, const engine_kind *kind, void *run,
                             budget *of);
 void run_checks_close(run_checks *v); /* NULL is fine */

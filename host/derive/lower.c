@@ -65,8 +65,8 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 /* Powers up to sin(x)^16, from k = 0 ... 8. */
 #define MULTIPLE_MAX 8
 #define INDICES (MULTIPLE_MAX + 1)
-/* Limit of the growth of the coefficients: the sum of the products' sizes at the worst angle, relative to the
- * original sum. Beyond it, the loss at other angles would exceed the gain near the zero. */
+/* The powers' products may be larger than the terms of the original sum. If they are larger by more than this factor at some
+ * angle, the digits lost there exceed the digits gained near the zero, and the sum is not rewritten. */
 #define GROWTH_MAX 8.0
 
 /* Compares member by member, because padding bytes between a 32-bit pointer and a double are undefined. */

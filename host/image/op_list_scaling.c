@@ -11,11 +11,11 @@
 static bool op_list_is_raw(const op *o);
 
 /* === which operations may be multiplied together ============================================== */
-/* The operations of a list that can be multiplied together. Each operation is multiplied by x to an exponent of its
- * own. A sum needs equal exponents of its parts; a product adds them. Constants, and products with constants, accept
- * any exponent; results have exponent zero. These are linear equations; their solutions are the possible scalings. */
+/* A scaling multiplies each operation by a power of one factor x. The two operands of a sum need the same exponent. The
+ * exponent of a product is the sum of its operands' exponents. A constant accepts any exponent, and a result has exponent 0.
+ * The scalings are the solutions of these linear equations. */
 
-/* Exponents and all entries are small whole numbers or halves, so a smaller value is zero. */
+/* The exponents are small whole numbers or halves, so a smaller value is zero. */
 #define NOTHING 1e-9
 
 typedef struct matrix {

@@ -78,8 +78,8 @@ typedef struct reader_symbols {
     /* [coordinate_count] order of an unknown's highest derivative, which is variable `highest` + unknown */
     int *order;
     int highest;    /* number of variables of the state */
-    int *parameter; /* [parameter_count] nodes; -1: not yet */
-    int *let;       /* [let_count] nodes; -1: not yet */
+    int *parameter; /* [parameter_count] node of each parameter; -1: not made yet */
+    int *let;       /* [let_count] node of each `let`; -1: not made yet */
     diags *errors;
 } reader_symbols;
 

@@ -17,7 +17,8 @@ typedef struct show {
     algebra *algebra;
     const char *(*name)(const void *names, const symbol *sym, int primes); /* NULL: the file's */
     const void *names;
-    struct show_lets *lets; /* lets that are printed in place of equal sums; NULL: none */
+    struct show_lets *
+        lets; /* the model's `let` names that are printed in place of the sums that they stand for; NULL: none */
     /* true: a parenthesis follows, so that \cos a (b + c) would be ambiguous in LaTeX */
     bool bracketed;
 } show;

@@ -150,9 +150,9 @@ typedef struct judge {
     /* number of successive turns of which each was faster than the one before */
     unsigned rises;
     double rises_rpm; /* speed of the turn before the first faster one */
-    /* time at which turns showed a drive with the enable line on; -1: not shown */
+    /* time at which the turns proved that the motor is driven, with the enable line on; -1: never */
     double on_shown_s;
-    /* time at which turns showed a drive with the enable line off; -1: not shown */
+    /* the same with the enable line off */
     double off_shown_s;
     true_turn turn[JUDGE_TURNS];
     unsigned turns;

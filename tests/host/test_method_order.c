@@ -88,9 +88,8 @@ static tree branched(const forest *f, tree now, long double (*by)[STAGES], const
     return now;
 }
 
-/* Adds to the forest all trees of `order` that extend `now` by `left` nodes, with branches from number `from` on.
- * Branch 0 is the initial rate, which moves the position. Each smaller tree gives two branches, because it moves the
- * position and the rate. */
+/* Adds to the forest all trees of `order` nodes that extend the tree `now` by `left` nodes. The new branches have numbers of
+ * at least `from`. Branch 0 is the initial rate. Each smaller tree is two branches: one for the position, one for the rate. */
 static void grow(forest *f, int order, int left, int from, tree now) {
     if (left == 0) {
         TEST_ASSERT_TRUE(f->count < TREES);

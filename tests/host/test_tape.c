@@ -392,8 +392,8 @@ static void expect_same_results(const op_list *t, const op_list *made) {
     }
 }
 
-/* Scaled by a random factor along each freedom, the list must have the same results. If `if_alone`, and if no leaf
- * is without a constant, it must have no more operations either. */
+/* The list is scaled by a random factor along each freedom. Its results must stay the same. With `if_alone`, a list whose
+ * leaves all have a constant must not get more operations. */
 static void expect_free(const op_list *t, const op_list_freedoms *f, bool if_alone) {
     double *times = calloc((size_t)f->length, sizeof *times);
     TEST_ASSERT_NOT_NULL(times);

@@ -265,7 +265,7 @@ TEST(warnings, passing_a_pole_is_told) {
         const bool is_float = i % 3 == 2;
         const double rho = sqrt(away * away + past_m * past_m);
         const double r = sqrt(rho * rho + height * height);
-        /* at x = away, y = past: towards the axis at the rate -speed along x, and rising */
+        /* the body is at x = away, y = past; it moves along x to the axis, and rises */
         const double phi = atan2(past_m, away);
         const double rho_rate = -speed * cos(phi);
         const double phi_rate = speed * sin(phi) / rho;
