@@ -484,6 +484,7 @@ struct missed {
         signals; /* bounds of each contact's gap, condition, rate or value; NULL without contacts */
     taylor_bounds *accel; /* bounds of the accelerations, if one must be tested; or NULL */
     bool hills;           /* the accelerations may have a narrow hill */
+    bool smooth;          /* the accelerations have no kink: undecided hills are reported, too */
     bool edges;           /* a gap may have an edge */
     taylor_bounds *laws;  /* bounds of the contacts' laws, if a friction's limits move; or NULL */
     double *from;         /* [angles + reals] state before the step */
@@ -496,15 +497,18 @@ struct missed {
     int parts;                 /* number of parts tested so far */
 };
 
-/* May the list have a narrow hill: a kink, or a function that decays like an exponential? */
-static bool has_hills(const op_list *t) {
-    bool some = op_list_has_kinks(t);
+static bool calls(const op_list *t, function_id function) {
+    bool some = false;
     for (int i = 0; i < t->count; i++) {
-        const function_id f = t->ops[i].function;
-        some = some || (t->ops[i].code == OP_CALL &&
-                        (f == FN_EXP || f == FN_TANH || f == FN_SINH || f == FN_COSH));
+        some = some || (t->ops[i].code == OP_CALL && t->ops[i].function == function);
     }
     return some;
+}
+
+/* May the list have a narrow hill: a kink, or a function that decays like an exponential? */
+static bool has_hills(const op_list *t) {
+    return op_list_has_kinks(t) || calls(t, FN_EXP) || calls(t, FN_TANH) || calls(t, FN_SINH) ||
+           calls(t, FN_COSH);
 }
 
 static bool has_edges(const image *im) {
@@ -540,6 +544,7 @@ missed *missed_open(const image *im) {
     m->image = im;
     m->signals = signals != NULL ? taylor_bounds_open(im, signals) : NULL;
     m->hills = hills;
+    m->smooth = !op_list_has_kinks(im->list[IMAGE_STEP]);
     m->edges = has_edges(im);
     m->accel = hills || laws != NULL ? taylor_bounds_open(im, im->list[IMAGE_STEP]) : NULL;
     m->laws = laws != NULL ? taylor_bounds_open(im, laws) : NULL;
@@ -821,7 +826,7 @@ static missed_found force_passed(missed *m) {
     for (int i = 0; i < n && !found.sure; i++) {
         m->parts = 0;
         const int passed = open[i] ? passes(m, look_force, i, 0.0, 1.0, m->most[i], HALVINGS) : 0;
-        found = or_this(found, passed, m->image->contacts + i);
+        found = passed > 0 || m->smooth ? or_this(found, passed, m->image->contacts + i) : found;
     }
     return found;
 }

@@ -146,8 +146,8 @@ TEST(small_told, slow_angles) {
                 note,
                 "whirl run: note: 'a' turns so slowly that rounding its change in each step to 1.5e-9 "
                 "rad, as float does, causes an error of up to ");
-            at = said_exactly(said_number(at, &figure[0]), " rad, ");
-            at = said_exactly(said_number(at, &figure[1]), " % of the ");
+            at = said_exactly(said_number(at, &figure[0]), " rad (");
+            at = said_exactly(said_number(at, &figure[1]), " % of its true change, ");
             at = said_exactly(
                 said_number(at, &figure[2]),
                 " rad)\nhint: use --compensated or a larger --step: both reduce round-off\n");

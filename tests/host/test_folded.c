@@ -600,7 +600,7 @@ TEST(blurred, equations_that_say_nearly_the_same) {
                  "scene s { step 1 [ms]\nuntil 10 [ms] }\n",
                  1.0 + share);
         command_say_model(command_run, text, &what);
-        const bool warned = strstr(what.err, "two equations are nearly the same") != NULL;
+        const bool warned = strstr(what.err, "two nearly equal equations") != NULL;
         TEST_ASSERT_EQUAL_INT_MESSAGE(decade < 14 ? said_owes(what.err) : 2, what.status, what.err);
         TEST_ASSERT_TRUE_MESSAGE(warned == (decade == 12 || decade == 13) || decade == 11,
                                  what.err);

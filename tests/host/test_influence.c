@@ -101,7 +101,7 @@ static void test_a_contact_that_names_it_keeps_it_in_the_state(void) {
             e != NULL && program_make(e, parsed->scenes[0]->conserve, &plainly, said) == NULL,
             contacts[i]);
         equations_free(e);
-        expect_said("cannot be conserved beside stops, friction, holds or crossings");
+        expect_said("cannot compute a coordinate's rate from its conserved momentum");
     }
 }
 
