@@ -454,11 +454,13 @@ static void expect_words(const horizon *h) {
     TEST_ASSERT_NOT_NULL(strstr(told, "compensated, double, step 0.005 s\n"));
     double number[2];
     const char *at = said_number(behind(told, "a"), &number[0]);
-    said_words(said_number(said_words(at, "of its range,"), &number[1]), "m,");
+    at = said_words(said_number(said_words(at, "error at most"), &number[1]), "m; range");
+    TEST_ASSERT_DOUBLE_WITHIN(0.05 * number[1], 0.01 * h->column[1].range, number[1]);
+    said_words(said_number(at, &number[1]), "m\n");
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, h->column[1].until_s, number[0]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3 * h->column[1].range, h->column[1].range, number[1]);
     at = said_words(said_words(behind(told, "b"), "to the end"), "error");
-    at = said_words(said_number(at, &number[0]), "of its range,");
+    at = said_words(said_number(at, &number[0]), "of its range of");
     said_words(said_number(at, &number[1]), "mm\n");
     TEST_ASSERT_DOUBLE_WITHIN(1e-2 * number[0], h->column[2].off / h->column[2].range, number[0]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-3 * h->column[2].range, h->column[2].range, number[1]);
