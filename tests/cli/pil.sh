@@ -292,7 +292,7 @@ done <<'END'
 --place --place_.*:_give_numbers_with_commas_between_them nan inf -inf 1e999 , 1, ,1 0x10 1,nan empty
 --place --place_has_[2-9]_values,_but_the_firmware_has 0,0,0
 --bind this_is_not_NAME=OTHER = =push , push=push, ,push=push push empty
---bind sets_'' push= push=,push=
+--bind has_no_input_'' push= push=,push=
 --board no_board nan , empty
 --tape cannot_be_written /dev/null/x empty
 END
