@@ -207,6 +207,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
                                   .keep = from_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
                                   .conserve = runs || settings->matrix != MATRIX_NONE,
                                   .comment = as == &forms[OCTAVE] ? EMIT_OCTAVE_COMMENT : NULL};
+    const place at = in != NULL ? in->at : of->at;
     loaded made;
     int code = load(&made, from, of, in, changes, &request);
     if (!from_equations) {
@@ -225,9 +226,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         plan = plan_of(made.image, from, options->number, &good);
     }
     if (code == EXIT_DONE &&
-        (!good ||
-         ((as->is & NAMED) != 0 &&
-          !has_name(made.image, from, in != NULL ? in->at : of->at, as, header != NULL)) ||
+        (!good || ((as->is & NAMED) != 0 && !has_name(made.image, from, at, as, header != NULL)) ||
          (runs && !has_c_form(made.image, from)) ||
          (header != NULL && !write_header(made.image, plan, from->file, header)))) {
         code = EXIT_BAD_INPUT;
