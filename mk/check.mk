@@ -251,6 +251,7 @@ gate-docs: docs-programs
 	@for f in $$(sed -n '/^```sh [rs]/,/^```$$/p' README.md | grep -o 'build/[a-z0-9_/.-]*' | sort -u); do \
 	    case " build/whirl $(RUN_IMAGES) " in *" $$f "*) ;; *) \
 	        echo "error: README.md: make run does not build $$f"; exit 1 ;; esac; done
+	@$(MAKE) run-now >build/run.log 2>&1 || { tail -n 5 build/run.log; echo "error: make run fails"; exit 1; }
 	@sh tests/docs.sh check $(DOC_PAGES)
 	@sh mk/conclusions/table.sh check docs/conclusions.md
 

@@ -28,7 +28,7 @@ title "3. The motion, on this computer, in double and in the boards' float"
 for scene in epicyclic_from_rest thomson_a; do
     "$whirl" run "$scene" --number float >"$out/$scene.float.txt"
     "$whirl" run "$scene" --every 1ms --csv "$out/$scene.csv" --plot "$out/$scene.svg" >"$out/$scene.txt"
-    "$whirl" run "$scene" --every 1ms --plot "$out/$scene.png" --quiet
+    "$whirl" run "$scene" --plot "$out/$scene.png" --quiet
     sed -n '1,2p' "$out/$scene.txt"
     # the centre of mass must stay at its start; the difference is the method's error
     tr -d '\r' <"$out/$scene.csv" | awk -F, '
