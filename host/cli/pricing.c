@@ -169,11 +169,11 @@ static bool read_error(pricing *p) {
                             "\"%s\"",
                             equals + 1 + strspn(equals + 1, " "));
     }
-    if (equals != NULL && equals == text) {
+    if (equals != NULL && equals == text + strspn(text, " \t")) {
         return options_fail(command,
                             "--error '%s': a quantity is missing before '='\nhint: --error "
-                            "x%s",
-                            text, text);
+                            "\"x%s\"",
+                            text, equals);
     }
     if (equals != NULL) {
         p->quantity = p->named = alloc_trimmed(text, (size_t)(equals - text));
