@@ -686,7 +686,7 @@ static void engine_write_mechanism(char *text, int which) {
             "output o = v*q\noutput e = d\nscene s { range d = -2 .. 2 [V], v = -4 .. 4 [V], q = -4 .. 4, q' = -30 .. 30 [1/s]; %s",
             some(0.2, 1), some(1, 4), some(0.5, 3), some(0.1, 0.4), rest);
         break;
-    default: /* divides by a negative number, and by a number with a wide range */
+    case 4: /* divides by a negative number, and by a number with a wide range */
         snprintf(
             text, ENGINE_TEXT_SIZE,
             "mechanism m\nstate x\nstate y\ninput d = %.6f\n"
