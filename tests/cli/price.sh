@@ -370,7 +370,7 @@ for command in price choose; do
     exits 2 'length' $command "$s" --of x --error 1s
     exits 2 'error:' $command "$s" --error 1mm
     exits 2 'above zero' $command "$s" --error=-1
-    for e in =0.1mm " = 1 [mm]"; do exits 2 "a quantity is missing before '='" $command "$s" --error "$e"; done
+    for blank in =0.1mm " = 1 [mm]"; do exits 2 "a quantity is missing before '='" $command "$s" --error "$blank"; done
     exits 2 'above zero' $command "$s" --error 0
     exits 2 'the motion to compare has a length of 0 s' $command "$s" $e --horizon 0
     exits 2 'is not NAME=FROM..TO' $command "$s" $e --vary push
