@@ -83,7 +83,7 @@ verdict $? "a system of first order in float: status 1, records well formed"
 for output in csv columns vcd; do
     run epicyclic_from_rest --until 3s --quiet --$output "$scratch/alone"
     for way in part link; do # written as FILE.part, and in place
-        [ $way = part ] || ln -sf "$scratch/place" "$scratch/same.$way"
+        rm -f "$scratch/place"; [ $way = part ] || ln -sf "$scratch/place" "$scratch/same.$way"
         "$whirl" run epicyclic_from_rest --until 1000000s --quiet --$output "$scratch/same.$way" 2>/dev/null &
         first=$!
         await has_bytes 9000 "$([ $way = part ] && echo "$scratch/same.part.part" || echo "$scratch/place")"
