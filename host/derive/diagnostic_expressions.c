@@ -204,11 +204,8 @@ static bool has_slopes(const poly *p) {
 static void ask(maker *k, place where, int node, bool derived, const char *what) {
     image_blame *b = &k->made->blame;
     b->question = arena_room(k->made->memory, b->question, b->questions, sizeof *b->question);
-    b->question[b->questions++] = (diagnostics_question){.node = node,
-                                                         .derived = derived,
-                                                         .power = 1,
-                                                         .what = image_text(k->draft, what),
-                                                         .where = where};
+    b->question[b->questions++] = (diagnostics_question){
+        .node = node, .derived = derived, .what = image_text(k->draft, what), .where = where};
 }
 
 static void ask_value(maker *k, place where, const expr *tree, const char *what) {
@@ -238,7 +235,6 @@ static void ask_term(maker *k, const term *t) {
     const place where = image_place(k->draft, t->at);
     const bool differentiated = t->kind == TERM_T || t->kind == TERM_V || t->kind == TERM_F;
     ask_value(k, where, t->value, part);
-    k->made->blame.question[k->made->blame.questions - 1].power = differentiated ? 2 : 1;
     ask_value(k, where, t->right, part);
     if (differentiated) {
         snprintf(slope, sizeof slope, "the slope of %s", part);

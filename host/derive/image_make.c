@@ -318,15 +318,9 @@ static void take_program(image_draft *d, program *p) {
     }
 }
 
-/* Makes the requested matrix; `use` decides whether the image has a blame list. Returns the image, or NULL after
- * reporting the reason. */
-static image *with_matrix(image_draft *d, const equations *e, image_use use, diags *errors) {
-    bool wants_blame;
-    bool good = matrix_make(d, use == IMAGE_TO_RUN, &wants_blame, errors);
-    if (wants_blame) {
-        diagnostics_make(d, e);
-        good = matrix_make(d, true, &wants_blame, errors);
-    }
+/* Makes the requested matrix, if any. Returns the image, or NULL after reporting the reason. */
+static image *with_matrix(image_draft *d, const equations *e, diags *errors) {
+    const bool good = d->made->settings.matrix == MATRIX_NONE || matrix_make(d, e, errors);
     image *made = image_draft_done(d);
     if (!good) {
         image_free(made);
@@ -370,8 +364,7 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     if (use == IMAGE_TO_RUN) {
         diagnostics_make(&d, e);
     }
-    return im->settings.matrix != MATRIX_NONE ? with_matrix(&d, e, use, errors)
-                                              : image_draft_done(&d);
+    return with_matrix(&d, e, errors);
 }
 
 image *image_again(const image *base, const instance *inst, diags *errors) {
@@ -398,7 +391,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
         im->matrix = im->base->matrix;
         return image_draft_done(&d);
     }
-    return with_matrix(&d, NULL, IMAGE_TO_RUN, errors);
+    return with_matrix(&d, NULL, errors);
 }
 
 /* === the image, and ways of folding its numbers =============================================== */

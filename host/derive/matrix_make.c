@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +18,7 @@
 static int affine_states(const image *im) { return im->angles + im->reals; }
 int affine_columns(const image *im) { return affine_states(im) + im->inputs + 1; }
 
-/* Returns the column of a leaf, or -1 if it is neither state nor input. */
+/* Returns the column of a state, a rate or an input. */
 static int column_of(const image *im, const op *o) {
     if (o->code == OP_LINEAR) {
         return im->angles + o->a;
@@ -27,7 +26,7 @@ static int column_of(const image *im, const op *o) {
     if (o->code == OP_RATE) { /* rates follow all positions, angles included */
         return im->coordinates + o->a;
     }
-    return o->code == OP_INPUT ? affine_states(im) + o->a : -1;
+    return affine_states(im) + o->a;
 }
 
 static bool is_constant(const twofold *c, int columns) {
@@ -109,16 +108,16 @@ static bool step(const image *im, const op *o, const twofold *all, twofold *to) 
     return false;
 }
 
-int affine_rates(const image *im, twofold *rates) {
+bool affine_rates(const image *im, twofold *rates) {
     const op_list *t = im->list[IMAGE_STEP];
     const int columns = affine_columns(im);
     const size_t row = (size_t)columns * sizeof *rates;
     twofold *all = alloc((int64_t)t->count * columns, sizeof *all);
-    int bad = -1;
-    for (int i = 0; i < t->count && bad < 0; i++) {
-        bad = step(im, &t->ops[i], all, all + (ptrdiff_t)i * columns) ? -1 : i;
+    bool affine = true;
+    for (int i = 0; i < t->count && affine; i++) {
+        affine = step(im, &t->ops[i], all, all + (ptrdiff_t)i * columns);
     }
-    if (bad < 0) {
+    if (affine) {
         const int positions = im->form == WH_SECOND_ORDER ? im->coordinates : 0;
         memset(rates, 0, (size_t)affine_states(im) * row);
         for (int i = 0; i < positions; i++) {
@@ -130,217 +129,65 @@ int affine_rates(const image *im, twofold *rates) {
         }
     }
     free(all);
-    return bad;
+    return affine;
 }
 
-/* Sets taking[columns] for the columns on which operation `number` of the step's list depends, turn angles included. */
-static void affine_takes(const image *im, int number, bool *taking) {
-    const op_list *t = im->list[IMAGE_STEP];
-    bool *needed = alloc(number + 1, sizeof *needed);
-    op_list_mark_needed(t, number, needed);
-    for (int i = number; i >= 0; i--) {
-        const op *o = &t->ops[i];
-        if (!needed[i]) {
-            continue;
+/* === the report of a nonlinear statement ====================================================== */
+
+/* The degree of an expression that is not a polynomial. */
+#define NO_DEGREE ((double)INFINITY)
+
+/* Returns the degree of p in the states, the rates and the inputs together. */
+static double degree_of(const poly *p) {
+    double most = 0.0;
+    for (int i = 0; i < p->count; i++) {
+        const mono *m = p->terms[i].mono;
+        double degree = m->angle != NULL && degree_of(m->angle) > 0.0 ? NO_DEGREE : 0.0;
+        for (int k = 0; k < m->count; k++) {
+            const atom *x = m->factors[k].atom;
+            const double exponent = m->factors[k].exponent;
+            const bool whole = exponent > 0.0 && exponent == number_floor(exponent);
+            double inside = x->kind == ATOM_SYMBOL && x->symbol->kind != SYM_PARAMETER ? 1.0 : 0.0;
+            for (int j = 0; j < 2 && x->kind != ATOM_SYMBOL && x->argument[j] != NULL; j++) {
+                inside = number_most(inside, degree_of(x->argument[j]));
+            }
+            const bool power = whole && (x->kind == ATOM_SYMBOL || x->kind == ATOM_GROUP);
+            degree += inside == 0.0 ? 0.0 : power ? exponent * inside : NO_DEGREE;
         }
-        const int column = column_of(im, o);
-        if (column >= 0) {
-            taking[column] = true;
-        }
-        for (int k = 0; k < t->angles && o->turns != NULL; k++) {
-            taking[k] = taking[k] || o->turns[k] != 0;
-        }
+        most = number_most(most, degree);
     }
-    free(needed);
+    return most;
 }
 
-/* === the report of a nonlinear term =========================================================== */
-
-/* The degree of an expression that is not a polynomial. It is small enough that sums of degrees fit into an int. */
-enum { NO_POWER = 1000 };
-
-/* The dependencies of a node of the blame list. */
-typedef struct made_of {
-    int degree;      /* degree in states, rates and inputs together */
-    uint64_t states; /* a bit for each unknown; unknowns beyond 64 share bits */
-    uint64_t inputs; /* a bit for each input, in the same way */
-} made_of;
-
-static uint64_t bit(int number) { return UINT64_C(1) << (number % 64); }
-
-static int capped(int degree) { return degree > NO_POWER ? NO_POWER : degree; }
-
-static int power(const image_blame *b, const made_of *of, const diagnostics_node *n) {
-    const diagnostics_node *exponent = &b->node[n->b];
-    const double e = exponent->code == DIAGNOSTICS_NUMBER ? exponent->number : -1.0;
-    if (of[n->a].degree == 0 && of[n->b].degree == 0) {
-        return 0;
+/* Is the degree of this statement too high for linear equations? */
+static bool is_nonlinear(const equations *e, const term *t) {
+    const bool differentiated = t->kind == TERM_T || t->kind == TERM_V || t->kind == TERM_F;
+    const expr *const sides[] = {t->value, t->right};
+    double degree = 0.0;
+    for (int i = 0; i < 2 && sides[i] != NULL; i++) {
+        const poly *side = equations_fold(e, poly_from_expr(e->algebra, sides[i]));
+        degree = number_most(degree, degree_of(side));
     }
-    for (int whole = 0; whole <= 8; whole++) {
-        if (e == (double)whole) {
-            return whole * of[n->a].degree;
-        }
-    }
-    return NO_POWER;
+    return instance_has(e->instance, t->effect) && degree > (differentiated ? 2.0 : 1.0);
 }
 
-static made_of node_made_of(const image_blame *b, const made_of *of, int i) {
-    const diagnostics_node *n = &b->node[i];
-    const bool has_a = n->code != DIAGNOSTICS_NUMBER && n->code != DIAGNOSTICS_STATE &&
-                       n->code != DIAGNOSTICS_INPUT;
-    const made_of none = {0, 0, 0};
-    const made_of x = has_a ? of[n->a] : none;
-    const made_of y =
-        has_a && n->code != DIAGNOSTICS_SAME && n->code != DIAGNOSTICS_NEG && n->b >= 0 ? of[n->b]
-                                                                                        : none;
-    made_of both = {0, x.states | y.states, x.inputs | y.inputs};
-    switch (n->code) {
-    case DIAGNOSTICS_NUMBER: break;
-    case DIAGNOSTICS_STATE: both = (made_of){1, bit(n->a), 0}; break;
-    case DIAGNOSTICS_INPUT: both = (made_of){1, 0, bit(n->a)}; break;
-    case DIAGNOSTICS_SAME:
-    case DIAGNOSTICS_NEG: both.degree = x.degree; break;
-    case DIAGNOSTICS_ADD:
-    case DIAGNOSTICS_SUB: both.degree = x.degree > y.degree ? x.degree : y.degree; break;
-    case DIAGNOSTICS_MUL: both.degree = capped(x.degree + y.degree); break;
-    case DIAGNOSTICS_DIV: both.degree = y.degree == 0 ? x.degree : NO_POWER; break;
-    case DIAGNOSTICS_POW: both.degree = capped(power(b, of, n)); break;
-    case DIAGNOSTICS_CALL: both.degree = x.degree == 0 && y.degree == 0 ? 0 : NO_POWER; break;
+static void report_nonlinear(const image *im, const equations *e, diags *errors) {
+    static const char hint[] = "leave out --matrix: it is only for linear equations";
+    const mechanism *m = e->instance->mechanism;
+    int k = 0;
+    while (k < m->term_count && !is_nonlinear(e, &m->terms[k])) {
+        k++;
     }
-    return both;
-}
-
-/* Does the operation pass the degree of one operand on to its result, unchanged? `other` is the degree of the other
- * operand. */
-static bool passes_on(diagnostics_code code, int other) {
-    switch (code) {
-    case DIAGNOSTICS_SAME:
-    case DIAGNOSTICS_NEG:
-    case DIAGNOSTICS_ADD:
-    case DIAGNOSTICS_SUB: return true;
-    case DIAGNOSTICS_MUL:
-    case DIAGNOSTICS_DIV: return other == 0;
-    case DIAGNOSTICS_POW:
-    case DIAGNOSTICS_CALL:
-    case DIAGNOSTICS_NUMBER:
-    case DIAGNOSTICS_STATE:
-    case DIAGNOSTICS_INPUT: return false;
+    if (k == m->term_count) {
+        diag_error(errors, m->at, hint,
+                   "the equations of '%s' are not linear, so their step is not a matrix", m->name);
+        return;
     }
-    return false;
-}
-
-/* `node` has a degree above `most`. Returns the innermost node below it that alone is the reason. */
-static int innermost(const image_blame *b, const made_of *of, int node, int most) {
-    for (;;) {
-        const diagnostics_node *n = &b->node[node];
-        const bool has_b = n->code != DIAGNOSTICS_SAME && n->code != DIAGNOSTICS_NEG && n->b >= 0;
-        const int degree_a = of[n->a].degree;
-        const int degree_b = has_b ? of[n->b].degree : 0;
-        if (degree_a > (passes_on(n->code, degree_b) ? most : NO_POWER - 1)) {
-            node = n->a;
-        } else if (degree_b > (passes_on(n->code, degree_a) ? most : NO_POWER - 1)) {
-            node = n->b;
-        } else {
-            return node;
-        }
-    }
-}
-
-/* Returns the names of the dependencies, such as "theta", "x and y" or "x, y and M". */
-static char *names(const image *im, made_of of) {
-    char *text = NULL;
-    size_t length = 0;
-    const char *name[128];
-    int count = 0;
-    for (int i = 0; i < im->count && count < 64; i++) {
-        if ((of.states & bit(i)) != 0) {
-            name[count++] = im->unknown[i].name;
-        }
-    }
-    for (int i = 0; i < im->inputs && count < 128; i++) {
-        if ((of.inputs & bit(i)) != 0) {
-            name[count++] = im->input[i].name;
-        }
-    }
-    FILE *out = alloc_text(&text, &length);
-    for (int i = 0; i < count; i++) {
-        fprintf(out, "%s%s", i == 0 ? "" : i + 1 < count ? ", " : " and ", name[i]);
-    }
-    alloc_text_end(out);
-    return text;
-}
-
-static void report(const image *im, const made_of *of, int node, place where, diags *errors) {
-    const diagnostics_node *n = &im->blame.node[node];
-    const place at = n->at.source != NULL ? n->at : where;
-    char *of_what = names(im, of[node]);
+    const place at = m->terms[k].at;
     char line[STATEMENT_SIZE];
-    char what[64];
     statement_text(at, line, sizeof line);
-    switch (n->code) {
-    case DIAGNOSTICS_CALL:
-        snprintf(what, sizeof what, "%s() of", function_name(n->function));
-        break;
-    case DIAGNOSTICS_DIV: snprintf(what, sizeof what, "a division by an expression of"); break;
-    case DIAGNOSTICS_POW: snprintf(what, sizeof what, "a power of"); break;
-    case DIAGNOSTICS_NUMBER:
-    case DIAGNOSTICS_STATE:
-    case DIAGNOSTICS_INPUT:
-    case DIAGNOSTICS_SAME:
-    case DIAGNOSTICS_ADD:
-    case DIAGNOSTICS_SUB:
-    case DIAGNOSTICS_MUL:
-    case DIAGNOSTICS_NEG:
-        snprintf(what, sizeof what, "a %s of", strchr(of_what, ' ') != NULL ? "product" : "power");
-        break;
-    }
-    diag_error(errors, at, "leave out --matrix: it is only for linear equations",
-               "%s %s in line %d makes '%s' not linear, so its step is not a matrix: %s", what,
-               of_what, at.line, im->name, line);
-    free(of_what);
-}
-
-/* Reports that `operation` of the step's list is not linear. The image needs a blame list. */
-static void not_linear_report(const image *im, int operation, diags *errors) {
-    const image_blame *b = &im->blame;
-    const int states = affine_states(im);
-    made_of *of = alloc(b->nodes, sizeof *of);
-    bool *taking = alloc(affine_columns(im), sizeof *taking);
-    made_of wanted = {0, 0, 0};
-    bool found = false;
-    affine_takes(im, operation, taking);
-    for (int i = 0; i < states + im->inputs; i++) {
-        if (!taking[i]) {
-            continue;
-        }
-        if (i < states) {
-            wanted.states |= bit(image_component(im, i).unknown);
-        } else {
-            wanted.inputs |= bit(i - states);
-        }
-    }
-    for (int i = 0; i < b->nodes; i++) {
-        of[i] = node_made_of(b, of, i);
-    }
-    for (int k = 0; k < b->terms && !found; k++) {
-        const diagnostics_question *q = &b->question[k];
-        const int node =
-            q->derived || of[q->node].degree <= q->power ? -1 : innermost(b, of, q->node, q->power);
-        if (node >= 0 && ((of[node].states & wanted.states) | (of[node].inputs & wanted.inputs))) {
-            report(im, of, node, q->where, errors);
-            found = true;
-        }
-    }
-    if (!found) {
-        wanted.degree = NO_POWER;
-        char *of_what = names(im, wanted);
-        diag_error(errors, im->mechanism_at, "leave out --matrix: it is only for linear equations",
-                   "the equations of '%s' are not linear in %s, so their step is not a matrix",
-                   im->mechanism, of_what);
-        free(of_what);
-    }
-    free(of);
-    free(taking);
+    diag_error(errors, at, hint, "line %d makes '%s' not linear, so its step is not a matrix: %s",
+               at.line, im->name, line);
 }
 
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
@@ -657,21 +504,16 @@ static bool make(image_draft *d, twofold *change, diags *errors) {
     return true;
 }
 
-bool matrix_make(image_draft *d, bool has_blame, bool *wants_blame, diags *errors) {
+bool matrix_make(image_draft *d, const equations *e, diags *errors) {
     image *im = d->made;
-    *wants_blame = false;
     if (!is_possible(im, errors)) {
         return false;
     }
     twofold *change = alloc((int64_t)affine_states(im) * affine_columns(im), sizeof *change);
-    const int bad = affine_rates(im, change);
-    bool good = bad < 0;
-    if (!good && has_blame) {
-        not_linear_report(im, bad, errors);
-    } else if (!good) {
-        *wants_blame = true;
-    } else {
-        good = make(d, change, errors);
+    const bool affine = affine_rates(im, change);
+    const bool good = affine && make(d, change, errors);
+    if (!affine) {
+        report_nonlinear(im, e, errors);
     }
     free(change);
     return good;

@@ -253,7 +253,6 @@ typedef struct diagnostics_question {
     int node;
     /* a derivative: a message can name only the statement, not a part of it */
     bool derived;
-    int power; /* for terms only: highest degree in the state that a linear mechanism allows */
     const char *what;
     place where;
 } diagnostics_question;

@@ -368,7 +368,7 @@ prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json
 prints '^  "sines": "lookup",$' describe "$scratch/wheel.whirl" --json --angles lookup
 prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json --start "a'=3000"
 exits 2 "there is no matrix 'exactly'" run two_mass_relative --matrix exactly
-exits 2 "cos\(\) of a in line 5 makes 'spin' not linear" describe "$scratch/wheel.whirl" --matrix exact
+exits 2 "5:1: error: line 5 makes 'spin' not linear" describe "$scratch/wheel.whirl" --matrix exact
 prints '^  "matrix": "none",$' describe two_mass_relative --json
 prints '^  "matrix": "rk4",$' describe two_mass_relative --json --matrix rk4
 prints '^  Phi  *X  *Y  *X. *Y.$' derive two_mass_relative --matrix exact
