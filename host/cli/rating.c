@@ -50,7 +50,6 @@ static const char *refused(const rating_request *w) {
 static void say_rows(FILE *out, const rating_request *w, const simulation_trust *trust) {
     const grid none = {0};
     pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
-    const double end_s = ratio_times(w->image->steps, w->image->step);
     image_settings plain;
     step_doubling_plain(w->settings, &plain);
     pricing_scene_lend(p, w->settings, w->image);
@@ -62,8 +61,7 @@ static void say_rows(FILE *out, const rating_request *w, const simulation_trust 
                                   .method = step_doubling_method(w->image),
                                   .order = step_doubling_order(w->image),
                                   .limit = HORIZON_TOLERANCE,
-                                  .step = w->image->step,
-                                  .priced_step = pricing_spacing(end_s, PRICING_RECORDS)};
+                                  .step = w->image->step};
     const double steps = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
     request.steps = (uint64_t)number_least(steps, (double)w->image->steps);
     if (request.steps < 2) {

@@ -59,7 +59,6 @@ typedef enum ending { TRIED, NOT_OWN, UNPRICED, BROKEN_OFF } ending;
 typedef struct climbed {
     ending end;
     const char *why; /* the reason, if `end` is UNPRICED */
-    double operations;
     int count;
     table_row row[SUBSTEPS];
 } climbed;
@@ -70,40 +69,41 @@ static void price_by_evaluations(table_row *row) {
     row->price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, each, each, each};
 }
 
-/* Tries ever finer steps of a setting, with up to `each` operations in one trial. Only with a matrix and in fixed point does
- * the price of a step depend on its length. */
+/* Tries ever finer steps of a setting, with up to `each` operations in one trial. */
 static void climb(trials *t, const table_request *w, const setting *s, double each, climbed *c) {
     const bool contacts = t->image[0]->contacts > 0;
-    deviation_pace first;
-    bool own;
-    bool known;
-    (void)table_pace(w, w->rate_Hz > 0.0 ? 0 : COARSEST, &first);
-    t->planned_most = each;
-    const cost plain = trial_any_cost(t, s, first, &own);
-    (void)table_price_of(&plain, 1.0, &known);
-    if (!own || (!known && !contacts)) {
-        c->end = own ? UNPRICED : NOT_OWN;
-        c->why = plain.why;
-        return;
-    }
+    bool own = true;
     int stalled = 0;
     double before = (double)INFINITY;
     table_row row = {.setting = *s};
     for (int rung = 0; table_pace(w, rung, &row.pace) && stalled < PATIENCE && !t->stopped;
          rung++) {
+        bool known;
+        const bool slow = trial_operations(t, s, row.pace) > each;
         if (row.pace.records > (uint64_t)t->records) {
             continue;
         }
-        if (trial_operations(t, s, row.pace) > each) {
+        if (slow && setting_is_fixed(s)) { /* its price takes a run, too */
+            c->end = own ? BROKEN_OFF : NOT_OWN;
+            return;
+        }
+        row.cost = trial_cost(t, s, row.pace, &own);
+        row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)), &known);
+        if (!own && setting_price_varies(s)) {
+            continue; /* fixed point and a matrix may not allow a step that long */
+        }
+        if (!own || (!known && !contacts)) {
+            c->end = own ? UNPRICED : NOT_OWN;
+            c->why = row.cost.why;
+            return;
+        }
+        if (slow) {
             c->end = BROKEN_OFF;
             return;
         }
-        row.cost = setting_price_varies(s) ? trial_cost(t, s, row.pace, &own) : plain;
-        row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)), &known);
-        row.result =
-            own && (known || contacts) ? trial_run(t, s, row.pace) : (trial_result){.ran = false};
+        row.result = trial_run(t, s, row.pace);
         if (!row.result.ran || !row.result.usable) {
-            continue; /* fixed point and a matrix may not allow a step that long */
+            continue;
         }
         if (contacts) {
             price_by_evaluations(&row);
@@ -115,6 +115,7 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
         stalled = row.result.error > FALLS * before ? stalled + 1 : 0;
         before = number_least(before, row.result.error);
     }
+    c->end = own ? TRIED : NOT_OWN;
 }
 
 /* --- all of them -------------------------------------------------------------------------------------*/
@@ -132,9 +133,7 @@ static bool work(void *context, uint64_t point, FILE *out, FILE *reason) {
     const table_work *w = context;
     climbed *c = alloc(1, sizeof *c);
     (void)reason;
-    const double before = w->trials->operations;
     climb(w->trials, w->request, &w->setting[point], w->request->operations / w->count, c);
-    c->operations = w->trials->operations - before;
     const size_t size = offsetof(climbed, row) + (size_t)c->count * sizeof c->row[0];
     const bool good = fwrite(c, 1, size, out) == size;
     free(c);
@@ -156,7 +155,6 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
     made->broken_off += c->end == BROKEN_OFF;
     made->unpriced += c->end == UNPRICED;
     made->why = c->end == UNPRICED ? c->why : made->why;
-    w->trials->operations += c->operations;
     free(c);
     return good;
 }
@@ -249,8 +247,7 @@ void three_rows_make(three_rows *t, const three_rows_request *w) {
         .spacing = ratio_of(ratio_times(SPACING * many, w->step)),
         .records = (int)(pairs / many),
         .by = {.steps = 8 * many, .method = w->method, .order = w->order, .limit = w->limit},
-        .plain = &w->plain,
-        .priced_step = w->priced_step};
+        .plain = &w->plain};
     t->trial.reliable = trial_begin(&t->trial, &request) && t->trial.reliable;
     for (int i = 0; i < THREE_ROWS && t->trial.reliable && !t->trial.stopped; i++) {
         bool own;

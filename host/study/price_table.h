@@ -89,14 +89,13 @@ enum { THREE_ROWS = 3 };
 typedef struct three_rows_request {
     const trial_source *source; /* has one point */
     const cost_board *board;
-    setting setting;         /* the setting of the run, in the number type of the rows */
-    image_settings plain;    /* settings of the reference's image */
-    wh_method method;        /* the reference's method */
-    int order;               /* the order by which the reference's error falls */
-    double limit;            /* `limit` of reference_steps */
-    whole_ratio step;        /* step of the run, s */
-    whole_ratio priced_step; /* `priced_step` of trial_request */
-    uint64_t steps;          /* number of steps of the run */
+    setting setting;      /* the setting of the run, in the number type of the rows */
+    image_settings plain; /* settings of the reference's image */
+    wh_method method;     /* the reference's method */
+    int order;            /* the order by which the reference's error falls */
+    double limit;         /* `limit` of reference_steps */
+    whole_ratio step;     /* step of the run, s */
+    uint64_t steps;       /* number of steps of the run */
 } three_rows_request;
 
 typedef struct three_rows {

@@ -68,17 +68,12 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
             good = enter(r, now, i, what, &d);
         }
     }
-    uint64_t most;
-    const bool matrix =
-        im->list[IMAGE_MATRIX] != NULL; /* a step then evaluates only the matrix's list */
-    const uint64_t evaluations = matrix ? kind->steps(run) : kind->evaluations(run, &most);
-    d.operations =
-        (double)evaluations * (double)im->list[matrix ? IMAGE_MATRIX : IMAGE_STEP]->count;
     const double time_s = ratio_times(kind->steps(run), im->step);
     d.evaluations = time_s > 0.0 ? c.in_steps / time_s : 0.0;
     d.evaluations_most = im->contacts > 0 ? c.most
-                         : matrix         ? 1.0
-                                          : (double)wh_methods[im->settings.method].stages;
+                         : im->list[IMAGE_MATRIX] != NULL
+                             ? 1.0
+                             : (double)wh_methods[im->settings.method].stages;
     d.usable = good && (kind->saturated == NULL || kind->saturated(run) == 0);
     kind->stop(run);
     records_close(now);

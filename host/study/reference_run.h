@@ -79,7 +79,6 @@ typedef struct deviation {
     double error; /* largest error of all records; if unusable, of the records before the stop */
     int column;   /* the column with the largest error */
     double known; /* the reference's error in that column; a deviation near it is only a bound */
-    double operations;  /* operations of the lists that were evaluated */
     double evaluations; /* evaluations of the accelerations or the matrix, per simulated second */
     double evaluations_most; /* most evaluations in one step */
 } deviation;

@@ -220,8 +220,6 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 #define SURELY 10.0
 /* A run with a larger error, as a part of the largest value, is useless. */
 #define USABLE 1.0
-/* If a scene has no step in fixed point, a tenth of the step is tried, up to this many times. */
-enum { FINER_MOST = 3 };
 
 const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
     const double value = ratio_times(1, time);
@@ -377,8 +375,7 @@ bool trial_begin(trials *t, const trial_request *w) {
     *t = (trials){.request = *w,
                   .place = alloc(points, sizeof *t->place),
                   .image = alloc(points, sizeof(image *)),
-                  .reference = alloc(points, sizeof(reference *)),
-                  .planned = alloc(points, sizeof(trial_planned))};
+                  .reference = alloc(points, sizeof(reference *))};
     for (int p = 0; p < points; p++) {
         t->image[p] = w->source->make(w->source->context, p, &plain, NULL, NULL);
         if (t->image[p] == NULL) {
@@ -418,66 +415,42 @@ static void drop(image *im) {
 }
 
 /* Adds the step in fixed point to an image; NULL, with the image freed, if there is no such step. Undeclared ranges come from a
- * run in double to the end, whose operations are counted. */
-static image *in_fixed_point(trials *t, image *im) {
+ * run in double to the end. */
+static image *in_fixed_point(image *im) {
     diags *unsaid = diags_new();
     im->fixed = fixed_plan_make(im, false, unsaid);
     diags_free(unsaid);
-    t->operations += (double)im->steps * (double)im->list[IMAGE_STEP]->count *
-                     wh_methods[im->settings.method].stages;
     if (im->fixed == NULL) {
-        drop(im);
+        image_free(im);
         return NULL;
     }
     return im;
 }
 
-/* The image of a point in fixed point. It is stored, because it is first priced and then run. */
-static image *kept(trials *t, int point, deviation_pace pace) {
-    trial_planned *k = &t->planned[point];
-    image *im = k->pace.steps == pace.steps && k->pace.records == pace.records ? k->image : NULL;
-    k->image = im != NULL ? NULL : k->image;
-    return im;
-}
-
-static void keep(trials *t, int point, deviation_pace pace, image *im) {
-    drop(t->planned[point].image);
-    t->planned[point] = (trial_planned){im, pace};
-}
-
-static image *make_at(const trials *t, int point, const setting *s, const char *step,
-                      const char *until) {
-    return t->request.source->make(t->request.source->context, t->place[point], s, step, until);
-}
-
-static image *image_of(trials *t, int point, const setting *s, deviation_pace pace) {
+static image *image_of(const trials *t, int point, const setting *s, deviation_pace pace) {
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
+    const trial_request *w = &t->request;
+    const bool fixed = setting_is_fixed(s);
     trial_time(trial_step(t, pace), step);
-    if (!setting_is_fixed(s)) {
-        const whole_ratio spacing = t->request.spacing;
-        snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)t->request.records, spacing));
-        return make_at(t, point, s, step, until);
+    if (fixed) {
+        trial_until(t, until);
+    } else {
+        snprintf(until, sizeof until, "%.17g", ratio_times((uint64_t)w->records, w->spacing));
     }
-    image *im = kept(t, point, pace);
-    if (im == NULL) {
-        im = make_at(t, point, s, step, trial_until(t, until));
-        im = im != NULL ? in_fixed_point(t, im) : NULL;
-    }
-    return im;
+    image *im = w->source->make(w->source->context, t->place[point], s, step, until);
+    return im != NULL && fixed ? in_fixed_point(im) : im;
 }
 
 void trial_end(trials *t) {
     for (int p = 0; t->image != NULL && p < t->points; p++) {
         reference_free(t->reference[p]);
         image_free(t->image[p]);
-        drop(t->planned[p].image);
     }
     free(t->place);
     free(t->still);
     free(t->reference);
     free(t->image);
-    free(t->planned);
 }
 
 /* --- trials ----------------------------------------------------------------------------------------*/
@@ -511,7 +484,6 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
         }
         const deviation d = deviation_measure(t->reference[p], im, s->number, pace, what);
         drop(im);
-        t->operations += d.operations;
         if (interrupted) {
             t->stopped = true;
             return (trial_result){.ran = false};
@@ -538,61 +510,21 @@ static cost price_of(const trials *t, const setting *s, const image *im) {
     return cost_of(&priced, t->request.board, setting_cost_number(s));
 }
 
-static image *priced_image(trials *t, int point, const setting *s, deviation_pace pace) {
-    char step[TRIAL_TIME];
-    const trial_request *w = &t->request;
-    return w->priced_step.numerator == 0 || setting_price_varies(s)
-               ? image_of(t, point, s, pace)
-               : make_at(t, point, s, trial_time(w->priced_step, step), NULL);
-}
-
-cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
+cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *own) {
     cost dearest = {0};
     *own = true;
     for (int p = 0; p < t->points; p++) {
-        image *im = priced_image(t, p, s, pace);
-        if (im == NULL && setting_price_varies(s) &&
-            !setting_is_fixed(s)) { /* a step that long may have no matrix: try the scene's step */
-            im = make_at(t, p, s, NULL, NULL);
-        }
+        image *im = image_of(t, p, s, pace);
         if (im == NULL) {
             *own = !setting_may_be_refused(&s->image) && !setting_is_fixed(s);
             return (cost){.why = "it cannot be derived"};
         }
         *own = *own && setting_is_own(s, im);
         const cost c = *own ? price_of(t, s, im) : (cost){.why = ""};
-        if (setting_is_fixed(s)) {
-            keep(t, p, pace, im);
-        } else {
-            drop(im);
-        }
+        drop(im);
         if (p == 0 || c.instructions_worst.most > dearest.instructions_worst.most) {
             dearest = c;
         }
     }
     return dearest;
-}
-
-bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace) {
-    return setting_is_fixed(s) && t->planned_most > 0.0 &&
-           trial_operations(t, s, pace) > t->planned_most;
-}
-
-cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own) {
-    if (trial_is_slow_to_plan(t, s, pace)) {
-        *own = true;
-        return (cost){.why = "the run that finds the ranges takes too long: raise --effort"};
-    }
-    cost c = trial_cost(t, s, pace, own);
-    for (int i = 0;
-         i < FINER_MOST && setting_is_fixed(s) && !*own && !trial_is_slow_to_plan(t, s, pace);
-         i++) {
-        if (pace.records % 10U == 0) {
-            pace.records /= 10U;
-        } else {
-            pace.steps *= 10U;
-        }
-        c = trial_cost(t, s, pace, own);
-    }
-    return c;
 }

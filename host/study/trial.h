@@ -82,14 +82,7 @@ typedef struct trial_request {
     int records;         /* number of records after the start */
     reference_steps by;  /* the steps of the references */
     const image_settings *plain; /* settings of the references' images; NULL: the default ones */
-    /* if possible, only this step is priced, and its price is used for all steps; 0: each step is priced */
-    whole_ratio priced_step;
 } trial_request;
-
-typedef struct trial_planned {
-    image *image;
-    deviation_pace pace;
-} trial_planned;
 
 typedef struct trials {
     trial_request request;
@@ -97,18 +90,15 @@ typedef struct trials {
     int *place;    /* [points] number of each point in the source */
     char *still;   /* the options of the omitted points: " --set M=0,"; or NULL */
     image **image; /* [points] images of the references */
-    reference **reference;  /* [points] */
-    trial_planned *planned; /* [points] images in fixed point, stored between pricing and running */
-    int worst;              /* the point whose reference ends first, or is least accurate */
-    int records;            /* records after the start for which all references are trusted */
+    reference **reference; /* [points] */
+    int worst;             /* the point whose reference ends first, or is least accurate */
+    int records;           /* records after the start for which all references are trusted */
     deviation_of_what what;
     double
         tolerated; /* with --of: an error up to this limit is usable even if the values are smaller */
-    double planned_most; /* most operations to find ranges for fixed point; 0: no limit */
     bool reliable;       /* false: the reference of some point is not reliable */
     bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
-    double operations; /* operations of all trials so far */
 } trials;
 
 /* The results of one setting at one step. */
@@ -133,12 +123,8 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
 /* Estimated operations, without those of events. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
 /* The setting's cost at the most expensive point. *own: false if the setting equals another (setting_is_own()), or the scene
- * refuses it. */
-cost trial_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
-/* Like trial_cost(); but if the scene refuses this step, as in fixed point, takes the first finer step that it accepts. */
-cost trial_any_cost(trials *t, const setting *s, deviation_pace pace, bool *own);
-/* Would the search for the ranges of fixed point take more than t->planned_most operations? */
-bool trial_is_slow_to_plan(const trials *t, const setting *s, deviation_pace pace);
+ * refuses it, perhaps only with this step (setting_price_varies()). In fixed point this takes as long as a run. */
+cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *own);
 
 const char *trial_place(const trials *t, int point);
 whole_ratio trial_step(const trials *t, deviation_pace pace);

@@ -210,8 +210,8 @@ TEST(price, decimals_cost_nothing) {
 }
 
 /* === suite price_dearest ====================================================================== */
-/* The cost of a setting in trials (host/study/trial.h): the maximum over all places, finer steps if a coarse step
- * fails, and settings without an image. */
+/* The cost of a setting in trials (host/study/trial.h): the maximum over all places, and settings and steps
+ * that a scene refuses. */
 
 /* Three motions of different cost. Only the last one is linear. */
 static const char *const springs[] = {
@@ -288,108 +288,45 @@ TEST(price_dearest, the_dearest_of_all_places) {
     }
 }
 
+/* Refuses fixed point and matrices if the step is longer than longest_s. */
 static double longest_s;
 static bool none_longer(const setting *s, double step_s) {
-    (void)s;
-    return step_s <= longest_s;
+    return !setting_price_varies(s) || step_s <= longest_s;
 }
 
-/* If fixed point is not possible with a step, the trial must try a tenth, a hundredth and a thousandth of it. */
-TEST(price_dearest, finer_steps_are_asked_for) {
-    static const struct {
-        deviation_pace from;
-        double longest_s;
-        deviation_pace at;
-        int asked;
-        bool own;
-    } rows[] = {{{1, 50}, 2.0, {1, 50}, 1, true},      {{1, 50}, 0.011, {1, 5}, 2, true},
-                {{1, 50}, 0.0011, {10, 5}, 3, true},   {{1, 50}, 0.00011, {100, 5}, 4, true},
-                {{1, 50}, 0.000011, {1, 1}, 4, false}, {{2, 1}, 0.00015, {20, 1}, 2, true},
-                {{1, 20}, 0.005, {1, 2}, 2, true}};
-    const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+/* If fixed point or a matrix is not possible with a long step, the table must begin with the longest possible step.
+ * Without any possible step the setting must not count. */
+TEST(price_dearest, steps_that_are_refused_are_left_out) {
+    static const double longest[] = {2.0, 0.011, 0.0011, 0.00011, 1e-12};
+    int settings = 0;
+    for (size_t i = 0; i < sizeof longest / sizeof longest[0]; i++) {
+        const table_request w = {.operations = 1e8, .periods = 1, .workers = 1};
+        double first_s[2] = {0.0, 0.0}; /* longest step in fixed point and by a matrix */
         priced p;
         priced_open(&p, springs, 1);
         TEST_ASSERT_TRUE(
             priced_begin(&p, "mps2-an386", spacing_price_dearest, PRICE_DEAREST_RECORDS, NULL));
-        longest_s = rows[i].longest_s;
+        longest_s = longest[i];
         p.takes = none_longer;
-        bool own;
-        int asked = p.asked;
-        const cost c = trial_any_cost(&p.trial, &in_fixed, rows[i].from, &own);
-        TEST_ASSERT_EQUAL_INT(rows[i].asked, p.asked - asked);
-        TEST_ASSERT_EQUAL_INT(rows[i].own, own);
-        if (own) {
-            /* the trial has kept the result of this step, so it does not run the step again */
-            asked = p.asked;
-            const trial_result r = trial_run(&p.trial, &in_fixed, rows[i].at);
-            TEST_ASSERT_TRUE(r.ran);
-            TEST_ASSERT_EQUAL_INT(asked, p.asked);
-            const cost same = trial_cost(&p.trial, &in_fixed, rows[i].at, &own);
-            TEST_ASSERT_EQUAL_INT(asked + 1, p.asked);
-            expect_same(&same, &c, "by the step that it takes");
-            (void)trial_run(&p.trial, &in_fixed,
-                            (deviation_pace){rows[i].at.steps * 2, rows[i].at.records});
-            TEST_ASSERT_EQUAL_INT(asked + 2, p.asked);
+        table *made = table_new(&p.trial, &w);
+        for (int k = 0; k < made->count; k++) {
+            const table_row *row = &made->row[k];
+            if (setting_price_varies(&row->setting)) {
+                double *first = &first_s[setting_is_fixed(&row->setting) ? 0 : 1];
+                *first = fmax(*first, ratio_times(1, trial_step(&p.trial, row->pace)));
+            }
         }
-        /* a setting in float must ask for one image only */
-        const setting rk4 = priced_setting(WH_RK4, &engine_float);
-        longest_s = 1e-9;
-        asked = p.asked;
-        const cost none = trial_any_cost(&p.trial, &rk4, rows[i].from, &own);
-        TEST_ASSERT_EQUAL_INT(1, p.asked - asked);
-        TEST_ASSERT_TRUE(own && none.instructions.basis == COST_NOT_KNOWN);
-        TEST_ASSERT_EQUAL_STRING("it cannot be derived", none.why);
+        for (int k = 0; k < 2;
+             k++) { /* the coarsest step of the table is 0.1 s, the finest 4e-11 s */
+            TEST_ASSERT_TRUE(first_s[k] <= longest_s);
+            TEST_ASSERT_EQUAL_INT(longest_s > 1e-5, first_s[k] > fmin(longest_s / 3.0, 0.01));
+        }
+        settings = i == 0 ? made->settings : settings;
+        /* fixed point, and two matrices in three number types */
+        TEST_ASSERT_EQUAL_INT(longest_s > 1e-5 ? settings : settings - 7, made->settings);
+        table_free(made);
         priced_close(&p);
     }
-}
-
-/* To find ranges, the scene must run. A finer step is skipped if its run would take too long. */
-TEST(price_dearest, no_finer_step_than_may_be_planned) {
-    const setting in_fixed = priced_setting(WH_RK4, &engine_fixed);
-    priced p;
-    priced_open(&p, springs, 1);
-    TEST_ASSERT_TRUE(
-        priced_begin(&p, "mps2-an386", spacing_price_dearest, PRICE_DEAREST_RECORDS, NULL));
-    longest_s = 1e-9;
-    p.takes = none_longer;
-    p.trial.planned_most = trial_operations(&p.trial, &in_fixed, (deviation_pace){10, 5});
-    const int asked = p.asked;
-    bool own;
-    (void)trial_any_cost(&p.trial, &in_fixed, (deviation_pace){1, 50}, &own);
-    TEST_ASSERT_FALSE(own);
-    /* the next finer step is requested before its cost is known */
-    TEST_ASSERT_EQUAL_INT(4, p.asked - asked);
-    priced_close(&p);
-}
-
-/* Refuses a matrix if its step is longest_s or longer. */
-static bool no_long_matrix(const setting *s, double step_s) {
-    return s->image.matrix == MATRIX_NONE || step_s < longest_s;
-}
-
-/* If a matrix is not possible with a long step, the price with the scene's own step counts. */
-TEST(price_dearest, matrices_are_priced_by_a_step_that_they_take) {
-    priced p;
-    priced_open(&p, springs, 1);
-    TEST_ASSERT_TRUE(
-        priced_begin(&p, "mps2-an386", spacing_price_dearest, PRICE_DEAREST_RECORDS, NULL));
-    p.takes = no_long_matrix;
-    setting matrix = priced_setting(WH_RK4, &engine_float);
-    matrix.image.matrix = MATRIX_EXACT;
-    longest_s = 0.001;
-    bool own = false;
-    int asked = p.asked;
-    const cost c = trial_cost(&p.trial, &matrix, (deviation_pace){1, 1}, &own);
-    const cost scenes = cost_at(&p, 0, &matrix, NULL);
-    TEST_ASSERT_TRUE(own);
-    TEST_ASSERT_EQUAL_INT(asked + 2, p.asked);
-    expect_same(&scenes, &c, "a matrix by its own step");
-    TEST_ASSERT_FALSE(trial_run(&p.trial, &matrix, (deviation_pace){1, 1}).ran);
-    longest_s = 0.0;
-    (void)trial_cost(&p.trial, &matrix, (deviation_pace){1, 1}, &own);
-    TEST_ASSERT_FALSE(own);
-    priced_close(&p);
 }
 
 TEST(price_dearest, contacts_are_left_out_where_that_is_asked) {
