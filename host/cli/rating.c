@@ -1,5 +1,6 @@
 #include "rating.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,40 +48,109 @@ static const char *refused(const rating_request *w) {
                                    : NULL;
 }
 
+/* RECORDS_MOST: most records of the run. SPACING: a record's spacing is a multiple of this many steps. */
+enum { ROWS = 3, RECORDS_MOST = 20000, SPACING = 2 };
+/* Computed steps for each step of the run: ROWS_STEPS in the rows, REFERENCE_STEPS in the reference's two runs. */
+#define ROWS_STEPS (0.5 + 1.0 + 2.0)
+#define REFERENCE_STEPS (4.0 + 2.0)
+
+static double operations_of(const rating_request *w, const setting *s, uint64_t steps) {
+    const double runs =
+        setting_is_fixed(s) ? 2.0 : 1.0; /* in fixed point a first run finds the ranges */
+    const double each = ROWS_STEPS * runs * wh_methods[s->image.method].stages +
+                        REFERENCE_STEPS * wh_methods[step_doubling_method(w->image)].stages;
+    return (double)steps * each * (double)engine_evaluation(w->image);
+}
+
+enum { NUMBER = 24 };
+static const char *bytes_text(const cost_figure *f, char text[NUMBER]) {
+    snprintf(text, NUMBER, f->basis == COST_NOT_KNOWN ? "-" : "%.0f", f->value);
+    return text;
+}
+
+static void print_row(FILE *out, const trials *t, const table_row *row) {
+    char error[NUMBER];
+    char price[NUMBER];
+    char flash[NUMBER];
+    char ram[NUMBER];
+    char stack[NUMBER];
+    char name[TRIAL_NAME];
+    const trial_result *r = &row->result;
+    const cost *c = &row->cost;
+    snprintf(error, sizeof error, "%s%.2e", r->bound ? "<" : "", r->error);
+    snprintf(price, sizeof price, row->price.basis != COST_NOT_KNOWN ? "%.3g" : "-",
+             row->price.value);
+    fprintf(out, "  %-10.6g %9s  %10s  %8s  %6s  %8s   %s\n",
+            ratio_times(1, trial_step(t, row->pace)),
+            !r->ran      ? "-"
+            : !r->usable ? "above 1"
+                         : error,
+            price, bytes_text(&c->flash_bytes, flash), bytes_text(&c->ram_bytes, ram),
+            bytes_text(&c->stack_bytes, stack),
+            r->ran ? trial_column(t, r->column, name) : "no such step");
+}
+
+/* Prints the rows of a run of `steps` steps, at least two: error and cost at twice its step, at its step and at half of
+ * it. This is a short form of the table of `whirl price`. The reference is a run in double at a quarter of the step. */
+static void print_rows(FILE *out, const rating_request *w, const pricing_scene *p, const setting *s,
+                       const image_settings *plain, uint64_t steps) {
+    const uint64_t pairs = steps / SPACING;
+    const uint64_t many = 1 + (pairs - 1) / RECORDS_MOST;
+    const trial_request request = {.source = &p->source,
+                                   .board = w->board,
+                                   .spacing = ratio_of(ratio_times(SPACING * many, w->image->step)),
+                                   .records = (int)(pairs / many),
+                                   .by = {.steps = 8 * many,
+                                          .method = step_doubling_method(w->image),
+                                          .order = step_doubling_order(w->image),
+                                          .limit = HORIZON_TOLERANCE},
+                                   .plain = plain};
+    trials t;
+    table_row row[ROWS];
+    const bool good = trial_begin(&t, &request) && t.reliable;
+    for (int i = 0; i < ROWS && good && !t.stopped; i++) {
+        bool own;
+        row[i] = (table_row){.setting = *s, .pace = {many << i, 1}};
+        row[i].cost = trial_cost(&t, s, row[i].pace, &own);
+        row[i].price = table_price_of(&row[i].cost, ratio_times(1, trial_step(&t, row[i].pace)));
+        row[i].result = trial_run(&t, s, row[i].pace);
+    }
+    if (t.stopped) {
+        say_none(out, w, "interrupted", "price");
+    } else if (!good) {
+        say_none(out, w, "no reference is accurate enough", NULL);
+    } else {
+        const table_price *price = &row[0].price;
+        fprintf(out, "accuracy and cost  in %s on %s (%s), until t = %.6g s; costs are %s\n",
+                s->number->name, w->board->name, w->board->core, trial_horizon_s(&t),
+                cost_basis_words[price->basis]);
+        fprintf(out, "  %-10s %9s  %10s  %8s  %6s  %8s   worst\n", "step, s", "error",
+                table_heads[price->unit], "flash, B", "RAM, B", "stack, B");
+        for (int i = 0; i < ROWS; i++) {
+            print_row(out, &t, &row[i]);
+        }
+    }
+    trial_end(&t);
+}
+
 static void say_rows(FILE *out, const rating_request *w, const simulation_trust *trust) {
-    const grid none = {0};
-    pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
-    image_settings plain;
-    step_doubling_plain(w->settings, &plain);
-    pricing_scene_lend(p, w->settings, w->image);
-    pricing_scene_lend(p, &plain, w->plain);
-    three_rows_request request = {.source = &p->source,
-                                  .board = w->board,
-                                  .setting = {*w->settings, number_of(w)},
-                                  .plain = plain,
-                                  .method = step_doubling_method(w->image),
-                                  .order = step_doubling_order(w->image),
-                                  .limit = HORIZON_TOLERANCE,
-                                  .step = w->image->step};
-    const double steps = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
-    request.steps = (uint64_t)number_least(steps, (double)w->image->steps);
-    if (request.steps < 2) {
+    const setting s = {*w->settings, number_of(w)};
+    const double trusted = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
+    const uint64_t steps = (uint64_t)number_least(trusted, (double)w->image->steps);
+    if (steps < 2) {
         say_none(out, w, "the run is trusted for fewer than two steps", "price");
-    } else if (three_rows_operations(&request, w->image) > 0.5 * trust->left) {
+    } else if (operations_of(w, &s, steps) > 0.5 * trust->left) {
         say_none(out, w, "the rows take more than a second", "price");
     } else {
-        three_rows rows;
-        three_rows_make(&rows, &request);
-        if (rows.trial.stopped) {
-            say_none(out, w, "interrupted", "price");
-        } else if (!rows.trial.reliable) {
-            say_none(out, w, "no reference is accurate enough", NULL);
-        } else {
-            three_rows_print(out, &rows);
-        }
-        three_rows_end(&rows);
+        const grid none = {0};
+        pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
+        image_settings plain;
+        step_doubling_plain(w->settings, &plain);
+        pricing_scene_lend(p, w->settings, w->image);
+        pricing_scene_lend(p, &plain, w->plain);
+        print_rows(out, w, p, &s, &plain, steps);
+        pricing_scene_free(p);
     }
-    pricing_scene_free(p);
 }
 
 void rating_say(FILE *out, const rating_request *w, const simulation_trust *trust) {
@@ -128,21 +198,40 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
-/* Estimates the operations of a run with the allowed error, from a run with this pace and error. Assumes that the error
- * falls four orders faster than the method's order, which is roughly the fastest case. */
-static double operations_for(trials *t, const setting *s, deviation_pace pace, double error) {
-    const double order = wh_methods[s->image.method].order + 4.0;
-    return trial_operations(t, s, pace) * number_power(error / t->tolerated, 1.0 / order);
+/* Reports that no pace satisfies the error. `least`: the least error of all tries; `rounds`: shorter steps do not reduce it;
+ * `slow`: NULL, or the first pace that was not tried, because all tries would take this many operations. */
+static void say_no_pace(const trials *t, const setting *s, double least, bool rounds,
+                        const deviation_pace *slow, double operations) {
+    char text[TRIAL_TIME];
+    char smallest[60] = "all failed";
+    char why[160] = "";
+    if (least < (double)INFINITY) {
+        snprintf(smallest, sizeof smallest, "the smallest is %.2e %s", least, trial_unit(t));
+    }
+    if (rounds) {
+        snprintf(why, sizeof why,
+                 ", and shorter steps do not reduce the error, because of round-off");
+    } else if (slow != NULL) {
+        snprintf(
+            why, sizeof why,
+            "; steps below %s s need %.1e operations or more, and the limit of all tries together "
+            "is %.1e",
+            trial_time(trial_step(t, *slow), text), operations, TRIES_OPERATIONS);
+    }
+    fprintf(stderr,
+            "whirl run: error: no tried step stays within --error: %s%s\n"
+            "hint: %s%s; `whirl choose` tries every setting\n",
+            smallest, why, rounds ? "a larger --error" : "a --method of higher order",
+            s->number == &engine_float ? ", or --number double" : "");
 }
 
 /* The index of the first pace that satisfies the error; *longest: it is the first pace that was tried. Returns -1, and
  * reports the reason, if there is none. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
-    double least = -1.0;
-    /* operations of all tried runs; after a run that is too expensive, of that run alone */
-    double operations = 0.0;
-    bool ends_early = false;
+    double least = (double)INFINITY;
+    double operations = 0.0; /* of all tried runs */
+    bool slow = false;
     int falls = 0; /* tries with an error below 0.7 times the least error before */
     /* tries since the last fall; after three falls, two such tries show round-off */
     int stuck = 0;
@@ -152,56 +241,27 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
         if (pace->records > (uint64_t)t->records) {
             continue;
         }
-        const double more = trial_operations(t, s, *pace);
-        ends_early = operations + more > TRIES_OPERATIONS;
-        if (ends_early) {
-            operations = more;
+        operations += trial_operations(t, s, *pace);
+        slow = operations > TRIES_OPERATIONS;
+        if (slow) {
             break;
         }
-        operations += more;
         *r = trial_run(t, s, *pace);
-        if (r->ran && r->usable && r->error <= t->tolerated) {
+        const bool usable = r->ran && r->usable;
+        if (usable && r->error <= t->tolerated) {
             return i;
         }
-        *longest = false;
-        if (r->ran && r->usable && s->image.matrix == MATRIX_NONE &&
-            operations_for(t, s, *pace, r->error) > TRIES_OPERATIONS) {
-            ends_early = true;
-            operations = operations_for(t, s, *pace, r->error);
-            *pace = pace_at(i + 1);
-            least = least < 0.0 || r->error < least ? r->error : least;
-            break;
-        }
-        const bool fell = r->ran && r->usable && (least < 0.0 || r->error < 0.7 * least);
+        const bool fell = usable && r->error < 0.7 * least;
         falls += fell ? 1 : 0;
         stuck = fell ? 0 : stuck + 1;
-        least = r->ran && r->usable && (least < 0.0 || r->error < least) ? r->error : least;
+        least = usable ? number_least(least, r->error) : least;
+        *longest = false;
     }
     if (t->stopped) {
         fputs("whirl run: interrupted\n", stderr);
-        return -1;
+    } else {
+        say_no_pace(t, s, least, falls >= 3 && stuck >= 2, slow ? pace : NULL, operations);
     }
-    char smallest[60] = "all failed";
-    if (least >= 0.0) {
-        snprintf(smallest, sizeof smallest, "the smallest is %.2e %s", least, trial_unit(t));
-    }
-    char text[TRIAL_TIME];
-    char early[160] = "";
-    const bool rounds = falls >= 3 && stuck >= 2;
-    if (ends_early) {
-        snprintf(
-            early, sizeof early,
-            "; steps below %s s need %.1e operations or more, and the limit of all tries together "
-            "is %.1e",
-            trial_time(trial_step(t, *pace), text), operations, TRIES_OPERATIONS);
-    }
-    fprintf(stderr,
-            "whirl run: error: no tried step stays within --error: %s%s\n"
-            "hint: %s%s; `whirl choose` tries every setting\n",
-            smallest,
-            rounds ? ", and shorter steps do not reduce the error, because of round-off" : early,
-            rounds ? "a larger --error" : "a --method of higher order",
-            s->number == &engine_float ? ", or --number double" : "");
     return -1;
 }
 

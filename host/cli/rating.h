@@ -1,4 +1,4 @@
-/* rating.h: the rows of accuracy and cost at the end of a run (host/study/price_table.h), and the step for `--error`. */
+/* rating.h: the rows of accuracy and cost at the end of a run (docs/price.md), and the step for `--error`. */
 #ifndef CLI_RATING_H
 #define CLI_RATING_H
 

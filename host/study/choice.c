@@ -196,11 +196,6 @@ measured_end choice_counted(trials *t, table *made, const choice_request *w,
 
 /* --- for people ------------------------------------------------------------------------------------*/
 
-/* Are this board's cycles counted? If they are only a range, rows are compared by their instructions. */
-static bool has_cycles(const cost *c) {
-    return c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
-}
-
 /* Room for an error in words: "0.1 m", or "0.001 of the largest value". */
 enum { AMOUNT = 64 };
 static const char *amount(const trials *t, double error, char text[AMOUNT]) {
@@ -230,7 +225,7 @@ static void print_figure(FILE *out, const char *name, const cost_figure *f, cons
 
 /* The largest number of cycles or instructions that a step may take, by the scene's declarations; 0: unknown. */
 static double declared_of(const table_row *row) {
-    return has_cycles(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
+    return cost_has_cycles(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
 }
 
 static void print_load(FILE *out, const choice_request *w, const table_row *row,
@@ -264,7 +259,7 @@ static void print_load(FILE *out, const choice_request *w, const table_row *row,
     if (declared_of(row) > 0.0) {
         fprintf(out, "; %.3g %% from the declared bound",
                 100.0 * by->load_most * declared_of(row) /
-                    (has_cycles(&row->cost) ? f->most : row->cost.instructions_worst.most));
+                    (cost_has_cycles(&row->cost) ? f->most : row->cost.instructions_worst.most));
     }
     fputc('\n', out);
 }
@@ -280,7 +275,7 @@ static void print_run(FILE *out, const table_row *row) {
         fprintf(out,
                 "  declared    at most %.0f %s in a step, from the declared bounds "
                 "(docs/dev/events.md)\n",
-                declared_of(row), has_cycles(&row->cost) ? "cycles" : "instructions");
+                declared_of(row), cost_has_cycles(&row->cost) ? "cycles" : "instructions");
     } else {
         fputs("  declared    not known: this board does not count the parts of a step separately\n",
               out);
@@ -292,7 +287,7 @@ static void print_answer(FILE *out, const trials *t, const choice_request *w, co
     char text[AMOUNT];
     char name[TRIAL_NAME];
     const cost *c = &row->cost;
-    const bool cycles = has_cycles(c);
+    const bool cycles = cost_has_cycles(c);
     const char *unit = cycles ? "cycles" : "instructions";
     const char *at = trial_place(t, row->result.point);
     const uint64_t substeps = table_substeps(&w->table, row);

@@ -359,6 +359,10 @@ static cost_figure ranged(const cost_board *board, const cost_figure *instructio
                                instructions->most * board->cycles_most};
 }
 
+bool cost_has_cycles(const cost *c) {
+    return c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
+}
+
 bool cost_ranges(const cost_board *board, cost *c) {
     if (board->cycles == COST_RANGE) {
         c->cycles = ranged(board, &c->instructions);

@@ -161,6 +161,8 @@ typedef struct cost {
  * depends on the motion. */
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
+/* Does a cost have cycles, and not only a range of them? */
+bool cost_has_cycles(const cost *c);
 /* Can the scene take the steps of the image's method? */
 bool cost_takes_method(const image *im);
 cost_figure cost_known(double value, cost_basis basis);

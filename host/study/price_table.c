@@ -44,10 +44,9 @@ uint64_t table_substeps(const table_request *w, const table_row *row) {
     return w->rate_Hz > 0.0 ? row->pace.steps / w->periods : 0;
 }
 
-table_price table_price_of(const cost *c, double step_s, bool *known) {
-    const bool cycles = c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
+table_price table_price_of(const cost *c, double step_s) {
+    const bool cycles = cost_has_cycles(c);
     const cost_figure *f = cycles ? &c->cycles : &c->instructions;
-    *known = f->basis != COST_NOT_KNOWN && f->basis != COST_RANGE;
     return (table_price){cycles ? PRICE_CYCLES : PRICE_INSTRUCTIONS, f->basis, f->value / step_s,
                          f->least / step_s, f->most / step_s};
 }
@@ -78,7 +77,6 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
     table_row row = {.setting = *s};
     for (int rung = 0; table_pace(w, rung, &row.pace) && stalled < PATIENCE && !t->stopped;
          rung++) {
-        bool known;
         const bool slow = trial_operations(t, s, row.pace) > each;
         if (row.pace.records > (uint64_t)t->records) {
             continue;
@@ -88,11 +86,11 @@ static void climb(trials *t, const table_request *w, const setting *s, double ea
             return;
         }
         row.cost = trial_cost(t, s, row.pace, &own);
-        row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)), &known);
+        row.price = table_price_of(&row.cost, ratio_times(1, trial_step(t, row.pace)));
         if (!own && setting_price_varies(s)) {
             continue; /* fixed point and a matrix may not allow a step that long */
         }
-        if (!own || (!known && !contacts)) {
+        if (!own || (row.price.basis == COST_NOT_KNOWN && !contacts)) {
             c->end = own ? UNPRICED : NOT_OWN;
             c->why = row.cost.why;
             return;
@@ -220,92 +218,11 @@ void table_free(table *made) {
     }
 }
 
-/* === three rows =============================================================================== */
-
-enum { FIGURE_TEXT = 64 };
-/* RECORDS_MOST: most records of the run. SPACING: a record's spacing is a multiple of this many steps. */
-enum { RECORDS_MOST = 20000, SPACING = 2 };
-/* Computed steps for each step of the run: ROWS_STEPS in the three rows, REFERENCE_STEPS in the reference's two runs. */
-#define ROWS_STEPS (0.5 + 1.0 + 2.0)
-#define REFERENCE_STEPS (4.0 + 2.0)
-
-double three_rows_operations(const three_rows_request *w, const image *im) {
-    const double runs =
-        setting_is_fixed(&w->setting) ? 2.0 : 1.0; /* in fixed point a first run finds the ranges */
-    const double each = ROWS_STEPS * runs * wh_methods[w->setting.image.method].stages +
-                        REFERENCE_STEPS * wh_methods[w->method].stages;
-    return (double)w->steps * each * (double)engine_evaluation(im);
-}
-
-void three_rows_make(three_rows *t, const three_rows_request *w) {
-    const uint64_t pairs = w->steps / SPACING;
-    const uint64_t many = 1 + (pairs - 1) / RECORDS_MOST;
-    *t = (three_rows){.setting = w->setting};
-    const trial_request request = {
-        .source = w->source,
-        .board = w->board,
-        .spacing = ratio_of(ratio_times(SPACING * many, w->step)),
-        .records = (int)(pairs / many),
-        .by = {.steps = 8 * many, .method = w->method, .order = w->order, .limit = w->limit},
-        .plain = &w->plain};
-    t->trial.reliable = trial_begin(&t->trial, &request) && t->trial.reliable;
-    for (int i = 0; i < THREE_ROWS && t->trial.reliable && !t->trial.stopped; i++) {
-        bool own;
-        t->pace[i] = (deviation_pace){many << i, 1};
-        t->cost[i] = trial_cost(&t->trial, &t->setting, t->pace[i], &own);
-        t->result[i] = trial_run(&t->trial, &t->setting, t->pace[i]);
-    }
-}
-
-void three_rows_end(three_rows *t) { trial_end(&t->trial); }
-
-static const char *bytes_text(const cost_figure *f, char text[FIGURE_TEXT]) {
-    snprintf(text, FIGURE_TEXT, f->basis == COST_NOT_KNOWN ? "-" : "%.0f", f->value);
-    return text;
-}
-
-static void print_short_row(FILE *out, const three_rows *t, int i) {
-    char text[FIGURE_TEXT];
-    char name[TRIAL_NAME] = "";
-    const trial_result *r = &t->result[i];
-    const cost *c = &t->cost[i];
-    const double step_s = ratio_times(1, trial_step(&t->trial, t->pace[i]));
-    bool known;
-    const table_price price = table_price_of(c, step_s, &known);
-    fprintf(out, "  %-10.6g", step_s);
-    if (!r->ran) {
-        fprintf(out, " %9s", "-");
-    } else if (!r->usable) {
-        fprintf(out, " %9s", "above 1");
-    } else {
-        snprintf(text, sizeof text, "%s%.2e", r->bound ? "<" : "", r->error);
-        fprintf(out, " %9s", text);
-    }
-    snprintf(text, sizeof text, known ? "%.3g" : "-", price.value);
-    fprintf(out, "  %10s", text);
-    fprintf(out, "  %8s", bytes_text(&c->flash_bytes, text));
-    fprintf(out, "  %6s", bytes_text(&c->ram_bytes, text));
-    fprintf(out, "  %8s", bytes_text(&c->stack_bytes, text));
-    fprintf(out, "   %s\n", r->ran ? trial_column(&t->trial, r->column, name) : "no such step");
-}
-
-void three_rows_print(FILE *out, const three_rows *t) {
-    const cost_board *board = t->trial.request.board;
-    bool known;
-    const table_price price = table_price_of(&t->cost[0], 1.0, &known);
-    fprintf(out, "accuracy and cost  in %s on %s (%s), until t = %.6g s; costs are %s\n",
-            t->setting.number->name, board->name, board->core, trial_horizon_s(&t->trial),
-            known ? cost_basis_words[price.basis] : "not known");
-    fprintf(out, "  %-10s %9s  %10s  %8s  %6s  %8s   worst\n", "step, s", "error",
-            table_heads[price.unit], "flash, B", "RAM, B", "stack, B");
-    for (int i = 0; i < THREE_ROWS; i++) {
-        print_short_row(out, t, i);
-    }
-}
-
 /* === text ===================================================================================== */
 
 /* --- figures ---------------------------------------------------------------------------------------*/
+
+enum { FIGURE_TEXT = 64 };
 
 /* A letter for each basis. */
 static const char letters[] = "-xpmesr";
@@ -895,11 +812,10 @@ measured_end measured_count(const trials *t, table *made, int row, const table_w
         table_row now = made->row[i];
         const bool alike = is_alike(&now, &counted, by_pace);
         if (alike) {
-            bool known;
             now.cost = counted.cost;
             now.run = counted.run;
             now.counted = true;
-            now.price = table_price_of(&now.cost, ratio_times(1, trial_step(t, now.pace)), &known);
+            now.price = table_price_of(&now.cost, ratio_times(1, trial_step(t, now.pace)));
         }
         if (!alike || status == 0) {
             made->row[kept++] = now;

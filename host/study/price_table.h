@@ -78,39 +78,8 @@ void table_free(table *made);
 /* Sorts the rows by price, and marks the front. */
 void table_sort(table *made);
 
-table_price table_price_of(const cost *c, double step_s, bool *known);
-
-/* === three rows =============================================================================== */
-/* Error and cost of a run at twice its step, at its step and at half of it, a short form of the table of
- * `whirl price`. The reference is a run in double at a quarter of the step. */
-
-enum { THREE_ROWS = 3 };
-
-typedef struct three_rows_request {
-    const trial_source *source; /* has one point */
-    const cost_board *board;
-    setting setting;      /* the setting of the run, in the number type of the rows */
-    image_settings plain; /* settings of the reference's image */
-    wh_method method;     /* the reference's method */
-    int order;            /* the order by which the reference's error falls */
-    double limit;         /* `limit` of reference_steps */
-    whole_ratio step;     /* step of the run, s */
-    uint64_t steps;       /* number of steps of the run */
-} three_rows_request;
-
-typedef struct three_rows {
-    trials trial;
-    setting setting;
-    deviation_pace pace[THREE_ROWS];
-    trial_result result[THREE_ROWS];
-    cost cost[THREE_ROWS];
-} three_rows;
-
-double three_rows_operations(const three_rows_request *w, const image *im);
-/* The run must have at least two steps. Check trial.stopped, then trial.reliable. Call three_rows_end() in any case. */
-void three_rows_make(three_rows *t, const three_rows_request *w);
-void three_rows_print(FILE *out, const three_rows *t);
-void three_rows_end(three_rows *t);
+/* The price of steps of this length; its basis is COST_NOT_KNOWN if the cost is not known. */
+table_price table_price_of(const cost *c, double step_s);
 
 /* "predicted: in nine of ten counted cases within 8 %". Returns text. */
 enum { FIGURE_WORDS = 120 };
