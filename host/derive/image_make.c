@@ -205,67 +205,6 @@ static void *copy(image_draft *d, const void *from, int count, size_t size) {
     return made;
 }
 
-static op_list *take(op_list **list) {
-    op_list *taken = *list;
-    *list = NULL;
-    return taken;
-}
-
-static void take_contacts(image_draft *d, contact_lists *c) {
-    image *im = d->made;
-    char si[DIM_TEXT_SIZE];
-    im->contacts = c->count;
-    im->forced = c->forced;
-    im->held = c->held;
-    im->set_count = c->set_count;
-    im->target = copy(d, c->target, c->set_count, sizeof *c->target);
-    im->contact = image_room(d, c->count, sizeof *im->contact);
-    for (int k = 0; k < c->count; k++) {
-        const contact_row *row = &c->row[k];
-        const contact_statement *from = row->from;
-        const char *gap = row->kind == WH_STOP
-                              ? dimension_unit(row->from->value->dim, false, si, sizeof si)
-                              : "1";
-        im->contact[k] = (image_contact){
-            .kind = row->kind,
-            .word = image_text(d, contact_loosens(from) ? "normal" : contact_word(from->kind)),
-            .undefined = image_text(d, contact_loosens(from) ? "the normal force of this friction"
-                                                             : contact_undefined(from->kind)),
-            .direction = row->direction,
-            .pin = row->pin,
-            .first_set = row->first_set,
-            .sets = row->sets,
-            .unit = image_text(d, gap),
-            .at = image_place(d, row->from->at)};
-    }
-    im->list[IMAGE_SIGNALS] = take(&c->signals);
-    im->list[IMAGE_FORCES] = take(&c->forces);
-    im->list[IMAGE_SETS] = take(&c->sets);
-}
-
-static void take_ledger(image_draft *d, ledger_lists *l) {
-    image *im = d->made;
-    image_ledger *made = &im->ledger;
-    made->kept = true;
-    made->smooth = l->smooth;
-    made->entries = l->entries + im->settings.stabilized;
-    made->accounts = l->accounts;
-    made->inputs = l->inputs;
-    made->turned = l->turned;
-    made->unknown = copy(d, l->unknown, l->accounts, sizeof *l->unknown);
-    made->input = copy(d, l->input, l->inputs, sizeof *l->input);
-    made->entry = image_room(d, l->smooth, sizeof *made->entry);
-    for (int i = 0; i < l->smooth; i++) {
-        const ledger_entry *from = &l->entry[i];
-        made->entry[i] = (image_entry){.kind = from->kind, .account = from->account};
-        if (from->at != NULL) {
-            made->entry[i].at = image_place(d, *from->at);
-        }
-    }
-    im->list[IMAGE_POWERS] = take(&l->powers);
-    im->list[IMAGE_LEVELS] = take(&l->levels);
-}
-
 /* Returns the number in the image of an input of the mechanism. */
 static int input_number(const layout *map, const symbol *input) {
     int number = 0;
@@ -289,33 +228,22 @@ static void take_drives(image_draft *d, const layout *map) {
     }
 }
 
-static void take_program(image_draft *d, program *p) {
+/* Copies the layout of the state. */
+static void copy_layout(image_draft *d, const program *p) {
     image *im = d->made;
     const layout *map = &p->layout;
     im->form = map->form;
     im->coordinates = map->coordinates;
     im->angles = map->angles;
     im->reals = map->reals;
+    im->inputs = map->inputs;
     im->recovered = p->conserved->count;
     im->angle = copy(d, map->angle, map->angles, sizeof *map->angle);
     im->real = copy(d, map->real, map->reals, sizeof *map->real);
-    im->place = copy(d, map->place, p->count, sizeof *map->place);
+    im->place = copy(d, map->place, im->count, sizeof *map->place);
     im->from_momentum =
         copy(d, p->conserved->unknown, im->recovered, sizeof *p->conserved->unknown);
     take_drives(d, map);
-    im->has_integral = p->integral != NULL;
-    im->hash = program_hash(p);
-    im->list[IMAGE_STEP] = take(&p->step);
-    im->list[IMAGE_OBSERVE] = take(&p->observe);
-    im->list[IMAGE_BOOKS] = take(&p->books);
-    im->list[IMAGE_TABLES] = take(&p->tables);
-    if (p->contacts != NULL) {
-        take_contacts(d, p->contacts);
-    }
-    im->ledger.asked = p->ledger_asked;
-    if (p->ledger != NULL) {
-        take_ledger(d, p->ledger);
-    }
 }
 
 /* Makes the requested matrix, if any. Returns the image, or NULL after reporting the reason. */
@@ -332,39 +260,40 @@ static image *with_matrix(image_draft *d, const equations *e, diags *errors) {
 /* As image_make(), but without the variants of other ways of folding. */
 static image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
                          image_use use, diags *errors) {
-    image_settings done = *settings;
     program *p = program_make(e, conserve, settings, errors);
-    if (p == NULL || !program_look_up(p, e, &done, errors)) {
+    if (p == NULL || !program_look_up(p, errors)) {
         program_free(p);
         return NULL;
     }
+    image_draft *d = &p->draft;
+    image *im = d->made;
     /* Lists are scaled for compensated steps only. Three kinds stay unscaled: variants are not run in float, contacts
      * use the same mass matrix, and tables are rounded separately. */
-    if (done.compensated && p->contacts == NULL && done.tables == TABLES_NONE &&
+    if (settings->compensated && im->contacts == 0 && settings->tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
-        op_list_scale(&p->step, op_list_scaling_price(p->step));
+        op_list_scale(&im->list[IMAGE_STEP], op_list_scaling_price(im->list[IMAGE_STEP]));
     }
-    image_draft d = image_draft_new();
-    image *im = d.made;
-    im->settings = done;
-    im->count = p->count;
-    im->inputs = p->layout.inputs;
-    im->outputs = p->outputs;
+    im->hash = program_hash(p);
+    im->count = e->count;
     im->own_outputs = e->instance->mechanism->output_count;
+    im->outputs = im->own_outputs + 2 * p->conserved->count;
     im->has_energies = e->kinetic != NULL;
+    im->has_integral = p->integral != NULL;
     im->mass_blur = e->mass_blur;
-    name_it(&d, e->instance);
+    name_it(d, e->instance);
     time_it(im, e->instance);
-    copy_unknowns(&d, e);
-    copy_quantities(&d, p, e->instance);
-    take_program(&d, p);
-    start_components(&d);
-    copy_ranges(&d, e, &p->layout);
-    program_free(p);
+    copy_layout(d, p);
+    copy_unknowns(d, e);
+    copy_quantities(d, p, e->instance);
+    start_components(d);
+    copy_ranges(d, e, &p->layout);
     if (use == IMAGE_TO_RUN) {
-        diagnostics_make(&d, e);
+        diagnostics_make(d, e);
     }
-    return with_matrix(&d, e, errors);
+    image *made = with_matrix(d, e, errors);
+    d->made = NULL;
+    program_free(p);
+    return made;
 }
 
 image *image_again(const image *base, const instance *inst, diags *errors) {

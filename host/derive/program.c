@@ -9,8 +9,8 @@
 #include "host/base/alloc.h"
 #include "host/derive/equations.h"
 #include "host/derive/tables.h"
-
-static void ledger_lists_free(ledger_lists *l);
+#include "host/lang/value.h"
+#include "host/lang/words.h"
 
 #define SAME_KIND(id, ...) \
     _Static_assert((int)CONTACT_##id == (int)WH_##id, "the core handles contacts in this order");
@@ -178,25 +178,39 @@ static int stop_moves(const equations *e, const contact_law *law) {
     return moves;
 }
 
-static contact_row make_row(contact_lists *c, const layout *map, const contact_law *law) {
+/* Makes row k of the contacts. Holds without a pin, and the values that crossings set, are counted in the image. */
+static void make_row(program *p, const contact_law *law, image_contact *row) {
+    image *im = p->draft.made;
+    const layout *map = &p->layout;
     const contact_statement *from = law->from;
-    contact_row row = {.from = from, .kind = (int)from->kind, .pin = -1};
-    row.direction = from->kind == CONTACT_WHEN ? from->direction : 0;
-    row.first_set = c->set_count;
-    if (from->kind != CONTACT_WHEN) {
-        row.pin = pin_of(map, law);
-        row.direction = from->kind == CONTACT_STOP   ? stop_moves(map->equations, law)
-                        : from->kind != CONTACT_HOLD ? 0
-                        : law->straight              ? 1
-                                                     : -law->driven;
-        row.first_set = from->kind == CONTACT_HOLD && row.pin < 0 ? c->held++ : 0;
-        return row;
+    const bool loosens = contact_loosens(from);
+    char si[DIM_TEXT_SIZE];
+    const char *gap =
+        from->kind == CONTACT_STOP ? dimension_unit(from->value->dim, false, si, sizeof si) : "1";
+    *row = (image_contact){
+        .kind = (int)from->kind,
+        .word = image_text(&p->draft, loosens ? "normal" : contact_word(from->kind)),
+        .undefined = image_text(&p->draft, loosens ? "the normal force of this friction"
+                                                   : contact_undefined(from->kind)),
+        .pin = from->kind != CONTACT_WHEN ? pin_of(map, law) : -1,
+        .unit = image_text(&p->draft, gap),
+        .at = image_place(&p->draft, from->at)};
+    switch (from->kind) {
+    case CONTACT_STOP: row->direction = stop_moves(map->equations, law); break;
+    case CONTACT_HOLD:
+        row->direction = law->straight ? 1 : -law->driven;
+        row->first_set = row->pin < 0 ? im->held++ : 0;
+        break;
+    case CONTACT_FRICTION: break;
+    case CONTACT_WHEN:
+        row->direction = from->direction;
+        row->first_set = im->set_count;
+        row->sets = from->set_count;
+        for (int i = 0; i < from->set_count; i++) {
+            im->target[im->set_count++] = component_of(map, &from->sets[i]);
+        }
+        break;
     }
-    row.sets = from->set_count;
-    for (int i = 0; i < from->set_count; i++) {
-        c->target[c->set_count++] = component_of(map, &from->sets[i]);
-    }
-    return row;
 }
 
 /* Are all numbers in these expressions finite, with the parameters' values? A `max` may hide an infinite number, so
@@ -248,89 +262,72 @@ static bool have_impulses(const equations *e, diags *errors) {
     return true;
 }
 
-/* Enters the lists. `s` is the folded system. Returns NULL after an error, reported. */
-static contact_lists *contact_lists_make(layout *map, const linear_system *s, diags *errors) {
+/* Enters the rows and lists of the contacts. `s` is the folded system. Returns false after an error, reported. */
+static bool make_contacts(program *p, const linear_system *s, diags *errors) {
+    image *im = p->draft.made;
+    layout *map = &p->layout;
     const equations *e = map->equations;
     const contact_laws *laws = e->contacts;
     if (map->form != WH_SECOND_ORDER) {
         diag_error(
             errors, laws->law[0].from->at, "integrate the coordinate: --without conserve",
             "with stops, friction, holds or crossings Whirl cannot compute a coordinate's rate from its conserved momentum");
-        return NULL;
+        return false;
     }
     if (!have_impulses(e, errors) || !have_finite_laws(e, errors)) {
-        return NULL;
+        return false;
     }
-    contact_lists *c = alloc(1, sizeof *c);
-    c->row = alloc(laws->count, sizeof *c->row);
-    c->target = alloc(laws->set_count, sizeof *c->target);
-    c->count = laws->count;
-    c->forced = laws->forced;
+    im->contact = image_room(&p->draft, laws->count, sizeof *im->contact);
+    im->target = image_room(&p->draft, laws->set_count, sizeof *im->target);
+    im->contacts = laws->count;
+    im->forced = laws->forced;
     for (int k = 0; k < laws->count; k++) {
-        c->row[k] = make_row(c, map, &laws->law[k]);
+        make_row(p, &laws->law[k], &im->contact[k]);
     }
-    c->signals = make_signals(map);
-    c->forces = make_forces(map, s);
-    c->sets = make_sets(map);
-    return c;
-}
-
-/* Returns the hash after mixing in the lists and the table. */
-static uint64_t contact_lists_hash(const contact_lists *c, uint64_t hash) {
-    hash = wh_hash_u64(hash, op_list_hash(c->signals));
-    hash = wh_hash_u64(hash, op_list_hash(c->forces));
-    hash = c->sets != NULL ? wh_hash_u64(hash, op_list_hash(c->sets)) : hash;
-    for (int k = 0; k < c->count; k++) {
-        hash = wh_hash_u64(hash, (uint64_t)c->row[k].kind);
-        hash = wh_hash_u64(hash, (uint64_t)(c->row[k].direction + 1));
-    }
-    for (int i = 0; i < c->set_count; i++) {
-        hash = wh_hash_u64(hash, (uint64_t)c->target[i]);
-    }
-    return hash;
-}
-
-static void contact_lists_free(contact_lists *c) {
-    if (c == NULL) {
-        return;
-    }
-    op_list_free(c->signals);
-    op_list_free(c->forces);
-    op_list_free(c->sets);
-    free(c->row);
-    free(c->target);
-    free(c);
+    im->list[IMAGE_SIGNALS] = make_signals(map);
+    im->list[IMAGE_FORCES] = make_forces(map, s);
+    im->list[IMAGE_SETS] = make_sets(map);
+    return true;
 }
 
 /* === the ledger =============================================================================== */
 
-static void add_entry(ledger_lists *l, const poly **power, ledger_kind kind, const place *at,
-                      int account, const poly *what) {
-    if (!poly_is_zero(what)) {
-        l->entry[l->smooth] = (ledger_entry){kind, at, account};
-        power[l->smooth++] = what;
+/* The entries while they are made: the image's, and their rates. */
+typedef struct entries {
+    image_draft *draft;
+    image_ledger *ledger;
+    const layout *map;
+    const poly **power; /* [ledger->smooth] */
+} entries;
+
+/* Adds an entry, unless its rate is zero. `at` may be NULL. */
+static void add_entry(entries *to, ledger_kind kind, const place *at, int account,
+                      const poly *what) {
+    const poly *ready = layout_ready(to->map, what);
+    image_entry entry = {.kind = kind, .account = account};
+    if (!poly_is_zero(ready)) {
+        if (at != NULL) {
+            entry.at = image_place(to->draft, *at);
+        }
+        to->ledger->entry[to->ledger->smooth] = entry;
+        to->power[to->ledger->smooth++] = ready;
     }
 }
 
-/* Does unknown i follow an input with a rate? It has no momentum, so its account has no entries. */
-static bool is_driven(const layout *map, int i) {
-    return map->equations->unknowns[i].symbol->driven != NULL;
-}
-
-static void add_statement(ledger_lists *l, const layout *map, const statement_force *of,
-                          const poly **power) {
+static void add_statement(entries *to, const statement_force *of) {
     const bool drives = of->from->kind == TERM_Q;
-    for (int account = 1; account < l->accounts; account++) {
-        if (!is_driven(map, l->unknown[account])) {
-            add_entry(l, power, drives ? LEDGER_DRIVE : LEDGER_DAMPING, &of->from->at, account,
-                      layout_ready(map, of->force[l->unknown[account]]));
+    const equations *e = to->map->equations;
+    for (int account = 1; account < to->ledger->accounts; account++) {
+        const int i = to->ledger->unknown[account];
+        if (e->unknowns[i].symbol->driven == NULL) { /* a driven coordinate has no momentum */
+            add_entry(to, drives ? LEDGER_DRIVE : LEDGER_DAMPING, &of->from->at, account,
+                      of->force[i]);
         }
     }
-    add_entry(l, power, drives ? LEDGER_WORK : LEDGER_LOSS, &of->from->at, 0,
-              layout_ready(map, of->power));
+    add_entry(to, drives ? LEDGER_WORK : LEDGER_LOSS, &of->from->at, 0, of->power);
 }
 
-static void order_accounts(ledger_lists *l, const layout *map) {
+static void order_accounts(image_ledger *l, const layout *map) {
     int conserved = 1 + map->coordinates;
     l->unknown[0] = -1;
     for (int i = 0; i < map->equations->count; i++) {
@@ -338,36 +335,30 @@ static void order_accounts(ledger_lists *l, const layout *map) {
     }
 }
 
-/* Adds the continuous entries, between events, and returns their rates. */
-static const poly **smooth_entries(ledger_lists *l, const layout *map) {
-    const equations *e = map->equations;
+/* Adds the continuous entries, between events. */
+static void smooth_entries(entries *to) {
+    const equations *e = to->map->equations;
     algebra *a = e->algebra;
-    const int most = e->count + e->forces * (1 + e->count);
-    const poly **power = alloc(most, sizeof(const poly *));
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
-    l->entry = alloc(most, sizeof *l->entry);
-    for (int account = 1; account < l->accounts; account++) {
-        const symbol *q = e->unknowns[l->unknown[account]].symbol;
+    for (int account = 1; account < to->ledger->accounts; account++) {
+        const int i = to->ledger->unknown[account];
+        const symbol *q = e->unknowns[i].symbol;
         if (q->driven != NULL) {
-            add_entry(l, power, LEDGER_WORK, &q->at, 0,
-                      layout_ready(map, energy_drive(e, l->unknown[account])));
+            add_entry(to, LEDGER_WORK, &q->at, 0, energy_drive(e, i));
             continue;
         }
-        const poly *force = poly_derivative(a, lagrangian, q, 0);
-        add_entry(l, power, LEDGER_ENERGIES, NULL, account, layout_ready(map, force));
+        add_entry(to, LEDGER_ENERGIES, NULL, account, poly_derivative(a, lagrangian, q, 0));
     }
     for (int k = 0; k < e->forces; k++) {
-        add_statement(l, map, &e->force[k], power);
+        add_statement(to, &e->force[k]);
     }
-    return power;
 }
 
 /* Finds the inputs in the energies. Their changes between steps are entries. */
-static void find_inputs(ledger_lists *l, const layout *map) {
+static void find_inputs(image_ledger *l, const layout *map) {
     const equations *e = map->equations;
     const poly *kinetic = layout_ready(map, e->kinetic);
     const poly *stored = layout_ready(map, e->stored);
-    l->input = alloc(map->inputs, sizeof *l->input);
     for (int i = 0; i < map->inputs; i++) {
         const symbol *s = e->instance->mechanism->inputs[map->input[i]];
         if (poly_contains(kinetic, s, 0) || poly_contains(stored, s, 0)) {
@@ -376,15 +367,14 @@ static void find_inputs(ledger_lists *l, const layout *map) {
     }
 }
 
-static op_list *make_levels(const ledger_lists *l, const poly *integral, layout *map) {
+static op_list *make_levels(const image_ledger *l, const poly *integral, layout *map) {
     const equations *e = map->equations;
     const poly **wanted = alloc(l->accounts, sizeof(const poly *));
-    wanted[0] = layout_ready(map, integral != NULL ? integral
-                                                   : poly_add(e->algebra, e->kinetic, e->stored));
+    wanted[0] = integral != NULL ? integral : poly_add(e->algebra, e->kinetic, e->stored);
     for (int account = 1; account < l->accounts; account++) {
-        wanted[account] = layout_ready(map, e->momentum[l->unknown[account]]);
+        wanted[account] = e->momentum[l->unknown[account]];
     }
-    op_list *t = enter_ready(map, wanted, l->accounts);
+    op_list *t = enter(map, wanted, l->accounts);
     free(wanted);
     return t;
 }
@@ -405,49 +395,39 @@ static bool can_keep(const layout *map, diags *errors) {
     return true;
 }
 
-/* Enters the lists of a scene with this number of contacts. `integral` is the energy integral, or NULL if it is T + V
- * (see equations.h). Returns NULL after an error, reported. */
-static ledger_lists *ledger_lists_make(layout *map, const poly *integral, int contacts,
-                                       diags *errors) {
+/* Enters the entries and lists of the ledger. Returns false after an error, reported. */
+static bool make_ledger(program *p, diags *errors) {
+    image *im = p->draft.made;
+    layout *map = &p->layout;
     const equations *e = map->equations;
+    image_ledger *l = &im->ledger;
     if (!can_keep(map, errors)) {
-        return NULL;
+        return false;
     }
-    ledger_lists *l = alloc(1, sizeof *l);
+    const int most = e->count + e->forces * (1 + e->count);
+    entries to = {&p->draft, l, map, alloc(most, sizeof(const poly *))};
     l->accounts = 1 + e->count;
-    l->unknown = alloc(l->accounts, sizeof *l->unknown);
+    l->unknown = image_room(&p->draft, l->accounts, sizeof *l->unknown);
+    l->input = image_room(&p->draft, map->inputs, sizeof *l->input);
+    l->entry = image_room(&p->draft, most, sizeof *l->entry);
     order_accounts(l, map);
-    const poly **power = smooth_entries(l, map);
-    l->entries = l->smooth + contacts * (1 + map->coordinates);
+    smooth_entries(&to);
     find_inputs(l, map);
-    l->entries += l->inputs;
-    const bool good = l->entries <= WH_LEDGER_MAX;
-    if (good) {
-        l->powers = enter_ready(map, power, l->smooth);
-        l->levels = make_levels(l, integral, map);
+    l->entries = l->smooth + im->contacts * (1 + map->coordinates) + l->inputs;
+    l->kept = l->entries <= WH_LEDGER_MAX;
+    l->entries += im->settings.stabilized;
+    if (l->kept) {
+        im->list[IMAGE_POWERS] = enter_ready(map, to.power, l->smooth);
+        im->list[IMAGE_LEVELS] = make_levels(l, p->integral, map);
         /* an angle that the equations contain only inside sines may occur elsewhere in an entry's rate */
-        l->turned = op_list_reads_turns(l->powers);
-    }
-    if (!good) {
+        l->turned = op_list_reads_turns(im->list[IMAGE_POWERS]);
+    } else {
         diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
                    "the ledger of '%s' has too many entries", e->instance->mechanism->name);
-        ledger_lists_free(l);
-        l = NULL;
+        *l = (image_ledger){.asked = l->asked};
     }
-    free(power);
-    return l;
-}
-
-static void ledger_lists_free(ledger_lists *l) {
-    if (l == NULL) {
-        return;
-    }
-    op_list_free(l->powers);
-    op_list_free(l->levels);
-    free(l->entry);
-    free(l->unknown);
-    free(l->input);
-    free(l);
+    free(to.power);
+    return l->kept;
 }
 
 /* === conditions of --stabilized =============================================================== */
@@ -455,20 +435,18 @@ static void ledger_lists_free(ledger_lists *l) {
 static const char no_stabilized[] = "leave out --stabilized";
 
 /* Checks, before the ledger exists, that a step can be stabilized. The scene needs an energy, a method with stages, and
- * no contacts: a correction would undo their energy changes. `contacts` may be NULL; `integral` is NULL if the energy
- * is T + V. Returns false, and reports the place, if it is impossible. */
-static bool stabilizing_possible(const layout *map, const contact_lists *contacts,
-                                 const poly *integral, const image_settings *settings,
-                                 diags *errors) {
-    const mechanism *m = map->equations->instance->mechanism;
+ * no contacts: a correction would undo their energy changes. Returns false, and reports the place, if it is impossible. */
+static bool stabilizing_possible(const program *p, diags *errors) {
+    const equations *e = p->layout.equations;
+    const image_settings *settings = &p->draft.made->settings;
+    const mechanism *m = e->instance->mechanism;
     if (m->is_system) {
         diag_error(
             errors, m->at, no_stabilized,
             "--stabilized corrects the energy drift: '%s' is given by equations and has no energy",
             m->name);
-    } else if (contacts != NULL) {
-        const contact_statement *first = contacts->row[0].from;
-        diag_error(errors, first->at,
+    } else if (e->contacts != NULL) {
+        diag_error(errors, e->contacts->law[0].from->at,
                    "leave the effect out with --without EFFECT, or leave out --stabilized",
                    "--stabilized would undo the energy changes at the events of '%s'", m->name);
     } else if (settings->matrix != MATRIX_NONE) {
@@ -484,11 +462,11 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
             errors, m->at, "choose another --method, or leave out --stabilized",
             "--stabilized corrects an energy drift, but with %s the energy does not drift: it oscillates around the right value",
             wh_methods[settings->method].title);
-    } else if (map->form != WH_SECOND_ORDER) {
+    } else if (p->layout.form != WH_SECOND_ORDER) {
         diag_error(
             errors, m->at, "add --without conserve, or leave out --stabilized",
             "--stabilized needs a ledger, which is not possible if a coordinate's rate follows from its conserved momentum");
-    } else if (integral != NULL) {
+    } else if (p->integral != NULL) {
         diag_error(
             errors, m->at, no_stabilized,
             "--stabilized needs a kinetic energy that is quadratic in the rates: that of '%s' is not",
@@ -500,17 +478,17 @@ static bool stabilizing_possible(const layout *map, const contact_lists *contact
 }
 
 /* Checks with the ledger that nothing adds or removes energy, which a stabilized step requires. */
-static bool stabilizing_conserves(const ledger_lists *books, const equations *e, diags *errors) {
-    for (int i = 0; i < books->smooth; i++) {
-        if (books->entry[i].account == 0) {
+static bool stabilizing_conserves(const image_ledger *l, const equations *e, diags *errors) {
+    for (int i = 0; i < l->smooth; i++) {
+        if (l->entry[i].account == 0) {
             diag_error(
-                errors, *books->entry[i].at,
+                errors, l->entry[i].at,
                 "leave the effect out with --without EFFECT, or leave out --stabilized",
                 "--stabilized is for motion without drive or damping, but this statement drives or damps");
             return false;
         }
     }
-    if (books->inputs > 0) {
+    if (l->inputs > 0) {
         diag_error(
             errors, e->instance->mechanism->at, no_stabilized,
             "--stabilized is for motion without drive or damping: the energies of '%s' name an input",
@@ -615,24 +593,25 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
 }
 
 /* Makes the list of the mechanism's outputs, then value and rate of each conserved coordinate. */
-static op_list *make_observe(const program *p, layout *map, const linear_system *s) {
+static op_list *make_observe(layout *map, const linear_system *s) {
     const equations *e = map->equations;
     const int own = e->instance->mechanism->output_count;
-    const poly **wanted = alloc(p->outputs, sizeof(const poly *));
+    const int count = own + 2 * map->conserved->count;
+    const poly **wanted = alloc(count, sizeof(const poly *));
     for (int i = 0; i < own; i++) {
         wanted[i] = e->output[i];
     }
-    for (int k = 0; k < p->conserved->count; k++) {
-        const symbol *q = e->unknowns[p->conserved->unknown[k]].symbol;
+    for (int k = 0; k < map->conserved->count; k++) {
+        const symbol *q = e->unknowns[map->conserved->unknown[k]].symbol;
         wanted[own + 2 * k] = poly_symbol(e->algebra, q, 0);
         wanted[own + 2 * k + 1] = poly_symbol(e->algebra, q, 1);
     }
-    op_list *t = make_observer(map, s, wanted, p->outputs, false);
+    op_list *t = make_observer(map, s, wanted, count, false);
     free(wanted);
     return t;
 }
 
-static op_list *make_books(const program *p, layout *map, const linear_system *s) {
+static op_list *make_books(const poly *integral, layout *map, const linear_system *s) {
     const equations *e = map->equations;
     algebra *a = e->algebra;
     const int n = e->count;
@@ -653,8 +632,8 @@ static op_list *make_books(const program *p, layout *map, const linear_system *s
             wanted[BOOK_MOMENTA + i] = e->momentum[i];
         }
         count = BOOK_MOMENTA + n;
-        if (p->integral != NULL) {
-            wanted[count++] = p->integral;
+        if (integral != NULL) {
+            wanted[count++] = integral;
         }
     }
     op_list *t = make_observer(map, s, wanted, count, true);
@@ -663,25 +642,17 @@ static op_list *make_books(const program *p, layout *map, const linear_system *s
 }
 
 /* Are all constants finite? Parameter values may produce 1/0 or too large a number; such a program cannot run. */
-static bool lists_finite(const program *p, const equations *e, diags *errors) {
+static bool lists_finite(const image *im, const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, or values that are too large or too small";
     const mechanism *m = e->instance->mechanism;
-    const contact_lists *c = p->contacts;
-    const ledger_lists *l = p->ledger;
-    const op_list *const lists[] = {p->step,
-                                    p->books,
-                                    c != NULL ? c->signals : NULL,
-                                    c != NULL ? c->forces : NULL,
-                                    c != NULL ? c->sets : NULL,
-                                    l != NULL ? l->powers : NULL,
-                                    l != NULL ? l->levels : NULL};
+    const int output = op_list_not_finite(im->list[IMAGE_OBSERVE]);
     bool finite = true;
-    for (size_t i = 0; i < sizeof lists / sizeof lists[0] && finite; i++) {
-        finite = lists[i] == NULL || op_list_not_finite(lists[i]) < 0;
+    for (int role = 0; role < IMAGE_ROLES; role++) {
+        const op_list *t = role != IMAGE_OBSERVE ? im->list[role] : NULL;
+        finite = finite && (t == NULL || op_list_not_finite(t) < 0);
     }
-    const int output = finite ? op_list_not_finite(p->observe) : -1;
-    if (output >= 0 && output < m->output_count) {
+    if (finite && output >= 0 && output < m->output_count) {
         diag_error(errors, m->outputs[output]->at, hint,
                    "output '%s' contains a number that is not finite", m->outputs[output]->name);
     } else if (!finite || output >= 0) {
@@ -693,10 +664,9 @@ static bool lists_finite(const program *p, const equations *e, diags *errors) {
 
 /* Does the step use turn angles only as phases? Otherwise a factor of an angle became too large when the equations were
  * solved. */
-static bool steps_need_no_turns(const program *p, const equations *e, diags *errors) {
-    const contact_lists *c = p->contacts;
-    const op_list *const lists[] = {p->step, c != NULL ? c->signals : NULL,
-                                    c != NULL ? c->forces : NULL, c != NULL ? c->sets : NULL};
+static bool steps_need_no_turns(const image *im, const equations *e, diags *errors) {
+    const op_list *const lists[] = {im->list[IMAGE_STEP], im->list[IMAGE_SIGNALS],
+                                    im->list[IMAGE_FORCES], im->list[IMAGE_SETS]};
     for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
         if (lists[i] != NULL && op_list_reads_turns(lists[i])) {
             diag_error(errors, e->instance->mechanism->at, "use smaller multiples of the angles",
@@ -708,11 +678,45 @@ static bool steps_need_no_turns(const program *p, const equations *e, diags *err
     return true;
 }
 
+/* Makes the ledger, if the instance or a stabilized step asks for it. Otherwise a scene with contacts has one to
+ * balance the run, if that is possible. */
+static bool make_ledger_asked(program *p, diags *errors) {
+    image *im = p->draft.made;
+    const equations *e = p->layout.equations;
+    const bool stabilized = im->settings.stabilized;
+    if (stabilized && !stabilizing_possible(p, errors)) {
+        return false;
+    }
+    im->ledger.asked = e->instance->ledger || stabilized;
+    if (!im->ledger.asked) {
+        diags *unsaid = diags_new();
+        (void)(e->contacts != NULL && e->instance->balance && make_ledger(p, unsaid));
+        diags_free(unsaid);
+        return true;
+    }
+    return make_ledger(p, errors) && (!stabilized || stabilizing_conserves(&im->ledger, e, errors));
+}
+
+/* Makes the lists. `s` is the folded system. Returns false after an error, reported. */
+static bool make_lists(program *p, const linear_system *s, diags *errors) {
+    image *im = p->draft.made;
+    layout *map = &p->layout;
+    const equations *e = map->equations;
+    im->list[IMAGE_STEP] = make_step(map, s);
+    im->list[IMAGE_OBSERVE] = make_observe(map, s);
+    p->integral = energy_integral(e);
+    im->list[IMAGE_BOOKS] = make_books(p->integral, map, s);
+    return (e->contacts == NULL || make_contacts(p, s, errors)) && make_ledger_asked(p, errors) &&
+           lists_finite(im, e, errors) && steps_need_no_turns(im, e, errors);
+}
+
 program *program_make(const equations *e, const bool *conserve, const image_settings *settings,
                       diags *errors) {
     const int n = e->count;
     const mechanism *m = e->instance->mechanism;
     program *p = alloc(1, sizeof *p);
+    p->draft = image_draft_new();
+    p->draft.made->settings = *settings;
     p->conserved = conservation_make(e, conserve, errors);
     if (p->conserved == NULL) {
         program_free(p);
@@ -724,8 +728,6 @@ program *program_make(const equations *e, const bool *conserve, const image_sett
     bool *turning = alloc(n, sizeof *turning);
     bool *wanted = alloc(n, sizeof *wanted);
     const symbol **symbols = alloc(n, sizeof *symbols);
-    p->count = n;
-    p->outputs = m->output_count + 2 * p->conserved->count;
     const linear_system s = {n,       !m->is_system, dynamics, dynamics + n * n,     symbols,
                              turning, wanted,        false,    settings->compensated};
     for (int i = 0; i < n * n; i++) {
@@ -739,63 +741,44 @@ program *program_make(const equations *e, const bool *conserve, const image_sett
         wanted[i] = p->conserved->number[i] < 0;
     }
     contact_lists_polys(e, p->conserved, dynamics + polys);
-    layout *map = &p->layout;
-    const bool fits = layout_arrange(map, e, p->conserved, dynamics, polys + more);
-    bool good = fits;
-    if (fits) {
-        p->step = make_step(map, &s);
-        p->observe = make_observe(p, map, &s);
-        p->integral = energy_integral(e);
-        p->books = make_books(p, map, &s);
-        p->contacts = more > 0 ? contact_lists_make(map, &s, errors) : NULL;
-        good = more == 0 || p->contacts != NULL;
-        const int contacts = p->contacts != NULL ? p->contacts->count : 0;
-        good = good && (!settings->stabilized ||
-                        stabilizing_possible(map, p->contacts, p->integral, settings, errors));
-        p->ledger_asked = e->instance->ledger || settings->stabilized;
-        if (good && p->ledger_asked) {
-            p->ledger = ledger_lists_make(map, p->integral, contacts, errors);
-            good = p->ledger != NULL &&
-                   (!settings->stabilized || stabilizing_conserves(p->ledger, e, errors));
-        } else if (good && p->contacts != NULL && e->instance->balance) {
-            diags *unsaid = diags_new();
-            p->ledger = ledger_lists_make(map, p->integral, contacts, unsaid);
-            diags_free(unsaid);
-        }
-        good = good && lists_finite(p, e, errors) && steps_need_no_turns(p, e, errors);
-    } else {
+    const bool fits = layout_arrange(&p->layout, e, p->conserved, dynamics, polys + more);
+    bool good = fits && make_lists(p, &s, errors);
+    if (!fits) {
         diag_error(errors, m->at, NULL, "'%s' has more than %d components of state", m->name,
                    IMAGE_COMPONENTS_MAX);
-    }
-    const bool grown = fits && algebra_overflow(e->algebra);
-    if (grown) {
+    } else if (algebra_overflow(e->algebra)) {
         equations_report_growth(e, errors);
+        good = false;
     }
     free(dynamics);
     free(turning);
     free(wanted);
     free(symbols);
-    if (!good || grown) {
+    if (!good) {
         program_free(p);
         return NULL;
     }
     return p;
 }
 
-bool program_look_up(program *p, const equations *e, image_settings *settings, diags *errors) {
+bool program_look_up(program *p, diags *errors) {
     static const char no_contacts[] =
         "leave out --tables, or the effects with contacts and crossings: --without EFFECT";
+    image *im = p->draft.made;
+    image_settings *settings = &im->settings;
+    const equations *e = p->layout.equations;
     refusal why = {NULL, NULL, -1};
     if (settings->tables == TABLES_NONE) {
         return true;
     }
     settings->cells = settings->cells > 0 ? settings->cells : tables_cells(settings->tables);
-    if (p->contacts != NULL) {
-        diag_error(errors, p->contacts->row[0].from->at, no_contacts,
+    if (e->contacts != NULL) {
+        diag_error(errors, e->contacts->law[0].from->at, no_contacts,
                    "--tables: a scene with events cannot use tables");
         return false;
     }
-    op_list *made = tables_make(p->step, settings->tables, settings->cells, &p->tables, &why);
+    op_list *made = tables_make(im->list[IMAGE_STEP], settings->tables, settings->cells,
+                                &im->list[IMAGE_TABLES], &why);
     if (made == NULL) {
         const symbol *angle =
             why.angle >= 0 ? e->unknowns[p->layout.angle[why.angle].unknown].symbol : NULL;
@@ -806,8 +789,8 @@ bool program_look_up(program *p, const equations *e, image_settings *settings, d
                    e->instance->mechanism->name, why.reason, angle != NULL ? angle->name : "");
         return false;
     }
-    op_list_free(p->step);
-    p->step = made;
+    op_list_free(im->list[IMAGE_STEP]);
+    im->list[IMAGE_STEP] = made;
     return true;
 }
 
@@ -815,21 +798,26 @@ void program_free(program *p) {
     if (p == NULL) {
         return;
     }
-    op_list_free(p->step);
-    op_list_free(p->tables);
-    op_list_free(p->observe);
-    op_list_free(p->books);
-    contact_lists_free(p->contacts);
-    ledger_lists_free(p->ledger);
+    if (p->draft.made != NULL) {
+        image_free(image_draft_done(&p->draft));
+    }
     layout_free(&p->layout);
     conservation_free(p->conserved);
     free(p);
 }
 
 uint64_t program_hash(const program *p) {
-    uint64_t hash = op_list_hash(p->step);
-    if (p->contacts != NULL) {
-        hash = contact_lists_hash(p->contacts, hash);
+    const image *im = p->draft.made;
+    uint64_t hash = op_list_hash(im->list[IMAGE_STEP]);
+    for (int role = IMAGE_SIGNALS; role <= IMAGE_SETS; role++) {
+        hash = im->list[role] != NULL ? wh_hash_u64(hash, op_list_hash(im->list[role])) : hash;
+    }
+    for (int k = 0; k < im->contacts; k++) {
+        hash = wh_hash_u64(hash, (uint64_t)im->contact[k].kind);
+        hash = wh_hash_u64(hash, (uint64_t)(im->contact[k].direction + 1));
+    }
+    for (int i = 0; i < im->set_count; i++) {
+        hash = wh_hash_u64(hash, (uint64_t)im->target[i]);
     }
     return hash;
 }

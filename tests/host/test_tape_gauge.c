@@ -153,7 +153,7 @@ static bool hold(const char *text, uint64_t seed, tally *all) {
     if (derives) {
         image *im = compensated_image(&d);
         program *p = before_gauge(&d, NULL);
-        op_list *plain = p->step;
+        op_list *plain = p->draft.made->list[IMAGE_STEP];
         op_list *gauged = im->list[IMAGE_STEP];
         const int more = op_list_operations(gauged) - op_list_operations(plain);
         const bool changed = op_list_hash(gauged) != op_list_hash(plain);
@@ -222,7 +222,7 @@ TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
     for (int k = 0; k < 2; k++) {
         derived d = derived_builtin(names[k]);
         program *p = before_gauge(&d, names[k]);
-        op_list **step = &p->step;
+        op_list **step = &p->draft.made->list[IMAGE_STEP];
         const uint64_t hash = op_list_hash(*step);
         const double bias = op_list_bias(*step, *step);
         op_list_scale(step, 0);
