@@ -302,50 +302,52 @@ void show_row_end(show_row *row) {
 
 /* === show events ============================================================================== */
 
-static void show_crossing(const show *s, const contact_law *law, const contact_set *set) {
-    const contact_statement *from = law->from;
-    fputs(contact_loosens(from) ? "normal force that comes and goes: when " : "when ", s->out);
-    show_poly(s, law->value);
-    fputs(" crosses 0", s->out);
-    fputs(from->direction > 0 ? " rising" : from->direction < 0 ? " falling" : "", s->out);
-    for (int i = 0; i < from->set_count; i++) {
-        fputs(i == 0 ? ": " : ", ", s->out);
-        show_symbol(s, from->sets[i].symbol, from->sets[i].primes);
-        fputs(" = ", s->out);
-        show_poly(s, set->value[i]);
-    }
-}
+/* The forms of contacts, for the screen and as LaTeX rows "LEFT &= RIGHT". $v, $s, $a, $b: the law's value, speed, first
+ * and second expression; $q: the coordinate. */
+static const struct {
+    const char *text;
+    const char *latex[2];
+} forms[CONTACT_KINDS] = {
+    [CONTACT_STOP] = {"stop $v >= 0, restitution $a",
+                      {"  \\text{stop, restitution } $a \\text{: } 0 &= $v"}},
+    [CONTACT_FRICTION] = {"friction on $q: sticks up to $a, slides with $b",
+                          {"  \\text{friction on } $q \\text{, static} &= $a",
+                           "  \\text{friction on } $q \\text{, kinetic} &= $b"}},
+    [CONTACT_HOLD] = {"hold $s = 0 while $v > 0",
+                      {"  \\text{hold } $s &= 0 \\text{ while } $v > 0"}},
+    [CONTACT_WHEN] = {"when $v crosses 0", {"  \\text{when } $v &= 0"}},
+};
 
-static void show_friction(const show *s, const contact_law *law) {
-    fputs("friction on ", s->out);
-    show_symbol(s, law->from->coordinate, 0);
-    fputs(": sticks up to ", s->out);
-    show_poly(s, law->first);
-    fputs(", slides with ", s->out);
-    show_poly(s, law->second);
+static void show_form(const show *s, const contact_law *law, const char *form) {
+    for (; *form != '\0'; form++) {
+        if (*form != '$') {
+            fputc(*form, s->out);
+            continue;
+        }
+        switch (*++form) {
+        case 'v': show_poly(s, law->value); break;
+        case 's': show_poly(s, law->speed); break;
+        case 'a': show_poly(s, law->first); break;
+        case 'b': show_poly(s, law->second); break;
+        default: show_symbol(s, law->from->coordinate, 0); break;
+        }
+    }
 }
 
 static void show_lines(const show *s, const equations *e, const char *prefix) {
     const contact_laws *laws = e->contacts;
     for (int k = 0; k < laws->count; k++) {
         const contact_law *law = &laws->law[k];
-        fprintf(s->out, "%s  ", prefix);
-        switch (law->from->kind) {
-        case CONTACT_STOP:
-            fputs("stop ", s->out);
-            show_poly(s, law->value);
-            fputs(" >= 0, restitution ", s->out);
-            show_poly(s, law->first);
-            break;
-        case CONTACT_FRICTION: show_friction(s, law); break;
-        case CONTACT_HOLD:
-            fputs("hold ", s->out);
-            show_poly(s, law->speed);
-            fputs(" = 0 while ", s->out);
-            show_poly(s, law->value);
-            fputs(" > 0", s->out);
-            break;
-        case CONTACT_WHEN: show_crossing(s, law, &laws->sets[k]); break;
+        const contact_statement *from = law->from;
+        fprintf(s->out, "%s  %s", prefix,
+                contact_loosens(from) ? "normal force that comes and goes: " : "");
+        show_form(s, law, forms[from->kind].text);
+        fputs(from->direction > 0 ? " rising" : from->direction < 0 ? " falling" : "", s->out);
+        for (int i = 0; i < from->set_count; i++) {
+            fputs(i == 0 ? ": " : ", ", s->out);
+            show_symbol(s, from->sets[i].symbol, from->sets[i].primes);
+            fputs(" = ", s->out);
+            show_poly(s, laws->sets[k].value[i]);
         }
         fputc('\n', s->out);
     }
@@ -361,49 +363,43 @@ void show_events(FILE *out, const equations *e, const char *prefix, const char *
 
 /* --- LaTeX: rows "LEFT &= RIGHT" of an align* ----------------------------------------------------*/
 
-static void latex_row(const show *s, bool *first, const char *before, const poly *left,
-                      const char *behind, const poly *right, const char *end) {
+/* Writes a row: `before`, the symbol `of`, `behind`, then the formula `value`. `end` follows the row. */
+static void write_row(const show *s, const char *before, const symbol *of, int primes,
+                      const char *behind, const poly *value, const char *end) {
     show_row row;
-    fputs(*first ? "" : " \\\\\n", s->out);
-    *first = false;
     const show *to = show_row_begin(&row, s);
-    fprintf(to->out, "  \\text{%s } ", before);
-    show_poly(to, left);
+    fputs(before, to->out);
+    if (of != NULL) {
+        show_symbol(to, of, primes);
+    }
     fputs(behind, to->out);
-    show_poly(to, right);
-    fputs(end, to->out);
+    show_poly(to, value);
     show_row_end(&row);
+    fputs(end, s->out);
 }
 
-static void latex_rows(const show *s, const contact_law *law, const contact_set *set, bool *first) {
-    algebra *a = s->algebra;
+/* *between: the text before the next row, first "". */
+static void latex_rows(const show *s, const contact_law *law, const contact_set *set,
+                       const char **between) {
+    static const char next[] = " \\\\\n";
     const contact_statement *from = law->from;
-    const poly *zero = poly_number(a, 0.0);
-    switch (from->kind) {
-    case CONTACT_STOP:
-        latex_row(s, first, "stop, restitution", law->first, " \\text{: } 0 &= ", law->value, "");
-        break;
-    case CONTACT_FRICTION: {
-        const poly *on = poly_symbol(a, from->coordinate, 0);
-        latex_row(s, first, "friction on", on, " \\text{, static} &= ", law->first, "");
-        latex_row(s, first, "friction on", on, " \\text{, kinetic} &= ", law->second, "");
-        break;
+    for (int i = 0; i < 2 && forms[from->kind].latex[i] != NULL && !contact_loosens(from); i++) {
+        show_row row;
+        fputs(*between, s->out);
+        *between = next;
+        const show *to = show_row_begin(&row, s);
+        show_form(to, law, forms[from->kind].latex[i]);
+        fputs(from->direction > 0   ? " \\text{ rising}"
+              : from->direction < 0 ? " \\text{ falling}"
+                                    : "",
+              to->out);
+        show_row_end(&row);
     }
-    case CONTACT_HOLD:
-        latex_row(s, first, "hold", law->speed, " &= 0 \\text{ while } ", law->value, " > 0");
-        break;
-    case CONTACT_WHEN:
-        if (!contact_loosens(from)) {
-            latex_row(s, first, "when", law->value, " &= ", zero,
-                      from->direction > 0   ? " \\text{ rising}"
-                      : from->direction < 0 ? " \\text{ falling}"
-                                            : "");
-        }
-        for (int i = 0; i < from->set_count; i++) {
-            latex_row(s, first, "set", poly_symbol(a, from->sets[i].symbol, from->sets[i].primes),
-                      " &= ", set->value[i], "");
-        }
-        break;
+    for (int i = 0; i < from->set_count; i++) {
+        fputs(*between, s->out);
+        *between = next;
+        write_row(s, "  \\text{set } ", from->sets[i].symbol, from->sets[i].primes,
+                  " &= ", set->value[i], "");
     }
 }
 
@@ -411,7 +407,7 @@ static void latex_rows(const show *s, const contact_law *law, const contact_set 
 static void show_contacts(const show *s, const equations *e) {
     const contact_laws *laws = e->contacts;
     const bool latex = s->style == SHOW_LATEX;
-    bool first = true;
+    const char *between = "";
     if (laws == NULL) {
         return;
     }
@@ -426,7 +422,7 @@ static void show_contacts(const show *s, const equations *e) {
         return;
     }
     for (int k = 0; k < laws->count; k++) {
-        latex_rows(s, &laws->law[k], &laws->sets[k], &first);
+        latex_rows(s, &laws->law[k], &laws->sets[k], &between);
     }
     fputs("\n\\end{align*}\n", s->out);
 }
@@ -456,21 +452,6 @@ static const poly *force_of_kind(const equations *e, term_kind kind, int i) {
         }
     }
     return sum;
-}
-
-/* Writes a row: `before`, the symbol `of`, `behind`, then the formula `value`. `end` follows the row. */
-static void write_row(const show *s, const char *before, const symbol *of, int primes,
-                      const char *behind, const poly *value, const char *end) {
-    show_row row;
-    const show *to = show_row_begin(&row, s);
-    fputs(before, to->out);
-    if (of != NULL) {
-        show_symbol(to, of, primes);
-    }
-    fputs(behind, to->out);
-    show_poly(to, value);
-    show_row_end(&row);
-    fputs(end, s->out);
 }
 
 static void write_coordinate(const show *s, const equations *e, int i) {
