@@ -57,13 +57,12 @@ static const op_code operation_of[FUNCTIONS] = {
 #undef ROW
 };
 
-/* Returns the language's function that this operation computes, or FUNCTION_NONE. */
-static function_id function_of(op_code code) {
+function_id op_list_function(const op *o) {
     int f = 0;
-    while (f < FUNCTIONS && operation_of[f] != code) {
+    while (f < FUNCTIONS && operation_of[f] != o->code) {
         f++;
     }
-    return code == OP_CALL ? FUNCTION_NONE : (function_id)f;
+    return o->code == OP_CALL ? o->function : (function_id)f;
 }
 
 /* --- entering operations ------------------------------------------------------------------------*/
@@ -260,7 +259,7 @@ int op_list_unary(op_list *t, op_code code, int a) {
     if (code == OP_NEG) {
         return negate(t, a);
     }
-    const function_id function = function_of(code);
+    const function_id function = op_list_function(&(op){.code = code});
     if (function != FUNCTION_NONE && op_list_is_constant(t, a, &x)) {
         return op_list_constant(t, folding_call(function, x, 0.0));
     }

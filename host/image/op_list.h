@@ -176,6 +176,9 @@ int op_list_pow(op_list *t, int base, int exponent);
 int op_list_power(op_list *t, int base, double exponent);
 bool op_list_is_constant(const op_list *t, int a, double *value);
 
+/* Returns the language's function that the operation computes, or FUNCTION_NONE. */
+function_id op_list_function(const op *o);
+
 /* Returns the operation with this code and operands a and b, or -1 if there is no such operation yet. */
 int op_list_find_binary(const op_list *t, op_code code, int a, int b);
 

@@ -114,44 +114,21 @@ static void equation(const unknowns *u, matrix *m, double own, int i, double a, 
 
 static void equations_of(const unknowns *u, int i, matrix *m) {
     const op *o = &u->of->ops[i];
-    switch (o->code) {
-    case OP_ADD:
-    case OP_SUB:
-    case OP_MIN:
-    case OP_MAX:
+    if (o->code == OP_ADD || o->code == OP_SUB || o->code == OP_MIN || o->code == OP_MAX) {
         if (!is_constant(u->of, o->a)) {
             equation(u, m, 1.0, i, 1.0, 0.0);
         }
         if (!is_constant(u->of, o->b)) {
             equation(u, m, 1.0, i, 0.0, 1.0);
         }
-        break;
-    case OP_MUL:
-    case OP_DIV:
+    } else if (o->code == OP_MUL || o->code == OP_DIV) {
         if (!absorbs(u->of, o)) {
             equation(u, m, 1.0, i, 1.0, o->code == OP_MUL ? 1.0 : -1.0);
         }
-        break;
-    case OP_NEG:
-    case OP_ABS: equation(u, m, 1.0, i, 1.0, 0.0); break;
-    case OP_SQRT: equation(u, m, 2.0, i, 1.0, 0.0); break;
-    case OP_PHASE:
-    case OP_CONSTANT:
-    case OP_LINEAR:
-    case OP_RATE:
-    case OP_INPUT:
-    case OP_ACCEL:
-    case OP_TIME:
-    case OP_RADIANS:
-    case OP_NOISE:
-    case OP_SIN:
-    case OP_COS:
-    case OP_CELL:
-    case OP_LINE:
-    case OP_CUBIC:
-    case OP_SIGN:
-    case OP_CALL:
-    case OP_POW: equation(u, m, 1.0, i, 0.0, 0.0); break; /* the operands may not be multiplied */
+    } else if (o->code == OP_NEG || o->code == OP_ABS || o->code == OP_SQRT) {
+        equation(u, m, o->code == OP_SQRT ? 2.0 : 1.0, i, 1.0, 0.0);
+    } else {
+        equation(u, m, 1.0, i, 0.0, 0.0); /* the operands may not be multiplied */
     }
 }
 
@@ -398,52 +375,43 @@ static int make_product(const multiplied *m, int i) {
     return op_list_mul(m->to, constant(m->to, divides ? wanted * b / a : wanted / (a * b)), made);
 }
 
-/* Enters operation i. The second operand is always entered first. */
+/* Enters operation i, whose operands are multiplied by `times`. The second operand is always entered first. */
+static int make_of_operands(const multiplied *m, const op *o, double times) {
+    const int second = o->b >= 0 ? taken(m, o->b, times) : -1;
+    const int first = taken(m, o->a, times);
+    return o->code == OP_ADD   ? op_list_add(m->to, first, second)
+           : o->code == OP_SUB ? op_list_sub(m->to, first, second)
+           : o->code == OP_POW ? op_list_pow(m->to, first, second)
+                               : op_list_call(m->to, op_list_function(o), first, second);
+}
+
+/* Enters operation i. */
 static int make(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double times = m->times[i];
-    double number;
-    int second;
-    switch (o->code) {
-    case OP_CONSTANT: return -1; /* a constant is entered at each use */
-    case OP_LINEAR:
-    case OP_RATE:
-    case OP_INPUT:
-    case OP_ACCEL:
-    case OP_TIME:
-    case OP_RADIANS: return op_list_leaf(m->to, o->code, o->a);
-    case OP_NOISE: return op_list_noise(m->to, (uint32_t)o->value);
-    case OP_PHASE: return make_phase(m, o);
-    case OP_SIN:
-    case OP_COS: return op_list_unary(m->to, o->code, m->made[o->a]);
-    case OP_ADD:
-        second = taken(m, o->b, times);
-        return op_list_add(m->to, taken(m, o->a, times), second);
-    case OP_SUB:
-        second = taken(m, o->b, times);
-        return op_list_sub(m->to, taken(m, o->a, times), second);
-    case OP_MUL:
-        /* a product with a constant is entered at each use */
-        return op_list_is_constant(m->from, o->a, &number) ? -1 : make_product(m, i);
-    case OP_DIV: return make_product(m, i);
-    case OP_NEG:
-    case OP_ABS: return op_list_unary(m->to, o->code, taken(m, o->a, times));
-    case OP_SQRT: return op_list_unary(m->to, o->code, taken(m, o->a, times * times));
-    case OP_SIGN: return op_list_unary(m->to, o->code, taken(m, o->a, times_of(m, i, 0)));
-    case OP_MIN:
-    case OP_MAX:
-        second = taken(m, o->b, times);
-        return op_list_call(m->to, o->code == OP_MIN ? FN_MIN : FN_MAX, taken(m, o->a, times),
-                            second);
-    case OP_CALL:
-        second = o->b >= 0 ? taken(m, o->b, 1.0) : -1;
-        return op_list_call(m->to, o->function, taken(m, o->a, 1.0), second);
-    case OP_POW:
-        second = taken(m, o->b, 1.0);
-        return op_list_pow(m->to, taken(m, o->a, 1.0), second);
-    case OP_CELL:
-    case OP_LINE:
-    case OP_CUBIC: break; /* a list with tables keeps its constants */
+    switch (op_rows[o->code].kind) {
+    case OP_IS_CONSTANT: return -1; /* a constant is entered at each use */
+    case OP_IS_LEAF:
+        return o->code == OP_NOISE ? op_list_noise(m->to, (uint32_t)o->value)
+                                   : op_list_leaf(m->to, o->code, o->a);
+    case OP_IS_PHASE: return make_phase(m, o);
+    case OP_IS_WAVE: return op_list_unary(m->to, o->code, m->made[o->a]);
+    case OP_IS_UNARY:
+        return op_list_unary(m->to, o->code,
+                             taken(m, o->a,
+                                   o->code == OP_SQRT   ? times * times
+                                   : o->code == OP_SIGN ? times_of(m, i, 0)
+                                                        : times));
+    case OP_IS_BINARY:
+        if (o->code == OP_MUL || o->code == OP_DIV) {
+            /* a product with a constant is entered at each use */
+            const bool at_use = o->code == OP_MUL && is_constant(m->from, o->a);
+            return at_use ? -1 : make_product(m, i);
+        }
+        return make_of_operands(m, o, o->code == OP_POW ? 1.0 : times);
+    case OP_IS_CALL: return make_of_operands(m, o, 1.0);
+    case OP_IS_CELL:
+    case OP_IS_LOOKUP: break; /* a list with tables keeps its constants */
     }
     abort();
 }
@@ -490,38 +458,30 @@ static double phase_at(const op_list *t, const op *o, int state, double radians)
 
 static double value_at(const op_list *t, const op *o, int state, double rates, bool as_float,
                        const double *v) {
-    const double a = op_rows[o->code].values > 0 ? v[o->a] : 0.0;
-    const double b =
-        (op_rows[o->code].values > 1 || o->code == OP_PHASE) && o->b >= 0 ? v[o->b] : 0.0;
-    switch (o->code) {
-    case OP_CONSTANT: return as_float ? (double)(float)o->value : o->value;
-    case OP_LINEAR: return drawn(o->code, o->a, state);
-    case OP_RATE: return rates * drawn(o->code, o->a, state);
-    case OP_INPUT:
-    case OP_ACCEL:
-    case OP_TIME:
-    case OP_RADIANS:
-    case OP_CELL:
-    case OP_LINE:
-    case OP_CUBIC:
-    case OP_NOISE: return 2.0 + drawn(o->code, o->a, state);
-    case OP_PHASE: return phase_at(t, o, state, b);
-    case OP_SIN: return number_sine(a);
-    case OP_COS: return number_cosine(a);
-    case OP_ADD: return a + b;
-    case OP_SUB: return a - b;
-    case OP_MUL: return a * b;
-    case OP_DIV: return a / b;
-    case OP_NEG: return -a;
-    case OP_SQRT: return number_root(a);
-    case OP_ABS: return fabs(a);
-    case OP_SIGN: return number_call(FN_SIGN, a, 0.0);
-    case OP_MIN: return number_least(a, b);
-    case OP_MAX: return number_most(a, b);
-    case OP_CALL: return number_call(o->function, a, b);
-    case OP_POW: return number_power(a, b);
+    const op_row *row = &op_rows[o->code];
+    const double a = row->values > 0 ? v[o->a] : 0.0;
+    const double b = (row->values > 1 || row->kind == OP_IS_PHASE) && o->b >= 0 ? v[o->b] : 0.0;
+    switch (row->kind) {
+    case OP_IS_CONSTANT: return as_float ? (double)(float)o->value : o->value;
+    case OP_IS_PHASE: return phase_at(t, o, state, b);
+    case OP_IS_LEAF:
+    case OP_IS_CELL:
+    case OP_IS_LOOKUP: {
+        const double number = drawn(o->code, o->a, state);
+        return o->code == OP_LINEAR ? number : o->code == OP_RATE ? rates * number : 2.0 + number;
     }
-    abort();
+    case OP_IS_WAVE:
+    case OP_IS_UNARY:
+    case OP_IS_BINARY:
+    case OP_IS_CALL: break;
+    }
+    return o->code == OP_ADD   ? a + b
+           : o->code == OP_SUB ? a - b
+           : o->code == OP_MUL ? a * b
+           : o->code == OP_DIV ? a / b
+           : o->code == OP_NEG ? -a
+           : o->code == OP_POW ? number_power(a, b)
+                               : number_call(op_list_function(o), a, b);
 }
 
 /* Computes the results of a list in a state: result[t->results]. */

@@ -94,70 +94,23 @@ static void op_list_needs_free(op_list_needs *n) {
 
 /* --- loads and stores of values ------------------------------------------------------------------ */
 
-/* The times at which a sequence of operations uses each value of the list. */
-typedef struct wanted {
-    int *first; /* [ops + 1]: index in time[] of the first use of each value */
-    int *time;  /* positions in the sequence that use the value; a result is used after the end */
-    int *next;  /* [ops]: index in time[] of the next use */
-} wanted;
-
-/* Notes that value v is used at `time`: the first pass counts the uses, the second one stores the times. */
-static void want(wanted *w, int pass, int v, int time) {
-    if (pass == 0) {
-        w->first[v + 1]++;
-    } else {
-        w->time[w->next[v]++] = time;
-    }
-}
-
-static wanted wanted_of(const op_list *t, const int *sequence, int count) {
-    wanted w = {alloc((int64_t)t->count + 1, sizeof *w.first), NULL,
-                alloc_more(NULL, t->count, sizeof *w.next)};
-    int found[TAKEN_MOST];
-    for (int pass = 0; pass < 2; pass++) {
-        for (int at = 0; at < count; at++) {
-            for (int k = op_list_taken(t, sequence[at], found); k > 0; k--) {
-                want(&w, pass, found[k - 1], at);
-            }
-        }
-        for (int i = 0; i < t->results; i++) {
-            want(&w, pass, t->result[i], count);
-        }
-        for (int i = 0; i < t->count && pass == 0; i++) {
-            w.first[i + 1] += w.first[i];
-        }
-        w.time = pass == 0 ? alloc(w.first[t->count], sizeof *w.time) : w.time;
-        memcpy(w.next, w.first, (size_t)t->count * sizeof *w.next);
-    }
-    return w;
-}
-
-static void wanted_free(wanted *w) {
-    free(w->first);
-    free(w->time);
-    free(w->next);
-}
-
-/* Returns the time of the next use of value v, or INT_MAX. */
-static int next_time(const wanted *w, int v) {
-    return w->next[v] < w->first[v + 1] ? w->time[w->next[v]] : INT_MAX;
-}
-
 /* Values in registers, and the number of loads and stores so far. */
 typedef struct registers {
     int value[OP_LIST_REGISTERS];
     int count;
+    int *
+        next; /* [ops]: position of the value's next use, or INT_MAX; a result is used after the end */
     bool *stored; /* [ops]: memory has a copy */
     int carried;
 } registers;
 
 /* Gives value v a register. If none is free, the value whose next use is latest loses its register. An operand of the
  * current operation keeps its register, because it is used now. */
-static void hold(const wanted *w, registers *r, int v) {
+static void hold(registers *r, int v) {
     if (r->count == OP_LIST_REGISTERS) {
         int last = 0;
         for (int k = 1; k < OP_LIST_REGISTERS; k++) {
-            last = next_time(w, r->value[k]) > next_time(w, r->value[last]) ? k : last;
+            last = r->next[r->value[k]] > r->next[r->value[last]] ? k : last;
         }
         const int gone = r->value[last];
         if (!r->stored[gone]) {
@@ -177,41 +130,60 @@ static bool is_held(const registers *r, int v) {
     return k < r->count;
 }
 
+/* Finds the next use of each value before the sequence begins: next[ops]. Returns the use that follows the one by operand
+ * k at position `at`: after[TAKEN_MOST * at + k]. The caller frees it. */
+static int *uses_after(const op_list *t, const int *sequence, int count, int *next) {
+    int *after = alloc_more(NULL, TAKEN_MOST * count, sizeof *after);
+    int found[TAKEN_MOST];
+    for (int i = 0; i < t->count; i++) {
+        next[i] = INT_MAX;
+    }
+    for (int i = 0; i < t->results; i++) {
+        next[t->result[i]] = count;
+    }
+    for (int at = count - 1; at >= 0; at--) {
+        for (int k = op_list_taken(t, sequence[at], found) - 1; k >= 0; k--) {
+            after[TAKEN_MOST * at + k] = next[found[k]];
+            next[found[k]] = at;
+        }
+    }
+    return after;
+}
+
 /* Counts the loads and stores of values in this sequence if the value whose next use is latest is always replaced,
  * which is the best choice (Belady, 1966). */
 static int op_list_carried_by(const op_list_needs *n, const int *sequence, int count) {
-    wanted w = wanted_of(n->t, sequence, count);
-    registers r = {.stored = alloc(n->t->count, sizeof *r.stored)};
+    registers r = {.next = alloc_more(NULL, n->t->count, sizeof *r.next),
+                   .stored = alloc_more(NULL, n->t->count, sizeof *r.stored)};
+    int *after = uses_after(n->t, sequence, count, r.next);
     int found[TAKEN_MOST];
-    for (int i = 0; i < n->t->count; i++) {
-        r.stored[i] = n->given[i];
-    }
+    memcpy(r.stored, n->given, (size_t)n->t->count * sizeof *r.stored);
     for (int at = 0; at < count; at++) {
         const int values = op_list_taken(n->t, sequence[at], found);
         for (int k = 0; k < values; k++) {
             if (!is_held(&r, found[k])) {
-                hold(&w, &r, found[k]);
+                hold(&r, found[k]);
                 r.carried++;
             }
         }
         for (int k = 0; k < values; k++) {
-            w.next[found[k]]++;
+            r.next[found[k]] = after[TAKEN_MOST * at + k];
         }
         int kept = 0;
         for (int k = 0; k < r.count; k++) {
-            if (next_time(&w, r.value[k]) < INT_MAX) {
+            if (r.next[r.value[k]] < INT_MAX) {
                 r.value[kept++] = r.value[k];
             }
         }
         r.count = kept;
-        if (next_time(&w, sequence[at]) < INT_MAX) {
-            hold(&w, &r, sequence[at]);
+        if (r.next[sequence[at]] < INT_MAX) {
+            hold(&r, sequence[at]);
         }
     }
-    const int carried = r.carried;
+    free(after);
+    free(r.next);
     free(r.stored);
-    wanted_free(&w);
-    return carried;
+    return r.carried;
 }
 
 /* Returns the operations to compute, in the order of the list. The caller frees the array. */
@@ -521,14 +493,19 @@ int op_list_operands(const op *o, int operand[static 2]) {
     return count;
 }
 
-void op_list_mark_needed(const op_list *t, int number, bool *needed) {
+/* Marks all operations on which marked ones depend, of operation `last` and those before. */
+static void mark_operands(const op_list *t, int last, bool *needed) {
     int operand[2];
-    needed[number] = true;
-    for (int i = number; i >= 0; i--) {
+    for (int i = last; i >= 0; i--) {
         for (int k = needed[i] ? op_list_operands(&t->ops[i], operand) : 0; k > 0; k--) {
             needed[operand[k - 1]] = true;
         }
     }
+}
+
+void op_list_mark_needed(const op_list *t, int number, bool *needed) {
+    needed[number] = true;
+    mark_operands(t, number, needed);
 }
 
 bool op_list_has(const op_list *t, op_code code) {
@@ -571,35 +548,27 @@ static void fuse_reciprocals(op_list *t) {
 }
 
 static void drop_unused(op_list *t) {
-    int *number = alloc_more(NULL, t->count, sizeof *number);
-    memset(number, -1, (size_t)t->count * sizeof *number);
+    bool *needed = alloc(t->count, sizeof *needed);
+    int *number = alloc(t->count, sizeof *number);
     for (int i = 0; i < t->results; i++) {
-        number[t->result[i]] = 0;
+        needed[t->result[i]] = true;
     }
-    int operand[2];
-    for (int i = t->count - 1; i >= 0; i--) {
-        if (number[i] == 0) {
-            const int count = op_list_operands(&t->ops[i], operand);
-            for (int k = 0; k < count; k++) {
-                number[operand[k]] = 0;
-            }
-        }
-    }
+    mark_operands(t, t->count - 1, needed);
     int kept = 0;
     for (int i = 0; i < t->count; i++) {
-        if (number[i] < 0) {
-            continue;
+        if (needed[i]) {
+            op o = t->ops[i];
+            renumber(&o, number);
+            number[i] = kept;
+            t->ops[kept++] = o;
         }
-        op o = t->ops[i];
-        renumber(&o, number);
-        number[i] = kept;
-        t->ops[kept++] = o;
     }
     t->count = kept;
     for (int i = 0; i < t->results; i++) {
         t->result[i] = number[t->result[i]];
     }
     free(number);
+    free(needed);
     if (t->room > 0) {
         op_list_reindex(t);
     }
