@@ -1,74 +1,38 @@
 /* conserve.c: the choice of recoverable coordinates, and their recovery. */
 #include "host/derive/conserve.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "host/base/alloc.h"
 
 /* === the influences on a coordinate, and of a coordinate ====================================== */
 
-/* Appends a force, a loss or a contact that changes a momentum to the text, such as "the Q in line 9". *count: the
- * number of entries so far. */
-#define INFLUENCE_TEXT_SIZE 200
-
-/* At most this many statements are listed. */
-enum { TOLD_MAX = 4 };
-
-static void tell(char text[INFLUENCE_TEXT_SIZE], int *count, const char *what, place at) {
-    const size_t used = strlen(text);
-    if (*count < TOLD_MAX) {
-        snprintf(text + used, INFLUENCE_TEXT_SIZE - used, "%s%s in line %d", *count > 0 ? ", " : "",
-                 what, at.line);
-    } else if (*count == TOLD_MAX) {
-        snprintf(text + used, INFLUENCE_TEXT_SIZE - used, " and more");
-    }
-    ++*count;
-}
-
-static const char *influence_on(const equations *e, int i, char text[INFLUENCE_TEXT_SIZE],
-                                int *count) {
+/* Finds the first force, loss or contact that changes the momentum of unknown i. Returns what it is
+ * called, such as "the Q", and its place. */
+static const char *influence_on(const equations *e, int i, place *at) {
     algebra *a = e->algebra;
     const mechanism *m = e->instance->mechanism;
     const symbol *q = e->unknowns[i].symbol;
-    text[0] = '\0';
-    *count = 0;
     for (int k = 0; k < m->term_count; k++) {
         const term *each = &m->terms[k];
-        if (!instance_has(e->instance, each->effect)) {
-            continue;
-        }
         const poly *value = poly_from_expr(a, each->value);
-        if (each->kind == TERM_Q && each->coordinate == q && !poly_is_zero(value)) {
-            tell(text, count, "the Q", each->at);
-        } else if (each->kind == TERM_F && !poly_is_zero(poly_derivative(a, value, q, 1))) {
-            tell(text, count, "the F", each->at);
+        const bool acts = each->kind == TERM_Q   ? each->coordinate == q && !poly_is_zero(value)
+                          : each->kind == TERM_F ? !poly_is_zero(poly_derivative(a, value, q, 1))
+                                                 : false;
+        if (acts && instance_has(e->instance, each->effect)) {
+            *at = each->at;
+            return each->kind == TERM_Q ? "the Q" : "the F";
         }
     }
     for (int k = 0; k < (e->contacts != NULL ? e->contacts->count : 0); k++) {
         const contact_law *law = &e->contacts->law[k];
         if (contact_law_pushes(law, i)) {
-            tell(text, count, contact_called(law->from->kind), law->from->at);
+            *at = law->from->at;
+            return contact_called(law->from->kind);
         }
     }
-    return text;
-}
-
-static bool names(const poly *p, const symbol *q) { return p != NULL && poly_contains(p, q, 0); }
-
-static bool contact_names(const equations *e, const contact_law *law, const contact_set *set,
-                          const symbol *q) {
-    bool found = names(law->value, q) || names(law->speed, q) || names(law->first, q) ||
-                 names(law->second, q) || names(law->bias, q);
-    for (int i = 0; i < e->count && law->row != NULL; i++) {
-        found = found || names(law->row[i], q);
-    }
-    for (int i = 0; i < law->from->set_count && set->value != NULL; i++) {
-        found = found || names(set->value[i], q);
-    }
-    return found;
+    return "nothing"; /* not reached: `conserve` takes no driven coordinate */
 }
 
 /* Does a force, a loss or a contact depend on the coordinate's position? (Energies are not checked.) */
@@ -79,10 +43,13 @@ static bool influence_of(const equations *e, const symbol *q) {
         const term *each = &m->terms[k];
         found = instance_has(e->instance, each->effect) &&
                 (each->kind == TERM_Q || each->kind == TERM_F) &&
-                names(poly_from_expr(e->algebra, each->value), q);
+                poly_contains(poly_from_expr(e->algebra, each->value), q, 0);
     }
     for (int k = 0; k < (e->contacts != NULL ? e->contacts->count : 0) && !found; k++) {
-        found = contact_names(e, &e->contacts->law[k], &e->contacts->sets[k], q);
+        const poly *each;
+        for (int i = 0; (each = contact_law_poly(e, k, i)) != NULL; i++) {
+            found = found || poly_contains(each, q, 0);
+        }
     }
     return found;
 }
@@ -131,13 +98,14 @@ static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *
     return poly_mul(a, factors, turned);
 }
 
-/* Returns the function G with dG/dq_j = mass[j] for every unknown j, or NULL if there is none. */
+/* Returns the function G with dG/dq_j = mass[j] for every unknown j, or NULL if there is none. Powers of sums are
+ * multiplied out first, because they could prevent a result. */
 static const poly *potential_of(const equations *e, const poly *const *mass) {
     algebra *a = e->algebra;
     const poly *g = poly_number(a, 0.0);
     for (int j = 0; j < e->count; j++) {
         const symbol *q = e->unknowns[j].symbol;
-        const poly *rest = poly_sub(a, mass[j], poly_derivative(a, g, q, 0));
+        const poly *rest = poly_expanded(a, poly_sub(a, mass[j], poly_derivative(a, g, q, 0)));
         for (int i = 0; i < rest->count; i++) {
             const poly *part = integrate_term(a, &rest->terms[i], q);
             if (part == NULL) {
@@ -148,23 +116,9 @@ static const poly *potential_of(const equations *e, const poly *const *mass) {
     }
     for (int j = 0; j < e->count; j++) {
         const poly *slope = poly_derivative(a, g, e->unknowns[j].symbol, 0);
-        if (!poly_is_zero(poly_sub(a, slope, mass[j]))) {
+        if (!poly_is_zero(poly_expanded(a, poly_sub(a, slope, mass[j])))) {
             return NULL;
         }
-    }
-    return g;
-}
-
-/* As potential_of(). If unexpanded powers of sums prevent a result, they are multiplied out first. */
-static const poly *potential_of_any(const equations *e, const poly *const *mass) {
-    const poly *g = potential_of(e, mass);
-    if (g == NULL) {
-        const poly **expanded = alloc(e->count, sizeof(const poly *));
-        for (int j = 0; j < e->count; j++) {
-            expanded[j] = poly_expanded(e->algebra, mass[j]);
-        }
-        g = potential_of(e, expanded);
-        free(expanded);
     }
     return g;
 }
@@ -189,25 +143,15 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
                    q->name);
         return false;
     }
-    char text[INFLUENCE_TEXT_SIZE];
     char hint[160];
-    int count;
-    influence_on(e, i, text, &count);
-    snprintf(hint, sizeof hint, "leave %s out, or integrate %s: --without conserve",
-             count == 1 ? "this statement" : "these statements", q->name);
-    diag_error(errors, at, hint, "the momentum of '%s' is not conserved: it is changed by %s",
-               q->name, count > 0 ? text : "a force or a loss");
+    place cause = at;
+    const char *what = influence_on(e, i, &cause);
+    snprintf(hint, sizeof hint, "leave this statement out, or integrate %s: --without conserve",
+             q->name);
+    diag_error(errors, at, hint,
+               "the momentum of '%s' is not conserved: it is changed by %s in line %d", q->name,
+               what, cause.line);
     return false;
-}
-
-/* Is the momentum linear in the rates, p = sum m_j q_j'? Otherwise a rate cannot be recovered from it. */
-static bool is_linear(const equations *e, const poly *momentum, const poly *const *mass) {
-    algebra *a = e->algebra;
-    const poly *rest = momentum;
-    for (int j = 0; j < e->count; j++) {
-        rest = poly_sub(a, rest, poly_mul(a, mass[j], poly_symbol(a, e->unknowns[j].symbol, 1)));
-    }
-    return poly_is_zero(rest);
 }
 
 typedef struct momentum_law {
@@ -281,7 +225,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     }
     /* if a force depends on the coordinate, it is integrated: `closed` needs the time, which a step does not know */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
-    if (is_linear(e, momentum, law->mass)) {
+    if (energy_momentum_is_linear(e, i)) {
         return true;
     }
     diag_error(errors, e->unknowns[i].symbol->at, "integrate the coordinate: --without conserve",
@@ -293,7 +237,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
 static void make_potentials(const equations *e, conservation *c, momentum_law *laws) {
     algebra *a = e->algebra;
     for (int k = 0; k < c->count && c->closed; k++) {
-        const poly *g = potential_of_any(e, laws[k].mass);
+        const poly *g = potential_of(e, laws[k].mass);
         c->closed = g != NULL;
         if (g == NULL) {
             break;

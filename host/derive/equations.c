@@ -151,6 +151,19 @@ static void contact_laws_free(contact_laws *laws) {
     free(laws);
 }
 
+const poly *contact_law_poly(const equations *e, int k, int i) {
+    const contact_law *law = &e->contacts->law[k];
+    const poly *const fixed[] = {law->value, law->speed, law->first, law->second, law->bias};
+    const int more = i - (int)(sizeof fixed / sizeof fixed[0]);
+    if (more < 0) {
+        return fixed[i];
+    }
+    if (law->row != NULL) {
+        return more < e->count ? law->row[more] : NULL;
+    }
+    return more < law->from->set_count ? e->contacts->sets[k].value[more] : NULL;
+}
+
 bool contact_law_pushes(const contact_law *law, int i) {
     return law->row == NULL ? law->from->set_count > 0 : !poly_is_zero(law->row[i]);
 }
@@ -281,34 +294,6 @@ void equations_free(equations *e) {
 
 /* === the energy in the balance ================================================================ */
 
-#define TRIES 12       /* sampled states */
-#define TRIES_NEEDED 3 /* sampled states that must give finite values */
-/* Round-off allowed in Euler's theorem, relative to the terms. It may be large: only terms such as abs(x') need this
- * test. */
-#define EULER_ROUNDING 1e-9
-
-typedef struct trial_state {
-    const instance *instance;
-    unsigned number;
-    bool at_rest;
-} trial_state;
-
-/* Values for a test. Parameters and inputs have their own values, coordinates lie between 0.2 and 1.8. Rates have
- * sizes in the same range and either sign; at rest they are zero. */
-static double trial_value(void *context, const symbol *s, int primes) {
-    const trial_state *state = context;
-    if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT) {
-        return instance_value(state->instance, s, primes);
-    }
-    const double turns = 0.6180339887498949 * (double)(state->number + 1U) +
-                         0.4142135623730950 * (double)(s->index + 1) * (double)(primes + 1);
-    const double size = 0.2 + 1.6 * (turns - number_floor(turns));
-    if (primes == 0) {
-        return size;
-    }
-    return state->at_rest ? 0.0 : (((unsigned)s->index + state->number) % 2U == 0 ? size : -size);
-}
-
 static bool has_rates(const equations *e, const poly *p) {
     for (int i = 0; i < e->count; i++) {
         if (poly_contains(p, e->unknowns[i].symbol, 1)) {
@@ -327,52 +312,29 @@ bool energy_mass_has_rates(const equations *e) {
     return false;
 }
 
-/* Checks that T and its derivatives by the rates are zero at rest, as in a quadratic form. *known: the values at rest
- * are finite. */
-static bool nothing_at_rest(const equations *e, unsigned number, bool *known) {
-    trial_state state = {e->instance, number, true};
-    double most = fabs(poly_evaluate(e->kinetic, trial_value, &state));
-    for (int i = 0; i < e->count; i++) {
-        most += fabs(poly_evaluate(e->momentum[i], trial_value, &state));
+bool energy_momentum_is_linear(const equations *e, int i) {
+    algebra *a = e->algebra;
+    const poly *rest = e->momentum[i];
+    for (int j = 0; j < e->count; j++) {
+        const poly *rate = poly_symbol(a, e->unknowns[j].symbol, 1);
+        rest = poly_sub(a, rest, poly_mul(a, e->mass[i * e->count + j], rate));
     }
-    *known = isfinite(most);
-    return most == 0.0;
+    return poly_is_zero(rest);
 }
 
-/* Checks Euler's theorem at one state: sum q' dT/dq' = 2 T. *known: all terms are finite at this state. */
-static bool twice_itself(const equations *e, unsigned number, bool *known) {
-    trial_state state = {e->instance, number, false};
-    double rest = -2.0 * poly_evaluate(e->kinetic, trial_value, &state);
-    double size = fabs(rest);
-    for (int i = 0; i < e->count; i++) {
-        const double part = trial_value(&state, e->unknowns[i].symbol, 1) *
-                            poly_evaluate(e->momentum[i], trial_value, &state);
-        rest += part;
-        size += fabs(part);
-    }
-    *known = isfinite(size);
-    return fabs(rest) <= EULER_ROUNDING * size;
+static const poly *no_rate(void *context, algebra *a, const symbol *s, int primes) {
+    (void)context;
+    return s->kind == SYM_COORDINATE && primes == 1 ? poly_number(a, 0.0) : NULL;
 }
 
-/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? The masses show degrees above two, the
- * state at rest shows degrees zero and one, and Euler's theorem shows kinks such as abs(x'). */
+/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? If the masses contain no rates, and the
+ * momenta are their products with the rates, only a part of T without rates could be left. */
 static bool is_quadratic(const equations *e) {
-    if (has_rates(e, e->stored) || energy_mass_has_rates(e)) {
-        return false;
+    bool quadratic = !has_rates(e, e->stored) && !energy_mass_has_rates(e);
+    for (int i = 0; i < e->count && quadratic; i++) {
+        quadratic = energy_momentum_is_linear(e, i);
     }
-    int tried = 0;
-    for (unsigned number = 0; number < TRIES; number++) {
-        bool known[2];
-        const bool nothing = nothing_at_rest(e, number, &known[0]);
-        const bool twice = twice_itself(e, number, &known[1]);
-        if (known[0] && known[1]) {
-            if (!nothing || !twice) {
-                return false;
-            }
-            tried++;
-        }
-    }
-    return tried >= TRIES_NEEDED;
+    return quadratic && poly_is_zero(poly_substitute(e->algebra, e->kinetic, no_rate, NULL));
 }
 
 const poly *energy_integral(const equations *e) {

@@ -103,6 +103,9 @@ typedef struct equations {
 
 void equations_free(equations *e);
 
+/* Returns expression i of contact k: its law's, then its row or the values that it sets. NULL after the last one. */
+const poly *contact_law_poly(const equations *e, int k, int i);
+
 /* The place of the first kinetic energy. */
 place equations_kinetic_place(const instance *inst);
 
@@ -132,6 +135,9 @@ const poly *energy_integral(const equations *e);
 
 /* Returns the power of the drive of unknown i, which is an input with a rate. Contacts are not included. */
 const poly *energy_drive(const equations *e, int i);
+
+/* Is the momentum of unknown i linear in the rates, p_i = sum_j m_ij q_j'? */
+bool energy_momentum_is_linear(const equations *e, int i);
 
 /* Does any mass depend on a rate? Then an impulse is not mass times the change of the rates. */
 bool energy_mass_has_rates(const equations *e);

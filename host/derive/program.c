@@ -22,20 +22,13 @@ _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SET
 
 /* Fills p[] (if not NULL) with every poly of the scene's contacts, ready for a list. Returns their number. */
 static int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
-    const contact_laws *laws = e->contacts;
     int count = 0;
-    for (int k = 0; k < (laws != NULL ? laws->count : 0); k++) {
-        const contact_law *law = &laws->law[k];
-        const poly *const fixed[] = {law->value, law->speed, law->first, law->second, law->bias};
-        const int sets = law->row == NULL ? law->from->set_count : 0;
-        for (int i = 0; i < 5 + sets + (law->row != NULL ? e->count : 0); i++) {
-            const poly *each = i < 5          ? fixed[i]
-                               : i < 5 + sets ? laws->sets[k].value[i - 5]
-                                              : law->row[i - 5 - sets];
+    for (int k = 0; k < (e->contacts != NULL ? e->contacts->count : 0); k++) {
+        const poly *each;
+        for (int i = 0; (each = contact_law_poly(e, k, i)) != NULL; i++, count++) {
             if (p != NULL) {
                 p[count] = conservation_settle(e, c, equations_fold(e, each));
             }
-            count++;
         }
     }
     return count;
