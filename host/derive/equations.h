@@ -109,6 +109,10 @@ const poly *contact_law_poly(const equations *e, int k, int i);
 /* The place of the first kinetic energy. */
 place equations_kinetic_place(const instance *inst);
 
+/* Returns the value of a coordinate, a rate or an input at the generic state `seed`: a hash of seed and symbol, between
+ * 0.1 and 1.8 for even seeds, and between -0.9 and 0.8 for odd ones. */
+double equations_generic(uint64_t seed, const symbol *s, int primes);
+
 /* Reports that the equations exceed the limits of size. */
 void equations_report_growth(const equations *e, diags *errors);
 

@@ -120,18 +120,13 @@ typedef struct generic_state {
 } generic_state;
 
 /* At TRY_START, every symbol has its value at the start. At other states, parameters and inputs have their values, and
- * other symbols a hash of try, index and primes. */
+ * other symbols those of a generic state. */
 static double generic_value(void *context, const symbol *s, int primes) {
     const generic_state *state = context;
     if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT || state->seed == TRY_START) {
         return instance_value(state->instance, s, primes);
     }
-    uint64_t x = state->seed * UINT64_C(0x9e3779b97f4a7c15) + (uint64_t)s->index * 8191U +
-                 (uint64_t)primes * 131071U;
-    x = (x ^ (x >> 31)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 29)) * UINT64_C(0x94d049bb133111eb);
-    const double part = (double)(x >> 11) * 0x1p-53;
-    return (state->seed % 2 == 0 ? 0.1 : -0.9) + 1.7 * part;
+    return equations_generic(state->seed, s, primes);
 }
 
 /* Memory for four n by n matrices; the caller frees it. */

@@ -2,14 +2,16 @@
 #include "host/derive/symmetry.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "host/base/alloc.h"
 #include "host/number/functions.h"
+#include "host/number/gauss.h"
 
 /* === the null space =========================================================================== */
-/* The null space of many linear conditions is found from a triangular factor and its singular values, by one-sided
- * Jacobi rotations (Hestenes, "Inversion of matrices by biorthogonalization", 1958). */
+/* The null space of many linear conditions is found by Gauss elimination of their triangular factor. */
 
 /* The triangular factor of all conditions so far. */
 typedef struct conditions {
@@ -17,10 +19,8 @@ typedef struct conditions {
     double *r; /* [columns * columns] */
 } conditions;
 
-/* Entries of a unit vector below this are round-off. So is the rest of a vector that depends on other vectors. */
+/* Entries of a symmetry below this are round-off. So is the rest of one that depends on others. */
 #define NULL_SPACE_ROUNDING 1e-8
-
-#define SWEEPS_MOST 60
 
 /* Returns an empty set of conditions. The caller frees r. */
 static conditions conditions_none(int columns) {
@@ -78,120 +78,42 @@ static void conditions_add(conditions *c, const conditions *more) {
     free(row);
 }
 
-/* Makes columns p and q of m orthogonal by a Jacobi rotation, which is applied to v, too. Returns false if they
- * already are. */
-static bool make_orthogonal(double *m, double *v, int n, int p, int q) {
-    double pp = 0.0;
-    double qq = 0.0;
-    double pq = 0.0;
-    for (int i = 0; i < n; i++) {
-        pp += m[i * n + p] * m[i * n + p];
-        qq += m[i * n + q] * m[i * n + q];
-        pq += m[i * n + p] * m[i * n + q];
-    }
-    if (!(fabs(pq) > 1e-16 * number_root(pp * qq))) {
-        return false;
-    }
-    const double ratio = (qq - pp) / (2.0 * pq);
-    const double tangent =
-        (ratio < 0.0 ? -1.0 : 1.0) / (fabs(ratio) + number_root(1.0 + ratio * ratio));
-    const double cosine = 1.0 / number_root(1.0 + tangent * tangent);
-    double *const both[] = {m, v};
-    for (int which = 0; which < 2; which++) {
-        double *of = both[which];
-        for (int i = 0; i < n; i++) {
-            const double left = of[i * n + p];
-            const double right = of[i * n + q];
-            of[i * n + p] = cosine * (left - tangent * right);
-            of[i * n + q] = cosine * (tangent * left + right);
-        }
-    }
-    return true;
-}
-
-/* Finds the orthonormal vectors that meet all conditions, as rows of basis[columns * columns], and returns their
- * number. A singular value counts as zero if it is below `zero` times the largest one. */
+/* Finds independent vectors that meet all conditions, as rows of basis[columns * columns], and returns their number.
+ * They are in reduced echelon form from the last column on, which is easy to read. A pivot counts as zero if it is
+ * below `zero` times the largest entry. */
 static int null_space(const conditions *c, double zero, double *basis) {
     const int n = c->columns;
     double *m = alloc((int64_t)n * n, sizeof *m);
-    double *v = alloc((int64_t)n * n, sizeof *v);
-    double *size = alloc(n, sizeof *size);
+    int *lead = alloc(n, sizeof *lead);
     double most = 0.0;
     int count = 0;
     for (int i = 0; i < n * n; i++) {
         m[i] = c->r[i];
-        v[i] = i / n == i % n ? 1.0 : 0.0;
+        most = number_most(most, fabs(m[i]));
     }
-    bool turns = true;
-    for (int sweep = 0; turns && sweep < SWEEPS_MOST; sweep++) {
-        turns = false;
-        for (int p = 0; p < n; p++) {
-            for (int q = p + 1; q < n; q++) {
-                turns = make_orthogonal(m, v, n, p, q) || turns;
-            }
+    int pivots = gauss_reduce(m, n, n, n, false, zero * most, lead);
+    for (int k = n - 1; k >= 0; k--) {
+        if (pivots > 0 && lead[pivots - 1] == k) {
+            pivots--;
+            continue;
+        }
+        double *v = &basis[count++ * n];
+        for (int j = 0; j < n; j++) {
+            v[j] = j == k ? 1.0 : 0.0;
+        }
+        for (int i = 0; i < pivots; i++) { /* the pivots before column k */
+            const double entry = -m[i * n + k] / m[i * n + lead[i]];
+            v[lead[i]] = fabs(entry) > NULL_SPACE_ROUNDING ? entry : 0.0;
         }
     }
-    for (int k = 0; k < n; k++) {
-        double sum = 0.0;
-        for (int i = 0; i < n; i++) {
-            sum += m[i * n + k] * m[i * n + k];
-        }
-        size[k] = number_root(sum);
-        most = number_most(most, size[k]);
-    }
-    for (int k = 0; k < n; k++) {
-        if (!(size[k] > zero * most)) {
-            for (int i = 0; i < n; i++) {
-                basis[count * n + i] = v[i * n + k];
-            }
-            count++;
-        }
-    }
-    free(size);
-    free(v);
+    free(lead);
     free(m);
     return count;
 }
 
-/* Replaces the basis by vectors that are easier to read: its reduced echelon form, from the last columns on. */
-static void null_space_tidy(double *basis, int count, int columns) {
-    for (int done = 0; done < count; done++) {
-        int row = done;
-        int column = 0;
-        double most = 0.0;
-        for (int k = columns - 1; k >= 0 && !(most > 0.3); k--) {
-            for (int i = done; i < count; i++) {
-                if (fabs(basis[i * columns + k]) > most) {
-                    most = fabs(basis[i * columns + k]);
-                    row = i;
-                    column = k;
-                }
-            }
-        }
-        for (int k = 0; k < columns; k++) {
-            const double swap = basis[row * columns + k];
-            basis[row * columns + k] = basis[done * columns + k];
-            basis[done * columns + k] = swap;
-        }
-        const double by = basis[done * columns + column];
-        for (int k = 0; k < columns; k++) {
-            basis[done * columns + k] /= by;
-        }
-        for (int i = 0; i < count; i++) {
-            const double part = basis[i * columns + column];
-            for (int k = 0; k < columns && i != done; k++) {
-                basis[i * columns + k] -= part * basis[done * columns + k];
-            }
-        }
-    }
-    for (int i = 0; i < count * columns; i++) {
-        basis[i] = fabs(basis[i]) > NULL_SPACE_ROUNDING ? basis[i] : 0.0;
-    }
-}
-
 /* === symmetries =============================================================================== */
 
-/* A singular value below this, relative to the largest one, counts as zero. Parts of an energy down to a millionth of
+/* A pivot below this, relative to the largest entry, counts as zero. Parts of an energy down to a millionth of
  * it must still count. */
 #define ZERO_OF_TERMS 1e-12  /* conditions from coefficients */
 #define ZERO_OF_VALUES 1e-11 /* conditions from values at random states */
@@ -342,14 +264,9 @@ static void take_forces(const equations *e, conditions *s, const poly **change) 
     }
 }
 
-/* Returns a random number that depends only on the state and the symbol. */
 static double drawn_value(void *context, const symbol *s, int primes) {
     const uint64_t *seed = context;
-    uint64_t x = *seed * UINT64_C(0x9e3779b97f4a7c15) +
-                 (uint64_t)(s->index + 1000 * (int)s->kind) * 8191U + (uint64_t)primes * 131071U;
-    x = (x ^ (x >> 31)) * UINT64_C(0xbf58476d1ce4e5b9);
-    x = (x ^ (x >> 29)) * UINT64_C(0x94d049bb133111eb);
-    return 0.1 + 1.7 * (double)(x >> 11) * 0x1p-53 - (*seed % 2 == 0 ? 0.0 : 1.0);
+    return equations_generic(*seed, s, primes);
 }
 
 /* Returns the number of motions that leave an energy unchanged, computed from its changes at random states; -1 if no
@@ -413,51 +330,36 @@ static symmetry symmetry_of(const equations *e, const double *by) {
     return s;
 }
 
-/* Orthogonalizes v against known[count], whose rows are orthonormal. If the remainder exceeds round-off, adds it as a
- * row and returns true. */
-static bool is_new(const double *v, double *known, int *count, int columns) {
-    double *mine = &known[*count * columns];
-    const double length = vector_length(v, columns);
-    if (*count == columns) {
-        return false;
-    }
-    for (int k = 0; k < columns; k++) {
-        mine[k] = v[k] / length;
-    }
-    for (int twice = 0; twice < 2; twice++) {
-        for (int i = 0; i < *count; i++) {
-            double part = 0.0;
-            for (int k = 0; k < columns; k++) {
-                part += mine[k] * known[i * columns + k];
-            }
-            for (int k = 0; k < columns; k++) {
-                mine[k] -= part * known[i * columns + k];
-            }
-        }
-    }
-    const double left = vector_length(mine, columns);
-    for (int k = 0; k < columns && left > NULL_SPACE_ROUNDING; k++) {
-        mine[k] /= left;
-    }
-    *count += left > NULL_SPACE_ROUNDING ? 1 : 0;
-    return left > NULL_SPACE_ROUNDING;
-}
-
 typedef struct finding {
     const equations *equations;
     symmetries *found;
-    double *known; /* [columns * columns] orthonormal rows: the symmetries found */
-    int count;     /* number of these rows */
+    double
+        *known; /* [(columns + 1) * columns] rows: the symmetries found, and a place for one more */
+    int count;  /* number of symmetries found */
     double *basis; /* [columns * columns] working memory */
 } finding;
+
+/* Is v independent of the symmetries found? If so, adds it to them. */
+static bool is_new(finding *f, const double *v, int columns) {
+    const int rows = f->count + 1;
+    const size_t row = (size_t)columns * sizeof *v;
+    double *m = alloc((int64_t)rows * columns, sizeof *m);
+    int *lead = alloc(columns, sizeof *lead);
+    memcpy(f->known + (ptrdiff_t)f->count * columns, v, row);
+    memcpy(m, f->known, (size_t)rows * row);
+    const int rank = gauss_reduce(m, rows, columns, columns, true, NULL_SPACE_ROUNDING, lead);
+    f->count = rank;
+    free(lead);
+    free(m);
+    return rank == rows;
+}
 
 /* Finds new symmetries that meet all conditions. Returns the number of all symmetries that meet them. */
 static int find_more(finding *f, const conditions *c, bool of_both, bool conserved) {
     const int count = null_space(c, ZERO_OF_TERMS, f->basis);
-    null_space_tidy(f->basis, count, c->columns);
     for (int i = 0; i < count; i++) {
         const double *v = &f->basis[i * c->columns];
-        if (!is_new(v, f->known, &f->count, c->columns)) {
+        if (!is_new(f, v, c->columns)) {
             continue;
         }
         symmetry made = symmetry_of(f->equations, v);
@@ -506,7 +408,8 @@ symmetries *symmetries_find(const equations *e) {
     symmetries *found = alloc(1, sizeof *found);
     *found = (symmetries){
         .each = alloc(columns, sizeof *found->each), .complete = true, .flat = is_flat(e)};
-    finding f = {e, found, alloc(square, sizeof(double)), 0, alloc(square, sizeof(double))};
+    finding f = {e, found, alloc(square + columns, sizeof(double)), 0,
+                 alloc(square, sizeof(double))};
     for (int which = 0; which < 2 && !algebra_overflow(a); which++) {
         for (int k = 0; k < columns; k++) {
             change[k] = without_phases(a, poly_expanded(a, change_by(e, energy[which], k)));
