@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "host/base/alloc.h"
+#include "host/derive/equations.h"
 #include "host/image/op_list.h"
 #include "host/number/folding.h"
 
@@ -21,113 +22,7 @@ static int minus_product(op_list *t, int from, int x, int y) {
 /* mass[n * n] and force[n] are operations, and are overwritten. solution[n] receives the operations of the
  * unknowns. */
 
-/* --- symmetric positive definite -----------------------------------------------------------------*/
-
-/* x_k = (f_k - sum over later unknowns of m_kj x_j) / m_kk */
-static void substitute_back(op_list *t, int n, const int *mass, const int *force, const int *order,
-                            int at, int *solution) {
-    const int k = order[at];
-    int rest = force[k];
-    for (int i = at + 1; i < n; i++) {
-        rest = minus_product(t, rest, mass[k * n + order[i]], solution[order[i]]);
-    }
-    solution[k] = op_list_div(t, rest, mass[k * n + k]);
-}
-
-static void solve_pair(op_list *t, int n, const int *mass, const int *force, int i, int j,
-                       int *solution) {
-    const int mixed = mass[i * n + j];
-    const int determinant =
-        minus_product(t, op_list_mul(t, mass[i * n + i], mass[j * n + j]), mixed, mixed);
-    const int inverse = op_list_div(t, op_list_constant(t, 1.0), determinant);
-    const int x = minus_product(t, op_list_mul(t, force[i], mass[j * n + j]), mixed, force[j]);
-    const int y = minus_product(t, op_list_mul(t, force[j], mass[i * n + i]), mixed, force[i]);
-    solution[i] = op_list_mul(t, x, inverse);
-    solution[j] = op_list_mul(t, y, inverse);
-}
-
-/* Eliminates in the order order[n]. The first `done` unknowns are already eliminated symbolically, and need only back
- * substitution. */
-static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const int *order,
-                                int done, int *solution) {
-    int left = n - 1; /* the last index with a value that is still needed */
-    double value;
-    for (int at = done; at < n - 1; at++) {
-        const int k = order[at];
-        const bool fixed = op_list_is_constant(t, mass[k * n + k], &value);
-        if (at == n - 2 && !fixed) {
-            solve_pair(t, n, mass, force, k, order[n - 1], solution);
-            left = n - 3;
-            break;
-        }
-        const int inverse = op_list_div(t, op_list_constant(t, 1.0), mass[k * n + k]);
-        for (int x = at + 1; x < n; x++) {
-            const int i = order[x];
-            const int part = op_list_mul(t, inverse, mass[k * n + i]);
-            for (int y = x; y < n; y++) {
-                const int j = order[y];
-                mass[i * n + j] = minus_product(t, mass[i * n + j], part, mass[k * n + j]);
-                mass[j * n + i] = mass[i * n + j];
-            }
-            force[i] = minus_product(t, force[i], part, force[k]);
-        }
-    }
-    for (; left >= 0; left--) {
-        substitute_back(t, n, mass, force, order, left, solution);
-    }
-}
-
-/* --- any regular matrix --------------------------------------------------------------------------*/
-
-/* Returns a number between 0.3 and 0.67, different for each leaf, and independent of the leaf's place in the list. */
-static double generic(double of) {
-    return 0.3 + 0.37 * number_remainder(fabs(of) * 0.6180339887, 1.0);
-}
-
-/* Returns the value of every operation at an artificial generic state, which shows pivots that vanish. */
-static double *sample(const op_list *t) {
-    double *v = alloc(t->count, sizeof *v);
-    for (int i = 0; i < t->count; i++) {
-        const op *o = &t->ops[i];
-        const int values = op_rows[o->code].values;
-        const double a = values > 0 ? v[o->a] : 0.0;
-        const double b = (values > 1 || o->code == OP_PHASE) && o->b >= 0 ? v[o->b] : 0.0;
-        switch (o->code) {
-        case OP_CONSTANT: v[i] = o->value; break;
-        case OP_LINEAR:
-        case OP_RATE:
-        case OP_INPUT:
-        case OP_ACCEL:
-        case OP_TIME:
-        case OP_RADIANS:
-        case OP_NOISE: v[i] = generic(1.0 + 31.0 * (double)o->code + o->a); break;
-        case OP_PHASE:
-            v[i] = o->value + b;
-            for (int k = 0; k < t->angles && o->turns != NULL; k++) {
-                v[i] += o->turns[k] * generic(1.0 + k);
-            }
-            break;
-        case OP_ADD: v[i] = a + b; break;
-        case OP_SUB: v[i] = a - b; break;
-        case OP_MUL: v[i] = a * b; break;
-        case OP_DIV: v[i] = a / b; break;
-        case OP_NEG: v[i] = -a; break;
-        case OP_SQRT: v[i] = number_root(fabs(a)); break;
-        case OP_CELL: /* lists under elimination have no tables */
-        case OP_LINE:
-        case OP_CUBIC:
-        case OP_SIN:
-        case OP_COS:
-        case OP_ABS:
-        case OP_SIGN:
-        case OP_MIN:
-        case OP_MAX:
-        case OP_CALL:
-        case OP_POW: v[i] = generic(31.0 * (double)o->code + 7.0 * a + 3.0 * b); break;
-        }
-    }
-    return v;
-}
+/* --- Cramer's rule -------------------------------------------------------------------------------*/
 
 /* Enters the determinant of the equations rows[] in the unknowns columns[], by cofactors (size <= 3). */
 static int determinant(op_list *t, int n, const int *mass, const int *rows, const int *columns,
@@ -151,6 +46,7 @@ static int determinant(op_list *t, int n, const int *mass, const int *rows, cons
     return sum;
 }
 
+/* Solves the equations rows[size] for the unknowns columns[size] by Cramer's rule, with one division. */
 static void solve_cramer(op_list *t, int n, const int *mass, const int *force, const int *rows,
                          const int *columns, int size, int *solution) {
     const int all = determinant(t, n, mass, rows, columns, size);
@@ -163,10 +59,73 @@ static void solve_cramer(op_list *t, int n, const int *mass, const int *force, c
         for (int r = 0; r < size; r++) {
             swapped[rows[r] * n + columns[c]] = force[rows[r]];
         }
-        const int top = determinant(t, n, swapped, rows, columns, size);
-        solution[columns[c]] = size == 1 ? op_list_div(t, top, all) : op_list_mul(t, top, inverse);
+        solution[columns[c]] = determinant(t, n, swapped, rows, columns, size);
+    }
+    for (int c = 0; c < size; c++) {
+        int *x = &solution[columns[c]];
+        *x = size == 1 ? op_list_div(t, *x, all) : op_list_mul(t, *x, inverse);
     }
     free(swapped);
+}
+
+/* --- symmetric positive definite -----------------------------------------------------------------*/
+
+/* x_k = (f_k - sum over later unknowns of m_kj x_j) / m_kk */
+static void substitute_back(op_list *t, int n, const int *mass, const int *force, const int *order,
+                            int at, int *solution) {
+    const int k = order[at];
+    int rest = force[k];
+    for (int i = at + 1; i < n; i++) {
+        rest = minus_product(t, rest, mass[k * n + order[i]], solution[order[i]]);
+    }
+    solution[k] = op_list_div(t, rest, mass[k * n + k]);
+}
+
+/* Eliminates in the order order[n]. The first `done` unknowns are already eliminated symbolically, and need only back
+ * substitution. */
+static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const int *order,
+                                int done, int *solution) {
+    int left = n - 1; /* the last index with a value that is still needed */
+    double value;
+    for (int at = done; at < n - 1; at++) {
+        const int k = order[at];
+        const bool fixed = op_list_is_constant(t, mass[k * n + k], &value);
+        if (at == n - 2 && !fixed) {
+            solve_cramer(t, n, mass, force, order + at, order + at, 2, solution);
+            left = n - 3;
+            break;
+        }
+        const int inverse = op_list_div(t, op_list_constant(t, 1.0), mass[k * n + k]);
+        for (int x = at + 1; x < n; x++) {
+            const int i = order[x];
+            const int part = op_list_mul(t, inverse, mass[k * n + i]);
+            for (int y = x; y < n; y++) {
+                const int j = order[y];
+                mass[i * n + j] = minus_product(t, mass[i * n + j], part, mass[k * n + j]);
+                mass[j * n + i] = mass[i * n + j];
+            }
+            force[i] = minus_product(t, force[i], part, force[k]);
+        }
+    }
+    for (; left >= 0; left--) {
+        substitute_back(t, n, mass, force, order, left, solution);
+    }
+}
+
+/* --- any regular matrix --------------------------------------------------------------------------*/
+
+static double generic(void *context, const symbol *s, int primes) {
+    (void)context;
+    return equations_generic(0, s, primes);
+}
+
+/* Returns the values of the polys p[count] at a generic state, which shows pivots that vanish. */
+static double *sample(const poly *const *p, int count) {
+    double *value = alloc(count, sizeof *value);
+    for (int i = 0; i < count; i++) {
+        value[i] = poly_evaluate(p[i], generic, NULL);
+    }
+    return value;
 }
 
 static void exchange(int *a, int *b) {
@@ -176,9 +135,9 @@ static void exchange(int *a, int *b) {
 }
 
 /* Moves the best pivot among the equations and unknowns from `at` on to position `at`. A constant pivot is best;
- * otherwise the largest at the sample state. Returns true if the pivot is constant. */
-static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int *columns, int at) {
-    double *v = sample(t);
+ * otherwise the largest at a generic state. Returns true if the pivot is constant. */
+static bool bring_pivot(const op_list *t, int n, const int *mass, const double *value, int *rows,
+                        int *columns, int at) {
     double best = -1.0;
     bool best_constant = false;
     int row = at;
@@ -187,7 +146,8 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int
         for (int j = at; j < n; j++) {
             const int entry = mass[rows[i] * n + columns[j]];
             const bool constant = t->ops[entry].code == OP_CONSTANT && t->ops[entry].value != 0.0;
-            const double size = isfinite(v[entry]) ? fabs(v[entry]) : 0.0;
+            const double v = value[rows[i] * n + columns[j]];
+            const double size = isfinite(v) ? fabs(v) : 0.0;
             if ((constant && !best_constant) || (constant == best_constant && size > best)) {
                 best = size;
                 best_constant = constant;
@@ -196,15 +156,15 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, int *rows, int
             }
         }
     }
-    free(v);
     exchange(&rows[at], &rows[row]);
     exchange(&columns[at], &columns[column]);
     return best_constant;
 }
 
-/* Eliminates with the largest pivot at a sample state, and solves the last three equations by Cramer's rule. If the
+/* Eliminates with the largest pivot at a generic state, at which the matrix has the values value[n * n], and solves the last three equations by Cramer's rule. If the
  * determinant is nonzero, no division by a vanishing pivot occurs. */
-static void eliminate_general(op_list *t, int n, int *mass, int *force, int *solution) {
+static void eliminate_general(op_list *t, int n, int *mass, int *force, double *value,
+                              int *solution) {
     int *rows = alloc(2 * (int64_t)n, sizeof *rows);
     int *columns = rows + n;
     for (int i = 0; i < n; i++) {
@@ -212,18 +172,21 @@ static void eliminate_general(op_list *t, int n, int *mass, int *force, int *sol
     }
     int at = 0;
     while (at < n) {
-        const bool constant = bring_pivot(t, n, mass, rows, columns, at);
+        const bool constant = bring_pivot(t, n, mass, value, rows, columns, at);
         if (!constant && n - at <= 3) {
             solve_cramer(t, n, mass, force, rows + at, columns + at, n - at, solution);
             break;
         }
-        const int pivot = mass[rows[at] * n + columns[at]];
+        const int pivot = rows[at] * n + columns[at];
         for (int i = at + 1; i < n; i++) {
             const int r = rows[i];
-            const int part = op_list_div(t, mass[r * n + columns[at]], pivot);
+            const int first = r * n + columns[at];
+            const int part = op_list_div(t, mass[first], mass[pivot]);
             for (int j = at + 1; j < n; j++) {
-                const int above = mass[rows[at] * n + columns[j]];
-                mass[r * n + columns[j]] = minus_product(t, mass[r * n + columns[j]], part, above);
+                const int above = rows[at] * n + columns[j];
+                const int here = r * n + columns[j];
+                mass[here] = minus_product(t, mass[here], part, mass[above]);
+                value[here] -= value[first] / value[pivot] * value[above];
             }
             force[r] = minus_product(t, force[r], part, force[rows[at]]);
         }
@@ -772,7 +735,9 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
         if (s->symmetric) {
             eliminate_symmetric(t, n, node, node + n * n, w.order, w.eliminated, solution);
         } else {
-            eliminate_general(t, n, node, node + n * n, solution);
+            double *value = sample(w.mass, n * n);
+            eliminate_general(t, n, node, node + n * n, value, solution);
+            free(value);
         }
         for (int i = 0; i < n; i++) {
             solution[i] = op_list_mul(t, op_list_constant(t, w.scale[i]), solution[i]);
