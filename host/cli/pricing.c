@@ -639,8 +639,9 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
         code = EXIT_INTERRUPTED;
     } else if (code == EXIT_DONE) {
         const double horizon_s = trial_horizon_s(&p->trial);
-        const bool is_short = c.fastest.row >= 0 && horizon_s < 0.5 * p->until_s;
-        code = c.fastest.row >= 0 && !is_short ? EXIT_DONE : EXIT_RUN_FAILED;
+        const bool found = c.of[CHOICE_FASTEST].row >= 0;
+        const bool is_short = found && horizon_s < 0.5 * p->until_s;
+        code = found && !is_short ? EXIT_DONE : EXIT_RUN_FAILED;
         if (p->options->value[PRICING_JSON] != NULL) {
             choice_json(stdout, &p->trial, made, w, &c, &words, code);
         } else {

@@ -12,8 +12,8 @@ static bool is_known(const cost_figure *f) { return f->basis != COST_NOT_KNOWN; 
 
 static void judge_limit(choice_row *row, choice_limit which, double limit, bool known,
                         double most) {
-    row->unknown[which] = limit > 0.0 && !known;
-    row->fails[which] = limit > 0.0 && known && most > limit;
+    row->unknown |= limit > 0.0 && !known ? CHOICE_BIT(which) : 0U;
+    row->fails |= limit > 0.0 && known && most > limit ? CHOICE_BIT(which) : 0U;
 }
 
 static const cost_figure *worst_of(const cost *c) {
@@ -37,7 +37,7 @@ static choice_row judged(const trials *t, const choice_request *w, const table *
     row.worst = (best ? worst->value : worst->most) / each_s;
     row.load = clock > 0.0 ? c->cycles_worst.value / each_s / clock : 0.0;
     row.load_most = clock > 0.0 ? row.worst / clock : 0.0;
-    row.fails[CHOICE_ERROR] = of->result.error * TABLE_MARGIN > w->table.error;
+    row.fails = of->result.error * TABLE_MARGIN > w->table.error ? CHOICE_BIT(CHOICE_ERROR) : 0U;
     judge_limit(&row, CHOICE_LOAD, w->clock_Hz > 0.0 ? 1.0 : 0.0, cycles, row.load_most);
     judge_limit(&row, CHOICE_FLASH, w->flash_bytes, is_known(&c->flash_bytes),
                 bound_of(&c->flash_bytes, hopeful));
@@ -48,56 +48,43 @@ static choice_row judged(const trials *t, const choice_request *w, const table *
     return row;
 }
 
-static bool fails_besides(const choice_row *row, choice_limit but) {
-    for (int i = 0; i < CHOICE_LIMITS; i++) {
-        if (i != (int)but && row->fails[i]) {
-            return true;
-        }
-    }
-    return false;
+#define MEMORY (CHOICE_BIT(CHOICE_FLASH) | CHOICE_BIT(CHOICE_RAM))
+
+/* The limits that a choice need not keep, and the figure that it has the least of. */
+static const struct {
+    unsigned ignores;
+    enum { OF_CYCLES, OF_FLASH, OF_ERROR } least;
+} kinds[CHOICES] = {[CHOICE_FASTEST] = {0, OF_CYCLES},
+                    [CHOICE_SMALLEST] = {0, OF_FLASH},
+                    [CHOICE_WEAKER] = {CHOICE_BIT(CHOICE_ERROR), OF_ERROR},
+                    [CHOICE_DEARER] = {CHOICE_BIT(CHOICE_LOAD), OF_CYCLES},
+                    [CHOICE_LARGER] = {MEMORY, OF_FLASH},
+                    [CHOICE_ANY] = {CHOICE_BIT(CHOICE_LOAD) | MEMORY, OF_CYCLES}};
+
+static double figure_of(const table *made, const choice_row *row, int kind) {
+    const table_row *of = &made->row[row->row];
+    return kinds[kind].least == OF_CYCLES  ? row->worst
+           : kinds[kind].least == OF_FLASH ? of->cost.flash_bytes.value
+                                           : of->result.error;
 }
 
-/* Keeps the row with the smallest value. Rows come in order of rising price, so of equal rows the cheapest is kept. */
-static void keep_least(choice_row *kept, const choice_row *row, double value, double best) {
-    if (kept->row < 0 || value < best) {
-        *kept = *row;
-    }
-}
-
-static double flash_of(const table *made, const choice_row *row) {
-    return row->row < 0 ? 0.0 : made->row[row->row].cost.flash_bytes.value;
-}
-
-static double error_of(const table *made, const choice_row *row) {
-    return row->row < 0 ? 0.0 : made->row[row->row].result.error;
-}
-
+/* Rows come in order of rising price, so of equal rows the cheapest is kept. */
 static void enter(choice *c, const table *made, const choice_row *row) {
-    const bool has_flash = flash_of(made, row) > 0.0;
-    if (!fails_besides(row, CHOICE_LIMITS)) {
-        keep_least(&c->fastest, row, row->worst, c->fastest.worst);
-        if (has_flash) {
-            keep_least(&c->smallest, row, flash_of(made, row), flash_of(made, &c->smallest));
+    for (int i = 0; i < CHOICES; i++) {
+        const double figure = figure_of(made, row, i);
+        const bool known = kinds[i].least != OF_FLASH || figure > 0.0;
+        if ((row->fails & ~kinds[i].ignores) == 0 && known &&
+            (c->of[i].row < 0 || figure < figure_of(made, &c->of[i], i))) {
+            c->of[i] = *row;
         }
-    }
-    if (!fails_besides(row, CHOICE_ERROR)) {
-        keep_least(&c->weaker, row, error_of(made, row), error_of(made, &c->weaker));
-    }
-    if (row->fails[CHOICE_ERROR]) {
-        return;
-    }
-    keep_least(&c->any, row, row->worst, c->any.worst);
-    if (!fails_besides(row, CHOICE_LOAD)) {
-        keep_least(&c->dearer, row, row->load_most, c->dearer.load_most);
-    }
-    if (!row->fails[CHOICE_LOAD] && has_flash) {
-        keep_least(&c->larger, row, flash_of(made, row), flash_of(made, &c->larger));
     }
 }
 
 choice choice_make(const trials *t, const table *made, const choice_request *w) {
-    const choice_row none = {.row = -1};
-    choice c = {none, none, none, none, none, none};
+    choice c;
+    for (int i = 0; i < CHOICES; i++) {
+        c.of[i] = (choice_row){.row = -1};
+    }
     for (int i = 0; i < made->count; i++) {
         const choice_row row = judged(t, w, made, i);
         enter(&c, made, &row);
@@ -151,13 +138,11 @@ static void drop_long(const trials *t, table *made) {
 
 /* A row of the choice that was not counted, or -1. */
 static int uncounted(const table *made, const choice *c) {
-    const bool found = c->fastest.row >= 0;
-    const choice_row *const named[] = {found ? &c->fastest : &c->weaker,
-                                       found ? &c->smallest : &c->dearer, found ? NULL : &c->larger,
-                                       found ? NULL : &c->any};
-    for (size_t i = 0; i < sizeof named / sizeof named[0]; i++) {
-        if (named[i] != NULL && named[i]->row >= 0 && !made->row[named[i]->row].counted) {
-            return named[i]->row;
+    const bool found = c->of[CHOICE_FASTEST].row >= 0;
+    for (int i = found ? 0 : CHOICE_WEAKER; i < (found ? CHOICE_WEAKER : CHOICES); i++) {
+        const int row = c->of[i].row;
+        if (row >= 0 && !made->row[row].counted) {
+            return row;
         }
     }
     return -1;
@@ -231,7 +216,7 @@ static double declared_of(const table_row *row) {
 static void print_load(FILE *out, const choice_request *w, const table_row *row,
                        const choice_row *by) {
     const cost_figure *f = &row->cost.cycles_worst;
-    if (!(w->clock_Hz > 0.0) || by->unknown[CHOICE_LOAD]) {
+    if (!(w->clock_Hz > 0.0) || (by->unknown & CHOICE_BIT(CHOICE_LOAD)) != 0) {
         fputs(w->clock_Hz > 0.0 ? "  load        unknown, because the cycles of the longest step "
                                   "are unknown\n"
                                 : "  load        not computed: add --clock 16e6\n",
@@ -282,15 +267,17 @@ static void print_run(FILE *out, const table_row *row) {
     }
 }
 
-static void print_answer(FILE *out, const trials *t, const choice_request *w, const table_row *row,
-                         const choice_row *by) {
+static void print_answer(FILE *out, const trials *t, const choice_request *w, const table *made,
+                         const choice_row *by, const table_words *words, const char *head) {
     char text[AMOUNT];
     char name[TRIAL_NAME];
+    const table_row *row = &made->row[by->row];
     const cost *c = &row->cost;
     const bool cycles = cost_has_cycles(c);
     const char *unit = cycles ? "cycles" : "instructions";
     const char *at = trial_place(t, row->result.point);
     const uint64_t substeps = table_substeps(&w->table, row);
+    fputs(head, out);
     print_options(out, t, row);
     fprintf(out, "  error       %s%s, measured", row->result.bound ? "at most " : "",
             amount(t, row->result.error, text));
@@ -319,15 +306,11 @@ static void print_answer(FILE *out, const trials *t, const choice_request *w, co
         print_figure(out, "state", &c->state_bytes, "bytes of the RAM");
     }
     for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
-        if (by->unknown[i]) {
+        if ((by->unknown & CHOICE_BIT(i)) != 0) {
             fprintf(out, "  %s has a limit, but its size is unknown: count it with --measure\n",
                     i == CHOICE_FLASH ? "flash" : "RAM");
         }
     }
-}
-
-static void print_lines(FILE *out, const trials *t, const table_row *row,
-                        const table_words *words) {
     char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
     char *derive = table_derive_line(t, &row->setting, row->pace, words);
     char *measure = table_measure_line(t, &row->setting, row->pace, row->result.point, words);
@@ -349,70 +332,57 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
-static void print_clock(FILE *out, const choice_request *w, const choice_row *row) {
-    if (row->fails[CHOICE_LOAD]) {
-        fprintf(out, "  a clock of %.3g MHz: ", no_less(1e-6 * w->clock_Hz * row->load_most));
-    }
-}
-
-static void print_bytes(FILE *out, const table *made, const choice_row *row) {
-    const cost *c = &made->row[row->row].cost;
-    fprintf(out, "  %.0f bytes of flash and %.0f of RAM with the stack: ",
-            number_ceiling(c->flash_bytes.most),
-            number_ceiling(c->ram_bytes.most + c->stack_bytes.most));
-}
-
-/* Prints the limits that could be relaxed, each with the row that would then fit. */
-static void print_remedies(FILE *out, const trials *t, const table *made, const choice_request *w,
-                           const choice *c) {
+/* Prints the limits that this row does not keep, as it would keep them. */
+static void print_remedy(FILE *out, const trials *t, const table *made, const choice_request *w,
+                         const choice_row *by) {
     char text[AMOUNT];
-    const bool larger =
-        c->larger.row >= 0 && (c->larger.fails[CHOICE_FLASH] || c->larger.fails[CHOICE_RAM]);
-    fputs("\nwhat would fit\n", out);
-    if (c->weaker.row >= 0) {
-        const table_row *row = &made->row[c->weaker.row];
+    const table_row *row = &made->row[by->row];
+    const cost *c = &row->cost;
+    if ((by->fails & CHOICE_BIT(CHOICE_ERROR)) != 0) {
         fprintf(out,
                 "  an error of %s: ", amount(t, no_less(TABLE_MARGIN * row->result.error), text));
-        print_options(out, t, row);
     }
-    if (c->dearer.row >= 0 && c->dearer.fails[CHOICE_LOAD]) {
-        print_clock(out, w, &c->dearer);
-        print_options(out, t, &made->row[c->dearer.row]);
+    if ((by->fails & CHOICE_BIT(CHOICE_LOAD)) != 0) {
+        fprintf(out, "  a clock of %.3g MHz: ", no_less(1e-6 * w->clock_Hz * by->load_most));
     }
-    if (larger) {
-        print_bytes(out, made, &c->larger);
-        print_options(out, t, &made->row[c->larger.row]);
+    if ((by->fails & MEMORY) != 0) {
+        fprintf(out, "  %.0f bytes of flash and %.0f of RAM with the stack: ",
+                number_ceiling(c->flash_bytes.most),
+                number_ceiling(c->ram_bytes.most + c->stack_bytes.most));
     }
-    if (c->any.row >= 0 && c->dearer.row < 0 && !larger) { /* clock and memory are both too small */
-        print_clock(out, w, &c->any);
-        print_bytes(out, made, &c->any);
-        print_options(out, t, &made->row[c->any.row]);
-    } else if (c->weaker.row < 0 && c->any.row < 0) {
-        fputs("  no tried setting\n", out);
+    print_options(out, t, row);
+}
+
+static void print_remedies(FILE *out, const trials *t, const table *made, const choice_request *w,
+                           const choice *c) {
+    bool none = true;
+    fputs("\nwhat would fit\n", out);
+    for (int i = CHOICE_WEAKER; i < CHOICES; i++) {
+        /* CHOICE_ANY: clock and memory are both too small */
+        const bool alone = c->of[CHOICE_DEARER].row < 0 && c->of[CHOICE_LARGER].row < 0;
+        if (c->of[i].row >= 0 && (i != CHOICE_ANY || alone)) {
+            print_remedy(out, t, made, w, &c->of[i]);
+            none = false;
+        }
     }
+    fputs(none ? "  no tried setting\n" : "", out);
 }
 
 void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
                   const choice *c, const table_words *words) {
-    const bool found = c->fastest.row >= 0;
+    const int fastest = c->of[CHOICE_FASTEST].row;
+    const int smallest = c->of[CHOICE_SMALLEST].row;
     fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->request.board->name,
             t->request.board->core);
     figure_reference(out, t);
     fprintf(out, "  prices      %s\n\n", w->prices);
-    if (found) {
-        const table_row *row = &made->row[c->fastest.row];
-        fputs("fewest cycles  ", out);
-        print_answer(out, t, w, row, &c->fastest);
-        print_lines(out, t, row, words);
-        fputs("\nleast flash    ", out);
-        if (c->smallest.row == c->fastest.row) {
-            fputs("the same\n", out);
-        } else if (c->smallest.row < 0) {
-            fputs("not known\n", out);
+    if (fastest >= 0) {
+        print_answer(out, t, w, made, &c->of[CHOICE_FASTEST], words, "fewest cycles  ");
+        fputc('\n', out);
+        if (smallest < 0 || smallest == fastest) {
+            fprintf(out, "least flash    %s\n", smallest < 0 ? "not known" : "the same");
         } else {
-            row = &made->row[c->smallest.row];
-            print_answer(out, t, w, row, &c->smallest);
-            print_lines(out, t, row, words);
+            print_answer(out, t, w, made, &c->of[CHOICE_SMALLEST], words, "least flash    ");
         }
     } else if (made->broken_off + made->unpriced == 0) {
         fprintf(out, "no setting fits: all %d settings were tried\n", made->settings);
@@ -420,7 +390,7 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_re
         fprintf(out, "no setting fits among the tried steps%s\n",
                 made->broken_off > 0 ? ": raise --effort" : "");
     }
-    if (!found && made->count > 0) {
+    if (fastest < 0 && made->count > 0) {
         print_remedies(out, t, made, w, c);
     }
     fputc('\n', out);
@@ -429,18 +399,18 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_re
 
 void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
                  const choice *c, const table_words *words, int status) {
-    const choice_row *const of[] = {&c->fastest, &c->smallest};
     json j = {.out = out};
     table_json_begin(&j, "choose", t);
     json_number(&j, "allowed", w->table.error);
     json_text(&j, "prices", w->prices);
     json_open(&j, "answers", '[');
-    for (int i = 0; i < 2; i++) {
-        if (of[i]->row >= 0) {
+    for (int i = CHOICE_FASTEST; i <= CHOICE_SMALLEST; i++) {
+        const choice_row *of = &c->of[i];
+        if (of->row >= 0) {
             json_open(&j, NULL, '{');
-            json_text(&j, "least", i == 0 ? "cycles" : "flash");
-            json_number(&j, "load_most", of[i]->load_most > 0.0 ? of[i]->load_most : (double)NAN);
-            table_json_row(&j, t, &made->row[of[i]->row], words);
+            json_text(&j, "least", i == CHOICE_FASTEST ? "cycles" : "flash");
+            json_number(&j, "load_most", of->load_most > 0.0 ? of->load_most : (double)NAN);
+            table_json_row(&j, t, &made->row[of->row], words);
             json_close(&j, '}');
         }
     }

@@ -14,6 +14,7 @@ typedef enum choice_limit {
     CHOICE_RAM,
     CHOICE_LIMITS
 } choice_limit;
+#define CHOICE_BIT(limit) (1U << (unsigned)(limit))
 
 typedef struct choice_request {
     table_request table; /* has the allowed error, in trial_unit(), and the rate of calls */
@@ -33,18 +34,23 @@ typedef struct choice_row {
     double worst;
     double load; /* 0: unknown */
     double load_most;
-    bool fails[CHOICE_LIMITS];
-    bool unknown[CHOICE_LIMITS]; /* there is a limit, but no figure */
+    unsigned fails;   /* bits: limits that it does not keep */
+    unsigned unknown; /* bits: limits without a figure to compare */
 } choice_row;
 
-typedef struct choice {
-    choice_row fastest;  /* the fewest cycles within all limits */
-    choice_row smallest; /* the least flash within all limits */
+typedef enum choice_kind {
+    CHOICE_FASTEST,  /* the fewest cycles within all limits */
+    CHOICE_SMALLEST, /* the least flash within all limits */
     /* If no row fits, the candidates for relaxing a limit: */
-    choice_row weaker; /* the least error within the other limits */
-    choice_row dearer; /* the least load within error, flash and RAM */
-    choice_row larger; /* the least flash within error and load */
-    choice_row any;    /* the least load within the error */
+    CHOICE_WEAKER, /* the least error within the other limits */
+    CHOICE_DEARER, /* the fewest cycles within error, flash and RAM */
+    CHOICE_LARGER, /* the least flash within error and load */
+    CHOICE_ANY,    /* the fewest cycles within the error */
+    CHOICES
+} choice_kind;
+
+typedef struct choice {
+    choice_row of[CHOICES];
 } choice;
 
 choice choice_make(const trials *t, const table *made, const choice_request *w);

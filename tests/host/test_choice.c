@@ -137,18 +137,18 @@ TEST(choice, drawn_requests) {
                  n, text, board, q.asked.table.error, q.asked.table.rate_Hz, q.asked.clock_Hz,
                  q.asked.flash_bytes);
         try_all(&q, &cycles, &flash);
-        if (c.fastest.row >= 0) {
+        if (c.of[CHOICE_FASTEST].row >= 0) {
             double worst;
-            const choice_row *const answers[] = {&c.fastest, &c.smallest};
+            const choice_row *const answers[] = {&c.of[CHOICE_FASTEST], &c.of[CHOICE_SMALLEST]};
             found++;
             for (int i = 0; i < 2; i++) {
                 const table_row *r = row_of(&q, answers[i]);
                 TEST_ASSERT_TRUE_MESSAGE(keeps(&q, &r->setting, r->pace.steps, &worst), what);
                 TEST_ASSERT_TRUE_MESSAGE(fabs(worst / answers[i]->worst - 1) < 0.03, what);
             }
-            TEST_ASSERT_TRUE_MESSAGE(c.fastest.worst <= cycles * 1.03, what);
+            TEST_ASSERT_TRUE_MESSAGE(c.of[CHOICE_FASTEST].worst <= cycles * 1.03, what);
             TEST_ASSERT_TRUE_MESSAGE(
-                row_of(&q, &c.smallest)->cost.flash_bytes.value <= flash * 1.03, what);
+                row_of(&q, &c.of[CHOICE_SMALLEST])->cost.flash_bytes.value <= flash * 1.03, what);
         } else {
             TEST_ASSERT_TRUE_MESSAGE(isinf(cycles) || q.made->broken_off > 0, what);
         }
@@ -205,18 +205,21 @@ TEST(choice, what_would_fit_does) {
     q.asked.table.error = 1e-5;
     q.asked.clock_Hz = 2e5;
     const choice c = choose(&q);
-    TEST_ASSERT_TRUE(c.fastest.row < 0 && c.dearer.row >= 0);
+    TEST_ASSERT_TRUE(c.of[CHOICE_FASTEST].row < 0 && c.of[CHOICE_DEARER].row >= 0);
     choice_request w = q.asked;
-    w.clock_Hz = q.asked.clock_Hz * c.dearer.load_most * (1.0 + 1e-9);
-    TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, q.made, &w).fastest.row >= 0, "a faster chip");
+    w.clock_Hz = q.asked.clock_Hz * c.of[CHOICE_DEARER].load_most * (1.0 + 1e-9);
+    TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, q.made, &w).of[CHOICE_FASTEST].row >= 0,
+                             "a faster chip");
     w.clock_Hz *= 0.98;
-    TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, q.made, &w).fastest.row < 0, "a slower one");
-    if (c.weaker.row >= 0) {
+    TEST_ASSERT_TRUE_MESSAGE(choice_make(&q.trial, q.made, &w).of[CHOICE_FASTEST].row < 0,
+                             "a slower one");
+    if (c.of[CHOICE_WEAKER].row >= 0) {
         w = q.asked;
-        w.table.error = TABLE_MARGIN * row_of(&q, &c.weaker)->result.error * (1.0 + 1e-9);
-        TEST_ASSERT_TRUE(choice_make(&q.trial, q.made, &w).fastest.row >= 0);
+        w.table.error =
+            TABLE_MARGIN * row_of(&q, &c.of[CHOICE_WEAKER])->result.error * (1.0 + 1e-9);
+        TEST_ASSERT_TRUE(choice_make(&q.trial, q.made, &w).of[CHOICE_FASTEST].row >= 0);
         w.table.error *= 0.98;
-        TEST_ASSERT_TRUE(choice_make(&q.trial, q.made, &w).fastest.row < 0);
+        TEST_ASSERT_TRUE(choice_make(&q.trial, q.made, &w).of[CHOICE_FASTEST].row < 0);
     }
     close_request(&q);
 }

@@ -385,16 +385,17 @@ TEST(price_measured, choices_are_as_if_all_was_counted) {
         choice c;
         TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, choice_counted(&p.trial, &made, &w, &words, &c));
         const choice wanted = choice_make(&p.trial, &by_all, &w);
-        const choice_row *const is[] = {&c.fastest, &c.smallest, &c.weaker, &c.larger};
-        const choice_row *const should[] = {&wanted.fastest, &wanted.smallest, &wanted.weaker,
-                                            &wanted.larger};
-        for (int i = 0; i < (wanted.fastest.row >= 0 ? 2 : 4); i++) {
-            TEST_ASSERT_EQUAL_INT(should[i]->row < 0, is[i]->row < 0);
-            if (is[i]->row >= 0) {
-                const table_row *a = &made.row[is[i]->row];
-                const table_row *b = &by_all.row[should[i]->row];
+        static const choice_kind kinds[] = {CHOICE_FASTEST, CHOICE_SMALLEST, CHOICE_WEAKER,
+                                            CHOICE_LARGER};
+        for (int i = 0; i < (wanted.of[CHOICE_FASTEST].row >= 0 ? 2 : 4); i++) {
+            const choice_row *is = &c.of[kinds[i]];
+            const choice_row *should = &wanted.of[kinds[i]];
+            TEST_ASSERT_EQUAL_INT(should->row < 0, is->row < 0);
+            if (is->row >= 0) {
+                const table_row *a = &made.row[is->row];
+                const table_row *b = &by_all.row[should->row];
                 TEST_ASSERT_TRUE(a->counted);
-                TEST_ASSERT_TRUE(i != 0 || is[i]->worst == should[i]->worst);
+                TEST_ASSERT_TRUE(i != 0 || is->worst == should->worst);
                 TEST_ASSERT_TRUE(i != 2 || a->result.error == b->result.error);
                 TEST_ASSERT_TRUE(i % 2 == 0 ||
                                  a->cost.flash_bytes.value == b->cost.flash_bytes.value);

@@ -111,7 +111,7 @@ static void print_choice(FILE *out, const char *name, int n, const priced *p, co
     caught text;
     choice_print(catch_text(&text), &p->trial, made, w, c, &words);
     alloc_text_end(text.to);
-    copy_text(out, name, n, text.text, c->fastest.row < 0 ? "no setting fits" : "");
+    copy_text(out, name, n, text.text, c->of[CHOICE_FASTEST].row < 0 ? "no setting fits" : "");
 }
 
 static void print_answers(FILE *out) {
@@ -142,10 +142,10 @@ static void print_answers(FILE *out) {
             .table = {.error = 0.01, .rate_Hz = cases[n].rate_Hz, .periods = 1, .operations = 1e7},
             .clock_Hz = cases[n].clock_Hz,
             .prices = "as they are"};
-        choice c = {.fastest = {.row = 0, .worst = 4e4, .load = 0.02, .load_most = 0.03},
-                    .smallest = {.row = cases[n].smallest, .load = 0.4, .load_most = 0.5}};
-        c.fastest.unknown[CHOICE_LOAD] = cases[n].no_cycles;
-        c.fastest.unknown[CHOICE_FLASH] = n == 2;
+        choice c = {{{.row = 0, .worst = 4e4, .load = 0.02, .load_most = 0.03},
+                     {.row = cases[n].smallest, .load = 0.4, .load_most = 0.5}}};
+        c.of[CHOICE_FASTEST].unknown = (cases[n].no_cycles ? CHOICE_BIT(CHOICE_LOAD) : 0U) |
+                                       (n == 2 ? CHOICE_BIT(CHOICE_FLASH) : 0U);
         print_choice(out, "answers", n, &p, &made, &w, &c);
         priced_close(&p);
     }
@@ -163,13 +163,15 @@ static void print_remedies(FILE *out) {
         made.broken_off = n == 3 ? 3 : 0;
         const choice_request w = {
             .table = {.error = 1e-3, .operations = 1e7}, .clock_Hz = 16e6, .prices = "as they are"};
-        choice c = {.fastest.row = -1, .smallest.row = -1};
-        choice_row *const rows[] = {&c.weaker, &c.dearer, &c.larger, &c.any};
-        for (int i = 0; i < 4; i++) {
-            *rows[i] = (choice_row){.row = (there[n] >> (unsigned)i & 1U) != 0 ? i * 2 / 3 : -1,
-                                    .load_most = 3.7};
-            rows[i]->fails[CHOICE_LOAD] = i % 2 == 1;
-            rows[i]->fails[CHOICE_RAM] = i == 2;
+        choice c = {{{.row = -1}, {.row = -1}}};
+        for (unsigned i = 0; i < 4; i++) {
+            static const unsigned fails[] = {CHOICE_BIT(CHOICE_ERROR), CHOICE_BIT(CHOICE_LOAD),
+                                             CHOICE_BIT(CHOICE_RAM),
+                                             CHOICE_BIT(CHOICE_LOAD) | CHOICE_BIT(CHOICE_RAM)};
+            c.of[CHOICE_WEAKER + i] =
+                (choice_row){.row = (there[n] >> i & 1U) != 0 ? (int)i * 2 / 3 : -1,
+                             .load_most = 3.7,
+                             .fails = fails[i]};
         }
         print_choice(out, "remedies", n, &p, &made, &w, &c);
         priced_close(&p);
@@ -178,7 +180,7 @@ static void print_remedies(FILE *out) {
     begin(&p, priced_ball, 1, NULL);
     const table made = {.settings = 9, .unpriced = 9, .why = "a reason"};
     const choice_row none = {.row = -1};
-    const choice c = {none, none, none, none, none, none};
+    const choice c = {{none, none, none, none, none, none}};
     print_choice(out, "no price", 0, &p, &made,
                  &(choice_request){.table = {.error = 1e-3}, .prices = "as they are"}, &c);
     priced_close(&p);
