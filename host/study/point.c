@@ -348,11 +348,13 @@ void measures_free(measures *m) {
 /* === a run of a sweep ========================================================================= */
 
 typedef struct meter {
-    const measuring *wanted;
+    const sweep *sweep;
     const image *image;
     void *run;
     run_checks *verdict;
     gauge *gauges; /* [measures] */
+    int *
+        component; /* [measures] component of the image; -1: the output with the index of the measure */
     double *output;
     bool series;            /* a measure takes a sample each step */
     bool series_of_outputs; /* a measure takes a sample of an output each step */
@@ -363,42 +365,48 @@ typedef struct meter {
     bool good;
 } meter;
 
-static meter meter_open(const measuring *w, const image *im, void *run, diags *errors,
-                        FILE *reason) {
+static meter meter_open(const sweep *sw, const image *im, void *run, diags *errors, FILE *reason) {
+    const int count = sw->measures->count;
     meter m = {
-        .wanted = w, .image = im, .run = run, .errors = errors, .reason = reason, .good = true};
-    m.verdict = run_checks_open(im, NULL, w->kind, run, NULL);
-    m.gauges = alloc(w->count, sizeof *m.gauges);
+        .sweep = sw, .image = im, .run = run, .errors = errors, .reason = reason, .good = true};
+    m.verdict = run_checks_open(im, NULL, sw->kind, run, NULL);
+    m.gauges = alloc(count, sizeof *m.gauges);
+    m.component = alloc(count, sizeof *m.component);
     m.output = alloc(im->outputs, sizeof *m.output);
-    for (int i = 0; i < w->count; i++) {
-        const bool series = w->list[i].kind != MEASURE_FINAL;
-        m.gauges[i] = gauge_start(w->list[i].kind);
+    for (int i = 0; i < count; i++) {
+        const measure *each = &sw->measures->list[i];
+        const symbol *of = each->of->op == EXPR_SYMBOL ? each->of->symbol : NULL;
+        const bool moves = of != NULL && of->order > 0;
+        const bool series = each->kind != MEASURE_FINAL;
+        m.gauges[i] = gauge_start(each->kind);
+        m.component[i] = moves ? image_find_component(im, of->index, each->of->primes) : -1;
         m.series = m.series || series;
-        m.series_of_outputs = m.series_of_outputs || (series && w->list[i].component < 0);
-        m.periods = m.periods || w->list[i].kind == MEASURE_PERIOD;
+        m.series_of_outputs = m.series_of_outputs || (series && m.component[i] < 0);
+        m.periods = m.periods || each->kind == MEASURE_PERIOD;
     }
     return m;
 }
 
 static void meter_close(meter *m) {
-    for (int i = 0; i < m->wanted->count; i++) {
+    for (int i = 0; i < m->sweep->measures->count; i++) {
         gauge_end(&m->gauges[i]);
     }
     run_checks_close(m->verdict);
     free(m->gauges);
+    free(m->component);
     free(m->output);
 }
 
 /* Takes a sample of the present state for the series, or for the final values. */
 static void meter_enter(meter *m, bool final) {
     double state[3 * IMAGE_COMPONENTS_MAX];
-    const engine_kind *kind = m->wanted->kind;
+    const engine_kind *kind = m->sweep->kind;
     kind->state(m->run, state, state + m->image->angles);
     if (final || m->series_of_outputs) {
         kind->outputs(m->run, m->output);
     }
-    for (int i = 0; i < m->wanted->count; i++) {
-        const int c = m->wanted->list[i].component;
+    for (int i = 0; i < m->sweep->measures->count; i++) {
+        const int c = m->component[i];
         if ((m->gauges[i].kind == MEASURE_FINAL) == final) {
             gauge_enter(&m->gauges[i], c >= 0 ? state[c] : m->output[i]);
         }
@@ -411,7 +419,7 @@ static bool see(void *of, uint64_t step) {
     const books *b = m->verdict->books;
     run_checks_enter(m->verdict);
     m->good = b == NULL || !b->undefined;
-    if (!m->good && !nonfinite_energies(m->image, m->wanted->kind, b->angle_rad, b->real,
+    if (!m->good && !nonfinite_energies(m->image, m->sweep->kind, b->angle_rad, b->real,
                                         b->undefined_s, m->errors)) {
         fprintf(m->reason, "the energies are not finite numbers at t = %.9g s", b->undefined_s);
     }
@@ -423,11 +431,11 @@ static bool see(void *of, uint64_t step) {
 
 /* Steps to the end. Returns false if the run failed, with a message on m->reason or reported. */
 static bool run_through(meter *m) {
-    const engine_kind *kind = m->wanted->kind;
+    const engine_kind *kind = m->sweep->kind;
     const image *im = m->image;
-    const bool counted = ratio_count_from(m->wanted->from_s, im->step, &m->from);
+    const bool counted = ratio_count_from(m->sweep->from_s, im->step, &m->from);
     if (m->series && (!counted || m->from > im->steps)) {
-        fprintf(m->reason, "--from %.9g s is after the last step", m->wanted->from_s);
+        fprintf(m->reason, "--from %.9g s is after the last step", m->sweep->from_s);
         return false;
     }
     if (m->periods && im->steps >= m->from && im->steps - m->from >= PERIOD_SAMPLES_MAX) {
@@ -457,13 +465,13 @@ static bool run_through(meter *m) {
 
 /* The measures, followed by the balance; NAN if that is unknown. */
 static bool read_measures(const meter *m, double *value, point_notes *notes) {
-    const measuring *w = m->wanted;
-    const double epsilon = w->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
-    for (int i = 0; i < w->count; i++) {
+    const measures *all = m->sweep->measures;
+    const double epsilon = m->sweep->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
+    for (int i = 0; i < all->count; i++) {
         if (m->gauges[i].undefined) {
             fprintf(m->reason,
                     "the expression of the measure '%s' is not a finite number at every step",
-                    w->list[i].name);
+                    all->list[i].name);
             return false;
         }
         value[i] = gauge_result(&m->gauges[i], m->image->step_s, epsilon);
@@ -471,29 +479,29 @@ static bool read_measures(const meter *m, double *value, point_notes *notes) {
         if (!isfinite(value[i]) && !no_period) {
             fprintf(m->reason,
                     "the measure '%s' is not a finite number: its expression is too large",
-                    w->list[i].name);
+                    all->list[i].name);
             return false;
         }
     }
     run_checks_end(m->verdict, WH_OK);
-    value[w->count] = m->verdict->balance.known ? m->verdict->balance.ratio : (double)NAN;
+    value[all->count] = m->verdict->balance.known ? m->verdict->balance.ratio : (double)NAN;
     for (int id = 0; id < FINDINGS; id++) {
         notes->found |= m->verdict->found[id].reported ? FINDING_BIT(id) : 0U;
     }
     notes->warned = m->verdict->warned;
-    notes->fails = run_checks_fails(m->verdict, w->strict);
+    notes->fails = run_checks_fails(m->verdict, m->sweep->strict);
     notes->unlooked = run_checks_unlooked(m->verdict);
     return true;
 }
 
-bool stepping_measure(const measuring *w, const image *im, double *value, diags *errors,
-                      FILE *reason, point_notes *notes) {
-    void *run = w->kind->start(im);
+bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors, FILE *reason,
+                   point_notes *notes) {
+    void *run = s->kind->start(im);
     notes->end_s = ratio_times(im->steps, im->step);
-    meter m = meter_open(w, im, run, errors, reason);
+    meter m = meter_open(s, im, run, errors, reason);
     const bool good = run_through(&m) && read_measures(&m, value, notes);
     meter_close(&m);
-    w->kind->stop(run);
+    s->kind->stop(run);
     return good;
 }
 
@@ -594,28 +602,11 @@ image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors)
     return im;
 }
 
-static bool measure_image(const sweep *s, const image *im, double *value, diags *errors,
-                          FILE *reason, point_notes *notes) {
-    const int count = s->measures->count;
-    gauged *list = alloc(count, sizeof *list);
-    for (int i = 0; i < count; i++) {
-        const measure *each = &s->measures->list[i];
-        const symbol *of = each->of->op == EXPR_SYMBOL ? each->of->symbol : NULL;
-        const bool moves = of != NULL && of->order > 0;
-        list[i] = (gauged){each->kind, each->name,
-                           moves ? image_find_component(im, of->index, each->of->primes) : -1};
-    }
-    const measuring wanted = {s->kind, s->from_s, list, count, s->strict};
-    const bool good = stepping_measure(&wanted, im, value, errors, reason, notes);
-    free(list);
-    return good;
-}
-
 static bool measure_point(const sweep *s, uint64_t point, double *value, FILE *reason,
                           point_notes *notes) {
     diags *errors = diags_new();
     image *im = sweep_image(s, point, NULL, errors);
-    const bool good = im != NULL && measure_image(s, im, value, errors, reason, notes);
+    const bool good = im != NULL && sweep_measure(s, im, value, errors, reason, notes);
     if (diags_count(errors) > 0) {
         tell_first(errors, reason);
     }

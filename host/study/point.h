@@ -81,22 +81,7 @@ typedef struct measures {
 measures *measures_new(const mechanism *of, const char *const *texts, int count, diags *errors);
 void measures_free(measures *m);
 
-/* === a run of a sweep ========================================================================= */
-/* One run of a sweep: an image, stepped to its end and measured. */
-
-typedef struct gauged {
-    measure_kind kind;
-    const char *name;
-    int component; /* component of the image; -1: the output with the index of this measure */
-} gauged;
-
-typedef struct measuring {
-    const engine_kind *kind;
-    double from_s; /* measure from this time on */
-    const gauged *list;
-    int count;
-    double strict; /* run_checks_fails() */
-} measuring;
+/* === a point of a sweep ======================================================================= */
 
 /* The findings at a point that did not fail. */
 typedef struct point_notes {
@@ -106,11 +91,6 @@ typedef struct point_notes {
     unsigned unlooked; /* run_checks_unlooked() */
     double end_s;      /* end of the run */
 } point_notes;
-
-/* Runs the image; value[count + 1] gets the measures and the energy residual (NAN if unknown). Returns false if the run
- * failed or something was not a finite number, with a message on `reason` or reported. */
-bool stepping_measure(const measuring *w, const image *im, double *value, diags *errors,
-                      FILE *reason, point_notes *notes);
 
 /* A sweep in numbers. Everything in it outlives the runs and is not changed by them. */
 typedef struct sweep {
@@ -151,6 +131,11 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 /* The image of a point. *plain: the image of the finer run if step_doubling_plain() requires one; `plain` may be NULL.
  * Returns NULL, and reports the reason, if the point has no image that can start. */
 image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors);
+
+/* Runs the image of a point; value[measures + 1] gets the measures and the energy residual (NAN if unknown). Returns false
+ * if the run failed or something was not a finite number, with a message on `reason` or reported. */
+bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors, FILE *reason,
+                   point_notes *notes);
 
 /* Runs the point and writes its row, including the line's end. The columns stay empty if the run fails, or
  * if a measure, an energy or a contact's expression is not finite. Then the result is false and one line

@@ -28,17 +28,21 @@ typedef struct measured_point {
     char *errors;
 } measured_point;
 
-static measured_point measure_stepping(const measuring *w, const image *im) {
+/* Measures one run of the scene in the text. */
+static measured_point measured_run(const char *text, const char *const *asked, int count,
+                                   const engine_kind *kind, double from_s) {
+    made_sweep m;
     measured_point p = {.reason = NULL};
     size_t length[2];
+    made_sweep_open(&m, text, NULL, 0, asked, count, kind);
+    m.sweep.from_s = from_s;
     FILE *reason = alloc_text(&p.reason, &length[0]);
     FILE *out = alloc_text(&p.errors, &length[1]);
-    diags *errors = diags_new();
-    p.good = stepping_measure(w, im, p.value, errors, reason, &p.notes);
-    diags_flush(errors, out);
-    diags_free(errors);
+    p.good = sweep_measure(&m.sweep, m.image, p.value, m.errors, reason, &p.notes);
+    diags_flush(m.errors, out);
     alloc_text_end(reason);
     alloc_text_end(out);
+    made_sweep_close(&m);
     return p;
 }
 
@@ -47,122 +51,99 @@ static void drop(measured_point *p) {
     free(p->errors);
 }
 
-static derived scene_of(const char *text) { return derived_surely(derived_scene(text, "s"), text); }
-
 static const engine_kind *drawn_kind(void) {
     return dice_one_of(&die, 2) == 0 ? &engine_float : &engine_double;
 }
 
-static derived drawn_swing(double *omega_radps) {
-    char text[1000];
+enum { TEXT = 1000 };
+static void drawn_swing(double *omega_radps, char text[TEXT]) {
     const double k = dice_between(&die, 250.0, 900.0);
     *omega_radps = sqrt(k / 2.0);
-    snprintf(text, sizeof text,
+    snprintf(text, TEXT,
              "mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
              "T = 1 [kg]*x'^2 + 0.5 [kg*m^2]*a'^2\nV = %.17g [N/m]*x^2/2\n"
              "output both [m] = 2*x + 0.1 [m]*sin(a)\noutput rate [m/s] = x'\n"
              "output little [m] = 1 [m] + 1e-9*x\n"
              "scene s { start x = 0.5 [m], a' = %.6f [rad/s]; step 1 [ms]; until %.4f [s] }\n",
              k, dice_between(&die, -3.0, 3.0), dice_between(&die, 1.5, 3.0));
-    return scene_of(text);
 }
 
 /* The period must be that of the spring, whatever the other measures are. */
 TEST(stepping, period) {
+    char text[TEXT];
+    double omega_radps;
     for (unsigned c = 0; c < dice_cases(usual_or(6, 3)); c++) {
-        double omega_radps;
-        derived s = drawn_swing(&omega_radps);
-        const gauged list[] = {
-            {MEASURE_FINAL, "f", -1}, {MEASURE_PERIOD, "p", -1}, {MEASURE_PERIOD, "q", 1}};
-        const measuring w = {.kind = drawn_kind(), .from_s = 0.1, .list = list, .count = 3};
-        measured_point p = measure_stepping(&w, s.image);
+        static const char *const asked[] = {"both", "period(rate)", "period(x)"};
+        drawn_swing(&omega_radps, text);
+        measured_point p = measured_run(text, asked, 3, drawn_kind(), 0.1);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
         for (int i = 1; i < 3; i++) {
             TEST_ASSERT_TRUE(fabs(p.value[i] * omega_radps / (2.0 * PI) - 1.0) < 1e-3);
         }
         drop(&p);
-        derived_free(&s);
     }
     /* a small swing must have a period if its number type resolves it */
-    double omega_radps;
-    derived little = drawn_swing(&omega_radps);
-    const gauged list[] = {
-        {MEASURE_FINAL, "f", -1}, {MEASURE_FINAL, "g", -1}, {MEASURE_PERIOD, "l", -1}};
+    static const char *const little[] = {"both", "rate", "period(little)"};
     const engine_kind *const kinds[] = {&engine_float, &engine_double};
+    drawn_swing(&omega_radps, text);
     for (int i = 0; i < 2; i++) {
-        const measuring w = {.kind = kinds[i], .list = list, .count = 3};
-        measured_point p = measure_stepping(&w, little.image);
+        measured_point p = measured_run(text, little, 3, kinds[i], 0.0);
         TEST_ASSERT_TRUE(i == 0 ? isnan(p.value[2])
                                 : fabs(p.value[2] * omega_radps / (2.0 * PI) - 1.0) < 1e-3);
         TEST_ASSERT_TRUE_MESSAGE(p.good, p.reason);
         drop(&p);
     }
-    derived_free(&little);
 }
 
 #define CLOCK "mechanism m\nstate x [s]\nequation x' = 1\n"
 
 /* If the run is interrupted, its measures must cover the steps until then. */
 TEST(stepping, given_up) {
-    derived longest =
-        scene_of(CLOCK "scene s { start x = 3 [s]; step 1 [ms]; until 200000 [s] }\n");
-    const gauged most = {MEASURE_MAX, "x", 0};
-    const measuring w = {.kind = &engine_double, .list = &most, .count = 1};
+    static const char *const most = "max(x)";
     interrupted = 1;
-    measured_point p = measure_stepping(&w, longest.image);
+    measured_point p =
+        measured_run(CLOCK "scene s { start x = 3 [s]; step 1 [ms]; until 200000 [s] }\n", &most, 1,
+                     &engine_double, 0.0);
     interrupted = 0;
     /* value[1] is the energy residual; this mechanism has no energies */
     TEST_ASSERT_TRUE(p.good && p.value[0] == 3.0 && isnan(p.value[1]));
     drop(&p);
-    derived_free(&longest);
 }
 
-/* Expects a run without measures, which gives a reason, or an error with its place. */
-static void expect_failed(const char *text, const measuring *w, const char *reason,
-                          const char *error) {
-    derived s = scene_of(text);
-    measured_point p = measure_stepping(w, s.image);
-    TEST_ASSERT_FALSE(p.good);
-    TEST_ASSERT_EQUAL_STRING(reason, p.reason);
-    TEST_ASSERT_TRUE_MESSAGE(
-        error[0] != '\0' ? strstr(p.errors, error) != NULL : p.errors[0] == '\0', p.errors);
-    drop(&p);
-    derived_free(&s);
-}
-
+/* Runs to 1 s with this measure, and runs without it, which give a reason. */
 TEST(stepping, failed) {
-    gauged list = {MEASURE_MEAN, "mean(x)", 0};
-    measuring w = {.kind = &engine_double, .list = &list, .count = 1};
-    w.from_s = 1.5;
-    expect_failed(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", &w,
-                  "--from 1.5 s is after the last step", "");
-    list.kind = MEASURE_FINAL; /* needs no series, so any --from is accepted */
-    derived good = scene_of(CLOCK "scene s { step 1 [ms]; until 1 [s] }\n");
-    measured_point p = measure_stepping(&w, good.image);
-    TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
-    drop(&p);
-    w.from_s = 1.0; /* begins at the end: one sample */
-    list.kind = MEASURE_MAX;
-    p = measure_stepping(&w, good.image);
-    TEST_ASSERT_TRUE(p.good && fabs(p.value[0] - 1.0) < 1e-12);
-    drop(&p);
-    derived_free(&good);
-    list.kind = MEASURE_PERIOD;
-    w.from_s = 0.0;
-    expect_failed(CLOCK "scene s { step 1 [ms]; until 100000 [s] }\n", &w,
-                  "period() takes at most 1e+08 samples: use a later --from or a larger step", "");
-    /* x = 1 - t: the step to 0 is the last good one, and 1/x is undefined there */
-    list = (gauged){MEASURE_FINAL, "1/x", -1};
-    expect_failed("mechanism m\nstate x\nequation x' = -1 [1/s]\noutput y = log(x)\n"
-                  "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
-                  &w, "the expression of the measure '1/x' is not a finite number at every step",
-                  "");
-    /* each sample is finite, but not the sum of all samples */
-    list = (gauged){MEASURE_MEAN, "large", -1};
-    expect_failed("mechanism m\nstate x\nequation x' = 0*x/(1 [s])\noutput y = 1e308*(1 + x)\n"
-                  "scene s { step 1 [ms]; until 0.1 [s] }\n",
-                  &w, "the measure 'large' is not a finite number: its expression is too large",
-                  "");
+    static const struct {
+        const char *text;
+        const char *measure;
+        double from_s;
+        const char *reason; /* "": the measure is 1 */
+    } rows[] = {
+        {CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", "mean(x)", 1.5,
+         "--from 1.5 s is after the last step"},
+        /* needs no series, so any --from is accepted */
+        {CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", "x", 1.5, ""},
+        /* begins at the end: one sample */
+        {CLOCK "scene s { step 1 [ms]; until 1 [s] }\n", "max(x)", 1.0, ""},
+        {CLOCK "scene s { step 1 [ms]; until 100000 [s] }\n", "period(x)", 0.0,
+         "period() takes at most 1e+08 samples: use a later --from or a larger step"},
+        {"mechanism m\nstate x\nequation x' = -1 [1/s]\n"
+         "scene s { start x = 0.4995; step 1 [ms]; until 1 [s] }\n",
+         "log(x)", 0.0,
+         "the expression of the measure 'log(x)' is not a finite number at every step"},
+        /* each sample is finite, but not the sum of all samples */
+        {"mechanism m\nstate x\nequation x' = 0*x/(1 [s])\n"
+         "scene s { step 1 [ms]; until 0.1 [s] }\n",
+         "mean(1e308*(1 + x))", 0.0,
+         "the measure 'mean(1e308*(1 + x))' is not a finite number: its expression is too large"}};
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        measured_point p =
+            measured_run(rows[i].text, &rows[i].measure, 1, &engine_double, rows[i].from_s);
+        TEST_ASSERT_EQUAL_STRING(rows[i].reason, p.reason);
+        TEST_ASSERT_EQUAL(rows[i].reason[0] == '\0', p.good);
+        TEST_ASSERT_TRUE(!p.good || fabs(p.value[0] - 1.0) < 1e-12);
+        TEST_ASSERT_EQUAL_STRING("", p.errors);
+        drop(&p);
+    }
 }
 
 /* Measures of `whirl sweep` over whole runs with closed forms: of coordinates, outputs and expressions, from the
