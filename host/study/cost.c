@@ -59,36 +59,17 @@ static void add(cost_counts *c, cost_class class, double run, double code) {
 
 /* --- the lists ---------------------------------------------------------------------------------------*/
 
+/* The classes of the operations; 0: COST_CLASS_MOVE. */
+static const cost_class classes[OPS] = {
+    [OP_ADD] = COST_CLASS_SUM,       [OP_SUB] = COST_CLASS_SUM,
+    [OP_MUL] = COST_CLASS_PRODUCT,   [OP_DIV] = COST_CLASS_QUOTIENT,
+    [OP_SQRT] = COST_CLASS_ROOT,     [OP_PHASE] = COST_CLASS_LOOKED_UP,
+    [OP_CALL] = COST_CLASS_FUNCTION, [OP_POW] = COST_CLASS_POWER,
+    [OP_CELL] = COST_CLASS_CELL,     [OP_LINE] = COST_CLASS_LINE,
+    [OP_CUBIC] = COST_CLASS_CUBIC};
+
 static cost_class class_of(const op *o) {
-    switch (o->code) {
-    case OP_ADD:
-    case OP_SUB: return COST_CLASS_SUM;
-    case OP_MUL: return COST_CLASS_PRODUCT;
-    case OP_DIV: return COST_CLASS_QUOTIENT;
-    case OP_SQRT: return COST_CLASS_ROOT;
-    case OP_PHASE: return COST_CLASS_LOOKED_UP;
-    case OP_CALL: return COST_CLASS_FUNCTION;
-    case OP_POW: return COST_CLASS_POWER;
-    case OP_CELL: return COST_CLASS_CELL;
-    case OP_LINE: return COST_CLASS_LINE;
-    case OP_CUBIC: return COST_CLASS_CUBIC;
-    case OP_CONSTANT:
-    case OP_LINEAR:
-    case OP_RATE:
-    case OP_INPUT:
-    case OP_ACCEL:
-    case OP_TIME:
-    case OP_RADIANS:
-    case OP_NOISE:
-    case OP_SIN:
-    case OP_COS:
-    case OP_NEG:
-    case OP_ABS:
-    case OP_SIGN:
-    case OP_MIN:
-    case OP_MAX: break;
-    }
-    return COST_CLASS_MOVE;
+    return classes[o->code] != 0 ? classes[o->code] : COST_CLASS_MOVE;
 }
 
 /* Sine and cosine of an angle are counted as one operation, OP_PHASE. */
@@ -262,26 +243,14 @@ static void add_firmware(cost_counts *c, const image *im) {
 
 /* --- fixed point -------------------------------------------------------------------------------------*/
 
+static const cost_class fixed_classes[FIXED_MOST + 1] = {[FIXED_PHASE] = COST_CLASS_LOOKED_UP,
+                                                         [FIXED_SUM] = COST_CLASS_SUM,
+                                                         [FIXED_DIFFERENCE] = COST_CLASS_SUM,
+                                                         [FIXED_PRODUCT] = COST_CLASS_PRODUCT,
+                                                         [FIXED_QUOTIENT] = COST_CLASS_QUOTIENT};
+
 static cost_class class_of_fixed(fixed_code code) {
-    switch (code) {
-    case FIXED_PHASE: return COST_CLASS_LOOKED_UP;
-    case FIXED_SUM:
-    case FIXED_DIFFERENCE: return COST_CLASS_SUM;
-    case FIXED_PRODUCT: return COST_CLASS_PRODUCT;
-    case FIXED_QUOTIENT: return COST_CLASS_QUOTIENT;
-    case FIXED_CONSTANT:
-    case FIXED_LINEAR:
-    case FIXED_RATE:
-    case FIXED_INPUT:
-    case FIXED_SINE:
-    case FIXED_COSINE:
-    case FIXED_SAME:
-    case FIXED_ABS:
-    case FIXED_SIGN:
-    case FIXED_LEAST:
-    case FIXED_MOST: break;
-    }
-    return COST_CLASS_MOVE;
+    return fixed_classes[code] != 0 ? fixed_classes[code] : COST_CLASS_MOVE;
 }
 
 static bool is_shifted(const fixed_list *l, fixed_operand from) {
