@@ -213,11 +213,6 @@ static bool read_methods(pricing *p) {
     return true;
 }
 
-static void show_progress(void *context, int done, int of) {
-    (void)context;
-    fprintf(stderr, "\r%3d of %d settings ", done, of);
-}
-
 /* The table that the options ask for. All processors compute it, and a terminal shows the progress. */
 static table_request wish_of(const pricing *p) {
     const bool shows = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
@@ -225,7 +220,7 @@ static table_request wish_of(const pricing *p) {
                            .method = p->options->value[PRICING_METHOD] != NULL ? p->method : NULL,
                            .periods = 1,
                            .workers = jobs_workers(),
-                           .progress = shows ? show_progress : NULL};
+                           .shows = shows};
 }
 
 static bool read_ranges(pricing *p) {
@@ -362,6 +357,8 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
     }
     const trial_request request = {.source = &p->scene->source,
                                    .board = p->board,
+                                   .target = p->target,
+                                   .changes = p->words,
                                    .of = p->quantity,
                                    .spacing = spacing,
                                    .records = (int)wanted};
@@ -381,22 +378,20 @@ static const char price_head[] =
     "letter after each figure shows its source.\n"
     "\n";
 
-static bool write_csv(const char *file, const trials *t, const table *made,
-                      const table_words *words) {
+static bool write_csv(const char *file, const trials *t, const table *made) {
     FILE *out = atomic_file_open(file);
     if (out != NULL) {
-        table_csv(out, t, made, words);
+        table_csv(out, t, made);
     }
     return out != NULL && plot_run_csv_end(out, file, true, "price", t->image[0]->name);
 }
 
 /* Prints the cheapest row within --error. Returns an exit status. */
-static int say_cheapest(FILE *out, const pricing *p, const table *made, const table_words *words) {
+static int say_cheapest(FILE *out, const pricing *p, const table *made) {
     for (int i = 0; i < made->count; i++) {
         const table_row *row = &made->row[i];
         if (trial_error_si(&p->trial, row->result.error) <= p->error_si) {
-            char *line =
-                table_run_line(&p->trial, &row->setting, row->pace, row->result.point, words);
+            char *line = table_run_line(&p->trial, &row->setting, row->pace, row->result.point);
             fprintf(out, "the cheapest setting within %s has an error of %.2e %s:\n  %s\n",
                     p->options->value[PRICING_ERROR], row->result.error, trial_unit(&p->trial),
                     line);
@@ -412,26 +407,24 @@ static int say_cheapest(FILE *out, const pricing *p, const table *made, const ta
 static int show(pricing *p, const table *made) {
     const char *const *value = p->options->value;
     const char *csv = value[PRICING_CSV];
-    const table_words words = {p->target, p->words, value[PRICING_ALL] != NULL, p->effort};
     const bool is_json = value[PRICING_JSON] != NULL;
     FILE *out = is_json || options_is_standard(csv) ? stderr : stdout;
     if (value[PRICING_QUIET] == NULL && !is_json) {
-        table_print(out, &p->trial, made, &words);
+        table_print(out, &p->trial, made, value[PRICING_ALL] != NULL);
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
         fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->options->target,
                 p->trial.reliable ? ": the table has no row" : ": there is no reliable reference");
         return EXIT_RUN_FAILED;
     }
-    if (csv != NULL && !write_csv(csv, &p->trial, made, &words)) {
+    if (csv != NULL && !write_csv(csv, &p->trial, made)) {
         return EXIT_RUN_FAILED;
     }
-    return p->asks_error ? say_cheapest(out, p, made, &words) : EXIT_DONE;
+    return p->asks_error ? say_cheapest(out, p, made) : EXIT_DONE;
 }
 
 static int count_front(pricing *p, table *made, const table_request *w) {
-    const table_words words = {p->target, p->words, false, p->effort};
-    const measured_end end = measured_front(&p->trial, made, &words, w);
+    const measured_end end = measured_front(&p->trial, made, w->shows);
     if (end == MEASURED_MISSING) {
         says_missing(p, "a tool is missing");
     }
@@ -463,7 +456,7 @@ static int price_scene(pricing *p) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();
-    if (request.progress != NULL) {
+    if (request.shows) {
         fputs("\rthe reference   ", stderr);
     }
     int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
@@ -472,7 +465,7 @@ static int price_scene(pricing *p) {
         made = table_new(&p->trial, &request);
         code = measure && !p->trial.stopped ? count_front(p, made, &request) : code;
     }
-    if (request.progress != NULL) {
+    if (request.shows) {
         fputs("\r                    \r", stderr);
     }
     if (code == EXIT_DONE && p->trial.stopped) {
@@ -480,8 +473,7 @@ static int price_scene(pricing *p) {
     } else if (code == EXIT_DONE) {
         code = show(p, made);
         if (p->options->value[PRICING_JSON] != NULL) {
-            const table_words words = {p->target, p->words, true, p->effort};
-            table_json(stdout, &p->trial, made, &words, code);
+            table_json(stdout, &p->trial, made, code);
         }
     }
     table_free(made);
@@ -597,11 +589,6 @@ static bool space_records(const pricing *p, choice_request *w, whole_ratio *spac
     return true;
 }
 
-static void show_counting(void *context, int counted) {
-    (void)context;
-    fprintf(stderr, "\rcounting on the board: %d so far ", counted);
-}
-
 /* Says that a run with contacts has no predicted cost. */
 static int says_contacts(const pricing *p, const char *missing) {
     fprintf(stderr,
@@ -612,7 +599,6 @@ static int says_contacts(const pricing *p, const char *missing) {
 }
 
 static int choose_from(pricing *p, choice_request *w, bool counts) {
-    const table_words words = {p->target, p->words, false, p->effort};
     w->table.error = p->error_si / trial_error_si(&p->trial, 1.0); /* in the trial's unit */
     w->counts = counts;
     p->trial.tolerated = w->table.error;
@@ -620,8 +606,7 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
     table *made = table_new(&p->trial, &w->table);
     choice c = choice_make(&p->trial, made, w);
     int code = EXIT_DONE;
-    if (counts && !p->trial.stopped &&
-        choice_counted(&p->trial, made, w, &words, &c) == MEASURED_MISSING) {
+    if (counts && !p->trial.stopped && choice_counted(&p->trial, made, w, &c) == MEASURED_MISSING) {
         if (p->options->value[PRICING_MEASURE] != NULL) {
             says_missing(p, "a tool is missing");
             code = EXIT_BAD_INPUT;
@@ -632,7 +617,7 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
         w->prices = "predicted, because a tool for counting is missing";
         c = choice_make(&p->trial, made, w);
     }
-    if (w->table.progress != NULL) {
+    if (w->table.shows) {
         fputs("\r                                        \r", stderr);
     }
     if (code == EXIT_DONE && p->trial.stopped) {
@@ -643,9 +628,9 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
         const bool is_short = found && horizon_s < 0.5 * p->until_s;
         code = found && !is_short ? EXIT_DONE : EXIT_RUN_FAILED;
         if (p->options->value[PRICING_JSON] != NULL) {
-            choice_json(stdout, &p->trial, made, w, &c, &words, code);
+            choice_json(stdout, &p->trial, made, w, &c, code);
         } else {
-            choice_print(stdout, &p->trial, made, w, &c, &words);
+            choice_print(stdout, &p->trial, made, w, &c);
         }
         if (is_short) {
             fprintf(
@@ -668,7 +653,7 @@ static int choose_begun(pricing *p, choice_request *w) {
         figure_reference(stderr, &p->trial);
         return EXIT_RUN_FAILED;
     }
-    if (w->table.progress != NULL && !predicts) {
+    if (w->table.shows && !predicts) {
         fputs("\rbuilding the counter ", stderr);
     }
     const char *missing = predicts ? "" : measured_missing(&p->trial, p->board, text);
@@ -698,7 +683,6 @@ static int choose_scene(pricing *p) {
         (p->options->value[PRICING_MEASURE] != NULL && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
-    w.counting = w.table.progress != NULL ? show_counting : NULL;
     interrupts_catch();
     const int code = pricing_begin(p, spacing);
     return code == EXIT_DONE ? choose_begun(p, &w) : code;

@@ -148,8 +148,7 @@ static int uncounted(const table *made, const choice *c) {
     return -1;
 }
 
-measured_end choice_counted(trials *t, table *made, const choice_request *w,
-                            const table_words *words, choice *c) {
+measured_end choice_counted(trials *t, table *made, const choice_request *w, choice *c) {
     const bool runs = t->image[0]->contacts > 0;
     double each[SETTING_NUMBERS] = {0};
     if (runs) {
@@ -159,11 +158,11 @@ measured_end choice_counted(trials *t, table *made, const choice_request *w,
     *c = choice_make(t, made, w);
     int counts = 0;
     for (int i = uncounted(made, c); i >= 0 && !t->stopped; i = uncounted(made, c)) {
-        if (w->counting != NULL) {
-            w->counting(w->table.context, counts++);
+        if (w->table.shows) {
+            fprintf(stderr, "\rcounting on the board: %d so far ", counts++);
         }
         const table_row before = made->row[i];
-        if (measured_count(t, made, i, words) == MEASURED_MISSING) {
+        if (measured_count(t, made, i) == MEASURED_MISSING) {
             return MEASURED_MISSING;
         }
         for (int k = 0; k < made->count && runs; k++) {
@@ -268,7 +267,7 @@ static void print_run(FILE *out, const table_row *row) {
 }
 
 static void print_answer(FILE *out, const trials *t, const choice_request *w, const table *made,
-                         const choice_row *by, const table_words *words, const char *head) {
+                         const choice_row *by, const char *head) {
     char text[AMOUNT];
     char name[TRIAL_NAME];
     const table_row *row = &made->row[by->row];
@@ -311,9 +310,9 @@ static void print_answer(FILE *out, const trials *t, const choice_request *w, co
                     i == CHOICE_FLASH ? "flash" : "RAM");
         }
     }
-    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
-    char *derive = table_derive_line(t, &row->setting, row->pace, words);
-    char *measure = table_measure_line(t, &row->setting, row->pace, row->result.point, words);
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point);
+    char *derive = table_derive_line(t, &row->setting, row->pace);
+    char *measure = table_measure_line(t, &row->setting, row->pace, row->result.point);
     fprintf(out, "  to run      %s\n  to print C  %s\n  to count    %s\n", run, derive, measure);
     free(measure);
     free(run);
@@ -369,7 +368,7 @@ static void print_remedies(FILE *out, const trials *t, const table *made, const 
 }
 
 void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
-                  const choice *c, const table_words *words) {
+                  const choice *c) {
     const int fastest = c->of[CHOICE_FASTEST].row;
     const int smallest = c->of[CHOICE_SMALLEST].row;
     fprintf(out, "%s on %s (%s)\n", t->image[0]->name, t->request.board->name,
@@ -377,12 +376,12 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_re
     figure_reference(out, t);
     fprintf(out, "  prices      %s\n\n", w->prices);
     if (fastest >= 0) {
-        print_answer(out, t, w, made, &c->of[CHOICE_FASTEST], words, "fewest cycles  ");
+        print_answer(out, t, w, made, &c->of[CHOICE_FASTEST], "fewest cycles  ");
         fputc('\n', out);
         if (smallest < 0 || smallest == fastest) {
             fprintf(out, "least flash    %s\n", smallest < 0 ? "not known" : "the same");
         } else {
-            print_answer(out, t, w, made, &c->of[CHOICE_SMALLEST], words, "least flash    ");
+            print_answer(out, t, w, made, &c->of[CHOICE_SMALLEST], "least flash    ");
         }
     } else if (made->broken_off + made->unpriced == 0) {
         fprintf(out, "no setting fits: all %d settings were tried\n", made->settings);
@@ -394,11 +393,11 @@ void choice_print(FILE *out, const trials *t, const table *made, const choice_re
         print_remedies(out, t, made, w, c);
     }
     fputc('\n', out);
-    table_print_left(out, made, w->table.operations);
+    table_print_left(out, made);
 }
 
 void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
-                 const choice *c, const table_words *words, int status) {
+                 const choice *c, int status) {
     json j = {.out = out};
     table_json_begin(&j, "choose", t);
     json_number(&j, "allowed", w->table.error);
@@ -410,7 +409,7 @@ void choice_json(FILE *out, const trials *t, const table *made, const choice_req
             json_open(&j, NULL, '{');
             json_text(&j, "least", i == CHOICE_FASTEST ? "cycles" : "flash");
             json_number(&j, "load_most", of->load_most > 0.0 ? of->load_most : (double)NAN);
-            table_json_row(&j, t, &made->row[of->row], words);
+            table_json_row(&j, t, &made->row[of->row]);
             json_close(&j, '}');
         }
     }

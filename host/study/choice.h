@@ -22,8 +22,7 @@ typedef struct choice_request {
     double flash_bytes;  /* 0: no limit */
     double ram_bytes;    /* limit of the RAM with the stack; 0: no limit */
     bool counts; /* chosen rows will be counted, so a prediction may exceed a limit by its error */
-    const char *prices;                           /* the source of the prices, in words */
-    void (*counting)(void *context, int counted); /* may be NULL */
+    const char *prices; /* the source of the prices, in words */
 } choice_request;
 
 /* A row compared with the limits. The load is the part of a period that its steps take if each takes as long as the longest
@@ -57,15 +56,14 @@ choice choice_make(const trials *t, const table *made, const choice_request *w);
 
 /* Does the same as choice_make(), but counts rows until no row of the choice is a prediction. With contacts, a row that was not counted
  * is expected to take as many cycles per evaluation as the last counted row with the same number type. */
-measured_end choice_counted(trials *t, table *made, const choice_request *w,
-                            const table_words *words, choice *c);
+measured_end choice_counted(trials *t, table *made, const choice_request *w, choice *c);
 
 /* Prints the fastest and the smallest row. If no row is within the limits, prints limits that a row would keep. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
-                  const choice *c, const table_words *words);
+                  const choice *c);
 /* Prints the rows as one JSON object (docs/warnings.md has the schema), without limits that a row would keep; `status`:
  * exit status. */
 void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
-                 const choice *c, const table_words *words, int status);
+                 const choice *c, int status);
 
 #endif

@@ -159,8 +159,8 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
 
 static bool tell_progress(void *context, uint64_t next) {
     const table_work *w = context;
-    if (w->request->progress != NULL) {
-        w->request->progress(w->request->context, (int)next, w->count);
+    if (w->request->shows) {
+        fprintf(stderr, "\r%3d of %d settings ", (int)next, w->count);
     }
     return true;
 }
@@ -169,6 +169,7 @@ table *table_new(trials *t, const table_request *w) {
     table *made = alloc(1, sizeof *made);
     table_work all = {t, w, made, alloc(setting_count(), sizeof(setting)), 0};
     made->why = "";
+    made->operations = w->operations;
     for (int i = 0; i < setting_count(); i++) {
         const setting s = setting_at(i);
         if (setting_is_asked(&s, w->method)) {
@@ -327,30 +328,26 @@ void figure_reference(FILE *out, const trials *t) {
 
 /* --- lines and rows --------------------------------------------------------------------------------*/
 
-static char *line_of(const trials *t, const setting *s, deviation_pace pace, int point,
-                     const table_words *words, bool run) {
+static char *line_of(const trials *t, const setting *s, deviation_pace pace, int point, bool run) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
     return alloc_words("whirl %s %s%s%s%s%s --step %s --until %s%s", run ? "run" : "derive",
-                       words->target, words->changes, run ? trial_place(t, point) : "",
+                       t->request.target, t->request.changes, run ? trial_place(t, point) : "",
                        setting_options(s, run, options), run ? "" : setting_form(s),
                        trial_time(trial_step(t, pace), step), trial_until(t, until),
                        run ? "" : " --as c");
 }
 
-char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
-                     const table_words *words) {
-    return line_of(t, s, pace, point, words, true);
+char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point) {
+    return line_of(t, s, pace, point, true);
 }
 
-char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
-                        const table_words *words) {
-    return line_of(t, s, pace, 0, words, false);
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace) {
+    return line_of(t, s, pace, 0, false);
 }
 
-char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
-                         const table_words *words) {
+char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point) {
     char options[SETTING_TEXT];
     char step[TRIAL_TIME];
     char until[TRIAL_TIME];
@@ -359,7 +356,7 @@ char *table_measure_line(const trials *t, const setting *s, deviation_pace pace,
     const bool ranged = runs || setting_is_fixed(s);
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                        runs ? " --whole-run" : "", t->request.board->name, s->number->name,
-                       words->target, words->changes, trial_place(t, point),
+                       t->request.target, t->request.changes, trial_place(t, point),
                        setting_options(s, false, options), trial_time(trial_step(t, pace), step),
                        ranged ? " --until " : "", ranged ? trial_until(t, until) : "");
 }
@@ -399,7 +396,7 @@ static int shown(const table *made, double factor, bool *show) {
     return count;
 }
 
-static void print_rows(FILE *out, const trials *t, const table *made, const table_words *words) {
+static void print_rows(FILE *out, const trials *t, const table *made, bool all) {
     char heading[40] = "error";
     bool *show = alloc(made->count, sizeof *show);
     const int front = shown(made, 1.0, show);
@@ -415,7 +412,7 @@ static void print_rows(FILE *out, const trials *t, const table *made, const tabl
     fprintf(out, "\n  %9s  %10s  %8s  %7s  %7s  %6s   settings\n", heading,
             table_heads[made->row[0].price.unit], "flash, B", "RAM, B", "stack, B", "state");
     for (int i = 0; i < made->count; i++) {
-        if (words->all || show[i]) {
+        if (all || show[i]) {
             print_row(out, t, &made->row[i]);
         }
     }
@@ -423,17 +420,17 @@ static void print_rows(FILE *out, const trials *t, const table *made, const tabl
     fprintf(out,
             "\n%d rows; no other row beats the %d rows marked * (the front) in both error and cost",
             made->count, front);
-    if (!words->all) {
+    if (!all) {
         fprintf(out, "; %d are shown, --all shows all", rows);
     }
     fputc('\n', out);
 }
 
-void table_print_left(FILE *out, const table *made, double operations) {
+void table_print_left(FILE *out, const table *made) {
     fprintf(out, "%d settings", made->settings);
     if (made->broken_off > 0) {
         fprintf(out, "; for %d settings, finer steps need more than their share of --effort %.3g",
-                made->broken_off, operations);
+                made->broken_off, made->operations);
     }
     if (made->unpriced > 0) {
         fprintf(out, "; %d without a price: %s", made->unpriced, made->why);
@@ -455,23 +452,23 @@ static void print_letters(FILE *out, const table_row *first) {
 }
 
 /* Prints the command that fills the empty columns. */
-static void say_contacts(FILE *out, const trials *t, const table_words *words) {
+static void say_contacts(FILE *out, const trials *t) {
     const char *board = t->request.board->name;
     if (strcmp(board, "host") != 0) {
         fprintf(
             out,
             "run this in the root of Whirl's source tree to count cycles, flash and RAM with the "
             "emulator:\n  whirl choose %s%s --error 1e-3 --board %s\n",
-            words->target, words->changes, board);
+            t->request.target, t->request.changes, board);
     }
 }
 
-static void print_notes(FILE *out, const trials *t, const table *made, const table_words *words) {
+static void print_notes(FILE *out, const trials *t, const table *made) {
     char text[FIGURE_WORDS];
     const table_row *first = &made->row[0];
-    table_print_left(out, made, words->operations);
+    table_print_left(out, made);
     if (first->price.unit == PRICE_EVALUATIONS) {
-        say_contacts(out, t, words);
+        say_contacts(out, t);
     } else {
         fprintf(out, "  %s per simulated second: %s\n", table_unit_words[first->price.unit],
                 figure_words(first->price.unit == PRICE_CYCLES ? &first->cost.cycles
@@ -483,15 +480,15 @@ static void print_notes(FILE *out, const trials *t, const table *made, const tab
         last--;
     }
     const table_row *row = &made->row[last];
-    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
-    char *derive = table_derive_line(t, &row->setting, row->pace, words);
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point);
+    char *derive = table_derive_line(t, &row->setting, row->pace);
     fprintf(out, "commands that run the last row of the front and print its code:\n  %s\n  %s\n",
             run, derive);
     free(run);
     free(derive);
 }
 
-void table_print(FILE *out, const trials *t, const table *made, const table_words *words) {
+void table_print(FILE *out, const trials *t, const table *made, bool all) {
     const image *im = t->image[0];
     char name[TRIAL_NAME];
     fprintf(out, "%s on %s (%s)\n", im->name, t->request.board->name, t->request.board->core);
@@ -514,11 +511,11 @@ void table_print(FILE *out, const trials *t, const table *made, const table_word
     figure_reference(out, t);
     if (t->reliable && made != NULL && made->count > 0) {
         print_letters(out, &made->row[0]);
-        print_rows(out, t, made, words);
-        print_notes(out, t, made, words);
+        print_rows(out, t, made, all);
+        print_notes(out, t, made);
     } else if (t->reliable && made != NULL && made->unpriced + made->broken_off > 0) {
         fputs("the table is empty: ", out);
-        table_print_left(out, made, words->operations);
+        table_print_left(out, made);
     } else if (t->reliable) {
         fputs("no setting follows the motion: every error is larger than the values themselves\n",
               out);
@@ -568,7 +565,7 @@ static void put_figure(row_sink *s, const char *name, const char *basis, const c
     put_words(s, basis, cost_basis_words[f->basis]);
 }
 
-static void put_row(row_sink *s, const trials *t, const table_row *row, const table_words *words) {
+static void put_row(row_sink *s, const trials *t, const table_row *row) {
     char text[TRIAL_NAME];
     put_number(s, "front", 9, row->on_front ? 1.0 : 0.0);
     put_number(s, "error", 9, row->result.error);
@@ -590,18 +587,18 @@ static void put_row(row_sink *s, const trials *t, const table_row *row, const ta
     put_figure(s, "ram_bytes", "ram_basis", &row->cost.ram_bytes);
     put_figure(s, "stack_bytes", "stack_basis", &row->cost.stack_bytes);
     put_figure(s, "state_bytes", "state_basis", &row->cost.state_bytes);
-    char *run = table_run_line(t, &row->setting, row->pace, row->result.point, words);
-    char *derive = table_derive_line(t, &row->setting, row->pace, words);
+    char *run = table_run_line(t, &row->setting, row->pace, row->result.point);
+    char *derive = table_derive_line(t, &row->setting, row->pace);
     put_words(s, "run", run);
     put_words(s, "derive", derive);
     free(run);
     free(derive);
 }
 
-void table_csv(FILE *out, const trials *t, const table *made, const table_words *words) {
+void table_csv(FILE *out, const trials *t, const table *made) {
     for (int i = made->count > 0 ? -1 : 0; i < made->count; i++) {
         row_sink s = {.csv = out, .is_head = i < 0};
-        put_row(&s, t, &made->row[i < 0 ? 0 : i], words);
+        put_row(&s, t, &made->row[i < 0 ? 0 : i]);
         fputs("\r\n", out);
     }
 }
@@ -623,19 +620,18 @@ void table_json_begin(json *j, const char *command, const trials *t) {
     json_close(j, ']');
 }
 
-void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words) {
+void table_json_row(json *j, const trials *t, const table_row *row) {
     row_sink s = {.json = j};
-    put_row(&s, t, row, words);
+    put_row(&s, t, row);
 }
 
-void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
-                int status) {
+void table_json(FILE *out, const trials *t, const table *made, int status) {
     json j = {.out = out};
     table_json_begin(&j, "price", t);
     json_open(&j, "rows", '[');
     for (int i = 0; made != NULL && i < made->count; i++) {
         json_open(&j, NULL, '{');
-        table_json_row(&j, t, &made->row[i], words);
+        table_json_row(&j, t, &made->row[i]);
         json_close(&j, '}');
     }
     json_close(&j, ']');
@@ -765,7 +761,7 @@ static int count_line(char *line, char *row, int size) {
 }
 
 /* Counts whole runs at all points; the result is unknown if one of them failed. */
-static int count_runs(const trials *t, const table_words *words, table_row *row) {
+static int count_runs(const trials *t, table_row *row) {
     bool bounded = true;
     int status = 0;
     row->cost = (cost){.why = ""};
@@ -773,8 +769,7 @@ static int count_runs(const trials *t, const table_words *words, table_row *row)
         char line[1024];
         const double before = row->run.instructions_bound;
         row->run.instructions_bound = 0.0;
-        status = count_line(table_measure_line(t, &row->setting, row->pace, p, words), line,
-                            sizeof line);
+        status = count_line(table_measure_line(t, &row->setting, row->pace, p), line, sizeof line);
         status = status == 0 && !enter_run(t->request.board, line, row) ? 1 : status;
         bounded = bounded && row->run.instructions_bound > 0.0;
         row->run.instructions_bound = number_most(before, row->run.instructions_bound);
@@ -785,11 +780,10 @@ static int count_runs(const trials *t, const table_words *words, table_row *row)
     return status;
 }
 
-static int count_step(const trials *t, const table_words *words, table_row *row) {
+static int count_step(const trials *t, table_row *row) {
     char line[1024];
-    const int status =
-        count_line(table_measure_line(t, &row->setting, row->pace, row->result.point, words), line,
-                   sizeof line);
+    const int status = count_line(
+        table_measure_line(t, &row->setting, row->pace, row->result.point), line, sizeof line);
     return status == 0 && !cost_measured(line, t->request.board, &row->cost) ? 1 : status;
 }
 
@@ -799,10 +793,10 @@ static bool is_alike(const table_row *a, const table_row *b, bool by_pace) {
            (!by_pace || a->pace.steps * b->pace.records == b->pace.steps * a->pace.records);
 }
 
-measured_end measured_count(const trials *t, table *made, int row, const table_words *words) {
+measured_end measured_count(const trials *t, table *made, int row) {
     const bool runs = t->image[0]->contacts > 0;
     table_row counted = made->row[row];
-    const int status = runs ? count_runs(t, words, &counted) : count_step(t, words, &counted);
+    const int status = runs ? count_runs(t, &counted) : count_step(t, &counted);
     if (status == STATUS_MISSING) {
         return MEASURED_MISSING;
     }
@@ -838,14 +832,13 @@ static int uncounted(const table *made) {
     return i;
 }
 
-measured_end measured_front(const trials *t, table *made, const table_words *words,
-                            const table_request *w) {
+measured_end measured_front(const trials *t, table *made, bool shows) {
     int i = t->image[0]->contacts > 0 ? made->count : uncounted(made);
     while (i < made->count && !interrupted) {
-        if (w->progress != NULL) {
-            w->progress(w->context, i, made->count);
+        if (shows) {
+            fprintf(stderr, "\r%3d of %d rows ", i, made->count);
         }
-        if (measured_count(t, made, i, words) == MEASURED_MISSING) {
+        if (measured_count(t, made, i) == MEASURED_MISSING) {
             return MEASURED_MISSING;
         }
         i = uncounted(made);

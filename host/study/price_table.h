@@ -49,6 +49,7 @@ typedef struct table {
     const char *why; /* the reason for one unpriced setting, or "" */
     /* number of settings whose finer steps were not tried, because the allowed operations were used up */
     int broken_off;
+    double operations; /* the allowed operations */
 } table;
 
 /* A chosen row's error may be at most the requested error divided by this. */
@@ -61,8 +62,7 @@ typedef struct table_request {
     double rate_Hz;   /* rate of calls, each of which takes a whole number of steps; 0: any step */
     uint64_t periods; /* number of periods (1/rate_Hz) in a record's spacing; 1 without a rate */
     int workers;
-    void (*progress)(void *context, int done, int of); /* may be NULL */
-    void *context;
+    bool shows; /* progress on standard error */
 } table_request;
 
 /* *pace: the pace of trial number `rung`, from 0 on. Without a rate, each trial's step is 2 to 2.5 times shorter than the
@@ -88,39 +88,27 @@ const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
 /* Describes the comparison and its reference, in lines that begin with two blanks. */
 void figure_reference(FILE *out, const trials *t);
 
-/* The command's words as typed, for command lines that repeat a row. */
-typedef struct table_words {
-    const char *target;
-    const char *changes; /* "" or " --set m=3 ..." */
-    bool all;            /* print every row */
-    double operations;   /* value of --effort */
-} table_words;
-
 /* "cycles/s", ...: heads of a column of prices, by table_unit. */
 extern const char *const table_heads[];
 
 /* Prints how many settings were tried, and why others were left out or ended early. */
-void table_print_left(FILE *out, const table *made, double operations);
-/* Prints at most TABLE_ROWS rows of the front, or every row if words->all. */
+void table_print_left(FILE *out, const table *made);
+/* Prints at most TABLE_ROWS rows of the front, or every row. */
 enum { TABLE_ROWS = 12 };
-void table_print(FILE *out, const trials *t, const table *made, const table_words *words);
-void table_csv(FILE *out, const trials *t, const table *made, const table_words *words);
+void table_print(FILE *out, const trials *t, const table *made, bool all);
+void table_csv(FILE *out, const trials *t, const table *made);
 /* One JSON object (docs/warnings.md has the schema) with every row, or without a table; `status`: exit status. */
-void table_json(FILE *out, const trials *t, const table *made, const table_words *words,
-                int status);
+void table_json(FILE *out, const trials *t, const table *made, int status);
 /* table_json_begin() writes the first keys of table_json()'s object, table_json_row() the keys of a row. */
 void table_json_begin(json *j, const char *command, const trials *t);
-void table_json_row(json *j, const trials *t, const table_row *row, const table_words *words);
+void table_json_row(json *j, const trials *t, const table_row *row);
 
 /* Command lines that repeat a row: `whirl run ...` at a point of the ranges, and `whirl derive ... --as c` with the scene's own
  * values, as in a product. Free them. */
-char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point,
-                     const table_words *words);
-char *table_derive_line(const trials *t, const setting *s, deviation_pace pace,
-                        const table_words *words);
+char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point);
+char *table_derive_line(const trials *t, const setting *s, deviation_pace pace);
 /* The command that counts this row's step in a source tree with the board's compiler: `sh mk/price/measure_one.sh ...`. */
-char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point,
-                         const table_words *words);
+char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point);
 
 /* === counted prices =========================================================================== */
 /* Counted prices, in Whirl's source tree, with the board's compiler and emulator. They use the same command
@@ -137,9 +125,8 @@ enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
 /* Counts the steps of a row for all rows of its setting; with contacts, the row's whole run. Takes seconds. The table is sorted
  * again. Rows that cannot be built, linked or run lose their price and leave the table. */
-measured_end measured_count(const trials *t, table *made, int row, const table_words *words);
-/* Counts the rows of the front until all of them are counted. */
-measured_end measured_front(const trials *t, table *made, const table_words *words,
-                            const table_request *w);
+measured_end measured_count(const trials *t, table *made, int row);
+/* Counts the rows of the front until all of them are counted. `shows`: progress on standard error. */
+measured_end measured_front(const trials *t, table *made, bool shows);
 
 #endif

@@ -77,6 +77,8 @@ typedef struct trial_source {
 typedef struct trial_request {
     const trial_source *source;
     const cost_board *board;
+    const char *target;  /* the scene as typed, for command lines that repeat a trial */
+    const char *changes; /* its changes as typed: "" or " --set m=3 ..." */
     const char *of;      /* the compared output, coordinate or rate; NULL: the worst component */
     whole_ratio spacing; /* interval of the records, s */
     int records;         /* number of records after the start */

@@ -40,6 +40,8 @@ void priced_open(priced *p, const char *const *texts, int points) {
 bool priced_begin(priced *p, const char *board, whole_ratio spacing, int count, const char *of) {
     p->request = (trial_request){.source = &p->source,
                                  .board = cost_board_named(board),
+                                 .target = "f.whirl:s",
+                                 .changes = " --set m=3",
                                  .of = of,
                                  .spacing = spacing,
                                  .records = count};

@@ -162,7 +162,6 @@ static const char *const springs[] = {SPRING("9"), SPRING("16"), SPRING("25")};
     "scene s { start x = " h " [m]; step 1 [ms]; until 1 [s] }\n"
 static const char *const balls[] = {BALL("1"), BALL("2"), BALL("0.5")};
 static const whole_ratio spacing = {1, 50};
-static const table_words words = {"a.whirl:s", " --set m=3", false, 0.0};
 
 static table table_of(table_row row[2], const setting *s, deviation_pace pace, int point) {
     for (int i = 0; i < 2; i++) {
@@ -221,7 +220,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
             const deviation_pace pace = {(uint64_t)i + 1, 1};
             table_row row[2];
             table made = table_of(row, &rk4, pace, 1);
-            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
+            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0));
             const int at = made.row[0].counted ? 0 : 1;
             TEST_ASSERT_FALSE(made.row[1 - at].counted);
             const cost c = made.row[at].cost;
@@ -254,7 +253,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
             tree_keep("row2", row);
             table_row rows[2];
             table made = table_of(rows, &rk4, pace, 1);
-            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0, &words));
+            TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_count(&p.trial, &made, 0));
             TEST_ASSERT_EQUAL_INT(1, made.count);
             TEST_ASSERT_FALSE(made.row[0].counted);
             free(row);
@@ -262,12 +261,6 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
         tree_leave();
         priced_close(&p);
     }
-}
-
-static void count_progress(void *context, int done, int of) {
-    (void)done;
-    (void)of;
-    ++*(int *)context;
 }
 
 /* The predicted costs are 100, 200, ... When counted, the first setting costs more than all others. Rows that cannot
@@ -296,10 +289,7 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
         row[3].result.error = 0.5; /* not on the front, so it is never counted */
         table made = {.row = row, .count = 5, .why = ""};
         table_sort(&made);
-        int told = 0;
-        const table_request w = {.progress = count_progress, .context = &told};
-        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_front(&p.trial, &made, &words, &w));
-        TEST_ASSERT_EQUAL_INT(refused ? 4 : 3, told);
+        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, measured_front(&p.trial, &made, true));
         TEST_ASSERT_EQUAL_INT(refused ? 3 : 5, made.count);
         TEST_ASSERT_EQUAL_INT(refused ? 1 : 0, made.unpriced);
         TEST_ASSERT_EQUAL_STRING(
@@ -317,11 +307,10 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
             TEST_ASSERT_TRUE(!r->on_front || r->counted);
         }
         tree_keep("mk/price/measure_one.sh", "exit 2\n");
-        const table_request quiet = {.progress = NULL};
         for (int i = 0; i < made.count; i++) {
             made.row[i].counted = false;
         }
-        TEST_ASSERT_EQUAL_INT(MEASURED_MISSING, measured_front(&p.trial, &made, &words, &quiet));
+        TEST_ASSERT_EQUAL_INT(MEASURED_MISSING, measured_front(&p.trial, &made, false));
         tree_leave();
     }
     priced_close(&p);
@@ -383,7 +372,7 @@ TEST(price_measured, choices_are_as_if_all_was_counted) {
                                   .clock_Hz = n % 3 == 2 ? 2e4 : 0.0,
                                   .flash_bytes = n % 2 == 1 ? dice_between(&d, 90, 900) : 0.0};
         choice c;
-        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, choice_counted(&p.trial, &made, &w, &words, &c));
+        TEST_ASSERT_EQUAL_INT(MEASURED_COUNTED, choice_counted(&p.trial, &made, &w, &c));
         const choice wanted = choice_make(&p.trial, &by_all, &w);
         static const choice_kind kinds[] = {CHOICE_FASTEST, CHOICE_SMALLEST, CHOICE_WEAKER,
                                             CHOICE_LARGER};

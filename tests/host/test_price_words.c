@@ -76,7 +76,7 @@ static table table_of(table_row *row, int count, int points, cost_basis cycles, 
     for (int i = 0; i < count; i++) {
         row[i] = row_of(i, points, cycles, unit);
     }
-    table made = {.row = row, .count = count, .settings = 90, .why = "a reason"};
+    table made = {.row = row, .count = count, .settings = 90, .why = "a reason", .operations = 1e7};
     table_sort(&made);
     return made;
 }
@@ -87,18 +87,17 @@ static void print_tables(FILE *out) {
         table_row row[ROWS];
         caught text;
         const int points = n == 2 ? 1 : 2;
-        const table_words words = {"f.whirl:s", n == 0 ? " --set m=3" : " --set \"a b\"", n > 0,
-                                   1e7};
         begin(&p, places, points, n == 1 ? "x'" : NULL);
+        p.trial.request.changes = n == 0 ? " --set m=3" : " --set \"a b\"";
         table made =
             table_of(row, ROWS, points, n == 0 ? COST_ESTIMATED : COST_RANGE, (table_unit)n);
         made.unpriced = n == 1 ? 0 : 7;
         made.broken_off = n == 0 ? 0 : 5;
-        table_print(catch_text(&text), &p.trial, &made, &words);
+        table_print(catch_text(&text), &p.trial, &made, n > 0);
         alloc_text_end(text.to);
         copy_text(out, "table", n, text.text, "");
         made = table_of(row, 3, points, COST_ESTIMATED, (table_unit)n);
-        table_csv(catch_text(&text), &p.trial, &made, &words);
+        table_csv(catch_text(&text), &p.trial, &made);
         alloc_text_end(text.to);
         copy_text(out, "csv", n, text.text, "");
         priced_close(&p);
@@ -107,9 +106,8 @@ static void print_tables(FILE *out) {
 
 static void print_choice(FILE *out, const char *name, int n, const priced *p, const table *made,
                          const choice_request *w, const choice *c) {
-    static const table_words words = {"f.whirl:s", " --set m=3", false, 1e7};
     caught text;
-    choice_print(catch_text(&text), &p->trial, made, w, c, &words);
+    choice_print(catch_text(&text), &p->trial, made, w, c);
     alloc_text_end(text.to);
     copy_text(out, name, n, text.text, c->of[CHOICE_FASTEST].row < 0 ? "no setting fits" : "");
 }
@@ -137,9 +135,10 @@ static void print_answers(FILE *out) {
                             .settings = 50,
                             .broken_off = n == 1 ? 3 : 0,
                             .unpriced = n == 2 ? 2 : 0,
+                            .operations = 1e7,
                             .why = "a reason"};
         const choice_request w = {
-            .table = {.error = 0.01, .rate_Hz = cases[n].rate_Hz, .periods = 1, .operations = 1e7},
+            .table = {.error = 0.01, .rate_Hz = cases[n].rate_Hz, .periods = 1},
             .clock_Hz = cases[n].clock_Hz,
             .prices = "as they are"};
         choice c = {{{.row = 0, .worst = 4e4, .load = 0.02, .load_most = 0.03},
@@ -162,7 +161,7 @@ static void print_remedies(FILE *out) {
         made.why = "";
         made.broken_off = n == 3 ? 3 : 0;
         const choice_request w = {
-            .table = {.error = 1e-3, .operations = 1e7}, .clock_Hz = 16e6, .prices = "as they are"};
+            .table = {.error = 1e-3}, .clock_Hz = 16e6, .prices = "as they are"};
         choice c = {{{.row = -1}, {.row = -1}}};
         for (unsigned i = 0; i < 4; i++) {
             static const unsigned fails[] = {CHOICE_BIT(CHOICE_ERROR), CHOICE_BIT(CHOICE_LOAD),
@@ -256,9 +255,8 @@ TEST(price_words, at_most_twelve_rows_of_a_front_are_shown) {
             row[i].cost.why = "";
         }
         table_sort(&made);
-        const table_words words = {"f", "", false, 1e7};
         caught out;
-        table_print(catch_text(&out), &p.trial, &made, &words);
+        table_print(catch_text(&out), &p.trial, &made, false);
         alloc_text_end(out.to);
         int shown = 0;
         for (const char *at = strstr(out.text, "\n* "); at != NULL; at = strstr(at + 1, "\n* ")) {
@@ -278,9 +276,8 @@ TEST(price_words, at_most_twelve_rows_of_a_front_are_shown) {
 }
 
 static char *table_of_nothing(const trials *t, const table *made) {
-    const table_words words = {"f", "", false, 1e7};
     caught out;
-    table_print(catch_text(&out), t, made, &words);
+    table_print(catch_text(&out), t, made, false);
     alloc_text_end(out.to);
     return out.text;
 }
