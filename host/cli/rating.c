@@ -202,7 +202,7 @@ static deviation_pace pace_at(int i) {
  * `slow`: NULL, or the first pace that was not tried, because all tries would take this many operations. */
 static void say_no_pace(const trials *t, const setting *s, double least, bool rounds,
                         const deviation_pace *slow, double operations) {
-    char text[TRIAL_TIME];
+    char text[NUMBER_SIZE];
     char smallest[60] = "all failed";
     char why[160] = "";
     if (least < (double)INFINITY) {
@@ -216,7 +216,7 @@ static void say_no_pace(const trials *t, const setting *s, double least, bool ro
             why, sizeof why,
             "; steps below %s s need %.1e operations or more, and the limit of all tries together "
             "is %.1e",
-            trial_time(trial_step(t, *slow), text), operations, TRIES_OPERATIONS);
+            trial_step_text(t, *slow, text), operations, TRIES_OPERATIONS);
     }
     fprintf(stderr,
             "whirl run: error: no tried step stays within --error: %s%s\n"
@@ -268,10 +268,10 @@ static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_re
 /* Would `whirl run` print a warning for the whole run at this pace? */
 static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace) {
     const trial_source *from = t->request.source;
-    char text[TRIAL_TIME];
+    char text[NUMBER_SIZE];
     setting finer = *s;
     const bool other = step_doubling_plain(&s->image, &finer.image);
-    trial_time(trial_step(t, pace), text);
+    trial_step_text(t, pace, text);
     image *im = from->make(from->context, 0, s, text, NULL);
     image *plain = other ? from->make(from->context, 0, &finer, text, NULL) : NULL;
     const bool warned = im != NULL && !remedy_not_needed(im, plain, s->number);
@@ -306,7 +306,7 @@ static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *p
 }
 
 static int choose(pricing *p, const setting *s, char **step, char **chosen) {
-    char text[TRIAL_TIME];
+    char text[NUMBER_SIZE];
     int code = pricing_begin(p, pricing_spacing(p->until_s, PRICING_RECORDS));
     if (code != EXIT_DONE) {
         return code;
@@ -325,13 +325,13 @@ static int choose(pricing *p, const setting *s, char **step, char **chosen) {
     if (at < 0) {
         return t->stopped ? EXIT_INTERRUPTED : EXIT_RUN_FAILED;
     }
-    trial_time(trial_step(t, pace), text);
+    trial_step_text(t, pace, text);
     char *longer = find_unwarned(t, s, at, &pace, &r)
                        ? alloc_words("; a step of %s s would keep the error, too, but has "
                                      "warnings",
                                      text)
                        : alloc_words("%s", longest ? "; longer steps were not tried" : "");
-    *step = alloc_words("%s", trial_time(trial_step(t, pace), text));
+    *step = alloc_words("%s", trial_step_text(t, pace, text));
     *chosen = alloc_words("chosen step        %s s: error of %s at most %.2e %s until t = %.6g s%s",
                           *step, p->quantity, r.error, trial_unit(t), trial_horizon_s(t), longer);
     free(longer);

@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "host/number/functions.h"
+
 enum { FRACTION = 52, BIAS = 1023, SPECIAL = 0x7ff };
 
 char *hex_write(double value, char text[static HEX_SIZE]) {
@@ -267,4 +269,15 @@ double decimal_read_side(const char *text, const char **end, int *side) {
 double decimal_read(const char *text, const char **end) {
     int side;
     return decimal_read_side(text, end, &side);
+}
+
+char *number_shortest(double value, char text[static NUMBER_SIZE]) {
+    value = number_shown(value);
+    for (int places = 15; places <= 17; places++) {
+        snprintf(text, NUMBER_SIZE, "%.*g", places, value);
+        if (decimal_read(text, NULL) == value) {
+            break;
+        }
+    }
+    return text;
 }

@@ -19,6 +19,11 @@ char *hex_write(double value, char text[static HEX_SIZE]);
  * "nan" are not read. */
 double decimal_read(const char *text, const char **end);
 
+/* Writes a number with as few digits as are needed to read it back exactly, but at least 15; zeros have no sign. Returns
+ * `text`. */
+enum { NUMBER_SIZE = 40 };
+char *number_shortest(double value, char text[static NUMBER_SIZE]);
+
 /* As decimal_read(). *side: -1, 0 or 1 if the number in the text is below, equal to or above the returned double. */
 double decimal_read_side(const char *text, const char **end, int *side);
 

@@ -174,12 +174,8 @@ static bool show_as_fraction(double value, double *top, double *bottom) {
 }
 
 void show_number(const show *s, double value) {
-    char text[40];
-    int digits = 15;
-    do { /* the fewest digits that reproduce the number */
-        snprintf(text, sizeof text, "%.*g", digits, value);
-        digits++;
-    } while (decimal_read(text, NULL) != value && digits <= 17);
+    char text[NUMBER_SIZE];
+    number_shortest(value, text);
     char *e = strchr(text, 'e');
     if (e != NULL && s->style == SHOW_LATEX) {
         *e = '\0';

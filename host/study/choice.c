@@ -190,9 +190,9 @@ static const char *amount(const trials *t, double error, char text[AMOUNT]) {
 
 static void print_options(FILE *out, const trials *t, const table_row *row) {
     char options[SETTING_TEXT];
-    char step[TRIAL_TIME];
+    char step[NUMBER_SIZE];
     fprintf(out, "%s --step %s\n", setting_options(&row->setting, true, options) + 1,
-            trial_time(trial_step(t, row->pace), step));
+            trial_step_text(t, row->pace, step));
 }
 
 static void print_figure(FILE *out, const char *name, const cost_figure *f, const char *unit) {

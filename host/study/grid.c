@@ -9,7 +9,6 @@
 #include "host/base/alloc.h"
 #include "host/lang/override.h"
 #include "host/lang/value.h"
-#include "host/number/decimal.h"
 #include "host/number/functions.h"
 
 overrides changes_at(const grid *g, const overrides *base, uint64_t point) {
@@ -344,15 +343,4 @@ bool grid_varies_parameters(const grid *g) {
 void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end) {
     *first = g->points * (k - 1) / n;
     *end = g->points * k / n;
-}
-
-char *number_shortest(double value, char text[NUMBER_SIZE]) {
-    value = number_shown(value);
-    for (int digits = 15; digits <= 17; digits++) {
-        snprintf(text, NUMBER_SIZE, "%.*g", digits, value);
-        if (decimal_read(text, NULL) == value) {
-            break;
-        }
-    }
-    return text;
 }

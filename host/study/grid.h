@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "host/lang/model.h"
+#include "host/number/decimal.h"
 
 /* One --over: `count` values from `from` to `to` (SI), equally spaced, or equally spaced in the logarithm. */
 typedef struct axis {
@@ -45,10 +46,6 @@ bool grid_varies_parameters(const grid *g);
 /* The points of shard k of n (1 <= k <= n): first <= point < end. Shards follow each other without
  * a gap, so that their rows in the order of k are all the rows. */
 void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end);
-
-/* Writes a number with as few digits as are needed to read it back exactly. Returns text. */
-#define NUMBER_SIZE 40
-char *number_shortest(double value, char text[NUMBER_SIZE]);
 
 /* === values of a point as changes ============================================================= */
 /* The swept values of one point as changes of the command line. */

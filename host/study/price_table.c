@@ -330,13 +330,12 @@ void figure_reference(FILE *out, const trials *t) {
 
 static char *line_of(const trials *t, const setting *s, deviation_pace pace, int point, bool run) {
     char options[SETTING_TEXT];
-    char step[TRIAL_TIME];
-    char until[TRIAL_TIME];
+    char step[NUMBER_SIZE];
+    char until[NUMBER_SIZE];
     return alloc_words("whirl %s %s%s%s%s%s --step %s --until %s%s", run ? "run" : "derive",
                        t->request.target, t->request.changes, run ? trial_place(t, point) : "",
                        setting_options(s, run, options), run ? "" : setting_form(s),
-                       trial_time(trial_step(t, pace), step), trial_until(t, until),
-                       run ? "" : " --as c");
+                       trial_step_text(t, pace, step), trial_until(t, until), run ? "" : " --as c");
 }
 
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point) {
@@ -349,22 +348,22 @@ char *table_derive_line(const trials *t, const setting *s, deviation_pace pace) 
 
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point) {
     char options[SETTING_TEXT];
-    char step[TRIAL_TIME];
-    char until[TRIAL_TIME];
+    char step[NUMBER_SIZE];
+    char until[NUMBER_SIZE];
     const bool runs = t->image[0]->contacts > 0;
     /* the ranges for fixed point come from the run to the end */
     const bool ranged = runs || setting_is_fixed(s);
     return alloc_words("sh mk/price/measure_one.sh%s %s %s %s%s%s%s --step %s%s%s",
                        runs ? " --whole-run" : "", t->request.board->name, s->number->name,
                        t->request.target, t->request.changes, trial_place(t, point),
-                       setting_options(s, false, options), trial_time(trial_step(t, pace), step),
+                       setting_options(s, false, options), trial_step_text(t, pace, step),
                        ranged ? " --until " : "", ranged ? trial_until(t, until) : "");
 }
 
 static void print_row(FILE *out, const trials *t, const table_row *row) {
     char text[FIGURE_TEXT];
     char options[SETTING_TEXT];
-    char step[TRIAL_TIME];
+    char step[NUMBER_SIZE];
     char error[24];
     char price[24];
     const cost *c = &row->cost;
@@ -376,7 +375,7 @@ static void print_row(FILE *out, const trials *t, const table_row *row) {
     fprintf(out, "  %7s", figure_text(&c->stack_bytes, text));
     fprintf(out, "  %6s ", figure_text(&c->state_bytes, text));
     fprintf(out, "%s --step %s\n", setting_options(&row->setting, true, options),
-            trial_time(trial_step(t, row->pace), step));
+            trial_step_text(t, row->pace, step));
 }
 
 const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
@@ -578,7 +577,7 @@ static void put_row(row_sink *s, const trials *t, const table_row *row) {
     put_words(s, "price_basis", cost_basis_words[row->price.basis]);
     put_number(s, "price_least", 9, row->price.least);
     put_number(s, "price_most", 9, row->price.most);
-    put(s, "step_s", trial_time(trial_step(t, row->pace), text), true);
+    put(s, "step_s", trial_step_text(t, row->pace, text), true);
     for (int axis = 0; axis < AXES; axis++) {
         put_words(s, setting_heading((setting_axis)axis),
                   setting_word(&row->setting, (setting_axis)axis));

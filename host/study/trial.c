@@ -10,7 +10,6 @@
 #include "host/fixed/engine_fixed.h"
 #include "host/fixed/fixed_plan.h"
 #include "host/image/image.h"
-#include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/os/system.h"
 
@@ -221,18 +220,6 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 /* A run with a larger error, as a part of the largest value, is useless. */
 #define USABLE 1.0
 
-const char *trial_time(whole_ratio time, char text[TRIAL_TIME]) {
-    const double value = ratio_times(1, time);
-    for (int digits = 1; digits <= 17; digits++) {
-        snprintf(text, TRIAL_TIME, "%.*g", digits, value);
-        const whole_ratio back = ratio_of(decimal_read(text, NULL));
-        if (back.numerator == time.numerator && back.denominator == time.denominator) {
-            break;
-        }
-    }
-    return text;
-}
-
 whole_ratio trial_step(const trials *t, deviation_pace pace) {
     whole_ratio s = t->request.spacing;
     const uint64_t over = ratio_divisor(s.numerator, pace.steps);
@@ -244,6 +231,10 @@ whole_ratio trial_step(const trials *t, deviation_pace pace) {
     s.numerator = s.numerator / over * (pace.records / under);
     s.denominator = s.denominator / under * (pace.steps / over);
     return s;
+}
+
+const char *trial_step_text(const trials *t, deviation_pace pace, char text[NUMBER_SIZE]) {
+    return number_shortest(ratio_times(1, trial_step(t, pace)), text);
 }
 
 const char *trial_place(const trials *t, int point) {
@@ -401,9 +392,8 @@ bool trial_begin(trials *t, const trial_request *w) {
 
 /* --- images ----------------------------------------------------------------------------------------*/
 
-const char *trial_until(const trials *t, char text[TRIAL_TIME]) {
-    snprintf(text, TRIAL_TIME, "%.15g", trial_horizon_s(t));
-    return text;
+const char *trial_until(const trials *t, char text[NUMBER_SIZE]) {
+    return number_shortest(trial_horizon_s(t), text);
 }
 
 /* Frees an image and its step in fixed point, if it has one. */
@@ -428,11 +418,11 @@ static image *in_fixed_point(image *im) {
 }
 
 static image *image_of(const trials *t, int point, const setting *s, deviation_pace pace) {
-    char step[TRIAL_TIME];
-    char until[TRIAL_TIME];
+    char step[NUMBER_SIZE];
+    char until[NUMBER_SIZE];
     const trial_request *w = &t->request;
     const bool fixed = setting_is_fixed(s);
-    trial_time(trial_step(t, pace), step);
+    trial_step_text(t, pace, step);
     if (fixed) {
         trial_until(t, until);
     } else {

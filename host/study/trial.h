@@ -3,6 +3,7 @@
 #define STUDY_TRIAL_H
 
 #include "host/engine/engine.h"
+#include "host/number/decimal.h"
 #include "host/study/cost.h"
 #include "host/study/reference_run.h"
 
@@ -139,10 +140,9 @@ double trial_error_si(const trials *t, double error);
 enum { TRIAL_NAME = 96 };
 const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 
-/* A time as --step and --until take it: seconds in as few digits as bring back the same fraction. Returns text. */
-enum { TRIAL_TIME = 40 };
-const char *trial_time(whole_ratio time, char text[TRIAL_TIME]);
+/* The step as --step takes it, in as few digits as bring back the same number. Returns text. */
+const char *trial_step_text(const trials *t, deviation_pace pace, char text[NUMBER_SIZE]);
 /* The end of the compared motion, as --until takes it; ranges in fixed point extend to it. Returns text. */
-const char *trial_until(const trials *t, char text[TRIAL_TIME]);
+const char *trial_until(const trials *t, char text[NUMBER_SIZE]);
 
 #endif

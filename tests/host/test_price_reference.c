@@ -106,8 +106,8 @@ TEST(price_reference, closed_forms) {
 
 /* The largest deviation of a run from the closed forms, as a part of the component's largest value. */
 static double true_error(priced *p, const pair *o, const setting *s, deviation_pace pace) {
-    char step[TRIAL_TIME];
-    image *im = priced_image(p, 0, s, trial_time(trial_step(&p->trial, pace), step));
+    char step[NUMBER_SIZE];
+    image *im = priced_image(p, 0, s, trial_step_text(&p->trial, pace, step));
     void *run = s->number->start(im);
     long double largest[4] = {0.0L};
     long double off[4] = {0.0L};
