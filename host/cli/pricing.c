@@ -42,11 +42,11 @@ typedef struct pricing_row {
 static const pricing_row option_rows[PRICING_OPTIONS] = {PRICING_OPTION_ROWS(ROW)};
 #undef ROW
 
-pricing_options pricing_defaults(const char *command, int word_count) {
-    return (pricing_options){.command = command,
-                             .common = options_defaults(),
-                             .value = {[PRICING_BOARD] = COST_BOARD_DEFAULT},
-                             .vary = alloc(word_count, sizeof(const char *))};
+pricing pricing_defaults(const char *command, int word_count) {
+    return (pricing){.command = command,
+                     .common = options_defaults(),
+                     .value = {[PRICING_BOARD] = COST_BOARD_DEFAULT},
+                     .vary = alloc(word_count, sizeof(const char *))};
 }
 
 static void print_help(FILE *out, const pricing_command *c) {
@@ -64,29 +64,29 @@ static void print_help(FILE *out, const pricing_command *c) {
     options_usage(out, &end);
 }
 
-static bool read_words(int count, char **words, pricing_options *o) {
+static bool read_words(const pricing_command *c, int count, char **words, pricing *p) {
     own_option own[PRICING_OPTIONS + 1] = {{.word = NULL}};
     int all = 0;
     for (int i = 0; i < PRICING_OPTIONS; i++) {
-        if ((option_rows[i].commands & o->bit) != 0) {
+        if ((option_rows[i].commands & c->bit) != 0) {
             own[all++] = (own_option){.word = option_rows[i].word,
-                                      .text = i == PRICING_VARY ? o->vary : &o->value[i],
-                                      .count = i == PRICING_VARY ? &o->vary_count : NULL,
+                                      .text = i == PRICING_VARY ? p->vary : &p->value[i],
+                                      .count = i == PRICING_VARY ? &p->vary_count : NULL,
                                       .is_bare = option_rows[i].value == NULL};
         }
     }
     const command_usage accepted = {.groups = PRICING_GROUPS};
-    const target_reader reader = {.command = o->command, .usage = &accepted, .table = own};
-    if (!target_read(&reader, count, words, &o->common, &o->target)) {
+    const target_reader reader = {.command = p->command, .usage = &accepted, .table = own};
+    if (!target_read(&reader, count, words, &p->common, &p->typed)) {
         return false;
     }
-    if (o->target == NULL) {
+    if (p->typed == NULL) {
         fprintf(stderr,
                 "whirl %s: error: a scene is missing\nhint: whirl %s SCENE, FILE or FILE:SCENE "
                 "(`whirl list` shows the built-in scenes)\n",
-                o->command, o->command);
+                p->command, p->command);
     }
-    return o->target != NULL;
+    return p->typed != NULL;
 }
 
 static int run_command(const pricing_command *c, int count, char **words) {
@@ -94,22 +94,16 @@ static int run_command(const pricing_command *c, int count, char **words) {
         print_help(stdout, c);
         return EXIT_DONE;
     }
-    pricing_options o = pricing_defaults(c->name, count);
-    int code = EXIT_BAD_INPUT;
-    o.bit = c->bit;
-    if (read_words(count, words, &o)) {
-        pricing p;
-        code = pricing_open(&p, &o);
-        if (code == EXIT_DONE) {
-            code = c->run(&p);
-        }
-        if (code == EXIT_INTERRUPTED) {
-            fprintf(stderr, "whirl %s: interrupted\n", c->name);
-        }
-        pricing_close(&p);
+    pricing p = pricing_defaults(c->name, count);
+    int code = read_words(c, count, words, &p) ? pricing_open(&p) : EXIT_BAD_INPUT;
+    if (code == EXIT_DONE) {
+        code = c->run(&p);
     }
-    options_forget(&o.common);
-    free(o.vary);
+    if (code == EXIT_INTERRUPTED) {
+        fprintf(stderr, "whirl %s: interrupted\n", c->name);
+    }
+    options_forget(&p.common);
+    pricing_close(&p);
     return code;
 }
 
@@ -119,7 +113,7 @@ static void says_missing(const pricing *p, const char *why) {
         stderr,
         "whirl %s: error: --measure: whirl cannot count on %s: %s\n"
         "hint: leave out --measure to predict costs, or run `make deps` to install compilers and emulators\n",
-        p->options->command, p->board->name, why);
+        p->command, p->board->name, why);
 }
 
 /* --- the scene -------------------------------------------------------------------------------------*/
@@ -158,11 +152,10 @@ const cost_board *pricing_board(const char *command, const char *value) {
 
 /* Reads --error. Its dimension is that of the quantity in --error or --of; an unknown quantity is reported later. */
 static bool read_error(pricing *p) {
-    const char *text = p->options->value[PRICING_ERROR];
-    const char *command = p->options->command;
+    const char *text = p->value[PRICING_ERROR];
+    const char *command = p->command;
     const char *equals = text != NULL ? strchr(text, '=') : NULL;
-    p->asks_error = text != NULL;
-    p->quantity = p->options->value[PRICING_OF];
+    p->quantity = p->value[PRICING_OF];
     if (equals != NULL && p->quantity != NULL) {
         return options_fail(command,
                             "--of and --error must not both name a quantity\nhint: --error "
@@ -183,15 +176,14 @@ static bool read_error(pricing *p) {
 }
 
 static bool read_effort(pricing *p) {
-    const char *text = p->options->value[PRICING_EFFORT];
+    const char *text = p->value[PRICING_EFFORT];
     p->effort = EFFORT;
-    return text == NULL ||
-           options_number(p->options->command, "--effort", text, EFFORT_LEAST, EFFORT_MOST,
-                          "a number of operations: --effort 1e10", &p->effort);
+    return text == NULL || options_number(p->command, "--effort", text, EFFORT_LEAST, EFFORT_MOST,
+                                          "a number of operations: --effort 1e10", &p->effort);
 }
 
 static bool read_methods(pricing *p) {
-    const char *at = p->options->value[PRICING_METHOD];
+    const char *at = p->value[PRICING_METHOD];
     const char *words[WH_METHODS + 1] = {[WH_METHODS] = "all"};
     for (int i = 0; i < WH_METHODS; i++) {
         words[i] = wh_methods[i].word;
@@ -199,8 +191,8 @@ static bool read_methods(pricing *p) {
     while (at != NULL) {
         const size_t length = strcspn(at, ",");
         char *word = alloc_trimmed(at, length);
-        const int chosen = options_choose(p->options->command, "method", word, words,
-                                          sizeof words[0], WH_METHODS + 1);
+        const int chosen =
+            options_choose(p->command, "method", word, words, sizeof words[0], WH_METHODS + 1);
         free(word);
         for (int m = 0; m < WH_METHODS; m++) {
             p->method[m] = p->method[m] || chosen == m || chosen == WH_METHODS;
@@ -215,22 +207,21 @@ static bool read_methods(pricing *p) {
 
 /* The table that the options ask for. All processors compute it, and a terminal shows the progress. */
 static table_request wish_of(const pricing *p) {
-    const bool shows = p->options->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
+    const bool shows = p->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
     return (table_request){.operations = p->effort,
-                           .method = p->options->value[PRICING_METHOD] != NULL ? p->method : NULL,
+                           .method = p->value[PRICING_METHOD] != NULL ? p->method : NULL,
                            .periods = 1,
                            .workers = jobs_workers(),
                            .shows = shows};
 }
 
 static bool read_ranges(pricing *p) {
-    const pricing_options *o = p->options;
-    p->grid.command = o->command;
+    p->grid.command = p->command;
     p->grid.option = "--vary";
-    for (int i = 0; i < o->vary_count; i++) {
-        const bool counted = strrchr(o->vary[i], ':') != NULL;
-        char *text = counted ? alloc_words("%s", o->vary[i])
-                             : alloc_words("%s:%d", o->vary[i], PRICING_PLACES);
+    for (int i = 0; i < p->vary_count; i++) {
+        const bool counted = strrchr(p->vary[i], ':') != NULL;
+        char *text = counted ? alloc_words("%s", p->vary[i])
+                             : alloc_words("%s:%d", p->vary[i], PRICING_PLACES);
         const bool good = grid_add(&p->grid, p->of, text, p->from.errors);
         free(text);
         diags_flush(p->from.errors, stderr);
@@ -238,12 +229,12 @@ static bool read_ranges(pricing *p) {
             return false;
         }
         if (p->grid.axes[i].symbol == NULL) {
-            return options_fail(o->command,
+            return options_fail(p->command,
                                 "--vary cannot change the step: whirl tries the steps itself");
         }
     }
     if (p->grid.count > 0 && p->grid.points > PRICING_PLACES_MAX) {
-        return options_fail(o->command, "--vary: %llu combinations exceed the limit of %d",
+        return options_fail(p->command, "--vary: %llu combinations exceed the limit of %d",
                             (unsigned long long)p->grid.points, PRICING_PLACES_MAX);
     }
     return true;
@@ -269,12 +260,11 @@ static bool can_start(pricing *p, const instance *inst) {
 }
 
 static bool read_times(pricing *p) {
-    const char *horizon = p->options->value[PRICING_HORIZON];
+    const char *horizon = p->value[PRICING_HORIZON];
     instance *inst = instance_make(p->of, p->in, &p->changes, p->from.errors);
     bool good = inst != NULL;
     if (good) {
         p->until_s = inst->until_s;
-        p->step_s = inst->step_s;
         good = horizon == NULL || instance_duration(p->of, p->in, &p->changes, "horizon", horizon,
                                                     p->from.errors, &p->until_s);
     }
@@ -285,28 +275,27 @@ static bool read_times(pricing *p) {
     }
     instance_free(inst);
     if (good && !(p->until_s > 0.0)) {
-        return options_fail(p->options->command, "the motion to compare has a length of 0 s\nhint: "
-                                                 "--horizon 1s");
+        return options_fail(p->command, "the motion to compare has a length of 0 s\nhint: "
+                                        "--horizon 1s");
     }
     return good;
 }
 
-int pricing_open(pricing *p, const pricing_options *o) {
-    *p = (pricing){.options = o};
-    int code = source_open(&p->from, o->target);
+int pricing_open(pricing *p) {
+    int code = source_open(&p->from, p->typed);
     if (code == EXIT_DONE) {
         code = source_pick(&p->from, true, &p->of, &p->in);
     }
     if (code != EXIT_DONE) {
         return code;
     }
-    p->changes = options_overrides(&o->common.change);
-    p->changes.balance = o->balance;
+    p->changes = options_overrides(&p->common.change);
+    p->changes.balance = p->balance;
     overrides asked = p->changes;
     asked.until = NULL; /* printed command lines get their own --until */
     p->words = pricing_words(&asked, false);
-    p->target = pricing_quoted(o->target);
-    p->board = pricing_board(o->command, o->value[PRICING_BOARD]);
+    p->target = pricing_quoted(p->typed);
+    p->board = pricing_board(p->command, p->value[PRICING_BOARD]);
     if (p->board == NULL || !read_effort(p) || !read_methods(p) || !read_error(p) ||
         !read_ranges(p)) {
         return EXIT_BAD_INPUT;
@@ -316,14 +305,13 @@ int pricing_open(pricing *p, const pricing_options *o) {
 }
 
 void pricing_close(pricing *p) {
-    if (p->has_trial) {
-        trial_end(&p->trial);
-    }
+    trial_end(&p->trial);
     pricing_scene_free(p->scene);
     grid_free(&p->grid);
     free(p->words);
     free(p->target);
     free(p->named);
+    free(p->vary);
     source_close(&p->from);
 }
 
@@ -352,7 +340,7 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
         fprintf(stderr,
                 "whirl %s: error: Whirl cannot compare steps over a motion of %.9g s: it "
                 "is too short or too long\n",
-                p->options->command, p->until_s);
+                p->command, p->until_s);
         return EXIT_BAD_INPUT;
     }
     const trial_request request = {.source = &p->scene->source,
@@ -362,7 +350,6 @@ int pricing_begin(pricing *p, whole_ratio spacing) {
                                    .of = p->quantity,
                                    .spacing = spacing,
                                    .records = (int)wanted};
-    p->has_trial = true;
     return trial_begin(&p->trial, &request) ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
@@ -393,19 +380,18 @@ static int say_cheapest(FILE *out, const pricing *p, const table *made) {
         if (trial_error_si(&p->trial, row->result.error) <= p->error_si) {
             char *line = table_run_line(&p->trial, &row->setting, row->pace, row->result.point);
             fprintf(out, "the cheapest setting within %s has an error of %.2e %s:\n  %s\n",
-                    p->options->value[PRICING_ERROR], row->result.error, trial_unit(&p->trial),
-                    line);
+                    p->value[PRICING_ERROR], row->result.error, trial_unit(&p->trial), line);
             free(line);
             return EXIT_DONE;
         }
     }
     fprintf(stderr, "whirl price: error: no tried setting has an error below %s\n",
-            p->options->value[PRICING_ERROR]);
+            p->value[PRICING_ERROR]);
     return EXIT_RUN_FAILED;
 }
 
 static int show(pricing *p, const table *made) {
-    const char *const *value = p->options->value;
+    const char *const *value = p->value;
     const char *csv = value[PRICING_CSV];
     const bool is_json = value[PRICING_JSON] != NULL;
     FILE *out = is_json || options_is_standard(csv) ? stderr : stdout;
@@ -413,14 +399,14 @@ static int show(pricing *p, const table *made) {
         table_print(out, &p->trial, made, value[PRICING_ALL] != NULL);
     }
     if (!p->trial.reliable || made == NULL || made->count == 0) {
-        fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->options->target,
+        fprintf(stderr, "whirl price: error: no error of '%s' is known%s\n", p->typed,
                 p->trial.reliable ? ": the table has no row" : ": there is no reliable reference");
         return EXIT_RUN_FAILED;
     }
     if (csv != NULL && !write_csv(csv, &p->trial, made)) {
         return EXIT_RUN_FAILED;
     }
-    return p->asks_error ? say_cheapest(out, p, made) : EXIT_DONE;
+    return p->value[PRICING_ERROR] != NULL ? say_cheapest(out, p, made) : EXIT_DONE;
 }
 
 static int count_front(pricing *p, table *made, const table_request *w) {
@@ -442,10 +428,10 @@ static bool can_measure(const pricing *p) {
 }
 
 static int price_scene(pricing *p) {
-    const char *csv = p->options->value[PRICING_CSV];
-    const bool measure = p->options->value[PRICING_MEASURE] != NULL;
+    const char *csv = p->value[PRICING_CSV];
+    const bool measure = p->value[PRICING_MEASURE] != NULL;
     const table_request request = wish_of(p);
-    if (p->options->value[PRICING_JSON] != NULL && options_is_standard(csv)) {
+    if (p->value[PRICING_JSON] != NULL && options_is_standard(csv)) {
         fputs("whirl price: error: --json and rows cannot share standard output\n"
               "hint: --csv rows.csv\n",
               stderr);
@@ -472,7 +458,7 @@ static int price_scene(pricing *p) {
         code = EXIT_INTERRUPTED;
     } else if (code == EXIT_DONE) {
         code = show(p, made);
-        if (p->options->value[PRICING_JSON] != NULL) {
+        if (p->value[PRICING_JSON] != NULL) {
             table_json(stdout, &p->trial, made, code);
         }
     }
@@ -502,15 +488,15 @@ static const char choose_head[] =
     "predicts them, and cannot answer for a scene with contacts.\n"
     "\n";
 static bool fits(const pricing *p) {
-    if (p->options->value[PRICING_MEASURE] != NULL && p->options->value[PRICING_PREDICT] != NULL) {
+    if (p->value[PRICING_MEASURE] != NULL && p->value[PRICING_PREDICT] != NULL) {
         return options_fail("choose", "--measure and --predict contradict each other");
     }
-    if (!p->asks_error) {
+    if (p->value[PRICING_ERROR] == NULL) {
         fputs("whirl choose: error: --error is missing\nhint: --error 1e-3 (a part of the largest "
               "value), or --of X --error 0.1mm\n",
               stderr);
     }
-    return p->asks_error;
+    return p->value[PRICING_ERROR] != NULL;
 }
 
 /* Reads a number of bytes: "32KB", "2048", "1 MiB". */
@@ -541,7 +527,7 @@ static bool read_bytes(const char *option, const char *text, double *bytes) {
 
 static bool read_limits(const pricing *p, choice_request *w) {
     const dimension per_s = dim_of(0, 0, -1, 0, 0);
-    const char *const *v = p->options->value;
+    const char *const *v = p->value;
     w->clock_Hz = p->board->clock_Hz;
     w->flash_bytes = (double)p->board->flash_bytes;
     w->ram_bytes = (double)p->board->ram_bytes;
@@ -607,7 +593,7 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
     choice c = choice_make(&p->trial, made, w);
     int code = EXIT_DONE;
     if (counts && !p->trial.stopped && choice_counted(&p->trial, made, w, &c) == MEASURED_MISSING) {
-        if (p->options->value[PRICING_MEASURE] != NULL) {
+        if (p->value[PRICING_MEASURE] != NULL) {
             says_missing(p, "a tool is missing");
             code = EXIT_BAD_INPUT;
         } else if (p->trial.without_events) {
@@ -627,7 +613,7 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
         const bool found = c.of[CHOICE_FASTEST].row >= 0;
         const bool is_short = found && horizon_s < 0.5 * p->until_s;
         code = found && !is_short ? EXIT_DONE : EXIT_RUN_FAILED;
-        if (p->options->value[PRICING_JSON] != NULL) {
+        if (p->value[PRICING_JSON] != NULL) {
             choice_json(stdout, &p->trial, made, w, &c, code);
         } else {
             choice_print(stdout, &p->trial, made, w, &c);
@@ -644,7 +630,7 @@ static int choose_from(pricing *p, choice_request *w, bool counts) {
 }
 
 static int choose_begun(pricing *p, choice_request *w) {
-    const bool predicts = p->options->value[PRICING_PREDICT] != NULL;
+    const bool predicts = p->value[PRICING_PREDICT] != NULL;
     char text[MEASURED_TEXT];
     if (p->trial.stopped) {
         return EXIT_INTERRUPTED;
@@ -657,7 +643,7 @@ static int choose_begun(pricing *p, choice_request *w) {
         fputs("\rbuilding the counter ", stderr);
     }
     const char *missing = predicts ? "" : measured_missing(&p->trial, p->board, text);
-    if (p->options->value[PRICING_MEASURE] != NULL && missing != NULL) {
+    if (p->value[PRICING_MEASURE] != NULL && missing != NULL) {
         says_missing(p, missing);
         return EXIT_BAD_INPUT;
     }
@@ -680,7 +666,7 @@ static int choose_scene(pricing *p) {
     choice_request w = {.table = wish_of(p)};
     whole_ratio spacing;
     if (!fits(p) || !read_limits(p, &w) || !space_records(p, &w, &spacing) ||
-        (p->options->value[PRICING_MEASURE] != NULL && !can_measure(p))) {
+        (p->value[PRICING_MEASURE] != NULL && !can_measure(p))) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();

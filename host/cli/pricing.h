@@ -64,26 +64,17 @@ typedef enum pricing_option {
 } pricing_option;
 #undef PRICING_OPTION_ID
 
-typedef struct pricing pricing;
+enum { PRICING_GROUPS = OPTIONS_CHANGE };
 
-typedef struct pricing_options {
+typedef struct pricing {
     const char *command; /* "price" */
-    unsigned bit;
     common_options common;
-    const char *target;
+    const char *typed;                  /* name of the target, as typed */
     const char *value[PRICING_OPTIONS]; /* as typed; NULL: not given; always NULL for --vary */
     const char **vary;                  /* [word count] */
     int vary_count;
     bool balance; /* value of overrides.balance */
-} pricing_options;
 
-enum { PRICING_GROUPS = OPTIONS_CHANGE };
-
-pricing_options pricing_defaults(const char *command, int word_count);
-/* --- the scene -------------------------------------------------------------------------------------*/
-
-struct pricing {
-    const pricing_options *options;
     source_model from;
     const mechanism *of;
     const scene *in;
@@ -93,20 +84,19 @@ struct pricing {
     const cost_board *board;
     const char *quantity; /* the name in --of, or in --error X=0.1mm; NULL: the worst component */
     char *named;          /* the name in --error, owned */
-    bool asks_error;
-    double error_si; /* the limit of --error */
-    double until_s;  /* the horizon, or the scene's end */
-    double step_s;   /* the scene's own step */
-    double effort;   /* operations */
+    double error_si;      /* the limit of --error */
+    double until_s;       /* the horizon, or the scene's end */
+    double effort;        /* operations */
     bool method[WH_METHODS];
     char *words;  /* changes of the scene, as typed */
-    char *target; /* name of the target, as typed */
+    char *target; /* name of the target, quoted for a shell */
     trials trial;
-    bool has_trial;
-};
+} pricing;
 
-/* Reads the options and the scene. Returns an exit code, with errors reported; pricing_close() in any case. */
-int pricing_open(pricing *p, const pricing_options *o);
+/* Options without values; pricing_close() frees them. */
+pricing pricing_defaults(const char *command, int word_count);
+/* Reads the values of the options, and the scene. Returns an exit code, with errors reported; pricing_close() in any case. */
+int pricing_open(pricing *p);
 void pricing_close(pricing *p);
 /* The board of --board, which must have prices. Returns NULL, and reports the reason, if there is no such board. */
 const cost_board *pricing_board(const char *command, const char *value);

@@ -350,18 +350,16 @@ int rating_choose(const common_options *common, const char *target, const char *
               stderr);
         return EXIT_BAD_INPUT;
     }
-    pricing_options o = pricing_defaults("run", 1);
-    pricing p;
-    o.target = target;
-    o.common.change = common->change;
-    o.balance = true; /* the verdict on the run needs the balance */
-    o.value[PRICING_ERROR] = error;
+    pricing p = pricing_defaults("run", 1);
+    p.typed = target;
+    p.common.change = common->change;
+    p.balance = true; /* the verdict on the run needs the balance */
+    p.value[PRICING_ERROR] = error;
     const setting s = {common->integration, common->number};
-    int code = pricing_open(&p, &o);
+    int code = pricing_open(&p);
     code = code == EXIT_DONE ? choose(&p, &s, step, chosen) : code;
     *from = p.from;
     p.from = (source_model){0};
     pricing_close(&p);
-    free(o.vary);
     return code;
 }
