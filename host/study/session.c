@@ -258,13 +258,12 @@ bool resumable_csv_note(resumable_csv *sh, const char *word) {
     free(sh->notes);
     sh->notes = notes;
     FILE *out = sh->beside != NULL ? fopen(sh->beside, "ab") : NULL;
-    const bool good = out == NULL || fprintf(out, NOTED "%s\n", word) > 0;
+    const bool good = sh->beside == NULL || (out != NULL && fprintf(out, NOTED "%s\n", word) > 0);
     const bool closed = out == NULL || fclose(out) == 0;
-    if (sh->beside != NULL && (out == NULL || !good || !closed)) {
+    if (!good || !closed) {
         write_error_say(sh->beside);
-        return false;
     }
-    return true;
+    return good && closed;
 }
 
 bool resumable_csv_close(resumable_csv *s) {
@@ -435,53 +434,34 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
     return text;
 }
 
-/* === drawing the progress of a sweep ========================================================== */
+/* === the session ============================================================================== */
 
+/* A progress line is drawn at most this often. */
 #define SHOW_EVERY_S 0.2
 
-progress progress_start(FILE *out, uint64_t from, uint64_t end) {
-    return (progress){.out = out, .from = from, .end = end, .start_s = system_now_s()};
-}
-
-double progress_elapsed_s(const progress *p) { return system_now_s() - p->start_s; }
-
-void progress_show(progress *p, uint64_t done) {
-    const double now = system_now_s();
-    if (p->out == NULL || now - p->shown_s < SHOW_EVERY_S) {
-        return;
-    }
-    p->shown_s = now;
-    p->drawn = true;
-    const double part = p->end > 0 ? (double)done / (double)p->end : 1.0;
-    const double rate = (double)(done - p->from) / (now - p->start_s);
-    fprintf(p->out, "\r%5.1f %% %llu/%llu", 100.0 * part, (unsigned long long)done,
-            (unsigned long long)p->end);
-    if (done > p->from && rate > 0.0) {
-        const double left_s = (double)(p->end - done) / rate;
-        fprintf(p->out, "  %.3g points/s  %.0f:%02.0f:%02.0f to go  ", rate,
+void sweep_progress(FILE *out, uint64_t from, uint64_t done, uint64_t end, double elapsed_s) {
+    const double part = end > 0 ? (double)done / (double)end : 1.0;
+    const double rate = (double)(done - from) / elapsed_s;
+    fprintf(out, "\r%5.1f %% %llu/%llu", 100.0 * part, (unsigned long long)done,
+            (unsigned long long)end);
+    if (rate > 0.0) {
+        const double left_s = (double)(end - done) / rate;
+        fprintf(out, "  %.3g points/s  %.0f:%02.0f:%02.0f to go  ", rate,
                 (double)(long)(left_s / 3600.0), (double)((long)(left_s / 60.0) % 60),
                 (double)((long)left_s % 60));
     }
-    fflush(p->out);
 }
-
-void progress_clear(progress *p) {
-    if (p->drawn) {
-        fprintf(p->out, "\r%70s\r", "");
-        fflush(p->out);
-        p->drawn = false;
-    }
-}
-
-/* === the session ============================================================================== */
 
 /* State of the parent process during a sweep. */
 typedef struct sitting {
     const sweep *sweep;
     resumable_csv sheet;
-    json *json; /* or NULL */
-    progress progress;
+    json *json;     /* or NULL */
+    bool shows;     /* progress on standard error */
+    double start_s; /* of this session */
+    double shown_s; /* of the last drawn progress line; 0: no line is drawn */
     uint64_t first; /* point of the sheet's first row */
+    uint64_t rows;  /* of the whole sheet */
     uint64_t failed;
     int described;                  /* number of failures that were described */
     uint64_t ran;                   /* number of points that ran in this session */
@@ -560,6 +540,14 @@ static void name_point(const sweep *s, uint64_t point) {
     free(value);
 }
 
+/* Erases the progress line, so that other text can be written. */
+static void clear_progress(sitting *s) {
+    if (s->shown_s > 0.0) {
+        fprintf(stderr, "\r%70s\r", "");
+        s->shown_s = 0.0;
+    }
+}
+
 static bool deliver(void *context, uint64_t point, bool good, const char *row, const char *reason) {
     sitting *s = context;
     const point_notes notes = notes_of(good ? reason : "");
@@ -567,7 +555,7 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
     if (!good) {
         s->failed++;
         if (s->described < DESCRIBED_MAX) {
-            progress_clear(&s->progress);
+            clear_progress(s);
             fputs("whirl sweep: error: ", stderr);
             name_point(s->sweep, point);
             fprintf(stderr, ": %s\n", reason);
@@ -586,7 +574,11 @@ static bool deliver(void *context, uint64_t point, bool good, const char *row, c
 
 static bool pause_between(void *context, uint64_t next) {
     sitting *s = context;
-    progress_show(&s->progress, next - s->first);
+    const double now_s = system_now_s();
+    if (s->shows && now_s - s->shown_s >= SHOW_EVERY_S) {
+        sweep_progress(stderr, s->sheet.rows, next - s->first, s->rows, now_s - s->start_s);
+        s->shown_s = now_s;
+    }
     return fflush(s->sheet.out) == 0;
 }
 
@@ -617,8 +609,8 @@ static void say_found(const sitting *s) {
 }
 
 static void say_end(const session_settings *o, const sitting *s, int workers) {
-    const uint64_t rows = o->end - o->first;
-    const double seconds = progress_elapsed_s(&s->progress);
+    const uint64_t rows = s->rows;
+    const double seconds = system_now_s() - s->start_s;
     const uint64_t done = rows - s->sheet.rows;
     if (s->failed > 0) {
         fprintf(stderr,
@@ -645,8 +637,8 @@ static int run_points(const session_settings *o, sitting *s) {
     const int workers = missing < (uint64_t)o->jobs ? (int)missing : o->jobs;
     s->failed = s->sheet.failed;
     s->fails = fails_before(s);
-    s->progress = progress_start(!o->quiet && isatty(STDERR_FILENO) ? stderr : NULL, s->sheet.rows,
-                                 o->end - o->first);
+    s->shows = !o->quiet && isatty(STDERR_FILENO);
+    s->start_s = system_now_s();
     const jobs plan = {.workers = workers,
                        .first = next,
                        .end = o->end,
@@ -655,7 +647,7 @@ static int run_points(const session_settings *o, sitting *s) {
                        .deliver = deliver,
                        .pause = pause_between};
     const jobs_result result = missing > 0 ? jobs_run(&plan) : JOBS_DONE;
-    progress_clear(&s->progress);
+    clear_progress(s);
     if (!resumable_csv_close(&s->sheet)) {
         return EXIT_RUN_FAILED;
     }
@@ -665,8 +657,7 @@ static int run_points(const session_settings *o, sitting *s) {
     case JOBS_DONE: say_end(o, s, workers); break;
     case JOBS_STOPPED:
         fprintf(stderr, "whirl sweep: interrupted after %llu of %llu points%s\n%s",
-                (unsigned long long)(s->sheet.rows + s->ran),
-                (unsigned long long)(o->end - o->first),
+                (unsigned long long)(s->sheet.rows + s->ran), (unsigned long long)s->rows,
                 s->sheet.is_file ? "; their rows are kept" : "", hint);
         return EXIT_INTERRUPTED;
     case JOBS_WORKER_LOST:
@@ -681,7 +672,7 @@ static int run_points(const session_settings *o, sitting *s) {
 }
 
 int session_run(const sweep *s, const session_settings *o) {
-    sitting here = {.sweep = s, .first = o->first};
+    sitting here = {.sweep = s, .first = o->first, .rows = o->end - o->first};
     char *header = NULL;
     size_t length = 0;
     FILE *out = alloc_text(&header, &length);
@@ -692,7 +683,7 @@ int session_run(const sweep *s, const session_settings *o) {
     const resumable_csv_settings settings = {.path = o->csv,
                                              .fingerprint = o->fingerprint,
                                              .header = header,
-                                             .rows = o->end - o->first,
+                                             .rows = here.rows,
                                              .measures = sweep_columns(s),
                                              .swept = swept,
                                              .context = &here,

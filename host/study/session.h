@@ -64,23 +64,11 @@ typedef struct shard {
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part);
 
-/* === a line with share, rate and remaining time, which is redrawn ============================== */
+/* === running the points ======================================================================= */
 
-typedef struct progress {
-    FILE *out;     /* NULL: no progress */
-    uint64_t from; /* points done before the progress began */
-    uint64_t end;
-    double start_s;
-    double shown_s;
-    bool drawn;
-} progress;
-
-progress progress_start(FILE *out, uint64_t from, uint64_t end);
-/* Draws the line, but at most five times a second. */
-void progress_show(progress *p, uint64_t done);
-/* Erases the line, so that other text can be written. */
-void progress_clear(progress *p);
-double progress_elapsed_s(const progress *p);
+/* Draws a line over the last one: the share of `done` points in `end`, the rate, and the remaining time at that rate.
+ * `from` points were done before these seconds began. */
+void sweep_progress(FILE *out, uint64_t from, uint64_t done, uint64_t end, double elapsed_s);
 
 typedef struct session_settings {
     const char *csv;         /* file, or "-" for standard output */

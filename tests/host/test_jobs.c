@@ -205,20 +205,6 @@ TEST(jobs, workers_end_when_they_are_told) {
 
 /* Tests of the progress line of a sweep (host/study/session.h): percentage, pace, and remaining time at that
  * pace. */
-static char *shown;
-static size_t length;
-
-static progress begun(double ago_s, uint64_t from, uint64_t end) {
-    progress p = progress_start(alloc_text(&shown, &length), from, end);
-    p.start_s -= ago_s;
-    return p;
-}
-
-static void finish(progress *p) {
-    alloc_text_end(p->out);
-    free(shown);
-}
-
 TEST(jobs, what_is_shown) {
     static const struct {
         double ago_s;
@@ -228,42 +214,15 @@ TEST(jobs, what_is_shown) {
                 {1000.0, 40, 240, 3000, "\r  8.0 % 240/3000  0.2 points/s  3:50:00 to go  "},
                 {5.0, 7, 7, 9, "\r 77.8 % 7/9"},
                 {5.0, 0, 8, 8, "\r100.0 % 8/8  1.6 points/s  0:00:00 to go  "},
-                {5.0, 0, 0, 8, "\r  0.0 % 0/8"}};
+                {5.0, 0, 0, 8, "\r  0.0 % 0/8"},
+                {5.0, 0, 0, 0, "\r100.0 % 0/0"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        progress p = begun(rows[i].ago_s, rows[i].from, rows[i].end);
-        progress_show(&p, rows[i].done);
-        TEST_ASSERT_TRUE(p.drawn);
+        char *shown;
+        size_t length;
+        FILE *out = alloc_text(&shown, &length);
+        sweep_progress(out, rows[i].from, rows[i].done, rows[i].end, rows[i].ago_s);
+        alloc_text_end(out);
         TEST_ASSERT_EQUAL_STRING(rows[i].line, shown);
-        finish(&p);
+        free(shown);
     }
-}
-
-/* The line must not be drawn again at once. Zero of zero points are 100 %. Without a terminal there must be no line. */
-TEST(jobs, when_it_is_shown) {
-    progress p = begun(1.0, 0, 0);
-    progress_show(&p, 0);
-    TEST_ASSERT_NOT_NULL(strstr(shown, "100.0 %"));
-    TEST_ASSERT_NOT_NULL(strstr(shown, "0/0"));
-    const size_t once = length;
-    progress_show(&p, 0);
-    fflush(p.out);
-    TEST_ASSERT_EQUAL_size_t(once, length);
-    progress_clear(&p);
-    TEST_ASSERT_FALSE(p.drawn);
-    TEST_ASSERT_TRUE(length > once && shown[length - 1] == '\r');
-    TEST_ASSERT_EQUAL_CHAR('\r', shown[once]);
-    TEST_ASSERT_TRUE(strspn(shown + once + 1, " ") >= once - 1); /* blank again */
-    const size_t cleared = length;
-    progress_clear(&p);
-    fflush(p.out);
-    TEST_ASSERT_EQUAL_size_t(cleared, length);
-    p.shown_s -= 0.25;
-    progress_show(&p, 0);
-    TEST_ASSERT_TRUE(p.drawn && length > cleared);
-    finish(&p);
-    progress unseen = progress_start(NULL, 0, 10);
-    progress_show(&unseen, 5);
-    progress_clear(&unseen);
-    TEST_ASSERT_FALSE(unseen.drawn);
-    TEST_ASSERT_TRUE(progress_elapsed_s(&unseen) >= 0.0 && progress_elapsed_s(&unseen) < 60.0);
 }
