@@ -38,8 +38,6 @@ typedef struct wh_load {
     wh_load_status status;
 } wh_load;
 
-#define wh_load_text WH_NAME(wh_load_text)
-
 /* Returns the force of a sample of `raw` counts with the time stamp `ticks` and the hardware's `status`. A sample at
  * full scale is saturated, even if the hardware's status is ok. */
 WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int32_t raw,

@@ -23,10 +23,6 @@ typedef struct wh_drive {
     wh_real integral_V;     /* integral part of the voltage, from 0 to the supply */
 } wh_drive;
 
-#define wh_drive_start WH_NAME(wh_drive_start)
-#define wh_drive_step WH_NAME(wh_drive_step)
-#define wh_drive_at_target WH_NAME(wh_drive_at_target)
-
 /* Start at the present speed and voltage without a step in the voltage: the set-point starts at the speed, the integral
  * part at the voltage. */
 void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts);

@@ -49,12 +49,6 @@ typedef struct wh_normal {
     wh_real misfit;
 } wh_normal;
 
-#define wh_normal_start WH_NAME(wh_normal_start)
-#define wh_normal_add WH_NAME(wh_normal_add)
-#define wh_normal_factor WH_NAME(wh_normal_factor)
-#define wh_normal_solve WH_NAME(wh_normal_solve)
-#define wh_normal_deviation WH_NAME(wh_normal_deviation)
-
 /* Begin with the prior alone: each unknown equals its `guess`, with a standard deviation of 1. */
 void wh_normal_start(wh_normal *normal, const wh_real guess[WH_NORMAL_UNKNOWNS]);
 
@@ -88,9 +82,6 @@ typedef struct wh_free_rotor {
     wh_real q_by[WH_FREE_CAUSES]; /* derivatives of q_rad with respect to the parameters */
     wh_real rate_by[WH_FREE_CAUSES];
 } wh_free_rotor;
-
-#define wh_free_rotor_start WH_NAME(wh_free_rotor_start)
-#define wh_free_rotor_step WH_NAME(wh_free_rotor_step)
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
@@ -206,9 +197,6 @@ typedef struct wh_swing {
 
 #define WH_SWING_STARTS 3U /* number of guesses that are tried, one after the other */
 
-#define wh_swing_leave_top WH_NAME(wh_swing_leave_top)
-#define wh_swing_guess WH_NAME(wh_swing_guess)
-
 /* Drops the swings that come near the top: their amplitude depends so steeply on their duration that guesses would be
  * useless. */
 void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing);
@@ -222,11 +210,6 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 #ifndef WH_RIG_SWINGS
 #define WH_RIG_SWINGS 1
 #endif
-
-#define wh_swing_pulse WH_NAME(wh_swing_pulse)
-#define wh_swing_step WH_NAME(wh_swing_step)
-#define wh_swing_doubt WH_NAME(wh_swing_doubt)
-#define wh_swing_text WH_NAME(wh_swing_text)
 
 /* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);

@@ -32,10 +32,7 @@ typedef struct wh_compensation {
         .weight_Nm = WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2, .stall_Nm = WH_RIG_STALL_NM, \
         .lead_ticks = 3000, .fade_s = WH_R(0.5), .most = WH_R(0.3), \
     }
-#define wh_compensation_standard WH_NAME(wh_compensation_standard)
 extern const wh_compensation_config wh_compensation_standard;
-
-#define wh_compensation_step WH_NAME(wh_compensation_step)
 
 /* Does one control step of step_s seconds; call it after the observer's step. Returns the voltage to add to the drive's
  * voltage, as a multiple of the rated voltage. It is 0 while the observer is not valid or a number is NaN; after that

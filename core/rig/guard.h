@@ -124,14 +124,6 @@ typedef struct wh_guard {
     wh_off off;
 } wh_guard;
 
-#define wh_guard_start WH_NAME(wh_guard_start)
-#define wh_guard_allows WH_NAME(wh_guard_allows)
-#define wh_guard_bound_radps WH_NAME(wh_guard_bound_radps)
-#define wh_guard_trip WH_NAME(wh_guard_trip)
-#define wh_guard_drives WH_NAME(wh_guard_drives)
-#define wh_guard_off_pulse WH_NAME(wh_guard_off_pulse)
-#define wh_trip_text WH_NAME(wh_trip_text)
-
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
 /* True if a set-point is safe for the control loop and the shaft. `compensated` is true with gravity compensation. NaN is not

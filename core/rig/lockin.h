@@ -55,9 +55,6 @@ typedef struct wh_repeats {
     wh_real bin_N[WH_REPEATS_BINS]; /* integral of the residual over the angle */
 } wh_repeats;
 
-#define wh_repeats_merge WH_NAME(wh_repeats_merge)
-#define wh_repeats_power_N2 WH_NAME(wh_repeats_power_N2)
-
 /* Adds a residual at theta_rad, at most about one turn. residual_Nrad is the residual times the step of the angle. */
 WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real residual_Nrad) {
     const wh_real bins = (wh_real)WH_REPEATS_BINS;
@@ -195,15 +192,6 @@ typedef struct wh_lockin {
     wh_real force_N[WH_LOCKIN_SAMPLES];
     uint32_t ticks[WH_LOCKIN_SAMPLES];
 } wh_lockin;
-
-#define wh_lockin_start WH_NAME(wh_lockin_start)
-#define wh_lockin_forget WH_NAME(wh_lockin_forget)
-#define wh_lockin_pulse WH_NAME(wh_lockin_pulse)
-#define wh_lockin_compensate WH_NAME(wh_lockin_compensate)
-#define wh_lockin_gap WH_NAME(wh_lockin_gap)
-#define wh_lockin_load WH_NAME(wh_lockin_load)
-#define wh_lockin_work WH_NAME(wh_lockin_work)
-#define wh_turn_text WH_NAME(wh_turn_text)
 
 void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
 

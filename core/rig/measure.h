@@ -45,10 +45,6 @@ typedef struct wh_tare {
     wh_real slow_N2;
 } wh_tare;
 
-#define wh_tare_add WH_NAME(wh_tare_add)
-#define wh_tare_error_N WH_NAME(wh_tare_error_N)
-#define wh_tare_is_still WH_NAME(wh_tare_is_still)
-
 /* Add a sample to the tare. A new tare is all zeros. */
 void wh_tare_add(wh_tare *tare, wh_real force_N);
 
@@ -96,14 +92,6 @@ typedef struct wh_measure {
     wh_rig_result result; /* renewed after each turn of the record */
     wh_lockin lockin;     /* lockin.turn is the last turn's load */
 } wh_measure;
-
-#define wh_measure_begin WH_NAME(wh_measure_begin)
-#define wh_measure_pulse WH_NAME(wh_measure_pulse)
-#define wh_measure_load WH_NAME(wh_measure_load)
-#define wh_measure_work WH_NAME(wh_measure_work)
-#define wh_measure_record WH_NAME(wh_measure_record)
-#define wh_measure_lasts WH_NAME(wh_measure_lasts)
-#define wh_measure_end WH_NAME(wh_measure_end)
 
 /* Begin a run, with the tare. Before the first run, *measure is all zeros. */
 void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);

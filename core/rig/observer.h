@@ -80,17 +80,7 @@ typedef struct wh_observer {
         .lost_rad = WH_R(2.0), .slowest_radps = WH_R(40.0) * WH_RIG_RADPS_PER_RPM, \
         .fastest_radps = WH_RIG_IMPOSSIBLE_RADPS, .silence_ticks = 3U * (WH_RIG_TICKS_PER_S / 2U), \
     }
-#define wh_observer_standard WH_NAME(wh_observer_standard)
 extern const wh_observer_config wh_observer_standard;
-
-#define wh_observer_start WH_NAME(wh_observer_start)
-#define wh_observer_step WH_NAME(wh_observer_step)
-#define wh_observer_pulse WH_NAME(wh_observer_pulse)
-#define wh_observer_forget WH_NAME(wh_observer_forget)
-#define wh_observer_phase WH_NAME(wh_observer_phase)
-#define wh_observer_angle_rad WH_NAME(wh_observer_angle_rad)
-#define wh_observer_speed_radps WH_NAME(wh_observer_speed_radps)
-#define wh_observer_coasting WH_NAME(wh_observer_coasting)
 
 /* Begin with an unknown state. Do not move *observer in memory after this call. Returns WH_OK; an error of
  * wh_scene_start(); or WH_E_ARGUMENT for a scene of another kind. The scene must have one angle of second order, one

@@ -89,14 +89,6 @@ typedef struct wh_run_scene {
     uint32_t now_ticks;
 } wh_run_scene;
 
-#define wh_run_start WH_NAME(wh_run_start)
-#define wh_run_set WH_NAME(wh_run_set)
-#define wh_run_off WH_NAME(wh_run_off)
-#define wh_run_step WH_NAME(wh_run_step)
-#define wh_run_setpoint WH_NAME(wh_run_setpoint)
-#define wh_run_needs_V WH_NAME(wh_run_needs_V)
-#define wh_phase_text WH_NAME(wh_phase_text)
-
 /* Begin a run to target_radps > 0. It begins with the tare. */
 void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 

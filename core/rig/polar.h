@@ -17,10 +17,6 @@ WH_SHARED wh_wave wh_wave_at(wh_phase phase) {
 
 WH_SHARED wh_wave wh_wave_of(wh_real rad) { return wh_wave_at(wh_phase_from_rad(rad)); }
 
-#define wh_polar WH_NAME(wh_polar)
-#define wh_polar_begin WH_NAME(wh_polar_begin)
-#define wh_polar_rounds WH_NAME(wh_polar_rounds)
-
 /* Finds radius and angle (-pi ... pi) with x = radius cos(angle), y = radius sin(angle), without square root and arc
  * tangent. Each iteration rotates the point by an angle, with the core's sine, until y vanishes. (0, 0) gives 0 and
  * 0. */

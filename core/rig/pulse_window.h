@@ -9,9 +9,6 @@
 extern "C" {
 #endif
 
-#define wh_pulse_window_set WH_NAME(wh_pulse_window_set)
-#define wh_pulse_window_off WH_NAME(wh_pulse_window_off)
-
 /* Call this, with the motor on or off, before wh_pulses_take() for the pulse captured at `ticks`. It sets the pulse's
  * bounds and window, and the upper bound on the speed that remains from an earlier set-point. `open` is true if the
  * motor neither drives nor brakes: the bound then allows for a lighter rotor, whose speed gravity changes more. */

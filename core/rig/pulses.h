@@ -63,11 +63,6 @@ typedef struct wh_pulses {
         confirmed[WH_PULSES_CONFIRMED]; /* confirmed pulses that the caller has not taken yet */
 } wh_pulses;
 
-#define wh_pulses_start WH_NAME(wh_pulses_start)
-#define wh_pulses_forget WH_NAME(wh_pulses_forget)
-#define wh_pulses_take WH_NAME(wh_pulses_take)
-#define wh_pulses_sure WH_NAME(wh_pulses_sure)
-
 /* Begin with an unknown state. impossible_radps is that of wh_speed_start(). */
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps);
 

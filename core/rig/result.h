@@ -141,16 +141,6 @@ WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
     return config->amplitude_floor > WH_R(0.0) && config->phase_floor_rad > WH_R(0.0);
 }
 
-#define wh_merge_add WH_NAME(wh_merge_add)
-#define wh_merge_harmonic WH_NAME(wh_merge_harmonic)
-#define wh_merge_mean WH_NAME(wh_merge_mean)
-#define wh_merge_mean_piece WH_NAME(wh_merge_mean_piece)
-#define wh_merge_compare WH_NAME(wh_merge_compare)
-#define wh_merge_judge WH_NAME(wh_merge_judge)
-#define wh_student WH_NAME(wh_student)
-#define wh_why_text WH_NAME(wh_why_text)
-#define wh_quality_text WH_NAME(wh_quality_text)
-
 /* Add a turn. `angle` is the angle model with which the turn was evaluated. After an unusable turn, a new series of
  * successive turns begins. */
 void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,

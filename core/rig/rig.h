@@ -36,9 +36,6 @@ typedef struct wh_trip_record {
 
 #define WH_TRIP_RECORD_BYTES 18U
 
-#define wh_trip_record_put WH_NAME(wh_trip_record_put)
-#define wh_trip_record_get WH_NAME(wh_trip_record_get)
-
 void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes);
 
 /* Read a record. Returns false if the bytes are no record: their number is wrong, or the trip or the phase is
@@ -156,25 +153,7 @@ typedef struct wh_rig {
 /* The configuration for the rig of eccentric.whirl. measure.cell and the sensors' angles depend on the hardware: the
  * caller fills them in (wh_rig_slots() for the angles). observer.scene is rig_fixed, or NULL: then gravity is never
  * compensated. */
-#define wh_rig_standard WH_NAME(wh_rig_standard)
 extern const wh_rig_config wh_rig_standard;
-
-#define wh_rig_motor_of WH_NAME(wh_rig_motor_of)
-#define wh_rig_use_motor WH_NAME(wh_rig_use_motor)
-#define wh_rig_bound_pulses WH_NAME(wh_rig_bound_pulses)
-#define wh_rig_slots WH_NAME(wh_rig_slots)
-#define wh_rig_start WH_NAME(wh_rig_start)
-#define wh_rig_post WH_NAME(wh_rig_post)
-#define wh_rig_pulse WH_NAME(wh_rig_pulse)
-#define wh_rig_load WH_NAME(wh_rig_load)
-#define wh_rig_step WH_NAME(wh_rig_step)
-#define wh_order_refused WH_NAME(wh_order_refused)
-#define wh_rig_stage WH_NAME(wh_rig_stage)
-#define wh_rig_stage_text WH_NAME(wh_rig_stage_text)
-#define wh_rig_shown_stage WH_NAME(wh_rig_shown_stage)
-#define wh_rig_result_age_s WH_NAME(wh_rig_result_age_s)
-#define wh_rig_speed WH_NAME(wh_rig_speed)
-#define wh_rig_cause WH_NAME(wh_rig_cause)
 
 /* Returns the rig's stage as one number, for consoles and records: in a run WH_RIG_STAGE_OF_PHASE plus its phase,
  * otherwise the state. */
@@ -253,9 +232,6 @@ typedef struct wh_carriage {
     wh_real disc_m; /* distance of the discs' centres from the shaft */
     wh_real ratio;  /* m/M; 0: the carriage is too heavy to move */
 } wh_carriage;
-
-#define wh_carriage_mount WH_NAME(wh_carriage_mount)
-#define wh_carriage_displacement_m WH_NAME(wh_carriage_displacement_m)
 
 /* Change wh_rig_standard, or a copy with other cells and sensors, to the rig on that carriage. In a level plane gravity
  * has no effect, so observer and gravity compensation are off. */

@@ -31,9 +31,6 @@ typedef struct wh_speed {
     uint32_t seen_quarter[WH_SPEED_SENSORS];
 } wh_speed;
 
-#define wh_speed_start WH_NAME(wh_speed_start)
-#define wh_speed_pulse WH_NAME(wh_speed_pulse)
-
 /* Begin with an unknown speed. impossible_radps > 0: a pulse that would need a higher speed is rejected. */
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
 

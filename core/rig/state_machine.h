@@ -82,12 +82,6 @@ typedef struct wh_rig_transition {
     wh_refusal refusal; /* WH_ALLOWED, or the reason; `next` is then the present state */
 } wh_rig_transition;
 
-#define wh_rig_transition_of WH_NAME(wh_rig_transition_of)
-#define wh_rig_state_text WH_NAME(wh_rig_state_text)
-#define wh_rig_event_text WH_NAME(wh_rig_event_text)
-#define wh_refusal_text WH_NAME(wh_refusal_text)
-#define wh_rig_end_text WH_NAME(wh_rig_end_text)
-
 /* Look up the table. An unknown event or state gives a refusal. */
 wh_rig_transition wh_rig_transition_of(wh_rig_state state, wh_rig_event event);
 

@@ -91,15 +91,6 @@ typedef struct wh_turn_angle {
 #endif
 } wh_turn_angle;
 
-#define wh_turn_angle_start WH_NAME(wh_turn_angle_start)
-#define wh_turn_angle_compensate WH_NAME(wh_turn_angle_compensate)
-#define wh_turn_angle_shape WH_NAME(wh_turn_angle_shape)
-#define wh_turn_angle_shape_piece WH_NAME(wh_turn_angle_shape_piece)
-#define wh_turn_angle_by_ratio WH_NAME(wh_turn_angle_by_ratio)
-#define wh_turn_angle_ratio_waves WH_NAME(wh_turn_angle_ratio_waves)
-#define wh_turn_angle_ratio_rest WH_NAME(wh_turn_angle_ratio_rest)
-#define wh_turn_angle_at WH_NAME(wh_turn_angle_at)
-
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
 /* Switches gravity compensation on or off in the model. After a change, gravity's remaining part is estimated again,

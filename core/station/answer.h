@@ -5,14 +5,6 @@
 
 #include "core/text.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-#define wh_answer WH_NAME(wh_answer)
-#define wh_list_find WH_NAME(wh_list_find)
-#define wh_list_item WH_NAME(wh_list_item)
-
 typedef union wh_value {
     const char *word;
     wh_real number;
@@ -45,9 +37,5 @@ unsigned wh_list_find(const char *list, const char *word);
 
 /* Returns the item with this index. The index must be below the number of items. */
 const char *wh_list_item(const char *list, unsigned number);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

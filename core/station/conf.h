@@ -14,10 +14,6 @@
 #include "line.h"
 #include "store.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define WH_CONF_NAME(name, ...) WH_CONF_##name,
 typedef enum wh_conf_id { WH_CONF_ROWS(WH_CONF_NAME) WH_CONF_COUNT } wh_conf_id;
 typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_conf_unit;
@@ -57,19 +53,6 @@ typedef struct wh_conf {
     uint32_t sequence;
 } wh_conf;
 
-#define wh_conf_start WH_NAME(wh_conf_start)
-#define wh_conf_row_of WH_NAME(wh_conf_row_of)
-#define wh_conf_find WH_NAME(wh_conf_find)
-#define wh_conf_name WH_NAME(wh_conf_name)
-#define wh_conf_kind_text WH_NAME(wh_conf_kind_text)
-#define wh_conf_unit_text WH_NAME(wh_conf_unit_text)
-#define wh_conf_words WH_NAME(wh_conf_words)
-#define wh_conf_set WH_NAME(wh_conf_set)
-#define wh_conf_type WH_NAME(wh_conf_type)
-#define wh_conf_default WH_NAME(wh_conf_default)
-#define wh_conf_save WH_NAME(wh_conf_save)
-#define wh_conf_text WH_NAME(wh_conf_text)
-
 /* Set *config to the program's own configuration, with the saved settings. Saved settings that do not fit this program
  * are ignored: an unknown number, a value outside its range, settings that contradict each other. */
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
@@ -104,14 +87,8 @@ const char *wh_conf_text(wh_conf_id id, wh_real value);
 
 /* === the console's command `conf` ============================================================ */
 
-#define wh_conf_answer WH_NAME(wh_conf_answer)
-
 /* Executes `conf` with the words after it. Writes the answer into *answer, which must be empty, or returns the error.
  * `idle` is true if settings may change. */
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -4,10 +4,6 @@
 
 #include "core/text.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* Reasons other than the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). The numbers never
  * change. */
 #define WH_STATION_ERROR_ROWS(X) \
@@ -40,13 +36,7 @@ typedef enum wh_station_error {
 } wh_station_error;
 #undef WH_STATION_NAME
 
-#define wh_answer_refused WH_NAME(wh_answer_refused)
-
 /* Replace the answer by "ERR why words". `why` is a wh_station_error or a wh_refusal. */
 void wh_answer_refused(wh_text *answer, unsigned why);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

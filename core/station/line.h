@@ -4,10 +4,6 @@
 
 #include "core/real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define WH_LINE_MOST 79U /* maximum number of characters in a line */
 #define WH_LINE_WORDS 4U /* maximum number of stored words; further words are only counted */
 
@@ -33,10 +29,6 @@ typedef struct wh_words {
     unsigned count;                  /* number of words, including those not stored */
 } wh_words;
 
-#define wh_line_take WH_NAME(wh_line_take)
-#define wh_line_split WH_NAME(wh_line_split)
-#define wh_line_number WH_NAME(wh_line_number)
-
 /* Process a byte. A line ends with carriage return, line feed or both. Backspace and delete remove the last
  * character. */
 wh_line_event wh_line_take(wh_line *line, char byte);
@@ -47,9 +39,5 @@ void wh_line_split(wh_words *words, char *text);
 /* Convert a number such as "330", "-3.5" or ".5": a sign, digits, a point, digits; at most nine digits. Returns false
  * for other text. */
 bool wh_line_number(const char *word, wh_real *number);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

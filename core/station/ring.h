@@ -5,10 +5,6 @@
 
 #include "core/number/flash.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct wh_ring {
     uint32_t put; /* numbers of bytes put and taken so far; put - taken bytes wait */
     uint32_t taken;
@@ -21,19 +17,11 @@ static inline uint32_t wh_ring_room(const wh_ring *ring) {
     return ring->size - wh_ring_waiting(ring);
 }
 
-#define wh_ring_put WH_NAME(wh_ring_put)
-#define wh_ring_peek WH_NAME(wh_ring_peek)
-#define wh_ring_drop WH_NAME(wh_ring_drop)
-
 /* Put all bytes, or none if there is no room for all: half a line is useless. Returns true if they were put. */
 bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count);
 
 /* Copy the oldest bytes, at most `room`, and return their number. The bytes stay until wh_ring_drop(). */
 uint32_t wh_ring_peek(const wh_ring *ring, char *bytes, uint32_t room);
 void wh_ring_drop(wh_ring *ring, uint32_t count);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -5,12 +5,6 @@
 #include "core/text.h"
 #include "step_inputs.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-#define wh_selftest_answer WH_NAME(wh_selftest_answer)
-
 /* Answers "OK selftest=good|bad", then the result of each part, from the values of the last control step. A part is
  * good if:
  *
@@ -24,9 +18,5 @@ extern "C" {
  *     swing       the last free swing found sensor 1 where the settings have it; or there was none */
 void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh_step_inputs *seen,
                         wh_text *answer);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -25,10 +25,6 @@
 #include "step_inputs.h"
 #include "telemetry.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define WH_TEL_FOLLOWS " list|schema CHANNEL|rate N|off|fmt FORMAT|ring [pulse|fault|off|read]"
 
 /* The commands: X(name, maximum number of words after it, arguments, words) */
@@ -95,11 +91,6 @@ typedef struct wh_station {
     char out_bytes[WH_STATION_OUT_BYTES];
 } wh_station;
 
-#define wh_station_start WH_NAME(wh_station_start)
-#define wh_station_take WH_NAME(wh_station_take)
-#define wh_station_see WH_NAME(wh_station_see)
-#define wh_station_step WH_NAME(wh_station_step)
-
 /* Start. `steps_per_s` is the rate of wh_station_step(). At first no host is expected, so none can be lost. After this
  * call the caller sets conf and tel. */
 void wh_station_start(wh_station *station, const char *program, const char *board,
@@ -125,9 +116,5 @@ static inline unsigned wh_station_peek(const wh_station *station, char *bytes, u
 static inline void wh_station_drop(wh_station *station, unsigned count) {
     wh_ring_drop(&station->out, count);
 }
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

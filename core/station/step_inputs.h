@@ -4,10 +4,6 @@
 
 #include "core/rig/rig.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define WH_STEP_SAMPLES 2U
 
 typedef struct wh_step_sample {
@@ -27,9 +23,5 @@ typedef struct wh_step_inputs {
     unsigned samples; /* number of entries in sample[] */
     wh_step_sample sample[WH_STEP_SAMPLES];
 } wh_step_inputs;
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -12,10 +12,6 @@
 
 #include "core/real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 #define WH_STORE_SLOTS 2U
 #define WH_STORE_HEAD_BYTES 8U   /* bytes of a record before the payload */
 #define WH_STORE_FIXED_BYTES 12U /* bytes of a record other than payload */
@@ -30,9 +26,6 @@ typedef struct wh_store_memory {
     bool (*read)(unsigned slot, unsigned at, uint8_t *bytes, unsigned count);
 } wh_store_memory;
 
-#define wh_store_load WH_NAME(wh_store_load)
-#define wh_store_save WH_NAME(wh_store_save)
-
 /* Load the newest record into bytes[WH_STORE_SLOT_BYTES]; its payload begins at WH_STORE_HEAD_BYTES. Returns the length
  * of the payload, or -1 if there is no record. *sequence gets the record's sequence number, or 0. */
 int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *sequence);
@@ -41,9 +34,5 @@ int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *seque
  * function adds the other fields and reads the record back. Returns the sequence number; or 0 if the write failed, and
  * then the previous record is intact. */
 uint32_t wh_store_save(const wh_store_memory *memory, uint8_t *bytes, unsigned count);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -28,10 +28,6 @@
 #include "ring.h"
 #include "step_inputs.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* === the control steps around a trigger ====================================================== */
 
 #define WH_CAPTURE_STEPS 192U /* 0.38 s at 500 Hz */
@@ -80,10 +76,6 @@ typedef struct wh_capture {
     uint32_t first_ticks; /* time of the oldest step, all 32 bits */
     wh_captured step[WH_CAPTURE_STEPS];
 } wh_capture;
-
-#define wh_capture_start WH_NAME(wh_capture_start)
-#define wh_capture_step WH_NAME(wh_capture_step)
-#define wh_capture_at WH_NAME(wh_capture_at)
 
 /* Restart with this trigger. The trigger is ignored until half of the ring is filled. */
 void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger);
@@ -155,11 +147,6 @@ typedef struct wh_tel {
     wh_capture capture;
 } wh_tel;
 
-#define wh_tel_shift WH_NAME(wh_tel_shift)
-#define wh_tel_rate WH_NAME(wh_tel_rate)
-#define wh_tel_read WH_NAME(wh_tel_read)
-#define wh_tel_step WH_NAME(wh_tel_step)
-
 /* Returns the shift that makes the cell's counts fit into 16 bits. */
 unsigned wh_tel_shift(const wh_cell_config *cell);
 
@@ -176,14 +163,8 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
 
 /* === the console's command `tel` ============================================================= */
 
-#define wh_tel_answer WH_NAME(wh_tel_answer)
-
 /* Executes `tel` with the words after it. Writes the answer into *answer, which must be empty, or returns the error. */
 wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell, const wh_words *words,
                                wh_text *answer);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -69,13 +69,17 @@ done
 
 # --- names ------------------------------------------------------------------------------------------
 mkdir "$scratch/float" "$scratch/double"
-for real in float double; do
-    [ $real = double ] && double=1 || double=0
-    for file in core/*.c core/rig/*.c; do
-        gcc -std=c11 -ffp-contract=off -I. -DWH_DOUBLE=$double -O1 -c "$file" \
-            -o "$scratch/$real/$(basename "$file" .c).o" 2>"$scratch/err" || verdict 1 "$file compiles in $real"
+# compile FILE...: makes the files' objects in both folders.
+compile() {
+    for real in float double; do
+        [ $real = double ] && double=1 || double=0
+        for file in "$@"; do
+            gcc -std=c11 -ffp-contract=off -I. -DWH_DOUBLE=$double -O1 -c "$file" \
+                -o "$scratch/$real/$(basename "$file" .c).o" 2>"$scratch/err" || verdict 1 "$file compiles in $real"
+        done
     done
-done
+}
+compile core/*.c
 
 # names FOLDER: prints the names that its objects define for others.
 names() {
@@ -94,12 +98,11 @@ verdict $? "every name of the double core ends in _d, none of the float core: $(
 gcc -r -nostdlib -o "$scratch/both.o" "$scratch"/float/*.o "$scratch"/double/*.o 2>"$scratch/err"
 verdict $? "both cores link into one program"
 echo 'int wh_planted(void); int wh_planted(void) { return 1; }' >"$scratch/planted.c"
-for real in float double; do
-    gcc -c "$scratch/planted.c" -o "$scratch/$real/planted.o"
-done
+compile "$scratch/planted.c"
 apart | grep -q wh_planted
 verdict $? "a function without WH_NAME is noticed"
 rm "$scratch"/*/planted.o
+compile core/rig/*.c
 
 # C++ finds every declared name under that name: C linkage.
 declared() { # declared REAL KIND: names of this build that a public header has
