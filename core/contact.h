@@ -21,11 +21,6 @@
 #ifndef WH_CONTACT_H
 #define WH_CONTACT_H
 
-#ifdef __cplusplus
-#error \
-    "core/contact.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "step.h"
 #include "step/ledger_step.h"
 

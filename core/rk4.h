@@ -20,11 +20,6 @@
 #ifndef WH_RK4_H
 #define WH_RK4_H
 
-#ifdef __cplusplus
-#error \
-    "core/rk4.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "step/step_end.h"
 
 /* Derivatives of a first-order system: slope[angles + reals], the angles' slopes first (rad/s). */

@@ -13,11 +13,6 @@
 #ifndef WH_STEP_H
 #define WH_STEP_H
 
-#ifdef __cplusplus
-#error \
-    "core/step.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "number/arithmetic.h"
 #include "rk4.h"
 #include "root.h"

@@ -4,11 +4,6 @@
 #ifndef WH_DRIVEN_H
 #define WH_DRIVEN_H
 
-#ifdef __cplusplus
-#error \
-    "core/step/driven.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "../ledger.h"
 #include "../scene.h"
 #include "refuse.h"

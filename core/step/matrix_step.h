@@ -6,11 +6,6 @@
 #ifndef WH_MATRIX_STEP_H
 #define WH_MATRIX_STEP_H
 
-#ifdef __cplusplus
-#error \
-    "core/step/matrix_step.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "../number/arithmetic.h"
 #include "multi_step.h"
 #include "step_end.h"

@@ -3,11 +3,6 @@
 #ifndef WH_MULTI_STEP_H
 #define WH_MULTI_STEP_H
 
-#ifdef __cplusplus
-#error \
-    "core/step/multi_step.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "../scene.h"
 #include "unroll.h"
 

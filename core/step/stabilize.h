@@ -20,11 +20,6 @@
 #ifndef WH_STABILIZE_H
 #define WH_STABILIZE_H
 
-#ifdef __cplusplus
-#error \
-    "core/step/stabilize.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include <stddef.h>
 
 #include "../ledger.h"

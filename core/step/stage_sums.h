@@ -2,11 +2,6 @@
 #ifndef WH_STAGE_SUMS_H
 #define WH_STAGE_SUMS_H
 
-#ifdef __cplusplus
-#error \
-    "core/step/stage_sums.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include <stddef.h>
 
 #include "../method.h"

@@ -26,11 +26,6 @@
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
 
-#ifdef __cplusplus
-#error \
-    "core/step/stage_turn.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "../number/sincos_small.h"
 #include "../step.h"
 

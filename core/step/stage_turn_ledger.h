@@ -2,11 +2,6 @@
 #ifndef WH_STAGE_TURN_LEDGER_H
 #define WH_STAGE_TURN_LEDGER_H
 
-#ifdef __cplusplus
-#error \
-    "core/step/stage_turn_ledger.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "ledger_step.h"
 #include "stage_turn.h"
 

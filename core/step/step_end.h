@@ -3,11 +3,6 @@
 #ifndef WH_STEP_END_H
 #define WH_STEP_END_H
 
-#ifdef __cplusplus
-#error \
-    "core/step/step_end.h is C only, for generated .c files: in C++ include core/scene.h and the generated headers"
-#endif
-
 #include "../number/sum.h"
 #include "../number/two_part.h"
 #include "../scene.h"

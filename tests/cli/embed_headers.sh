@@ -64,7 +64,7 @@ for header in $only_c; do
     echo "#include \"$header\"" >"$scratch/one.cpp"
     g++ -std=c++11 -I. -fsyntax-only "$scratch/one.cpp" 2>&1 | grep -m 1 'error' >"$scratch/err"
     grep -q '#error "core/.*\.h is C only' "$scratch/err"
-    verdict $? "$header says first of all that it is C only"
+    verdict $? "$header says first of all that it, or a header that it includes, is C only"
 done
 
 # --- names ------------------------------------------------------------------------------------------
