@@ -9,9 +9,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* Name of the board, as in boards/NAME; "host" on the PC. */
 extern const char *const board_name;
@@ -59,8 +57,6 @@ void board_stack_paint(void);
 unsigned board_stack_used_bytes(void);
 unsigned board_stack_size_bytes(void);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

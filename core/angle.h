@@ -13,9 +13,7 @@
 #include "number/sine.h"
 #include "number/turn.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define wh_angle_from_rad WH_NAME(wh_angle_from_rad)
 #define wh_angle_to_rad WH_NAME(wh_angle_to_rad)
@@ -34,8 +32,6 @@ wh_real wh_angle_to_rad(wh_angle angle);
  * product, rounded. Used for records, never in a step. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -8,9 +8,7 @@
 
 #include "real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* Largest coded size of `count` bytes, including the final zero. A constant if `count` is constant. */
 #define WH_COBS_BYTES(count) ((count) + (count) / 254U + 2U)
@@ -52,8 +50,6 @@ unsigned wh_cobs_decode(uint8_t *bytes, unsigned length);
 #define WH_CRC16_START 0xFFFFU
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -15,9 +15,7 @@
 
 #include "frame.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 enum {
     WH_FRAME_HELLO = 1,
@@ -145,8 +143,6 @@ bool wh_orders_get(wh_orders *orders, const uint8_t *bytes, unsigned length);
 bool wh_readings_get(wh_readings *readings, const uint8_t *bytes, unsigned length);
 bool wh_reset_get(wh_reset *reset, const uint8_t *bytes, unsigned length);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -12,9 +12,7 @@
 
 #include "number/flash.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #if defined(WH_FIXED_NARROW)
 #elif defined(__AVR__) || defined(__ARM_ARCH_6M__) || defined(__ARM_ARCH_8M_BASE__) || \
@@ -305,7 +303,6 @@ WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     return (int32_t)((uint32_t)x1 << 14) + more + more;
 }
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
+
 #endif

@@ -23,9 +23,7 @@
 
 #include "fixed.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* Format of a component or an input: a value is stored as value 2^bits, and limited to low..high. */
 typedef struct wh_fixed_format {
@@ -110,7 +108,6 @@ wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state,
 wh_status wh_fixed_set_raw_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                                  int32_t number);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
+
 #endif

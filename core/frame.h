@@ -14,9 +14,7 @@
 
 #include "real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* Raised whenever the meaning of a frame changes. wh_frame_take() returns frames of every version: the caller must
  * check it. */
@@ -97,8 +95,6 @@ float wh_bytes_get_float(wh_bytes *bytes);
 void wh_bytes_put_words(wh_bytes *bytes, const char *words);
 const char *wh_bytes_get_words(wh_bytes *bytes);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

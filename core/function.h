@@ -9,9 +9,7 @@
 
 #include "real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define wh_exp WH_NAME(wh_exp)
 #define wh_log WH_NAME(wh_log)
@@ -49,8 +47,6 @@ wh_real wh_atan2(wh_real y, wh_real x);
 /* base^exponent. If a wh_real equals the true result, the function returns it without an error. */
 wh_real wh_pow(wh_real base, wh_real exponent);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

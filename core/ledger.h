@@ -23,9 +23,7 @@
 #include "number/sum.h"
 #include "state.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* Computes the accounts at a state, in SI units: level[0] is the energy, level[1 + i] the momentum of coordinate i. */
 typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_real *linear,
@@ -151,8 +149,6 @@ static inline wh_real wh_ledger_error(const wh_ledger_form *form, const wh_state
            wh_ledger_sum(form, state, account);
 }
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -98,9 +98,7 @@ enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
  * accelerations that do not depend on rates. */
 enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* A method's data for users. */
 typedef struct wh_method_row {
@@ -115,9 +113,9 @@ typedef struct wh_method_row {
 #define wh_methods WH_NAME(wh_methods)
 extern const wh_method_row wh_methods[WH_METHODS];
 
-#ifdef __cplusplus
-}
-#else
+WH_C_END
+
+#ifndef __cplusplus
 
 /* The available rows. A generated scene defines WH_STAGES, its method's number of stages. If that is at most four, the
  * longer rows are omitted, because they can cost an 8-bit chip 200 bytes of RAM. */
@@ -169,8 +167,7 @@ WH_TABLEAUS(WH_METHOD_TABLEAU)
 WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
 #define WH_METHOD_NONE(id, ...) case id:
 #define WH_METHOD_TABLEAU(id, ...) \
-    case id: \
-        return &wh_tableau_##id;
+    case id: return &wh_tableau_##id;
     switch (method) {
         WH_TABLEAUS(WH_METHOD_TABLEAU)
         WH_NO_TABLEAUS(WH_METHOD_NONE)

@@ -14,9 +14,7 @@
 
 #include "real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define wh_noise_raw WH_NAME(wh_noise_raw)
 
@@ -28,8 +26,6 @@ WH_INLINE wh_real wh_noise(uint32_t seed, uint64_t index) {
     return (wh_real)wh_noise_raw(seed, index) * WH_R(1.52587890625e-05);
 }
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -10,6 +10,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "linkage.h"
+
 #ifndef WH_DOUBLE
 #define WH_DOUBLE 0
 #endif

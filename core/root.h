@@ -8,9 +8,7 @@
 
 #include "real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define wh_sqrt WH_NAME(wh_sqrt)
 
@@ -54,7 +52,6 @@ WH_INLINE wh_real wh_root_sse(wh_real x) {
 #define WH_SQRT(x) wh_sqrt(x)
 #endif
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
+
 #endif

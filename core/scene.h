@@ -19,9 +19,7 @@
 #include "method.h"
 #include "state.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* True if the method (method.h) can step a system of this form. */
 WH_INLINE bool wh_method_takes(wh_method method, wh_form form) {
@@ -169,8 +167,6 @@ const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state);
 /* Returns a status in words, for consoles. */
 const char *wh_status_text(wh_status status);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -4,9 +4,7 @@
 
 #include "angle.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* The layout of a scene's state.
  *
@@ -76,7 +74,6 @@ typedef struct wh_ledger_form wh_ledger_form;
 typedef void wh_accel_fn(const void *model, const wh_phase *phase, const wh_real *linear,
                          const wh_real *rate, const wh_real *input, wh_real *accel);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
+
 #endif

@@ -15,9 +15,7 @@
 
 #include "number/flash.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 typedef struct wh_text {
     char *bytes;     /* the caller's buffer, NUL-terminated */
@@ -61,8 +59,6 @@ void wh_text_add_hex(wh_text *text, uint64_t value, unsigned digits);
  * infinities give "inf" and "-inf". A double of magnitude 2^128 or more gives "huge" or "-huge". */
 void wh_text_add_fixed(wh_text *text, wh_real value, unsigned decimals);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

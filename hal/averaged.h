@@ -4,9 +4,9 @@
 
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 /* Returns the force in the middle of an interval T. `mean` is the mean force over T, `before` and `behind` are the
  * means over the intervals of length T before and after it. A mean over T is f + T^2/24 f'' up to fourth order, so the
@@ -17,8 +17,6 @@ static inline int32_t hal_averaged_middle(int32_t before, int32_t mean, int32_t 
     return mean - (bends + (bends < 0 ? -12 : 12)) / 24;
 }
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

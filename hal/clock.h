@@ -11,9 +11,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 #define HAL_TICKS_PER_S 1000000U
 
@@ -50,8 +50,6 @@ void hal_clock_wait_until(uint32_t ticks);
  * called too late counts as delayed. */
 uint32_t hal_clock_late_ticks(void);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

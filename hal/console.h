@@ -4,9 +4,9 @@
 #ifndef HAL_CONSOLE_H
 #define HAL_CONSOLE_H
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 #define HAL_CONSOLE_STOP 0x1B /* Escape */
 
@@ -24,8 +24,6 @@ void hal_console_write(const char *bytes, unsigned count);
 unsigned hal_console_read(char *bytes, unsigned room);
 unsigned hal_console_offer(const char *bytes, unsigned count);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

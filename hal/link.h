@@ -8,9 +8,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 #define HAL_LINK_GONE 3
 
@@ -35,8 +35,6 @@ uint32_t hal_link_timer_per_s(void);
 /* The board's name. */
 const char *hal_link_board(void);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -7,9 +7,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 /* Full scale of the 16-bit counts: +-50 lbf (222.41 N), 6.79 mN per count, for any converter. */
 #define HAL_LOADCELL_FULL_SCALE_N 222.41108f
@@ -42,8 +42,6 @@ typedef struct hal_load_sample {
  * only. */
 bool hal_loadcell_take(hal_load_sample *sample);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

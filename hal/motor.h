@@ -6,9 +6,9 @@
 
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 typedef enum hal_motor_off_way {
     HAL_MOTOR_COAST, /* switch the enable off: no torque, the rotor turns freely */
@@ -59,8 +59,6 @@ float hal_motor_supply_most_V(void);
  * condition. */
 #define HAL_MOTOR_SUPPLY_IS_SEEN(most_mV, end_mV) ((end_mV) >= (most_mV) + (most_mV) / 50U)
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -6,9 +6,9 @@
 
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 typedef enum hal_reset {
     HAL_RESET_POWER_ON, /* the supply came on: no data survive */
@@ -41,8 +41,6 @@ void hal_remember(const void *bytes, unsigned count);
  * after a power-on, or if the bytes are corrupt (implementations check a CRC). */
 unsigned hal_recall(void *bytes);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

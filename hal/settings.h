@@ -6,9 +6,9 @@
 
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 /* Least size of a slot, in bytes. */
 #define HAL_SETTINGS_BYTES 256U
@@ -37,8 +37,6 @@ hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t
 
 hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -10,9 +10,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 /* Half of the angle that the slot covers: the slot is 2 mm wide at a radius of 57.3 mm. */
 #define HAL_SLOT_LEAD_DEG 1.0f
@@ -38,8 +38,6 @@ bool hal_slots_take(hal_slot_edge *edge);
  * takes no computing time. The number of lost edges is unknown. */
 uint32_t hal_slots_overruns(void);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

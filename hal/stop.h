@@ -7,9 +7,9 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 /* Longest time between two samples of the stop input, in ticks of the capture timer (clock.h). */
 #define HAL_STOP_PERIOD_TICKS 2000U
@@ -31,8 +31,6 @@ hal_stop_source hal_stop_source_now(void);
  * button. */
 bool hal_stop_heard(void);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -6,9 +6,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 /* Arm the watchdog: after this call it cuts the drive if hal_watchdog_kick() is not called for more than
  * `timeout_ticks`. It cannot be disarmed. It either cuts the drive permanently, or resets the processor (hal/reset.h),
@@ -20,8 +20,6 @@ void hal_watchdog_kick(void);
 
 bool hal_watchdog_has_cut(void);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

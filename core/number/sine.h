@@ -18,9 +18,7 @@
 #include "flash.h"
 #include "turn.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* Sine and cosine of a phase together. If the caller uses only one of them, the compiler drops the computation of the
  * other. Both are at most 1 in size, and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8
@@ -159,7 +157,6 @@ WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine) {
     *cosine = parts.cosine + parts.cosine_rest;
 }
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
+
 #endif

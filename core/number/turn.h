@@ -4,9 +4,7 @@
 
 #include "../real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #if WH_DOUBLE
 
@@ -144,7 +142,6 @@ WH_INLINE wh_angle wh_angle_near(wh_angle angle, wh_phase phase) {
 #endif
 }
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
+
 #endif

@@ -5,9 +5,7 @@
 
 #include "core/real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* The converter's status of a sample: X(name, words). hal/loadcell.h has the same list in the same order. */
 #define WH_LOAD_ROWS(X) \
@@ -54,8 +52,6 @@ WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int
 
 const char *wh_load_text(wh_load_status status);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -5,9 +5,7 @@
 
 #include "core/real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 typedef struct wh_drive_config {
     wh_real proportional_V_per_radps; /* volts per rad/s of error */
@@ -37,8 +35,6 @@ wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real sp
 
 bool wh_drive_at_target(const wh_drive *drive);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -29,9 +29,7 @@
 #include "datasheet.h"
 #include "result.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* === normal equations ======================================================================== */
 /* Linear least squares: normal equations that grow row by row, solved by Cholesky factorization.
@@ -228,8 +226,6 @@ void wh_swing_doubt(const wh_swing_config *config, const wh_swing *swing, wh_mea
 
 const char *wh_swing_text(wh_swing_why why);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -10,9 +10,7 @@
 
 #include "observer.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 typedef struct wh_compensation_config {
     wh_real weight_Nm;   /* S g: the largest torque of gravity */
@@ -40,8 +38,6 @@ extern const wh_compensation_config wh_compensation_standard;
 wh_real wh_compensation_step(const wh_compensation_config *config, wh_compensation *compensation,
                              const wh_observer *observer, uint32_t now_ticks, wh_real step_s);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

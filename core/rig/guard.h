@@ -6,9 +6,7 @@
 #include "datasheet.h"
 #include "pulses.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* Reasons to stop: X(name, number, words). Consoles and records use the numbers, so they never change. (Number 1 was a
  * refused set-point, which is now a refusal of state_machine.h.) The words fit a line of the report: 95 characters. */
@@ -252,8 +250,6 @@ WH_SHARED bool wh_guard_load_comes(const wh_guard_config *config, const wh_guard
 
 const char *wh_trip_text(wh_trip reason);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

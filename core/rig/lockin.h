@@ -22,9 +22,7 @@
 #include "datasheet.h"
 #include "turn_angle.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* === what repeats from turn to turn ========================================================== */
 /* The part of the load's residual that repeats from turn to turn, in harmonics 3 to 6.
@@ -222,8 +220,6 @@ bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh
 
 const char *wh_turn_text(wh_turn_fault fault);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

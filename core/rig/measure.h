@@ -8,9 +8,7 @@
 #include "pulses.h"
 #include "result.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* === the tare ================================================================================ */
 /* The load cell's reading at rest, from noisy samples, and a check that the rig was at rest.
@@ -116,8 +114,6 @@ bool wh_measure_lasts(const wh_measure *measure, uint32_t ticks);
  * finished, and all turns are merged. If no turn was usable, result.force.turns is 0. */
 bool wh_measure_end(wh_measure *measure, uint32_t now_ticks);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -17,9 +17,7 @@
 #include "core/scene.h"
 #include "datasheet.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define WH_OBSERVER_SENSORS 2U
 
@@ -115,8 +113,6 @@ wh_real wh_observer_speed_radps(const wh_observer *observer);
 /* Returns the drive at which this motor makes no torque: the argument for wh_observer_step() while the motor coasts. */
 wh_real wh_observer_coasting(const wh_observer_config *config, const wh_observer *observer);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

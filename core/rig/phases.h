@@ -8,9 +8,7 @@
 #include "guard.h"
 #include "measure.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* The phases of a run, in order: X(name, words) */
 #define WH_PHASE_ROWS(X) \
@@ -128,8 +126,6 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
  * brakes (wh_rig_shown_stage()). */
 const char *wh_phase_text(wh_rig_phase phase);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -5,9 +5,7 @@
 #include "core/angle.h"
 #include "core/real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 WH_SHARED wh_wave wh_wave_at(wh_phase phase) {
     wh_wave both;
@@ -28,8 +26,6 @@ void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad);
 wh_real wh_polar_begin(wh_real x, wh_real y);
 void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -5,9 +5,7 @@
 #include "guard.h"
 #include "phases.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* Call this, with the motor on or off, before wh_pulses_take() for the pulse captured at `ticks`. It sets the pulse's
  * bounds and window, and the upper bound on the speed that remains from an earlier set-point. `open` is true if the
@@ -21,8 +19,6 @@ void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *runn
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -13,9 +13,7 @@
 
 #include "speed.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define WH_PULSES_CONFIRMED 4U
 
@@ -82,8 +80,6 @@ WH_INLINE bool wh_pulses_confirmed(wh_pulses *pulses, uint32_t now_ticks, wh_ind
            wh_pulses_sure(pulses, now_ticks, index);
 }
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

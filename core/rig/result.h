@@ -19,9 +19,7 @@
 
 #include "lockin.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 typedef enum wh_quality { WH_GOOD, WH_DOUBTFUL, WH_REFUSED } wh_quality;
 
@@ -178,8 +176,6 @@ wh_real wh_student(uint32_t freedom);
 const char *wh_why_text(wh_why why);
 const char *wh_quality_text(wh_quality quality);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -18,9 +18,7 @@
 #include "phases.h"
 #include "state_machine.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* === the record of a trip, in bytes with the same layout on every processor =========== */
 
@@ -242,8 +240,6 @@ void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage);
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
                                    const wh_measured *force);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

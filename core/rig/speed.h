@@ -8,9 +8,7 @@
 #include "core/real.h"
 #include "datasheet.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define WH_SPEED_SENSORS 2U
 
@@ -58,8 +56,6 @@ WH_INLINE bool wh_speed_is_overdue(const wh_speed *speed, uint32_t now_ticks) {
     return speed->known && wh_speed_silence_s(speed, now_ticks) * speed->turn_radps > WH_RIG_TWO_PI;
 }
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -10,9 +10,7 @@
 
 #include "core/real.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* The states: X(name, words) */
 #define WH_RIG_STATE_ROWS(X) \
@@ -90,8 +88,6 @@ const char *wh_rig_event_text(wh_rig_event event);
 const char *wh_refusal_text(wh_refusal refusal);
 const char *wh_rig_end_text(wh_rig_end end);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

@@ -33,9 +33,7 @@
 
 #include "core/angle.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 /* 1 on a chip on which a float product takes 200 cycles. There the work of a control step is cut into smaller pieces.
  * The results are the same. */
@@ -123,8 +121,6 @@ wh_real wh_turn_angle_ratio_rest(const wh_rotor_config *config, wh_turn_angle *a
 /* Returns theta at the share `part` (0 to 1) of the turn's time. */
 wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

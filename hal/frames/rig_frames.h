@@ -5,9 +5,9 @@
 
 #include <stdbool.h>
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+#include "core/linkage.h"
+
+WH_C_BEGIN
 
 /* Notes, in the order of their channels: X(name, word, unit). `state` is wh_rig_stage(), `reset` is hal_reset_cause().
  * core/rig has the numbers of states, trips and qualities. The other notes are values of the result, which exists only
@@ -79,8 +79,6 @@ float hal_frames_dial(unsigned which);
 /* True if every dial has been read at least once. */
 bool hal_frames_dials_heard(void);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

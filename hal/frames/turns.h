@@ -6,9 +6,7 @@
 
 #include "core/exchange.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define HAL_HELLO_BYTES 768U /* maximum length of a hello */
 
@@ -72,8 +70,6 @@ void hal_turns_watch(hal_turns *turns, uint32_t timeout_ticks);
 void hal_turns_alive(hal_turns *turns);
 bool hal_turns_is_cut(const hal_turns *turns);
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif

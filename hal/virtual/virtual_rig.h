@@ -19,9 +19,7 @@
 #include "hal/reset.h"
 #include "hal/slots.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
+WH_C_BEGIN
 
 #define HAL_VIRTUAL_PULSES 16U
 #define HAL_VIRTUAL_SAMPLES 8U
@@ -104,8 +102,6 @@ hal_virtual_rig *hal_virtual_rig_instance(void);
 /* The model that hal_clock_start() starts: core/models/eccentric.whirl, scene rig_fixed. */
 extern const wh_scene rig_fixed;
 
-#ifdef __cplusplus
-}
-#endif
+WH_C_END
 
 #endif
