@@ -17,15 +17,10 @@ WH_C_BEGIN
 
 #define HAL_TICKS_PER_S 1000000U
 
-typedef enum hal_start {
-    HAL_STARTED,
-    HAL_START_NO_PLANT, /* the rig's simulator does not answer */
-    HAL_START_NO_TIMER  /* the timer does not count */
-} hal_start;
-
 /* Start the timer and all other hardware of the rig; the motor is off. Call it before every other hal_ function except
- * hal_motor_off(). On any result other than HAL_STARTED, do not drive the motor. */
-hal_start hal_clock_start(void);
+ * hal_motor_off(). Returns false if the timer does not count, or if the rig's simulator does not answer: then do not
+ * drive the motor. */
+bool hal_clock_start(void);
 
 typedef enum hal_clock_source {
     HAL_CLOCK_CRYSTAL,
@@ -34,10 +29,6 @@ typedef enum hal_clock_source {
 } hal_clock_source;
 hal_clock_source hal_clock_source_now(void);
 
-/* Returns the tolerance of the timer: 100 ppm for a crystal, 10,000 ppm for a fallback, 0 for a timer that defines the
- * time. */
-uint32_t hal_clock_tolerance_ppm(void);
-
 /* Returns the timer's present count, in ticks. */
 uint32_t hal_clock_ticks(void);
 
@@ -45,10 +36,6 @@ uint32_t hal_clock_ticks(void);
  * already past `ticks`. Interrupts or a model's step may delay the return: by at most 0.1 ms on a real board, by 1 ms
  * in simulated time. */
 void hal_clock_wait_until(uint32_t ticks);
-
-/* Returns the largest delay of a return from hal_clock_wait_until() since the last call, in ticks. A wait that was
- * called too late counts as delayed. */
-uint32_t hal_clock_late_ticks(void);
 
 WH_C_END
 

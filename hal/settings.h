@@ -4,6 +4,7 @@
 #ifndef HAL_SETTINGS_H
 #define HAL_SETTINGS_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "core/linkage.h"
@@ -16,26 +17,18 @@ WH_C_BEGIN
 /* The longest time that one call takes, in ticks of the capture timer (clock.h). */
 #define HAL_SETTINGS_TICKS 1000000U
 
-typedef enum hal_settings_result {
-    HAL_SETTINGS_DONE,
-    /* the slot or the bytes do not exist, or `at` is not allowed: nothing was changed */
-    HAL_SETTINGS_OUTSIDE,
-    HAL_SETTINGS_BUSY,  /* the memory stays busy: nothing was changed */
-    HAL_SETTINGS_FAILED /* the memory reports an error: it is protected, worn out or absent */
-} hal_settings_result;
-
-/* For the next functions: `slot` is 0 or 1; at + count <= HAL_SETTINGS_BYTES. A power failure during a call leaves
- * arbitrary bytes in this slot and does not touch the other slot. */
+/* For the next functions: `slot` is 0 or 1; at + count <= HAL_SETTINGS_BYTES. They return false if the memory stays
+ * busy or reports an error: it is protected, worn out or absent. A power failure during a call leaves arbitrary bytes
+ * in this slot and does not touch the other slot. */
 
 /* Set all bytes of the slot to 0xFF. */
-hal_settings_result hal_settings_erase(unsigned slot);
+bool hal_settings_erase(unsigned slot);
 
 /* Write bytes[count] to the slot, beginning at byte `at`, a multiple of 4. Erase the slot first, then write it front to
  * back. `count` may be any number. */
-hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
-                                       unsigned count);
+bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count);
 
-hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count);
+bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count);
 
 WH_C_END
 

@@ -11,10 +11,6 @@
 #define WRITE _BV(EEPM1)
 _Static_assert(FIRST + SLOTS * HAL_SETTINGS_BYTES <= E2END + 1U, "it has room");
 
-static bool within(unsigned slot, unsigned at, unsigned count) {
-    return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
-}
-
 static uint16_t address_of(unsigned slot, unsigned at) {
     return (uint16_t)(FIRST + slot * HAL_SETTINGS_BYTES + at);
 }
@@ -28,12 +24,6 @@ static bool rests(void) {
         }
     }
     return false;
-}
-
-static hal_settings_result may(unsigned slot, unsigned at, unsigned count) {
-    return !within(slot, at, count) ? HAL_SETTINGS_OUTSIDE
-           : rests()                ? HAL_SETTINGS_DONE
-                                    : HAL_SETTINGS_BUSY;
 }
 
 static uint8_t load(uint16_t address) {
@@ -60,31 +50,28 @@ static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
     return rests() && load(address) == byte;
 }
 
-hal_settings_result hal_settings_erase(unsigned slot) {
-    const hal_settings_result can = may(slot, 0, 0);
-    bool done = can == HAL_SETTINGS_DONE;
+bool hal_settings_erase(unsigned slot) {
+    bool done = rests();
     for (unsigned at = 0; at < HAL_SETTINGS_BYTES && done; at++) {
         const uint16_t address = address_of(slot, at);
         done = load(address) == ERASED || program(address, ERASE, ERASED);
     }
-    return done || can != HAL_SETTINGS_DONE ? can : HAL_SETTINGS_FAILED;
+    return done;
 }
 
-hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
-                                       unsigned count) {
-    const hal_settings_result can = at % 4U == 0 ? may(slot, at, count) : HAL_SETTINGS_OUTSIDE;
-    bool done = can == HAL_SETTINGS_DONE;
+bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+    bool done = rests();
     for (unsigned i = 0; i < count && done; i++) {
         const uint16_t address = address_of(slot, at + i);
         done = load(address) == bytes[i] || program(address, WRITE, bytes[i]);
     }
-    return done || can != HAL_SETTINGS_DONE ? can : HAL_SETTINGS_FAILED;
+    return done;
 }
 
-hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
-    const hal_settings_result can = may(slot, at, count);
-    for (unsigned i = 0; i < count && can == HAL_SETTINGS_DONE; i++) {
+bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
+    const bool done = rests();
+    for (unsigned i = 0; i < count && done; i++) {
         bytes[i] = load(address_of(slot, at + i));
     }
-    return can;
+    return done;
 }

@@ -9,15 +9,13 @@
 #include "atmega.h"
 
 /* Starts the motor's part first, so that the motor is off even if later parts fail. */
-hal_start hal_clock_start(void) {
+bool hal_clock_start(void) {
     atmega_motor_start();
     (void)hal_reset_cause();
     atmega_slots_start();
     atmega_cell_start();
-    return board_ticks_go_on() ? HAL_STARTED : HAL_START_NO_TIMER;
+    return board_ticks_go_on();
 }
 
 /* Fuses choose the crystal. If it stops, the processor has no clock at all. */
 hal_clock_source hal_clock_source_now(void) { return HAL_CLOCK_CRYSTAL; }
-
-uint32_t hal_clock_tolerance_ppm(void) { return 100; }

@@ -11,25 +11,16 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SLOTS = 2 };
-
 static const char *name_of_file(void) {
     const char *wanted = getenv("RIG_SETTINGS");
     return wanted != NULL && wanted[0] != '\0' ? wanted : "build/rig.settings";
-}
-
-static bool within(unsigned slot, unsigned at, unsigned count) {
-    return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
 }
 
 static off_t place_of(unsigned slot, unsigned at) {
     return (off_t)(slot * HAL_SETTINGS_BYTES + at);
 }
 
-static hal_settings_result put(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
-    if (!within(slot, at, count)) {
-        return HAL_SETTINGS_OUTSIDE;
-    }
+static bool put(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
     const int file = open(name_of_file(), O_RDWR | O_CREAT, 0666);
     unsigned done = 0;
     while (file >= 0 && done < count) {
@@ -40,31 +31,26 @@ static hal_settings_result put(unsigned slot, unsigned at, const uint8_t *bytes,
         done += more > 0 ? (unsigned)more : 0U;
     }
     const bool kept = file >= 0 && fsync(file) == 0;
-    return file >= 0 && close(file) == 0 && kept && done == count ? HAL_SETTINGS_DONE
-                                                                  : HAL_SETTINGS_FAILED;
+    return file >= 0 && close(file) == 0 && kept && done == count;
 }
 
-hal_settings_result hal_settings_erase(unsigned slot) {
+bool hal_settings_erase(unsigned slot) {
     uint8_t blank[HAL_SETTINGS_BYTES];
     memset(blank, 0xFF, sizeof blank);
     return put(slot, 0, blank, sizeof blank);
 }
 
-hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
-                                       unsigned count) {
+bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
     return put(slot, at, bytes, count);
 }
 
 /* A missing or shorter file counts as erased. */
-hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
-    if (!within(slot, at, count)) {
-        return HAL_SETTINGS_OUTSIDE;
-    }
+bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
     memset(bytes, 0xFF, count);
     const int file = open(name_of_file(), O_RDONLY);
     if (file < 0) {
-        return errno == ENOENT ? HAL_SETTINGS_DONE : HAL_SETTINGS_FAILED;
+        return errno == ENOENT;
     }
     const ssize_t had = pread(file, bytes, count, place_of(slot, at));
-    return close(file) == 0 && had >= 0 ? HAL_SETTINGS_DONE : HAL_SETTINGS_FAILED;
+    return close(file) == 0 && had >= 0;
 }

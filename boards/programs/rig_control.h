@@ -135,7 +135,7 @@ static const char *why_no_hardware(void) {
  * which has the compiler flags of the whole image. Returns NULL; or the reason for a failure, for wh_text_add(), and
  * then the motor is off. */
 static const char *why_not_started(void) {
-    if (hal_clock_start() != HAL_STARTED) {
+    if (!hal_clock_start()) {
         return why_no_hardware();
     }
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {

@@ -11,21 +11,18 @@ _Static_assert(WH_STORE_SLOT_BYTES <= HAL_SETTINGS_BYTES, "a slot holds a record
 /* Erases a slot; the next function writes to it. The watchdog is not kicked meanwhile, so its timeout is lengthened. */
 static bool erase_patiently(unsigned slot) {
     hal_watchdog_start(2U * HAL_SETTINGS_TICKS);
-    const hal_settings_result erased = hal_settings_erase(slot);
+    const bool erased = hal_settings_erase(slot);
     hal_watchdog_start(WATCHDOG_TICKS);
-    return erased == HAL_SETTINGS_DONE;
+    return erased;
 }
 static bool write_patiently(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
     hal_watchdog_start(2U * HAL_SETTINGS_TICKS);
-    const hal_settings_result written = hal_settings_write(slot, at, bytes, count);
+    const bool written = hal_settings_write(slot, at, bytes, count);
     hal_watchdog_start(WATCHDOG_TICKS);
-    return written == HAL_SETTINGS_DONE;
-}
-static bool read_settings(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
-    return hal_settings_read(slot, at, bytes, count) == HAL_SETTINGS_DONE;
+    return written;
 }
 
 static const wh_store_memory settings_memory = {
-    .erase = erase_patiently, .write = write_patiently, .read = read_settings};
+    .erase = erase_patiently, .write = write_patiently, .read = hal_settings_read};
 
 #endif

@@ -97,7 +97,7 @@ static bool run(const trial *tried) {
     config.feeds = tried->compensated ? WH_COMPENSATION_ALWAYS : wh_rig_standard.feeds;
     config.swings = tried->swings;
     config.stop_brakes = true; /* the motor brakes, so that runs without a free swing end soon */
-    if (hal_clock_start() != HAL_STARTED) {
+    if (!hal_clock_start()) {
         return false;
     }
     const unsigned first = intervals;

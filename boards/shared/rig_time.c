@@ -1,10 +1,8 @@
-/* rig_time.c: the time of hal/clock.h from board_ticks(), and the delays of waits. */
+/* rig_time.c: the time of hal/clock.h from board_ticks(). */
 #include "rig_time.h"
 
 #include "boards/board.h"
 #include "hal/clock.h"
-
-static uint32_t late_most;
 
 #define LOOKS 10000U
 
@@ -20,14 +18,4 @@ bool board_ticks_go_on(void) {
 
 uint32_t hal_clock_ticks(void) { return board_ticks(); }
 
-void hal_clock_wait_until(uint32_t ticks) {
-    board_wait_until(ticks);
-    const uint32_t late = board_ticks() - ticks;
-    late_most = late > late_most ? late : late_most;
-}
-
-uint32_t hal_clock_late_ticks(void) {
-    const uint32_t most = late_most;
-    late_most = 0;
-    return most;
-}
+void hal_clock_wait_until(uint32_t ticks) { board_wait_until(ticks); }

@@ -8,35 +8,25 @@
 #define FIRST_SECTOR 1U
 #define SECTOR_BYTES 0x4000U
 #define FIRST_ADDRESS 0x08004000U
-#define SLOTS 2U
-
-static bool within(unsigned slot, unsigned at, unsigned count) {
-    return slot < SLOTS && at <= HAL_SETTINGS_BYTES && count <= HAL_SETTINGS_BYTES - at;
-}
 
 static uint32_t address_of(unsigned slot, unsigned at) {
     return FIRST_ADDRESS + SECTOR_BYTES * slot + at;
 }
 
-/* Waits until the operation in progress ends. Returns its result. */
-static hal_settings_result ended(void) {
-    return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0
-               ? HAL_SETTINGS_DONE
-               : HAL_SETTINGS_FAILED;
+/* Waits until the operation in progress ends. Returns false if it failed. */
+static bool ended(void) {
+    return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0;
 }
 
-/* Unlocks the flash for these bytes. Returns an error if they do not exist or if the flash is busy. */
-static hal_settings_result opened(unsigned slot, unsigned at, unsigned count) {
-    if (!within(slot, at, count)) {
-        return HAL_SETTINGS_OUTSIDE;
-    }
+/* Unlocks the flash. Returns false if it stays busy. */
+static bool opened(void) {
     if (!stm32f4_flash_rests()) {
-        return HAL_SETTINGS_BUSY;
+        return false;
     }
     reg_store(FLASH_KEYR, FLASH_KEY1);
     reg_store(FLASH_KEYR, FLASH_KEY2);
     reg_store(FLASH_SR, FLASH_SR_ERRORS); /* clears the errors of an earlier operation */
-    return HAL_SETTINGS_DONE;
+    return true;
 }
 
 /* Empties the data cache, which may have old data of an erased sector (3.5.2). */
@@ -47,46 +37,41 @@ static void forget_cached(void) {
     reg_set(FLASH_ACR, FLASH_ACR_DCEN);
 }
 
-hal_settings_result hal_settings_erase(unsigned slot) {
-    hal_settings_result result = opened(slot, 0, 0);
-    if (result != HAL_SETTINGS_DONE) {
-        return result;
+bool hal_settings_erase(unsigned slot) {
+    if (!opened()) {
+        return false;
     }
     const uint32_t order = FLASH_CR_SER | FLASH_CR_SNB(FIRST_SECTOR + slot) | FLASH_CR_PSIZE_32;
     reg_store(FLASH_CR, order);
     reg_store(FLASH_CR, order | FLASH_CR_STRT);
-    result = ended();
+    const bool done = ended();
     reg_store(FLASH_CR, FLASH_CR_LOCK);
     forget_cached();
-    return result;
+    return done;
 }
 
 /* Writes whole words. The bytes of the last word after `count` stay 0xFF. */
-hal_settings_result hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes,
-                                       unsigned count) {
-    hal_settings_result result = at % 4U == 0 ? opened(slot, at, count) : HAL_SETTINGS_OUTSIDE;
-    if (result != HAL_SETTINGS_DONE) {
-        return result;
+bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
+    bool done = opened();
+    if (!done) {
+        return false;
     }
     reg_store(FLASH_CR, FLASH_CR_PG | FLASH_CR_PSIZE_32);
-    for (unsigned i = 0; i < count && result == HAL_SETTINGS_DONE; i += 4U) {
+    for (unsigned i = 0; i < count && done; i += 4U) {
         uint32_t word = UINT32_MAX;
         __builtin_memcpy(&word, bytes + i, count - i < 4U ? count - i : 4U);
         reg_store(address_of(slot, at + i), word);
         board_kept_settle(); /* completes the store before the status is read */
-        result = ended();
+        done = ended();
     }
     reg_store(FLASH_CR, FLASH_CR_LOCK);
-    return result;
+    return done;
 }
 
-hal_settings_result hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
-    if (!within(slot, at, count)) {
-        return HAL_SETTINGS_OUTSIDE;
-    }
+bool hal_settings_read(unsigned slot, unsigned at, uint8_t *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
         const uint32_t address = address_of(slot, at + i);
         bytes[i] = (uint8_t)(reg_load(address & ~3U) >> (8U * (address & 3U)));
     }
-    return HAL_SETTINGS_DONE;
+    return true;
 }

@@ -13,19 +13,13 @@ _Static_assert((int)BOARD_CLOCK_CRYSTAL == (int)HAL_CLOCK_CRYSTAL &&
                "one list of what it runs on");
 
 /* Starts the motor's part first, so that the motor is off even if later parts fail. */
-hal_start hal_clock_start(void) {
+bool hal_clock_start(void) {
     stm32f4_motor_start();
     stm32f4_reset_start();
     stm32f4_brown_out_start();
     stm32f4_slots_start();
     stm32f4_cell_start();
-    return board_ticks_go_on() ? HAL_STARTED : HAL_START_NO_TIMER;
+    return board_ticks_go_on();
 }
 
 hal_clock_source hal_clock_source_now(void) { return (hal_clock_source)board_clock_is; }
-
-uint32_t hal_clock_tolerance_ppm(void) {
-    static const uint16_t ppm[] = {
-        [HAL_CLOCK_CRYSTAL] = 100, [HAL_CLOCK_FALLBACK] = 10000, [HAL_CLOCK_PLAYED] = 0};
-    return ppm[hal_clock_source_now()];
-}

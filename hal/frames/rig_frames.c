@@ -147,7 +147,7 @@ static void see_levels(void) {
     }
 }
 
-hal_start hal_clock_start(void) {
+bool hal_clock_start(void) {
     static wh_signal all[WH_SIGNALS_MAX];
     unsigned count = 0;
     for (unsigned i = 0; i < SIGNALS; i++) {
@@ -163,32 +163,20 @@ hal_start hal_clock_start(void) {
                             .start_ticks = 0U - WRAP_AFTER_S * HAL_TICKS_PER_S,
                             .signal = all,
                             .signals = count};
-    return hal_turns_start(&plant, &hello) ? HAL_STARTED : HAL_START_NO_PLANT;
+    return hal_turns_start(&plant, &hello);
 }
 
 void hal_frames_end(int status) { hal_turns_end(&plant, status); }
 
 hal_clock_source hal_clock_source_now(void) { return HAL_CLOCK_PLAYED; }
 
-uint32_t hal_clock_tolerance_ppm(void) { return 0; }
-
 uint32_t hal_clock_ticks(void) { return plant.ticks; }
-
-static uint32_t late_ticks;
 
 void hal_clock_wait_until(uint32_t ticks) {
     if ((int32_t)(ticks - plant.ticks) > 0) {
         hal_turns_wait(&plant, ticks);
         see_levels();
     }
-    const uint32_t late = plant.ticks - ticks;
-    late_ticks = late > late_ticks ? late : late_ticks;
-}
-
-uint32_t hal_clock_late_ticks(void) {
-    const uint32_t most = late_ticks;
-    late_ticks = 0;
-    return most;
 }
 
 /* Sets the chopper's duty, limited to 0 ... 1. NaN gives 0. */

@@ -23,35 +23,19 @@ static bool motor_started;
 static bool is_high;
 static hal_slot_edge pulse;
 
-hal_start hal_clock_start(void) {
+bool hal_clock_start(void) {
     motor_started = false;
     is_high = false;
     const bool again = board_rig.in_reset;
     board_rig.in_reset = false;
-    const bool starts =
-        again ? board_rig.status == WH_OK : hal_virtual_rig_start(&board_rig, &rig_fixed);
-    return starts ? HAL_STARTED : HAL_START_NO_PLANT;
+    return again ? board_rig.status == WH_OK : hal_virtual_rig_start(&board_rig, &rig_fixed);
 }
 
 hal_clock_source hal_clock_source_now(void) { return HAL_CLOCK_PLAYED; }
 
-uint32_t hal_clock_tolerance_ppm(void) { return 0; }
-
 uint32_t hal_clock_ticks(void) { return board_rig.ticks; }
 
-static uint32_t late_ticks;
-
-void hal_clock_wait_until(uint32_t ticks) {
-    hal_virtual_rig_advance(&board_rig, ticks);
-    const uint32_t late = board_rig.ticks - ticks;
-    late_ticks = late > late_ticks ? late : late_ticks;
-}
-
-uint32_t hal_clock_late_ticks(void) {
-    const uint32_t most = late_ticks;
-    late_ticks = 0;
-    return most;
-}
+void hal_clock_wait_until(uint32_t ticks) { hal_virtual_rig_advance(&board_rig, ticks); }
 
 unsigned hal_motor_status(void) {
     return board_rig.cut || board_rig.stop_cuts ? HAL_MOTOR_CUT : 0U;

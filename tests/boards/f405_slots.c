@@ -21,7 +21,7 @@ static void say(const uint32_t *numbers, unsigned count) {
 
 int main(void) {
     board_start();
-    if (hal_clock_start() != HAL_STARTED) {
+    if (!hal_clock_start()) {
         board_exit(2);
     }
     uint32_t due = hal_clock_ticks();

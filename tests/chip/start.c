@@ -88,7 +88,7 @@ static void start_all(void) {
     board_clock_start();
     drivers_as_flashed();
     board_start();
-    TEST_ASSERT_EQUAL(HAL_STARTED, hal_clock_start());
+    TEST_ASSERT_TRUE(hal_clock_start());
 }
 
 void chip_run(void (*what)(void)) {

@@ -30,7 +30,6 @@ TEST(chip_clock, crystals_that_start) {
             (200U + scattered() % 5000U) * CHIP_UNITS_PER_US;
         chip_restart(CHIP_BY_POWER);
         TEST_ASSERT_EQUAL(HAL_CLOCK_CRYSTAL, hal_clock_source_now());
-        TEST_ASSERT_EQUAL(100, hal_clock_tolerance_ppm());
         const chip_clocks now = chip_clocks_now();
         TEST_ASSERT_EQUAL(168000000, now.core_Hz);
         TEST_ASSERT_EQUAL(42000000, now.apb1_Hz);
@@ -46,7 +45,6 @@ static void fallback_is_taken(uint64_t most_ms) {
     TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < most_ms * 1000U * CHIP_UNITS_PER_US,
                              "the start waits too long");
     TEST_ASSERT_EQUAL(HAL_CLOCK_FALLBACK, hal_clock_source_now());
-    TEST_ASSERT_EQUAL(10000, hal_clock_tolerance_ppm());
     TEST_ASSERT_EQUAL(16000000, chip_clocks_now().core_Hz);
     TEST_ASSERT_TRUE(ppm_over(0.05) < 25.0 && ppm_over(0.05) > -25.0);
 }
@@ -149,15 +147,12 @@ TEST(chip_clock, waits) {
         chip_run(wait_there);
         const uint32_t late = chip_tim2_count() - target;
         TEST_ASSERT_TRUE_MESSAGE(late < 100U, "not within 0.1 ms behind what was asked");
-        TEST_ASSERT_TRUE(hal_clock_late_ticks() <= late);
     }
     target = chip_tim2_count() - 1000U;
     const uint64_t then = chip_now();
     chip_run(wait_there);
     TEST_ASSERT_TRUE_MESSAGE(chip_now() - then < 20U * CHIP_UNITS_PER_US,
                              "it waits for what is past");
-    TEST_ASSERT_TRUE(hal_clock_late_ticks() >= 1000U);
-    TEST_ASSERT_EQUAL(0, hal_clock_late_ticks()); /* no wait was late since the last call */
     TEST_ASSERT_EQUAL_STRING("none", chip_violation());
 }
 
