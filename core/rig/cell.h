@@ -7,19 +7,15 @@
 
 WH_C_BEGIN
 
-/* The converter's status of a sample: X(name, words). hal/loadcell.h has the same list in the same order. */
-#define WH_LOAD_ROWS(X) \
-    X(WH_LOAD_OK, "ok") \
-    X(WH_LOAD_SATURATED, "saturated") \
-    X(WH_LOAD_DISCONNECTED, "disconnected") \
-    /* converted at another time than its time stamp */ \
-    X(WH_LOAD_LATE, "late") \
-    /* there is no new value: the converter repeats the last one */ \
-    X(WH_LOAD_REPEATED, "repeated")
-
-#define WH_LOAD_NAME(name, words) name,
-typedef enum wh_load_status { WH_LOAD_ROWS(WH_LOAD_NAME) WH_LOAD_STATUSES } wh_load_status;
-#undef WH_LOAD_NAME
+/* The converter's status of a sample. hal/loadcell.h has the same list in the same order. */
+typedef enum wh_load_status {
+    WH_LOAD_OK,
+    WH_LOAD_SATURATED,
+    WH_LOAD_DISCONNECTED,
+    WH_LOAD_LATE,     /* converted at another time than its time stamp */
+    WH_LOAD_REPEATED, /* there is no new value: the converter repeats the last one */
+    WH_LOAD_STATUSES
+} wh_load_status;
 
 typedef struct wh_cell_config {
     wh_real newton_per_count; /* negative for a cell mounted in reverse */
@@ -49,8 +45,6 @@ WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int
     }
     return load;
 }
-
-const char *wh_load_text(wh_load_status status);
 
 WH_C_END
 

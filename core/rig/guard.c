@@ -142,13 +142,3 @@ const char *wh_trip_text(wh_trip reason) {
     }
     return wh_words_item(words, row);
 }
-
-const char *wh_load_text(wh_load_status status) {
-#define WH_LOAD_CASE(name, words) \
-    case name: return words;
-    switch (status) {
-        WH_LOAD_ROWS(WH_LOAD_CASE)
-    case WH_LOAD_STATUSES: break;
-    }
-    return "unknown status";
-}

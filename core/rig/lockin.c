@@ -429,16 +429,6 @@ WH_CALLED bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config
     return false;
 }
 
-const char *wh_turn_text(wh_turn_fault fault) {
-#define WH_TURN_CASE(name, words) \
-    case name: return words;
-    switch (fault) {
-        WH_TURN_ROWS(WH_TURN_CASE)
-    case WH_TURN_FAULTS: break;
-    }
-    return "unknown fault";
-}
-
 /* === what repeats from turn to turn ========================================================== */
 
 void wh_repeats_merge(wh_repeats *sum, const wh_repeats *turn, uint32_t samples) {

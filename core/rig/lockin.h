@@ -78,19 +78,15 @@ wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harm
 #define WH_LOCKIN_HALVES_AT_ONCE 3U
 #define WH_LOCKIN_STALE_AT_ONCE 8U
 
-/* Reasons why a turn does not count: X(name, words). */
-#define WH_TURN_ROWS(X) \
-    X(WH_TURN_OK, "ok") \
-    /* the turn has no predecessor for a comparison */ \
-    X(WH_TURN_FIRST, "first") \
-    X(WH_TURN_GAP, "load samples are missing") \
-    X(WH_TURN_OUTLIERS, "too many outliers") \
-    X(WH_TURN_FROZEN, "the load never changes") \
-    X(WH_TURN_UNSTEADY, "the speed changes")
-
-#define WH_TURN_NAME(name, words) name,
-typedef enum wh_turn_fault { WH_TURN_ROWS(WH_TURN_NAME) WH_TURN_FAULTS } wh_turn_fault;
-#undef WH_TURN_NAME
+/* Reasons why a turn does not count. */
+typedef enum wh_turn_fault {
+    WH_TURN_OK,
+    WH_TURN_FIRST, /* the turn has no predecessor for a comparison */
+    WH_TURN_GAP,   /* load samples are missing */
+    WH_TURN_OUTLIERS,
+    WH_TURN_FROZEN,  /* the load never changes */
+    WH_TURN_UNSTEADY /* the speed changes */
+} wh_turn_fault;
 
 /* Fourier coefficients of the load over the angle, up to the second order. */
 #define WH_LOCKIN_ORDERS 5U
@@ -217,8 +213,6 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
  * lockin->turn. */
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,
                     unsigned halves);
-
-const char *wh_turn_text(wh_turn_fault fault);
 
 WH_C_END
 

@@ -90,7 +90,6 @@ static const char *phase_text(int number) { return wh_phase_text((wh_rig_phase)n
 static const char *event_text(int number) { return wh_rig_event_text((wh_rig_event)number); }
 static const char *refusal_text(int number) { return wh_refusal_text((wh_refusal)number); }
 static const char *why_text(int number) { return wh_why_text((wh_why)number); }
-static const char *turn_text(int number) { return wh_turn_text((wh_turn_fault)number); }
 static const char *quality_text(int number) { return wh_quality_text((wh_quality)number); }
 static const char *swing_text(int number) { return wh_swing_text((wh_swing_why)number); }
 
@@ -114,7 +113,6 @@ TEST(rig_steps, every_state_and_reason_has_words_of_its_own) {
     check_words(event_text, (int)WH_EVENTS);
     check_words(refusal_text, (int)WH_REFUSALS);
     check_words(why_text, (int)WH_WHYS);
-    check_words(turn_text, (int)WH_TURN_FAULTS);
     check_words(quality_text, (int)WH_REFUSED + 1);
     check_words(swing_text, (int)WH_SWING_WHYS);
     check_words(trip_text, (int)WH_TRIP_UNBRAKED);
