@@ -54,14 +54,14 @@ static const char *names(void) { return WH_CONF_ROWS(NAME); }
 wh_conf_id wh_conf_find(const char *name) { return (wh_conf_id)wh_list_find(names(), name); }
 const char *wh_conf_name(wh_conf_id id) { return wh_list_item(names(), id); }
 
-const char *wh_conf_words(wh_conf_id id) {
+static const char *words_of(wh_conf_id id) {
 #define WORDS(name, number, kind, unit, least, most, goes, member, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_ROWS(WORDS);
 #undef WORDS
     return wh_words_item(words, id);
 }
 
-const char *wh_conf_unit_text(wh_conf_id id) {
+static const char *unit_of(wh_conf_id id) {
 #define WORD(unit, word, number) "|" word
     return wh_list_item(WH_CONF_UNIT_ROWS(WORD), ROW(id)->unit);
 #undef WORD
@@ -74,8 +74,6 @@ static const char *choices(wh_conf_id id) {
 #undef WORDS
     return wh_words_item(words, ROW(id)->kind);
 }
-
-const char *wh_conf_kind_text(wh_conf_id id) { return choices(id) + 1; }
 
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
@@ -290,7 +288,8 @@ wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
 
 static bool is_choice(wh_conf_id id) { return ROW(id)->kind >= WH_CONF_SWITCH; }
 
-const char *wh_conf_text(wh_conf_id id, wh_real value) {
+/* Returns the word for a value of a choice, as an item of a list. Returns NULL for a setting that is a number. */
+static const char *text_of(wh_conf_id id, wh_real value) {
     return is_choice(id) ? wh_list_item(choices(id), (unsigned)value) : NULL;
 }
 
@@ -386,7 +385,7 @@ wh_station_error wh_conf_save(wh_conf *conf) {
 
 /* Adds " name=value"; the value of a choice is a word. */
 static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real number) {
-    const char *choice = wh_conf_text(id, number);
+    const char *choice = text_of(id, number);
     wh_value value[] = {{.word = name}, {.number = number}};
     if (choice != NULL) {
         value[1].word = choice;
@@ -429,15 +428,15 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
 static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
     wh_conf_row room;
     const wh_conf_row *row = wh_conf_row_of(id, &room);
-    const wh_value value[] = {{.word = wh_conf_kind_text(id)},
-                              {.word = wh_conf_unit_text(id)},
+    const wh_value value[] = {{.word = choices(id) + 1},
+                              {.word = unit_of(id)},
                               {.number = row->least},
                               {.number = row->most}};
-    const wh_value words[] = {{.word = wh_conf_words(id)}};
+    const wh_value words[] = {{.word = words_of(id)}};
     add_setting(answer, conf, id);
     wh_answer(answer,
-              wh_conf_text(id, conf->value[id]) == NULL ? " type=@s unit=@w least=@e most=@e"
-                                                        : " type=@s",
+              text_of(id, conf->value[id]) == NULL ? " type=@s unit=@w least=@e most=@e"
+                                                   : " type=@s",
               value);
     add_value(answer, "default", id, conf->standard[id]);
     wh_answer(answer, ": @s", words);

@@ -63,12 +63,8 @@ const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
 
 wh_conf_id wh_conf_find(const char *name);
 
-/* wh_conf_name() and wh_conf_words() return the setting's name and description. The other two return the words for its
- * values, and its unit, as items of lists (answer.h). */
+/* Returns the setting's name, as an item of a list (answer.h). */
 const char *wh_conf_name(wh_conf_id id);
-const char *wh_conf_kind_text(wh_conf_id id);
-const char *wh_conf_unit_text(wh_conf_id id);
-const char *wh_conf_words(wh_conf_id id);
 
 /* Set a setting to a value in its unit (for a choice: the value's number); wh_conf_type() sets it from typed text.
  * Updates the configuration, unless the value is refused. Call it only while the rig is idle. */
@@ -80,10 +76,6 @@ void wh_conf_default(wh_conf *conf);
 
 /* Save to permanent memory. The call takes as long as the memory needs (hal/settings.h). */
 wh_station_error wh_conf_save(wh_conf *conf);
-
-/* Returns the word for a value of a choice, as an item of a list (answer.h). Returns NULL for a setting that is a
- * number. */
-const char *wh_conf_text(wh_conf_id id, wh_real value);
 
 /* === the console's command `conf` ============================================================ */
 

@@ -16,6 +16,62 @@
 _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "frames are short");
 #define NONE_16 0xFFFFU
 
+/* === the control steps around a trigger ====================================================== */
+
+#define HALF (WH_CAPTURE_STEPS / 2U)
+#define PULSED 3U
+#define TRIGGERED 4U
+#define TRIPPED 8U
+
+/* Restarts with this trigger. */
+static void capture_start(wh_capture *capture, wh_capture_trigger trigger) {
+    capture->trigger = trigger;
+    capture->state = trigger == WH_CAPTURE_OFF ? WH_CAPTURE_NONE : WH_CAPTURE_WAITS;
+    capture->left = HALF;
+    capture->count = 0;
+    capture->next = 0;
+}
+
+static bool triggers(const wh_capture *capture, uint8_t flags) {
+    switch (capture->trigger) {
+    case WH_CAPTURE_PULSE: return (flags & PULSED) != 0 && capture->count >= HALF;
+    case WH_CAPTURE_FAULT: return (flags & TRIPPED) != 0;
+    case WH_CAPTURE_OFF:
+    case WH_CAPTURE_TRIGGERS: break;
+    }
+    return false;
+}
+
+/* Records a step, less than 65 ms after the last one. Bit 4 of its flags must be clear. `now_ticks` is the step's time
+ * with all 32 bits. */
+static void capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks) {
+    wh_captured *to = &capture->step[capture->next];
+    if (capture->count == 0) {
+        capture->first_ticks = now_ticks;
+    } else if (capture->count == WH_CAPTURE_STEPS) { /* the new step replaces the oldest */
+        const uint16_t second = capture->step[(capture->next + 1U) % WH_CAPTURE_STEPS].ticks;
+        capture->first_ticks += (uint16_t)(second - to->ticks);
+    }
+    *to = *step;
+    if (capture->state == WH_CAPTURE_WAITS && triggers(capture, step->flags)) {
+        capture->state = WH_CAPTURE_TRIGGERED;
+        to->flags |= TRIGGERED;
+    }
+    capture->next = (capture->next + 1U) % WH_CAPTURE_STEPS;
+    capture->count += capture->count < WH_CAPTURE_STEPS ? 1U : 0U;
+    if (capture->state == WH_CAPTURE_TRIGGERED && --capture->left == 0) {
+        capture->state = WH_CAPTURE_FULL;
+    }
+}
+
+/* Returns stored step i; step 0 is the oldest. */
+static const wh_captured *capture_at(const wh_capture *capture, unsigned i) {
+    const unsigned oldest = capture->next + WH_CAPTURE_STEPS - capture->count;
+    return &capture->step[(oldest + i) % WH_CAPTURE_STEPS];
+}
+
+/* === frames and text ========================================================================= */
+
 typedef struct sight {
     wh_tel *tel;
     const wh_rig_config *config;
@@ -124,14 +180,14 @@ static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t tic
 static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
-    const wh_captured *step = wh_capture_at(capture, tel->read_at);
+    const wh_captured *step = capture_at(capture, tel->read_at);
     if (!fits(s->out, LINE_BYTES_OF(WH_TEL_PAYLOAD_MOST))) {
         return;
     }
     tel->read_ticks += (uint16_t)(step->ticks - tel->read_ticks);
     begin_frame(s, WH_TEL_RING, tel->read_ticks);
     for (unsigned i = 0; i < WH_TEL_SAMPLES && tel->read_at < capture->count; i++) {
-        step = wh_capture_at(capture, tel->read_at++);
+        step = capture_at(capture, tel->read_at++);
         tel->read_ticks += (uint16_t)(step->ticks - tel->read_ticks);
         add(s, step->ticks, 2);
         add(s, (uint16_t)step->load, 2);
@@ -220,7 +276,7 @@ static void take_events(sight *s) {
     }
 }
 
-static void capture_step(sight *s) {
+static void record_step(sight *s) {
     const wh_step_inputs *seen = s->seen;
     int16_t load = WH_TEL_NO_LOAD;
     if (seen->samples > 0) {
@@ -236,25 +292,7 @@ static void capture_step(sight *s) {
                               .drive_mV = drive_mV(s->rig),
                               .flags = (uint8_t)(pulse | tripped),
                               .stage = (uint8_t)s->stage};
-    wh_capture_step(&s->tel->capture, &step, seen->inputs.now_ticks);
-}
-
-void wh_tel_rate(wh_tel *tel, uint32_t every) {
-    tel->every = every;
-    tel->passed = 0;
-    tel->samples = 0;
-    tel->stage = NONE_16; /* no stage has this number, so the stage is reported again */
-    tel->trip = NONE_16;
-}
-
-bool wh_tel_read(wh_tel *tel) {
-    if (tel->capture.state != WH_CAPTURE_FULL) {
-        return false;
-    }
-    tel->reads = true;
-    tel->read_at = 0;
-    tel->read_ticks = tel->capture.first_ticks;
-    return true;
+    capture_step(&s->tel->capture, &step, seen->inputs.now_ticks);
 }
 
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
@@ -266,8 +304,8 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
                .out = out,
                .stage = wh_rig_shown_stage(rig),
                .speed = speed_50(rig, seen->inputs.now_ticks)};
-    if (wh_capture_runs(&tel->capture)) {
-        capture_step(&s);
+    if (tel->capture.state == WH_CAPTURE_WAITS || tel->capture.state == WH_CAPTURE_TRIGGERED) {
+        record_step(&s);
     }
     if (tel->every > 0) {
         if (tel->format == WH_TEL_FRAMES) {
@@ -282,56 +320,6 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
     }
 }
 
-/* === the control steps around a trigger ====================================================== */
-
-#define HALF (WH_CAPTURE_STEPS / 2U)
-#define PULSED 3U
-#define TRIGGERED 4U
-#define TRIPPED 8U
-
-void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger) {
-    capture->trigger = trigger;
-    capture->state = trigger == WH_CAPTURE_OFF ? WH_CAPTURE_NONE : WH_CAPTURE_WAITS;
-    capture->left = HALF;
-    capture->count = 0;
-    capture->next = 0;
-}
-
-static bool triggers(const wh_capture *capture, uint8_t flags) {
-    switch (capture->trigger) {
-    case WH_CAPTURE_PULSE: return (flags & PULSED) != 0 && capture->count >= HALF;
-    case WH_CAPTURE_FAULT: return (flags & TRIPPED) != 0;
-    case WH_CAPTURE_OFF:
-    case WH_CAPTURE_TRIGGERS: break;
-    }
-    return false;
-}
-
-void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks) {
-    wh_captured *to = &capture->step[capture->next];
-    if (capture->count == 0) {
-        capture->first_ticks = now_ticks;
-    } else if (capture->count == WH_CAPTURE_STEPS) { /* the new step replaces the oldest */
-        const uint16_t second = capture->step[(capture->next + 1U) % WH_CAPTURE_STEPS].ticks;
-        capture->first_ticks += (uint16_t)(second - to->ticks);
-    }
-    *to = *step;
-    if (capture->state == WH_CAPTURE_WAITS && triggers(capture, step->flags)) {
-        capture->state = WH_CAPTURE_TRIGGERED;
-        to->flags |= TRIGGERED;
-    }
-    capture->next = (capture->next + 1U) % WH_CAPTURE_STEPS;
-    capture->count += capture->count < WH_CAPTURE_STEPS ? 1U : 0U;
-    if (capture->state == WH_CAPTURE_TRIGGERED && --capture->left == 0) {
-        capture->state = WH_CAPTURE_FULL;
-    }
-}
-
-const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i) {
-    const unsigned oldest = capture->next + WH_CAPTURE_STEPS - capture->count;
-    return &capture->step[(oldest + i) % WH_CAPTURE_STEPS];
-}
-
 /* === the console's command `tel` ============================================================= */
 
 #define SPEED "speed[rpm]:u2:0.02"
@@ -344,6 +332,26 @@ const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i) {
 #define TRIGGERS WH_CAPTURE_ROWS(LISTED)
 #define STATES WH_CAPTURE_STATE_ROWS(LISTED)
 #define CHANNELS WH_TEL_CHANNEL_ROWS(CHANNEL)
+
+/* From now on sends one of `every` samples of the cell; 0: none. */
+static void set_rate(wh_tel *tel, uint32_t every) {
+    tel->every = every;
+    tel->passed = 0;
+    tel->samples = 0;
+    tel->stage = NONE_16; /* no stage has this number, so the stage is reported again */
+    tel->trip = NONE_16;
+}
+
+/* Sends the ring's frames from the beginning. Returns false if the ring is not full yet. */
+static bool read_ring(wh_tel *tel) {
+    if (tel->capture.state != WH_CAPTURE_FULL) {
+        return false;
+    }
+    tel->reads = true;
+    tel->read_at = 0;
+    tel->read_ticks = tel->capture.first_ticks;
+    return true;
+}
 
 static uint32_t cell_per_s(const wh_cell_config *cell) {
     return cell->period_ticks > 0 ? WH_RIG_TICKS_PER_S / cell->period_ticks : 0;
@@ -444,7 +452,7 @@ static wh_station_error rate(wh_tel *tel, const wh_cell_config *cell, const char
         is_too_fast(tel->format, per_s)) {
         return WH_STATION_TEL_RATE;
     }
-    wh_tel_rate(tel, most / per_s);
+    set_rate(tel, most / per_s);
     const wh_value value[] = {{.count = per_s}, {.count = cell->period_ticks * tel->every}};
     wh_answer(answer, " rate=@c period_ticks=@c", value);
     return WH_STATION_FINE;
@@ -461,7 +469,7 @@ static wh_station_error set_format(wh_tel *tel, const wh_cell_config *cell, cons
         return WH_STATION_TEL_RATE;
     }
     tel->format = format;
-    wh_tel_rate(tel, tel->every);
+    set_rate(tel, tel->every);
     wh_answer(answer, " fmt=@w", value);
     return WH_STATION_FINE;
 }
@@ -475,8 +483,8 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     }
     if (what < WH_CAPTURE_TRIGGERS) {
         tel->reads = false;
-        wh_capture_start(&tel->capture, (wh_capture_trigger)what);
-    } else if (!wh_tel_read(tel)) {
+        capture_start(&tel->capture, (wh_capture_trigger)what);
+    } else if (!read_ring(tel)) {
         return WH_STATION_TEL_RING;
     }
     answer_ring(tel, answer);
@@ -498,7 +506,7 @@ static wh_station_error without_word(wh_tel *tel, const wh_cell_config *cell, co
                                      wh_text *answer) {
     switch ((alone)wh_list_find(ALONE_ROWS(LISTED), what)) {
     case ALONE_LIST: list(tel, cell, answer); break;
-    case ALONE_OFF: wh_tel_rate(tel, 0); break;
+    case ALONE_OFF: set_rate(tel, 0); break;
     case ALONE_RING: answer_ring(tel, answer); break;
     case ALONE_NONE: return WH_STATION_TEL_HOW;
     }

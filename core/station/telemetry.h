@@ -77,20 +77,6 @@ typedef struct wh_capture {
     wh_captured step[WH_CAPTURE_STEPS];
 } wh_capture;
 
-/* Restart with this trigger. The trigger is ignored until half of the ring is filled. */
-void wh_capture_start(wh_capture *capture, wh_capture_trigger trigger);
-
-WH_INLINE bool wh_capture_runs(const wh_capture *capture) {
-    return capture->state == WH_CAPTURE_WAITS || capture->state == WH_CAPTURE_TRIGGERED;
-}
-
-/* Record a step; call it only if wh_capture_runs(). The step must be less than 65 ms after the last one. Bit 4 of its
- * flags must be clear. `now_ticks` is the step's time with all 32 bits. */
-void wh_capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks);
-
-/* Returns stored step i; step 0 is the oldest. */
-const wh_captured *wh_capture_at(const wh_capture *capture, unsigned i);
-
 #define WH_TEL_SAMPLES 10U
 #define WH_TEL_HEAD_BYTES 9U
 /* Number of bytes on the line besides the payload: zeros, code, CRC. */
@@ -149,12 +135,6 @@ typedef struct wh_tel {
 
 /* Returns the shift that makes the cell's counts fit into 16 bits. */
 unsigned wh_tel_shift(const wh_cell_config *cell);
-
-/* From now on send one of `every` samples of the cell; 0: none. */
-void wh_tel_rate(wh_tel *tel, uint32_t every);
-
-/* Send the ring's frames from the beginning. Returns false if the ring is not full yet. */
-bool wh_tel_read(wh_tel *tel);
 
 /* Call this after each control step. It does at most the work of the step's pulse and two samples, or of one frame of
  * the ring. Bytes to send go into `out`; telemetry uses at most half of its room. */
