@@ -90,6 +90,163 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
     }
 }
 
+/* === the likely cause of a trip ============================================================== */
+
+#define HEARD_TICKS (8U * WH_RIG_TICKS_PER_S)
+
+/* Finds the last four pulses, if their sensors alternate. way[] gets the ticks between the pulses, beginning with the
+ * newest pair; *last gets the sensor of the newest pulse. */
+static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsigned *last) {
+    *last = (int32_t)(rig->heard_ticks[1][0] - rig->heard_ticks[0][0]) > 0 ? 1U : 0U;
+    const uint32_t *newest = rig->heard_ticks[*last];
+    const uint32_t *other = rig->heard_ticks[1U - *last];
+    way[0] = newest[0] - other[0];
+    way[1] = other[0] - newest[1];
+    way[2] = newest[1] - other[1];
+    bool alternate =
+        rig->pulses_ever - rig->pulses_before >= 4U && now_ticks - other[1] < HEARD_TICKS;
+    for (unsigned i = 0; i < 3U; i++) {
+        alternate = alternate && way[i] > 0 && way[i] < HEARD_TICKS;
+    }
+    return alternate;
+}
+
+/* Duration of a turn at 3,200 rpm. Even the fastest motor of the settings (2,000 rpm) turns slower at the highest
+ * supply voltage. */
+#define STORM_TICKS 18750U
+
+/* True if the sensors' pulses come in the wrong order. From sensor 1 to sensor 2, the rotor takes a quarter turn
+ * forwards, or three quarters backwards. The time from sensor 1 to sensor 2 must exceed the times before and after it,
+ * because a starting rotor changes its speed. Pulses that are faster than any rotor show no direction. */
+static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
+    uint32_t way[3];
+    unsigned last;
+    if (!last_ways(rig, now_ticks, way, &last)) {
+        return false;
+    }
+    if (way[0] + way[1] < STORM_TICKS || way[1] + way[2] < STORM_TICKS) {
+        return false;
+    }
+    return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
+}
+
+/* While the rotor starts, the commanded voltage determines the bound on its speed. A fall of the bound shows only after
+ * two more pulses, so they count as part of the start. */
+#define TWO_PULSES_S WH_R(0.5)
+
+static bool starts(const wh_rig *rig, uint32_t now_ticks) {
+    return rig->run.phase == WH_PHASE_SPIN_UP ||
+           !wh_rig_is_over(rig->run.closed_ticks, now_ticks, WH_RUN_START_S + TWO_PULSES_S);
+}
+
+/* Returns the guard's trip, or its likely cause if known, in the step that trips. */
+static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
+    const wh_trip trip = rig->guard.trip;
+    const bool of_pulses = trip == WH_TRIP_OVERSPEED || trip == WH_TRIP_PULSES ||
+                           trip == WH_TRIP_STALLED || trip == WH_TRIP_UNSETTLED;
+    if (!of_pulses || !wh_run_drives(&rig->run)) {
+        return trip;
+    }
+    if (order_is_wrong(rig, now_ticks)) {
+        return WH_TRIP_ORDER;
+    }
+    return trip == WH_TRIP_OVERSPEED && starts(rig, now_ticks) &&
+                   !(rig->pulses.speed.turn_radps > config->guard.limit_radps)
+               ? WH_TRIP_FASTER
+               : trip;
+}
+
+/* === the conditions of orders that do not depend on the state: supply, rest, cause of a trip removed === */
+
+static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
+                                   const wh_rig_inputs *inputs) {
+    return rig->guard.load_good &&
+           wh_guard_load_comes(&config->guard, &rig->guard, inputs->now_ticks);
+}
+
+static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
+                          const wh_rig_inputs *inputs) {
+    if (inputs->stop_pressed) {
+        return WH_REFUSED_STOP_INPUT;
+    }
+    if (inputs->watchdog_has_cut) {
+        return WH_REFUSED_WATCHDOG;
+    }
+    if (inputs->clock_is_fallback) {
+        return WH_REFUSED_CLOCK;
+    }
+    if (!wh_guard_supply(&config->guard, inputs->supply_V)) {
+        return WH_REFUSED_SUPPLY;
+    }
+    if (!cell_is_good(config, rig, inputs)) {
+        return WH_REFUSED_LOAD_CELL;
+    }
+    return rig->guard.quiet ? WH_ALLOWED : WH_REFUSED_TURNING;
+}
+
+static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
+                           const wh_rig_inputs *inputs, wh_real target_radps) {
+    const bool can_feed = config->feeds != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
+    const bool feeds = can_feed && (config->feeds == WH_COMPENSATION_ALWAYS ||
+                                    target_radps < config->guard.target_min_radps);
+    if (!wh_guard_allows(&config->guard, target_radps, feeds)) {
+        return WH_REFUSED_TARGET;
+    }
+    return wh_run_needs_V(&config->run, target_radps) <= inputs->supply_V ? WH_ALLOWED
+                                                                          : WH_REFUSED_VOLTAGE;
+}
+
+/* A trip can be cleared if no pulses come, the rotor rests and the trip's cause is gone. After a trip for unreliable
+ * pulses, the rotor counts as at rest only after tripped_max_s. */
+static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
+                            const wh_rig_inputs *inputs) {
+    if (!rig->at_rest || !rig->guard.quiet) {
+        return WH_REFUSED_TURNING;
+    }
+    switch (rig->guard.trip) {
+    case WH_TRIP_WATCHDOG: return inputs->watchdog_has_cut ? WH_REFUSED_WATCHDOG : WH_ALLOWED;
+    case WH_TRIP_SUPPLY:
+        return wh_guard_supply(&config->guard, inputs->supply_V) ? WH_ALLOWED : WH_REFUSED_SUPPLY;
+    case WH_TRIP_LOAD_CELL:
+        return cell_is_good(config, rig, inputs) ? WH_ALLOWED : WH_REFUSED_LOAD_CELL;
+    case WH_TRIP_NONE:
+    case WH_TRIP_OVERSPEED:
+    case WH_TRIP_PULSES:
+    case WH_TRIP_STALLED:
+    case WH_TRIP_MOVING:
+    case WH_TRIP_UNSETTLED:
+    case WH_TRIP_RECORD:
+    case WH_TRIP_RUNS_ON:
+    case WH_TRIP_FASTER:
+    case WH_TRIP_ORDER:
+    case WH_TRIP_UNBRAKED: break;
+    }
+    return WH_ALLOWED;
+}
+
+/* Returns why an order is refused although the state allows it, or WH_ALLOWED. */
+static wh_refusal order_refused(const wh_rig_config *config, const wh_rig *rig,
+                                const wh_rig_inputs *inputs, const wh_rig_order *order) {
+    switch (order->event) {
+    case WH_EVENT_ARM: return may_arm(config, rig, inputs);
+    case WH_EVENT_START:
+        return inputs->stop_pressed ? WH_REFUSED_STOP_INPUT
+                                    : may_turn(config, rig, inputs, order->value);
+    case WH_EVENT_SET: return may_turn(config, rig, inputs, order->value);
+    case WH_EVENT_CLEAR: return may_clear(config, rig, inputs);
+    case WH_EVENT_STOP:
+    case WH_EVENT_HOST_LOST:
+    case WH_EVENT_DONE:
+    case WH_EVENT_RESTED:
+    case WH_EVENT_EXPIRED:
+    case WH_EVENT_TRIP:
+    case WH_EVENTS: break;
+    }
+    return WH_ALLOWED;
+}
+
+/* === a control step ========================================================================== */
+
 static void trip(wh_rig *rig, const wh_rig_inputs *inputs) {
     rig->record = (wh_trip_record){.trip = rig->guard.trip,
                                    .phase = rig->run.phase,
@@ -170,7 +327,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         }
         break;
     case WH_EVENT_TRIP:
-        rig->guard.trip = wh_rig_cause(config, rig, now);
+        rig->guard.trip = cause_of(config, rig, now);
         if (moves && rig->run.phase != WH_PHASE_OFF) {
             rig->ended = WH_END_TRIP;
         }
@@ -200,7 +357,7 @@ static wh_refusal happens(const wh_rig_config *config, wh_rig *rig, const wh_rig
     if (rule.refusal != WH_ALLOWED) {
         return rule.refusal;
     }
-    const wh_refusal refusal = wh_order_refused(config, rig, inputs, order);
+    const wh_refusal refusal = order_refused(config, rig, inputs, order);
     if (refusal == WH_ALLOWED && (order->event != WH_EVENT_HOST_LOST || config->host_loss_stops)) {
         follow(config, rig, inputs, order, rule.next);
     }
@@ -482,95 +639,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     return rig->command;
 }
 
-/* === the conditions of orders that do not depend on the state: supply, rest, cause of a trip removed === */
-
-static WH_CALLED bool cell_is_good(const wh_rig_config *config, const wh_rig *rig,
-                                   const wh_rig_inputs *inputs) {
-    return rig->guard.load_good &&
-           wh_guard_load_comes(&config->guard, &rig->guard, inputs->now_ticks);
-}
-
-static wh_refusal may_arm(const wh_rig_config *config, const wh_rig *rig,
-                          const wh_rig_inputs *inputs) {
-    if (inputs->stop_pressed) {
-        return WH_REFUSED_STOP_INPUT;
-    }
-    if (inputs->watchdog_has_cut) {
-        return WH_REFUSED_WATCHDOG;
-    }
-    if (inputs->clock_is_fallback) {
-        return WH_REFUSED_CLOCK;
-    }
-    if (!wh_guard_supply(&config->guard, inputs->supply_V)) {
-        return WH_REFUSED_SUPPLY;
-    }
-    if (!cell_is_good(config, rig, inputs)) {
-        return WH_REFUSED_LOAD_CELL;
-    }
-    return rig->guard.quiet ? WH_ALLOWED : WH_REFUSED_TURNING;
-}
-
-static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
-                           const wh_rig_inputs *inputs, wh_real target_radps) {
-    const bool can_feed = config->feeds != WH_COMPENSATION_NEVER && rig->observer.status == WH_OK;
-    const bool feeds = can_feed && (config->feeds == WH_COMPENSATION_ALWAYS ||
-                                    target_radps < config->guard.target_min_radps);
-    if (!wh_guard_allows(&config->guard, target_radps, feeds)) {
-        return WH_REFUSED_TARGET;
-    }
-    return wh_run_needs_V(&config->run, target_radps) <= inputs->supply_V ? WH_ALLOWED
-                                                                          : WH_REFUSED_VOLTAGE;
-}
-
-/* A trip can be cleared if no pulses come, the rotor rests and the trip's cause is gone. After a trip for unreliable
- * pulses, the rotor counts as at rest only after tripped_max_s. */
-static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
-                            const wh_rig_inputs *inputs) {
-    if (!rig->at_rest || !rig->guard.quiet) {
-        return WH_REFUSED_TURNING;
-    }
-    switch (rig->guard.trip) {
-    case WH_TRIP_WATCHDOG: return inputs->watchdog_has_cut ? WH_REFUSED_WATCHDOG : WH_ALLOWED;
-    case WH_TRIP_SUPPLY:
-        return wh_guard_supply(&config->guard, inputs->supply_V) ? WH_ALLOWED : WH_REFUSED_SUPPLY;
-    case WH_TRIP_LOAD_CELL:
-        return cell_is_good(config, rig, inputs) ? WH_ALLOWED : WH_REFUSED_LOAD_CELL;
-    case WH_TRIP_NONE:
-    case WH_TRIP_OVERSPEED:
-    case WH_TRIP_PULSES:
-    case WH_TRIP_STALLED:
-    case WH_TRIP_MOVING:
-    case WH_TRIP_UNSETTLED:
-    case WH_TRIP_RECORD:
-    case WH_TRIP_RUNS_ON:
-    case WH_TRIP_FASTER:
-    case WH_TRIP_ORDER:
-    case WH_TRIP_UNBRAKED: break;
-    }
-    return WH_ALLOWED;
-}
-
-wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
-                            const wh_rig_inputs *inputs, const wh_rig_order *order) {
-    switch (order->event) {
-    case WH_EVENT_ARM: return may_arm(config, rig, inputs);
-    case WH_EVENT_START:
-        return inputs->stop_pressed ? WH_REFUSED_STOP_INPUT
-                                    : may_turn(config, rig, inputs, order->value);
-    case WH_EVENT_SET: return may_turn(config, rig, inputs, order->value);
-    case WH_EVENT_CLEAR: return may_clear(config, rig, inputs);
-    case WH_EVENT_STOP:
-    case WH_EVENT_HOST_LOST:
-    case WH_EVENT_DONE:
-    case WH_EVENT_RESTED:
-    case WH_EVENT_EXPIRED:
-    case WH_EVENT_TRIP:
-    case WH_EVENTS: break;
-    }
-    return WH_ALLOWED;
-}
-
-/* === read-out: stage, speed, age of the result, likely cause of a trip ====================== */
+/* === read-out: stage, speed, age of the result =============================================== */
 
 WH_CALLED unsigned wh_rig_stage(const wh_rig *rig) {
     return rig->run.phase == WH_PHASE_NONE ? (unsigned)rig->state
@@ -593,25 +662,6 @@ uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks) {
     return rig->result_s + (now_ticks - rig->result_ticks) / WH_RIG_TICKS_PER_S;
 }
 
-#define HEARD_TICKS (8U * WH_RIG_TICKS_PER_S)
-
-/* Finds the last four pulses, if their sensors alternate. way[] gets the ticks between the pulses, beginning with the
- * newest pair; *last gets the sensor of the newest pulse. */
-static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsigned *last) {
-    *last = (int32_t)(rig->heard_ticks[1][0] - rig->heard_ticks[0][0]) > 0 ? 1U : 0U;
-    const uint32_t *newest = rig->heard_ticks[*last];
-    const uint32_t *other = rig->heard_ticks[1U - *last];
-    way[0] = newest[0] - other[0];
-    way[1] = other[0] - newest[1];
-    way[2] = newest[1] - other[1];
-    bool alternate =
-        rig->pulses_ever - rig->pulses_before >= 4U && now_ticks - other[1] < HEARD_TICKS;
-    for (unsigned i = 0; i < 3U; i++) {
-        alternate = alternate && way[i] > 0 && way[i] < HEARD_TICKS;
-    }
-    return alternate;
-}
-
 bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     uint32_t way[3];
     unsigned last;
@@ -626,50 +676,6 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
         return true;
     }
     return rig->pulses.speed.known;
-}
-
-/* Duration of a turn at 3,200 rpm. Even the fastest motor of the settings (2,000 rpm) turns slower at the highest
- * supply voltage. */
-#define STORM_TICKS 18750U
-
-/* True if the sensors' pulses come in the wrong order. From sensor 1 to sensor 2, the rotor takes a quarter turn
- * forwards, or three quarters backwards. The time from sensor 1 to sensor 2 must exceed the times before and after it,
- * because a starting rotor changes its speed. Pulses that are faster than any rotor show no direction. */
-static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
-    uint32_t way[3];
-    unsigned last;
-    if (!last_ways(rig, now_ticks, way, &last)) {
-        return false;
-    }
-    if (way[0] + way[1] < STORM_TICKS || way[1] + way[2] < STORM_TICKS) {
-        return false;
-    }
-    return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
-}
-
-/* While the rotor starts, the commanded voltage determines the bound on its speed. A fall of the bound shows only after
- * two more pulses, so they count as part of the start. */
-#define TWO_PULSES_S WH_R(0.5)
-
-static bool starts(const wh_rig *rig, uint32_t now_ticks) {
-    return rig->run.phase == WH_PHASE_SPIN_UP ||
-           !wh_rig_is_over(rig->run.closed_ticks, now_ticks, WH_RUN_START_S + TWO_PULSES_S);
-}
-
-wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
-    const wh_trip trip = rig->guard.trip;
-    const bool of_pulses = trip == WH_TRIP_OVERSPEED || trip == WH_TRIP_PULSES ||
-                           trip == WH_TRIP_STALLED || trip == WH_TRIP_UNSETTLED;
-    if (!of_pulses || !wh_run_drives(&rig->run)) {
-        return trip;
-    }
-    if (order_is_wrong(rig, now_ticks)) {
-        return WH_TRIP_ORDER;
-    }
-    return trip == WH_TRIP_OVERSPEED && starts(rig, now_ticks) &&
-                   !(rig->pulses.speed.turn_radps > config->guard.limit_radps)
-               ? WH_TRIP_FASTER
-               : trip;
 }
 
 /* === a trip's record as bytes ================================================================ */

@@ -171,9 +171,6 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* Returns the guard's trip, or its likely cause if known, in the step that trips. Part of wh_rig_step(). */
-wh_trip wh_rig_cause(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks);
-
 /* Set sensor 1 on the loading-train axis and sensor 2 a quarter turn later. A pulse comes when the arms are lead_rad
  * before the sensor. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
@@ -212,10 +209,6 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
 /* Take a load sample from the hardware: its counts, their time stamp `ticks`, and their status. */
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status);
-
-/* Returns why an order is refused although the state allows it, or WH_ALLOWED. Part of wh_rig_step(). */
-wh_refusal wh_order_refused(const wh_rig_config *config, const wh_rig *rig,
-                            const wh_rig_inputs *inputs, const wh_rig_order *order);
 
 wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs);
 
