@@ -48,13 +48,13 @@ __attribute__((noinline)) wh_real bench_two(wh_real (*function)(wh_real x, wh_re
 }
 
 static void say_stack(const char *name) {
-    line_begin("stack", name);
+    line_of("stack", name);
     line_number(board_stack_used_bytes());
     line_end();
 }
 
 static void say_failed(const char *name, wh_status status) {
-    line_begin("failed", name);
+    line_of("failed", name);
     line_word(wh_status_text(status));
     line_end();
 }
@@ -136,7 +136,7 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
     for (unsigned i = 0; i < COUNTED_STEPS; i++) {
         (void)step_counted(&cycles, scene, state, true);
     }
-    line_begin("silicon", scene->name);
+    line_of("silicon", scene->name);
     line_number(cycles.least);
     line_number(step_cycles_median(&cycles));
     line_number(cycles.most);

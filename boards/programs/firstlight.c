@@ -4,9 +4,11 @@
  *
  * The motor is never enabled: the image has no call of hal_motor_start() (checked by boards/check_image.sh). On real
  * hardware the image prints the record again for each typed line; in an emulator it ends. */
+#define LINE_BYTES 200U /* the compiler and the self-test have long words */
 #include "core/light_fields.h"
 
 #include "boards/board.h"
+#include "boards/programs/line.h"
 #include "boards/programs/step_cycles.h"
 #include "core/frame.h"
 #include "core/text.h"
@@ -63,28 +65,10 @@ static void run_scene(const wh_scene *scene, run *to) {
     to->most = cycles.most;
 }
 
-static char line_bytes[200];
-static wh_text line;
 static uint32_t crc;
 
-static void line_begin(const char *name) {
-    wh_text_start(&line, line_bytes, sizeof line_bytes);
-    wh_text_add(&line, name);
-}
-static void line_word(const char *word) {
-    wh_text_add_char(&line, ' ');
-    wh_text_add(&line, word);
-}
-static void line_number(int64_t number) {
-    wh_text_add_char(&line, ' ');
-    wh_text_add_signed(&line, number);
-}
-static void line_hex(uint64_t number, unsigned digits) {
-    line_word("0x");
-    wh_text_add_hex(&line, number, digits);
-}
 /* Ends a line. The CRC gets only a line feed; the terminal gets a carriage return, too. */
-static void line_end(void) {
+static void end_line(void) {
     wh_text_add_char(&line, '\n');
     crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);
 #if LIGHT_HARDWARE
@@ -94,26 +78,25 @@ static void line_end(void) {
     hal_console_write(line.bytes, line.length);
 }
 static void say(const char *name, const char *value) {
-    line_begin(name);
-    line_word(value);
-    line_end();
+    line_of(name, value);
+    end_line();
 }
-static void line_of(const char *kind, const wh_scene *scene) {
+static void begin_field(const char *kind, const wh_scene *scene) {
     line_begin(kind);
     wh_text_add(&line, scene->name);
 }
 
 static void say_scene(const wh_scene *scene, const run *of) {
-    line_of("model.", scene);
+    begin_field("model.", scene);
     line_hex(scene->model_hash, 16);
-    line_end();
-    line_of("hash.", scene);
+    end_line();
+    begin_field("hash.", scene);
     line_hex(of->hash, 16);
     line_number((int64_t)of->steps);
     line_word("steps,");
     line_word(wh_status_text(of->status));
-    line_end();
-    line_of("cycles.", scene);
+    end_line();
+    begin_field("cycles.", scene);
     if (counts_cycles && of->steps > 0) {
         line_number(of->least);
         line_number(of->median);
@@ -121,7 +104,7 @@ static void say_scene(const wh_scene *scene, const run *of) {
     } else {
         line_word(WH_LIGHT_NONE);
     }
-    line_end();
+    end_line();
 }
 
 static void say_head(void) {
@@ -132,7 +115,7 @@ static void say_head(void) {
     } else {
         line_word(WH_LIGHT_NONE);
     }
-    line_end();
+    end_line();
     say("version", WH_VERSION);
     say("compiler", __VERSION__);
 }
@@ -147,7 +130,7 @@ static void say_stack(void) {
     } else {
         line_word(WH_LIGHT_NONE);
     }
-    line_end();
+    end_line();
 }
 
 #if LIGHT_HARDWARE
@@ -223,7 +206,7 @@ static void say_range(const char *name, bool known, const range *r) {
     } else {
         line_word(WH_LIGHT_NONE);
     }
-    line_end();
+    end_line();
 }
 
 static void say_clock(void) {
@@ -247,7 +230,7 @@ static void say_load(void) {
     } else {
         line_word(WH_LIGHT_NONE);
     }
-    line_end();
+    end_line();
     line_begin("supply");
     /* a sample of the load shows that the converter works, which also measures the supply */
     if (rest.samples > 0) {
@@ -257,7 +240,7 @@ static void say_load(void) {
     } else {
         line_word(WH_LIGHT_NONE);
     }
-    line_end();
+    end_line();
 }
 
 static void say_rest(void) {
@@ -279,7 +262,7 @@ static void say_rest(void) {
     line_word("edges,");
     line_number(hal_slots_overruns());
     line_word("lost");
-    line_end();
+    end_line();
     if (started) {
         wh_selftest_answer(&config, &rig, &seen, &text);
         say("selftest", answer + sizeof " selftest=" - 1U);
@@ -287,7 +270,7 @@ static void say_rest(void) {
         line_begin("selftest");
         line_word("bad:");
         line_word(rest.why_not);
-        line_end();
+        end_line();
     }
 }
 
@@ -315,10 +298,10 @@ static void say_rest(void) {
 
 static void say_record(void) {
     line_begin("");
-    line_end(); /* ends a line of noise before the record */
+    end_line(); /* ends a line of noise before the record */
     crc = 0;
     line_begin(WH_LIGHT_BEGIN);
-    line_end();
+    end_line();
     say_head();
     for (unsigned i = 0; i < SCENES; i++) {
         say_scene(scenes[i], &runs[i]);
@@ -327,7 +310,7 @@ static void say_record(void) {
     say_rest();
     line_begin(WH_LIGHT_END);
     wh_text_add_hex(&line, crc, 8);
-    line_end();
+    end_line();
 }
 
 int main(void) {

@@ -121,7 +121,7 @@ static bool run(const trial *tried) {
         }
         over = rig.has_result && rig.state == WH_RIG_IDLE && !wh_swing_works(&rig.swing);
     }
-    line_begin("run", tried->name);
+    line_of("run", tried->name);
     line_number(first);
     line_number(intervals - 1U);
     line_number((unsigned)rig.result.force.turns);

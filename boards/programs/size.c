@@ -1,16 +1,31 @@
 /* size.c: the smallest firmware around one scene, to measure its size: it steps, and computes the outputs. It is built
- * once for each scene, with PRICE_SCENE as the scene's name, and with the scene's header included first. Its memory
- * suffices for float and double, compensated or not. The program is linked, never run. */
+ * once for each scene, with PRICE_SCENE as the scene's name (FIXED_SCENE for a scene in fixed point), and with the
+ * scene's header included first. Its memory suffices for float and double, compensated or not. The program is linked,
+ * never run. */
 #include "boards/board.h"
+#include "core/fixed_scene.h"
 #include "core/scene.h"
 
+#define JOIN(scene, kind) scene##kind
+#define OF(scene, kind) JOIN(scene, kind)
+
+#ifdef FIXED_SCENE
+static uint64_t memory[OF(FIXED_SCENE, _MEMORY_WORDS)];
+
+int main(void) {
+    wh_fixed_state state;
+    board_start();
+    wh_status status = wh_fixed_start(&FIXED_SCENE, &state, memory, sizeof memory);
+    while (status == WH_OK && state.steps < FIXED_SCENE.steps) {
+        status = wh_fixed_step(&FIXED_SCENE, &state);
+    }
+    return status == WH_OK && state.saturated == 0 ? 0 : 1;
+}
+#else
 #ifndef PRICE_SCENE
 #include "build/gen/rig_fixed.h"
 #define PRICE_SCENE rig_fixed
 #endif
-
-#define JOIN(scene, kind) scene##kind
-#define OF(scene, kind) JOIN(scene, kind)
 #define COUNT(kind) OF(PRICE_SCENE, kind)
 
 static uint64_t memory[WH_STATE_WORDS(COUNT(_ANGLES), COUNT(_REALS), COUNT(_INPUTS)) +
@@ -30,3 +45,4 @@ int main(void) {
     }
     return status == WH_OK && output[0] < WH_R(1e30) ? 0 : 1;
 }
+#endif

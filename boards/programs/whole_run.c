@@ -14,9 +14,8 @@
 #endif
 
 static void say_number(const char *word, const char *name, uint64_t number) {
-    line_begin(word, name);
-    wh_text_add_char(&line, ' ');
-    wh_text_add_unsigned(&line, number);
+    line_of(word, name);
+    line_number((int64_t)number);
     line_end();
 }
 
@@ -30,7 +29,7 @@ static bool run(const wh_scene *scene) {
         wh_count_end();
     }
     if (status != WH_OK) {
-        line_begin("failed", scene->name);
+        line_of("failed", scene->name);
         line_word(wh_status_text(status));
         line_end();
         return false;

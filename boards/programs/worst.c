@@ -58,7 +58,7 @@ static void throw_state(const wh_scene *scene, wh_state *state) {
 }
 
 static void say_declared(const char *name, const wh_scene_bound *most) {
-    line_begin("declared", name);
+    line_of("declared", name);
     line_number(most->evaluations);
     line_number(most->signals);
     line_end();

@@ -54,7 +54,7 @@ if [ "$1" = case ]; then
     lib=$LIB_BOARD
     [ "$number" != double ] || BOARD_CFLAGS="$BOARD_CFLAGS -DWH_DOUBLE=1" lib=$LIB_DOUBLE
     smallest="-DPRICE_SCENE=$id boards/programs/size.c"
-    [ "$number" != fixed ] || smallest="-DFIXED_SCENE=$id boards/programs/size_fixed.c"
+    [ "$number" != fixed ] || smallest="-DFIXED_SCENE=$id boards/programs/size.c"
     if ! $BOARD_CC $BOARD_CFLAGS -w -c "$gen.c" -o "$mine.o" 2>"$mine.errors"; then # for example, a table is too large
         echo "measure.sh: $target $*: $BOARD's compiler refuses it: $(grep -m 1 error "$mine.errors")" >&2
         rm -f "$mine.o"
