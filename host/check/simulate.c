@@ -14,7 +14,6 @@
 #include "host/check/horizon.h"
 #include "host/check/nonfinite.h"
 #include "host/check/summary.h"
-#include "host/io/gnuplot.h"
 #include "host/io/minmax_decimation.h"
 #include "host/io/records.h"
 #include "host/number/functions.h"
@@ -60,8 +59,7 @@ static bool open_records(const char *name, FILE **file) {
 
 static bool open_files(simulation *sim) {
     const simulation_settings *s = sim->settings;
-    if (s->plot != NULL && (!gnuplot_can_draw_for("run", "--plot", s->plot) ||
-                            !plot_fits("run", &s->choice, &sim->course, 1))) {
+    if (s->plot != NULL && !plot_fits("run", &s->choice, &sim->course, 1)) {
         return false;
     }
     int power;
@@ -74,9 +72,6 @@ static bool open_files(simulation *sim) {
     }
     if (!open_records(s->csv, &sim->csv) || !open_records(s->columns, &sim->columns) ||
         !open_records(s->vcd, &sim->vcd)) {
-        return false;
-    }
-    if (!atomic_file_can(s->plot)) {
         return false;
     }
     if (s->plot != NULL || s->taken != NULL) {

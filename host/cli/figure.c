@@ -9,10 +9,8 @@
 #include "host/cli/load.h"
 #include "host/cli/options.h"
 #include "host/cli/run.h"
-#include "host/io/gnuplot.h"
 #include "host/io/plot.h"
 #include "host/lang/builtin.h"
-#include "host/os/atomic_file.h"
 #include "host/os/system.h"
 
 /* === whirl plot =============================================================================== */
@@ -98,10 +96,7 @@ static bool is_whole(const plot_options *o) {
         return options_fail("plot", "the command names %d runs; the limit is %d", o->targets,
                             RUNS_MOST);
     }
-    return files_are_apart("plot", (const char *[]){"--out"}, &o->out, 1,
-                           (const char *const *)o->target, o->targets) &&
-           sets_once(o) && gnuplot_can_draw_for("plot", "--out", o->out) &&
-           atomic_file_can(o->out) && gnuplot_is_there();
+    return sets_once(o);
 }
 
 static int plot_work(void *options) {
@@ -138,7 +133,7 @@ int command_plot(int count, char **words) {
     const char *last;
     const own_option own[] = {RUN_CHOICE_ROWS(o.choice),
                               {.word = "--legend", .text = &o.choice.legend},
-                              {.word = "--out", .text = &o.out},
+                              {.word = "--out", .text = &o.out, .file = FILE_DRAWN},
                               {.word = NULL}};
     const target_reader reader = {.command = "plot",
                                   .usage = &plot_usage,
@@ -327,10 +322,9 @@ static int draw(const figure_options *o, const char *where, const char *text) {
     char *out = o->out != NULL                  ? alloc_words("%s", o->out)
                 : strncmp(o->name, "f", 1) == 0 ? alloc_words("%s.svg", o->name)
                                                 : alloc_words("fig%s.svg", o->name);
-    int code =
-        gnuplot_can_draw_for("figure", "--out", out) && atomic_file_can(out) && gnuplot_is_there()
-            ? take_data(o, text, data, &count)
-            : EXIT_BAD_INPUT;
+    int code = o->out != NULL || options_can_write("figure", "--out", FILE_DRAWN, out)
+                   ? take_data(o, text, data, &count)
+                   : EXIT_BAD_INPUT;
     if (code == EXIT_DONE && !figure_draw(out, where, text, data, count, o->varied)) {
         code = EXIT_BAD_INPUT;
     }
@@ -387,7 +381,7 @@ int command_figure(int count, char **words) {
                         .passed = alloc(count, sizeof *o.passed),
                         .varied = alloc_words("%s", "")};
     const own_option own[] = {
-        {.word = "--out", .text = &o.out},
+        {.word = "--out", .text = &o.out, .file = FILE_DRAWN},
         {.word = "--data", .text = o.given, .count = &o.given_count, .limit = DATA_MOST},
         {.word = NULL}};
     const target_reader reader = {.command = "figure",

@@ -34,26 +34,12 @@ static bool one_path(const char *path, const char *other_path) {
     return one;
 }
 
-static bool same_time(struct timespec one, struct timespec other) {
-    return one.tv_sec == other.tv_sec && one.tv_nsec == other.tv_nsec;
-}
-
-/* Are all attributes equal? They decide for a file with several links or without a known path. */
-static bool look_alike(const struct stat *one, const struct stat *other) {
-    return one->st_dev == other->st_dev && one->st_mode == other->st_mode &&
-           one->st_size == other->st_size && one->st_nlink == other->st_nlink &&
-           same_time(one->st_mtim, other->st_mtim) && same_time(one->st_ctim, other->st_ctim);
-}
-
 bool files_are_one(const struct stat *one, const char *path, const struct stat *other,
                    const char *other_path) {
     if (one->st_ino != 0 && other->st_ino != 0) {
         return one->st_dev == other->st_dev && one->st_ino == other->st_ino;
     }
-    if (path != NULL && other_path != NULL) {
-        return one_path(path, other_path) || (one->st_nlink > 1 && look_alike(one, other));
-    }
-    return look_alike(one, other);
+    return one_path(path, other_path);
 }
 
 bool files_same(const char *one, const char *other) {
@@ -68,8 +54,7 @@ bool files_same(const char *one, const char *other) {
 static const char *const beside[] = {"", ".part", ".toml", ".toml.part", ".sweep"};
 enum { BESIDE = sizeof beside / sizeof beside[0] };
 
-/* Are these files, or files beside them, the same? Beside an input there are none. */
-static bool files_meet(const char *output, const char *other, bool is_input) {
+bool files_meet(const char *output, const char *other, bool is_input) {
     bool met = false;
     for (int i = 0; i < (is_input ? BESIDE : BESIDE * BESIDE) && !met; i++) {
         char *one = alloc_words("%s%s", output, beside[i % BESIDE]);
@@ -79,23 +64,6 @@ static bool files_meet(const char *output, const char *other, bool is_input) {
         free(two);
     }
     return met;
-}
-
-bool files_are_apart(const char *command, const char *const *option, const char *const *output,
-                     int outputs, const char *const *input, int inputs) {
-    for (int i = 0; i < outputs; i++) {
-        for (int k = i + 1; k < outputs + inputs && output[i] != NULL; k++) {
-            const bool is_input = k >= outputs;
-            const char *other = is_input ? input[k - outputs] : output[k];
-            if (other != NULL && files_meet(output[i], other, is_input)) {
-                fprintf(stderr, "whirl %s: error: %s %s %s%s\n", command, option[i],
-                        is_input ? "would overwrite" : "and", is_input ? other : option[k],
-                        is_input ? "" : " cannot share a file");
-                return false;
-            }
-        }
-    }
-    return true;
 }
 
 /* === mechanisms and scenes ==================================================================== */
@@ -294,31 +262,6 @@ static bool file_exists(const char *path) {
     return strcmp(path, "-") == 0 || stat(path, &about) == 0;
 }
 
-bool source_would_be_lost(const source_model *s, const char *option, const char *path) {
-    struct stat about_model;
-    struct stat about_output;
-    if (path == NULL || strcmp(path, "-") == 0 || s->path == NULL) {
-        return false;
-    }
-    const bool from_stdin = strcmp(s->path, "-") == 0;
-    const bool model_known =
-        (from_stdin ? fstat(fileno(stdin), &about_model) : stat(s->path, &about_model)) == 0;
-    bool lost = false;
-    for (int i = 0; i < BESIDE && !lost; i++) {
-        char *name = alloc_words("%s%s", path, beside[i]);
-        lost = model_known && S_ISREG(about_model.st_mode) && stat(name, &about_output) == 0 &&
-               files_are_one(&about_model, from_stdin ? NULL : s->path, &about_output, name);
-        if (lost) {
-            fprintf(stderr,
-                    "%s: error: %s would overwrite the model, which whirl reads from this "
-                    "file\nhint: give the output another name\n",
-                    name, option);
-        }
-        free(name);
-    }
-    return lost;
-}
-
 /* The length of FILE in FILE:NAME, or the whole length. */
 static size_t file_part(const char *target) {
     const char *colon = strrchr(target, ':');
@@ -326,6 +269,19 @@ static size_t file_part(const char *target) {
         return strlen(target);
     }
     return (size_t)(colon - target);
+}
+
+char *source_file(const char *target) {
+    char *path = alloc_copy(target, file_part(target));
+    if (strcmp(path, "-") == 0) {
+        free(path);
+        return alloc_words("/dev/stdin");
+    }
+    if (!file_exists(path)) {
+        free(path);
+        path = NULL;
+    }
+    return path;
 }
 
 static int open_builtin(source_model *s, const char *target) {

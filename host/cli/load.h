@@ -13,19 +13,16 @@
 /* === the test for two names of the same file ================================================== */
 
 /* Do these describe the same file? Device and inode decide. If an inode is 0 (some network file systems and WASI), the
- * resolved paths are compared. Files with different paths are still one if they have several links and equal attributes
- * (device, mode, size, links, times). If a path is unknown (NULL), equal attributes suffice. A false positive costs the
- * user another name; a false negative costs the file. */
+ * resolved paths are compared. */
 bool files_are_one(const struct stat *one, const char *path, const struct stat *other,
                    const char *other_path);
 
 /* Are both the same file, by name or, if they exist, by identity? */
 bool files_same(const char *one, const char *other);
 
-/* Is each output, with the files that a command may write beside it, another file than each other output and input? If not,
- * this is reported. option [outputs] are the words of the outputs. A name may be NULL: no file. */
-bool files_are_apart(const char *command, const char *const *option, const char *const *output,
-                     int outputs, const char *const *input, int inputs);
+/* Is the output, or a file that a command may write beside it, the same as the other one? The other one is an input, or
+ * an output with files beside it. */
+bool files_meet(const char *output, const char *other, bool is_input);
 
 /* === a built-in scene or mechanism by its name ================================================ */
 
@@ -52,9 +49,8 @@ void source_close(source_model *source);
 /* Free the model and its text when they are no longer needed; names and errors stay until source_close(). */
 void source_forget(source_model *source);
 
-/* Would writing the file `path`, or one beside it, overwrite the model, by any name or link? This is then reported, with
- * the option of the file. `path` may be NULL or "-": no file. */
-bool source_would_be_lost(const source_model *source, const char *option, const char *path);
+/* The existing file of a target FILE or FILE:NAME, "/dev/stdin" for "-"; NULL if there is none. The caller frees it. */
+char *source_file(const char *target);
 
 /* The scene, or the mechanism (scene NULL), of `source->name`. Without a name: with `prefer_scene` the file's only
  * scene, else its only mechanism. Returns an exit status. */

@@ -11,7 +11,6 @@
 #include "host/cli/commands.h"
 #include "host/cli/load.h"
 #include "host/cli/options.h"
-#include "host/io/gnuplot.h"
 #include "host/io/plot.h"
 #include "host/monitor/recording.h"
 #include "host/monitor/wire.h"
@@ -61,28 +60,19 @@ static const command_usage monitor_usage = {
             "", NULL}};
 
 static const char *const output_option[OUTPUTS] = {"--csv", "--vcd", "--ring", "--raw", "--plot"};
-
-static bool are_apart(const monitor_options *o) {
-    for (int i = 0; i < OUTPUTS; i++) {
-        if (o->output[i] == NULL) {
-            continue;
-        }
-        if (strcmp(o->output[i], "-") == 0 && i != CSV) {
-            return options_fail("monitor", "%s takes a file's name", output_option[i]);
-        }
-    }
-    return files_are_apart("monitor", output_option, o->output, OUTPUTS, &o->port, 1);
-}
+#define OUTPUT(which, kind) \
+    { .word = output_option[which], .text = &o.output[which], .file = kind }
 
 static bool are_possible(const monitor_options *o) {
     if (!port_has_speed(o->baud)) {
         return options_fail("monitor", "--baud: this speed is not supported\nhint: " PORT_SPEEDS);
     }
-    if (o->output[PLOT] != NULL && !gnuplot_can_draw_for("monitor", "--plot", o->output[PLOT])) {
-        return false;
+    for (int i = CSV + 1; i < OUTPUTS; i++) {
+        if (options_is_standard(o->output[i])) {
+            return options_fail("monitor", "%s takes a file's name", output_option[i]);
+        }
     }
-    return are_apart(o) && atomic_file_can(o->output[PLOT]) &&
-           (o->output[PLOT] == NULL || gnuplot_is_there());
+    return true;
 }
 
 /* === the command ============================================================================== */
@@ -437,11 +427,11 @@ static int run(void *options) {
 int command_monitor(int count, char **words) {
     monitor_options o = {.common = options_defaults(), .rate = 500.0, .baud = 115200.0};
     const own_option own[] = {
-        {.word = output_option[CSV], .text = &o.output[CSV]},
-        {.word = output_option[VCD], .text = &o.output[VCD]},
-        {.word = output_option[RING], .text = &o.output[RING]},
-        {.word = output_option[RAW], .text = &o.output[RAW]},
-        {.word = output_option[PLOT], .text = &o.output[PLOT]},
+        OUTPUT(CSV, FILE_WRITTEN),
+        OUTPUT(VCD, FILE_WRITTEN),
+        OUTPUT(RING, FILE_WRITTEN),
+        OUTPUT(RAW, FILE_WRITTEN),
+        OUTPUT(PLOT, FILE_DRAWN),
         OWN_WHOLE("--rate", o.rate, 1.0, 100000.0, "samples per second: --rate 500"),
         OWN_NUMBER("--for", o.for_s, 0.001, 1e9, "in seconds: --for 60"),
         OWN_NUMBER("--baud", o.baud, 1.0, 1e7, "9600 to 230400: --baud 115200"),

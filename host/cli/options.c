@@ -13,8 +13,10 @@
 #include "host/engine/start.h"
 #include "host/fixed/engine_fixed.h"
 #include "host/image/image.h"
+#include "host/io/gnuplot.h"
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
+#include "host/os/atomic_file.h"
 
 typedef struct option_row {
     const char *word;
@@ -525,6 +527,62 @@ static bool take_target(const target_reader *r, char *word, const char **target)
     return true;
 }
 
+/* === the files of a command ================================================================== */
+
+bool options_can_write(const char *command, const char *option, own_file kind, const char *file) {
+    if (file == NULL || kind < FILE_WRITTEN_LATE) {
+        return true;
+    }
+    const bool draws = kind == FILE_DRAWN;
+    return (!draws || gnuplot_can_draw_for(command, option, file)) && atomic_file_can(file) &&
+           (!draws || gnuplot_is_there());
+}
+
+/* Does the output leave the input alone? */
+static bool spares(const target_reader *r, const own_option *output, const char *input) {
+    char *read = source_file(input);
+    const bool good = read == NULL || !files_meet(*output->text, read, true);
+    if (!good) {
+        (void)options_fail(
+            r->command,
+            "%s would overwrite %s, which whirl reads\nhint: give the output another "
+            "name",
+            output->word, read);
+    }
+    free(read);
+    return good;
+}
+
+/* Is the output apart from all other files of the command, and possible? */
+static bool output_is_good(const target_reader *r, const own_option *output, const char *target) {
+    for (const own_option *o = r->table; o->word != NULL; o++) {
+        const char *other = o->file != FILE_NONE ? *o->text : NULL;
+        if (other != NULL && o->file == FILE_READ && !spares(r, output, other)) {
+            return false;
+        }
+        if (other != NULL && o->file != FILE_READ && o > output &&
+            files_meet(*output->text, other, false)) {
+            return options_fail(r->command, "%s and %s cannot share a file", output->word, o->word);
+        }
+    }
+    for (int i = 0; r->many != NULL && i < *r->many_count; i++) {
+        if (!spares(r, output, r->many[i])) {
+            return false;
+        }
+    }
+    return (target == NULL || spares(r, output, target)) &&
+           options_can_write(r->command, output->word, output->file, *output->text);
+}
+
+static bool outputs_are_good(const target_reader *r, const char *target) {
+    for (const own_option *o = r->table; o != NULL && o->word != NULL; o++) {
+        if (o->file > FILE_READ && *o->text != NULL && !output_is_good(r, o, target)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 bool target_read(const target_reader *r, int count, char **words, common_options *common,
                  const char **target) {
     bool bad = false;
@@ -539,7 +597,7 @@ bool target_read(const target_reader *r, int count, char **words, common_options
             bad = !take_target(r, words[at++], target);
         }
     }
-    return !bad;
+    return !bad && outputs_are_good(r, *target);
 }
 
 int target_command(const target_reader *r, int count, char **words, common_options *common,

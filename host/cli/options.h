@@ -164,10 +164,23 @@ int options_choose(const char *command, const char *what, const char *value, con
 
 /* === the words of a command =================================================================== */
 
+/* The file that an option names. All files of a command are apart, and an output must be possible. */
+typedef enum own_file {
+    FILE_NONE,
+    FILE_READ,
+    FILE_WRITTEN,
+    FILE_WRITTEN_LATE, /* after the work: whether it can be written is checked before it */
+    FILE_DRAWN         /* a picture, drawn by gnuplot after the work */
+} own_file;
+
+/* Can the file be written? If not, reports the reason. `file` may be NULL. */
+bool options_can_write(const char *command, const char *option, own_file kind, const char *file);
+
 /* One of a command's own options, in a table. Exactly one of text, number, strict and flag is set. */
 typedef struct own_option {
     const char *word;
     const char **text; /* gets the value as typed */
+    own_file file;     /* the text names this file */
     int *count;     /* for an option that may be repeated: the number of values in text[] so far */
     int limit;      /* the most values; 0: no limit */
     double *number; /* gets the value as a number from `least` to `most` */
@@ -205,7 +218,7 @@ typedef struct target_reader {
     int (*work)(void *options);
 } target_reader;
 
-/* Takes all common and own options. *target is the only other word, the last of `many`, or NULL. Returns false after an
+/* Takes all common and own options, and checks the files that they name. *target is the only other word, the last of `many`, or NULL. Returns false after an
  * error, which is reported. `common` may be NULL for a command without common options. */
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  const char **target);

@@ -263,9 +263,8 @@ static void close_line(const pil_options *o, port *line) {
     }
 }
 
-static bool open_tape(const pil_options *o, const source_model *from, FILE **file) {
-    const bool opens = o->tape != NULL && !source_would_be_lost(from, "--tape", o->tape);
-    *file = opens ? atomic_file_open_in_place(o->tape) : NULL;
+static bool open_tape(const pil_options *o, FILE **file) {
+    *file = o->tape != NULL ? atomic_file_open_in_place(o->tape) : NULL;
     return o->tape == NULL || *file != NULL;
 }
 
@@ -278,7 +277,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    if (source_would_be_lost(from, "--csv", o->csv) || !open_tape(o, from, &request->tape) ||
+    if (!open_tape(o, &request->tape) ||
         !recorded_open(&rows, o->csv, im, o->every != NULL ? every_s : -1.0)) {
         return EXIT_BAD_INPUT;
     }
@@ -386,10 +385,7 @@ static int pil_work(void *options) {
             return EXIT_BAD_INPUT;
         }
     }
-    if (!is_known_board(o) || !go_together(o) ||
-        !files_are_apart("pil", (const char *[]){"--csv", "--tape"},
-                         (const char *[]){o->csv, o->tape}, 2,
-                         (const char *[]){o->firmware, o->read}, 2)) {
+    if (!is_known_board(o) || !go_together(o)) {
         return EXIT_BAD_INPUT;
     }
     if (o->kinds) {
@@ -417,12 +413,12 @@ int command_pil(int count, char **words) {
                      .patience_s = PATIENCE_S};
     const own_option own[] = {
         {.word = "--fault", .text = o.fault, .count = &o.fault_count},
-        {.word = "--firmware", .text = &o.firmware},
+        {.word = "--firmware", .text = &o.firmware, .file = FILE_READ},
         {.word = "--board", .text = &o.board},
-        {.word = "--tape", .text = &o.tape},
-        {.word = "--replay", .text = &o.replay},
-        {.word = "--read", .text = &o.read},
-        {.word = "--csv", .text = &o.csv},
+        {.word = "--replay", .text = &o.replay, .file = FILE_READ},
+        {.word = "--read", .text = &o.read, .file = FILE_READ},
+        {.word = "--csv", .text = &o.csv, .file = FILE_WRITTEN},
+        {.word = "--tape", .text = &o.tape, .file = FILE_WRITTEN},
         {.word = "--bind", .text = &o.bind},
         {.word = "--place", .text = &o.place},
         {.word = "--jitter", .text = &o.jitter},

@@ -71,6 +71,7 @@ static bool read_words(const pricing_command *c, int count, char **words, pricin
         if ((option_rows[i].commands & c->bit) != 0) {
             own[all++] = (own_option){.word = option_rows[i].word,
                                       .text = i == PRICING_VARY ? p->vary : &p->value[i],
+                                      .file = i == PRICING_CSV ? FILE_WRITTEN_LATE : FILE_NONE,
                                       .count = i == PRICING_VARY ? &p->vary_count : NULL,
                                       .is_bare = option_rows[i].value == NULL};
         }
@@ -437,8 +438,7 @@ static int price_scene(pricing *p) {
               stderr);
         return EXIT_BAD_INPUT;
     }
-    if (source_would_be_lost(&p->from, "--csv", csv) || !atomic_file_can(csv) ||
-        (measure && !can_measure(p))) {
+    if (measure && !can_measure(p)) {
         return EXIT_BAD_INPUT;
     }
     interrupts_catch();

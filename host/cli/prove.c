@@ -215,8 +215,8 @@ static int prove_source(source_model *from, void *options) {
     const mechanism *of;
     const scene *in;
     int code = source_pick(from, true, &of, &in);
-    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv)) {
-        return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
+    if (code != EXIT_DONE) {
+        return code;
     }
     const overrides changes = options_overrides(&o->common.change);
     const load_request request = {.settings = o->common.integration,
@@ -238,7 +238,7 @@ int command_prove(int count, char **words) {
     const own_option own[] = {{.word = "--within", .text = o.within, .count = &o.within_count},
                               OWN_TOLERANCE(o.tolerance),
                               OWN_EFFORT(o.effort, "1.5e11"),
-                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--csv", .text = &o.csv, .file = FILE_WRITTEN},
                               {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
     const target_reader reader = {

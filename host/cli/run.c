@@ -75,17 +75,14 @@ typedef struct run_options {
     simulation_settings settings;
 } run_options;
 
-static const char *const output_option[] = {"--csv", "--columns", "--vcd", "--plot"};
-enum { OUTPUTS = sizeof output_option / sizeof output_option[0] };
-
 static bool read_options(int count, char **words, run_options *o) {
     simulation_settings *to = &o->settings;
     const own_option own[] = {RUN_CHOICE_ROWS(to->choice),
-                              {.word = "--csv", .text = &to->csv},
-                              {.word = "--columns", .text = &to->columns},
-                              {.word = "--vcd", .text = &to->vcd},
+                              {.word = "--csv", .text = &to->csv, .file = FILE_WRITTEN},
+                              {.word = "--columns", .text = &to->columns, .file = FILE_WRITTEN},
+                              {.word = "--vcd", .text = &to->vcd, .file = FILE_WRITTEN},
                               {.word = "--every", .text = &o->every},
-                              {.word = "--plot", .text = &to->plot},
+                              {.word = "--plot", .text = &to->plot, .file = FILE_DRAWN},
                               {.word = "--error", .text = &o->error},
                               {.word = "--board", .text = &o->board_word},
                               {.word = "--strict", .strict = &to->strict},
@@ -117,16 +114,7 @@ static bool read_options(int count, char **words, run_options *o) {
         return options_fail("run", "--json and records cannot share standard output\n"
                                    "hint: --csv records.csv");
     }
-    return files_are_apart("run", output_option,
-                           (const char *[]){to->csv, to->columns, to->vcd, to->plot}, OUTPUTS, NULL,
-                           0);
-}
-
-static bool model_would_be_lost(const source_model *from, const simulation_settings *s) {
-    return source_would_be_lost(from, "--csv", s->csv) ||
-           source_would_be_lost(from, "--columns", s->columns) ||
-           source_would_be_lost(from, "--vcd", s->vcd) ||
-           source_would_be_lost(from, "--plot", s->plot);
+    return true;
 }
 
 /* The value of --every in seconds; 0 without it, below 0 if it is not a time. */
@@ -227,9 +215,6 @@ static int run_target(run_options *o) {
     if (code == EXIT_DONE) {
         code = source_pick(&from, true, &of, &in);
         o->settings.no_scene = code == EXIT_DONE && in == NULL;
-    }
-    if (code == EXIT_DONE && model_would_be_lost(&from, &o->settings)) {
-        code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
         loaded made;

@@ -11,7 +11,6 @@
 #include "host/check/horizon.h"
 #include "host/cli/load.h"
 #include "host/engine/start.h"
-#include "host/io/gnuplot.h"
 #include "host/io/plot.h"
 #include "host/lang/builtin.h"
 #include "host/number/functions.h"
@@ -163,15 +162,11 @@ static bool is_whole_map(sweep_options *o) {
                             "step=1ms..0.1s:20,log --over 'k=1..100 [N/m]:20,log'",
                             o->over_count == 0 ? "there is none" : "there is one");
     }
-    if (o->plot != NULL && !gnuplot_can_draw_for("map", "--plot", o->plot)) {
-        return false;
-    }
     if (o->json && options_is_standard(o->csv)) {
         return options_fail("map",
                             "--json and rows cannot share standard output\nhint: --csv rows.csv");
     }
-    return files_are_apart("map", (const char *[]){"--csv", "--plot"},
-                           (const char *[]){o->csv, o->plot}, 2, NULL, 0);
+    return true;
 }
 
 /* --- common beginning ----------------------------------------------------------------------------*/
@@ -390,17 +385,6 @@ static int map_scene(const sweep_options *o, source_model *from, const mechanism
 
 /* --- the commands ------------------------------------------------------------------------------*/
 
-/* Refuses to overwrite the model's file with the rows or with FILE.sweep (host/study/session.h). For a map also tests, before
- * the work, if the file can be written. */
-static bool can_write(const sweep_options *o, const source_model *from, bool maps) {
-    if (source_would_be_lost(from, "--csv", o->csv) ||
-        source_would_be_lost(from, "--plot", o->plot)) {
-        return false;
-    }
-    return !maps || (atomic_file_can(o->csv) && atomic_file_can(o->plot) &&
-                     (o->plot == NULL || gnuplot_is_there()));
-}
-
 typedef int sweep_work(const sweep_options *o, source_model *from, const mechanism *of,
                        const scene *in, grid *g, const overrides *changes);
 
@@ -413,7 +397,7 @@ static int work_on(const sweep_options *o, sweep_work *work) {
     if (code == EXIT_DONE) {
         overrides changes = options_overrides(&o->common.change);
         grid g = {.command = o->command};
-        bool good = can_write(o, &from, work == map_scene);
+        bool good = true;
         changes.balance = true;
         for (int i = 0; i < o->over_count && good; i++) {
             good = grid_add(&g, of, o->over[i], from.errors);
@@ -445,7 +429,7 @@ int command_sweep(int count, char **words) {
     const own_option own[] = {{.word = "--over", .text = o.over, .count = &o.over_count},
                               {.word = "--measure", .text = o.measure, .count = &o.measure_count},
                               {.word = "--from", .text = &o.from},
-                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--csv", .text = &o.csv, .file = FILE_WRITTEN},
                               {.word = "--fresh", .flag = &o.fresh},
                               OWN_WHOLE("--jobs", o.jobs, 1.0, JOBS_WORKERS_MAX, "--jobs 4"),
                               {.word = "--shard", .text = &o.shard_text},
@@ -470,8 +454,8 @@ int command_map(int count, char **words) {
     const own_option own[] = {{.word = "--over", .text = o.over, .count = &o.over_count},
                               OWN_TOLERANCE(o.tolerance),
                               OWN_EFFORT(o.effort, "1e12"),
-                              {.word = "--csv", .text = &o.csv},
-                              {.word = "--plot", .text = &o.plot},
+                              {.word = "--csv", .text = &o.csv, .file = FILE_WRITTEN_LATE},
+                              {.word = "--plot", .text = &o.plot, .file = FILE_DRAWN},
                               {.word = "--json", .flag = &o.json},
                               {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};

@@ -111,9 +111,6 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
                                            .plain = plain,
                                            .books = true,
                                            .progress = shows_progress(o) ? show_progress : NULL};
-    if (!atomic_file_can(o->csv)) { /* checked before the run, which may take long */
-        return EXIT_BAD_INPUT;
-    }
     step_doubling *t = step_doubling_run(&request);
     if (request.progress != NULL) {
         fprintf(stderr, "\r        \r");
@@ -177,8 +174,8 @@ static int trust_source(const trust_options *o, source_model *from) {
     const scene *in;
     int code = source_open(from, o->target);
     code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
-    if (code != EXIT_DONE || source_would_be_lost(from, "--csv", o->csv)) {
-        return code != EXIT_DONE ? code : EXIT_BAD_INPUT;
+    if (code != EXIT_DONE) {
+        return code;
     }
     overrides changes = options_overrides(&o->common.change);
     changes.balance = true;
@@ -236,7 +233,7 @@ int command_trust(int count, char **words) {
     bool proved; /* only so that the list of options has --proved; command_prove() reads it */
     const own_option own[] = {OWN_TOLERANCE(o.tolerance),
                               OWN_EFFORT(o.effort, "1.5e11"),
-                              {.word = "--csv", .text = &o.csv},
+                              {.word = "--csv", .text = &o.csv, .file = FILE_WRITTEN_LATE},
                               {.word = "--json", .flag = &o.json},
                               {.word = "--proved", .flag = &proved},
                               {.word = "--quiet", .flag = &o.quiet},

@@ -276,16 +276,16 @@ ln "$scratch/own.whirl" "$scratch/hard"
 own=$scratch/own.whirl:own_swings
 for file in own.whirl ./own.whirl soft hard; do
     for option in --csv --columns; do
-        exits 2 "$file: error: $option would overwrite the model" run "$own" "$option" "$scratch/$file"
+        exits 2 "error: $option would overwrite $scratch/own.whirl, which whirl reads" run "$own" "$option" "$scratch/$file"
     done
 done
 exits 2 'hint: give the output another name' run "$scratch/soft:own_swings" --csv "$scratch/hard"
-exits 2 'own.svg: error: --plot would overwrite the model' run "$scratch/own.svg" --plot "$scratch/own.svg"
+exits 2 'error: --plot would overwrite .*own.svg' run "$scratch/own.svg" --plot "$scratch/own.svg"
 cp "$scratch/own.whirl" "$scratch/x.sweep"
-exits 2 'x.sweep: error: --csv would overwrite the model' \
+exits 2 'error: --csv would overwrite .*x.sweep' \
     sweep "$scratch/x.sweep" --over x=1..2:2 --csv "$scratch/x"
 "$whirl" run - --csv "$scratch/own.whirl" <"$scratch/own.whirl" >"$scratch/out" 2>"$scratch/err"
-[ $? -eq 2 ] && grep -q 'would overwrite the model' "$scratch/err"
+[ $? -eq 2 ] && grep -q 'would overwrite /dev/stdin, which whirl reads' "$scratch/err"
 verdict $? "nor is what standard input reads"
 cmp -s "$scratch/own.whirl" "$scratch/kept" && cmp -s "$scratch/own.svg" "$scratch/kept" &&
     cmp -s "$scratch/x.sweep" "$scratch/kept"
@@ -303,7 +303,7 @@ for ending in '' .part .toml .toml.part .sweep; do
     exits 2 'error: --csv and --tape cannot share a file' pil "$own" --firmware "$scratch/kept" --csv "$scratch/b.svg" --tape "$beside"
     cp "$scratch/kept" "$beside"
     for command in run trust prove price 'sweep --over x=1..2:2' 'map --over x=1..2:2 --over step=1ms..2ms:2'; do
-        exits 2 'error: --csv would overwrite the model' $command "$beside" --csv "$scratch/b.svg"
+        exits 2 "error: --csv would overwrite $beside" $command "$beside" --csv "$scratch/b.svg"
     done
     exits 2 "error: --csv would overwrite $beside" pil "$own" --firmware "$beside" --csv "$scratch/b.svg"
     exits 2 "error: --raw would overwrite $beside" monitor "$beside" --raw "$scratch/b.svg"

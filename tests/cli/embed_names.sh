@@ -29,7 +29,7 @@ cp "$scratch/own.whirl" "$scratch/kept"
 ln -s own.whirl "$scratch/soft"
 ln "$scratch/own.whirl" "$scratch/hard"
 for file in own.whirl soft hard; do
-    exits 2 "$file: error: --header would overwrite the model" derive "$scratch/own.whirl" --as c --header "$scratch/$file"
+    exits 2 "error: --header would overwrite $scratch/own.whirl" derive "$scratch/own.whirl" --as c --header "$scratch/$file"
 done
 cmp "$scratch/own.whirl" "$scratch/kept"
 verdict $? "the model is as it was"

@@ -16,7 +16,7 @@ run thomson_a --until 50ms --vcd - && grep -q '^state hash' "$scratch/err" && mv
     run thomson_a --until 50ms --quiet --vcd "$scratch/v.vcd" && cmp -s "$scratch/first" "$scratch/v.vcd"
 verdict $? "- is standard output; the summary then goes to standard error"
 cp core/models/epicyclic.whirl "$scratch/model.whirl"
-exits 2 'error: --vcd would overwrite the model' run "$scratch/model.whirl:epicyclic_from_rest" --vcd "$scratch/model.whirl"
+exits 2 'error: --vcd would overwrite .*model.whirl' run "$scratch/model.whirl:epicyclic_from_rest" --vcd "$scratch/model.whirl"
 exits 2 'error: --vcd cannot resolve the times of these records' run thomson_a --step 1e-16 --until 1e-13 --vcd "$scratch/x"
 
 run thomson_b --method euler --step 0.1 --until 100 --quiet --csv "$scratch/v.csv" --vcd "$scratch/v.vcd"
