@@ -63,9 +63,9 @@ static bool open_files(simulation *sim) {
         return false;
     }
     int power;
-    if (s->vcd != NULL && !traces_power(sim->image, s->every, &power)) {
+    if (s->vcd != NULL && !traces_power(sim->image, &power)) {
         fputs("whirl run: error: --vcd cannot resolve the times of these records: its finest unit "
-              "is a femtosecond, and a time has at most 2^52 units\nhint: use a larger --every, or "
+              "is a femtosecond, and a time has at most 2^52 units\nhint: "
               "use --csv, which has no such limit\n",
               stderr);
         return false;
@@ -456,7 +456,7 @@ simulation_result simulate(const image *im, const simulation_settings *s,
         records_header(sim.records);
         records_read(sim.records, sim.run, 0.0);
         sim.opening = opening_begin(sim.records, sim.steps);
-        sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records, s->every) : NULL;
+        sim.traces = sim.vcd != NULL ? traces_open(sim.vcd, sim.records) : NULL;
         const wh_status status = go(&sim, &ended);
         run_checks_end(sim.checks, status);
         horizon h;

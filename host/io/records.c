@@ -168,16 +168,13 @@ bool records_write(const records *r) {
 
 /* Most units of time in a dump. Doubles represent all whole numbers up to twice this. */
 #define TICKS_MOST 0x1p52
-/* Fewest units of time in a step of a scene with contacts, so that events within a step differ in time. */
-#define TICKS_LEAST 1000.0
-/* Largest numerator of a ratio. */
-#define NUMERATOR_MOST ((uint64_t)1 << 60)
+/* Fewest units of time in a step, if the end permits: times are rounded, and events within a step differ. */
+#define TICKS_LEAST 1e3
 
 struct traces {
     const records *form;
     vcd *vcd;
     FILE *out;
-    whole_ratio step; /* the step, in units of the dump's time */
     double units_per_s;
     int *signal;   /* [columns] signal of each column; the time has none */
     int *mode_of;  /* [contacts] wire of a contact */
@@ -185,50 +182,18 @@ struct traces {
     int *mode;     /* [contacts] scratch */
 };
 
-/* The step in units of 10^-power s; false if a ratio cannot represent it. */
-static bool step_in_units(whole_ratio step, int power, whole_ratio *in_units) {
-    *in_units = step;
-    for (int k = 0; k < power; k++) { /* multiply by 10 = 2 * 5 */
-        static const uint64_t primes[] = {2, 5};
-        for (int i = 0; i < 2; i++) {
-            if (in_units->denominator % primes[i] == 0) {
-                in_units->denominator /= primes[i];
-            } else if (in_units->numerator < NUMERATOR_MOST / primes[i]) {
-                in_units->numerator *= primes[i];
-            } else {
-                return false;
-            }
-        }
-    }
-    return true;
-}
-
-bool traces_power(const image *im, uint64_t every, int *power) {
-    int exact = -1;
-    int nearest = -1;
+bool traces_power(const image *im, int *power) {
     double units_per_s = 1.0;
-    for (int k = 0; k <= VCD_FINEST; k++) {
-        whole_ratio in_units;
-        if (!step_in_units(im->step, k, &in_units) || im->until_s * units_per_s >= TICKS_MOST) {
-            break;
-        }
-        const double step_units = ratio_times(1, in_units);
-        const bool fine = im->contacts == 0 || step_units >= TICKS_LEAST;
-        if (every % in_units.denominator == 0) {
-            exact = k;
-            if (fine) {
-                break;
-            }
-        }
-        nearest = step_units * (double)every >= 1.0 ? k : nearest;
+    for (*power = 0; *power < VCD_FINEST && im->step_s * units_per_s < TICKS_LEAST &&
+                     10.0 * im->until_s * units_per_s < TICKS_MOST;
+         ++*power) {
         units_per_s *= 10.0;
     }
-    *power = exact >= 0 ? exact : nearest;
-    return *power >= 0;
+    return im->step_s * units_per_s >= 1.0 && im->until_s * units_per_s < TICKS_MOST;
 }
 
 static int64_t time_of(const traces *w, uint64_t steps) {
-    return (int64_t)(ratio_times(steps, w->step) + 0.5);
+    return (int64_t)(ratio_times(steps, w->form->image->step) * w->units_per_s + 0.5);
 }
 
 static void name_quantity(traces *w, int *signal, const char *name, const char *text,
@@ -301,13 +266,11 @@ static void name_contacts(traces *w) {
     }
 }
 
-traces *traces_open(FILE *out, const records *form, uint64_t every) {
+traces *traces_open(FILE *out, const records *form) {
     const image *im = form->image;
     traces *w = alloc(1, sizeof *w);
     int power = 0;
-    if (!traces_power(im, every, &power) || !step_in_units(im->step, power, &w->step)) {
-        abort();
-    }
+    (void)traces_power(im, &power);
     w->form = form;
     w->out = out;
     w->units_per_s = 1.0;
@@ -383,7 +346,7 @@ bool traces_record(traces *w, uint64_t steps) {
 
 void traces_close(traces *w) {
     if (w != NULL) {
-        (void)vcd_end(w->vcd);
+        vcd_end(w->vcd);
         free(w->signal);
         free(w->mode_of);
         free(w->event_of);

@@ -49,17 +49,15 @@ bool records_write(const records *r);
  * friction, and a crossing above its value. A stop and a crossing also have an event at the located instant of the
  * impact or crossing (core/state.h logs the first WH_EVENT_LOG of a step). Inputs are constant during a run. */
 
-/* The unit of the dump's times, 10^-power s. It is the coarsest unit, of at most a second, that divides the records'
- * spacing; with contacts it is also at most a thousandth of the step. If there is no such power of ten (for a step of
- * 1/3 ms), or the run's end is 2^52 units or more, the unit is the finest that the end permits: times are then rounded.
- * Returns false if rounded times would be equal, because records are less than a femtosecond apart. */
-bool traces_power(const image *im, uint64_t every, int *power);
+/* The unit of the dump's times, 10^-power s: the coarsest with a thousand units in a step, or the finest in which the end is
+ * below 2^52 units. Returns false if a step is then shorter than a unit, or the end is later. */
+bool traces_power(const image *im, int *power);
 
 typedef struct traces traces;
 
-/* Writes the head to `out`, which stays the caller's. `form` has the records' columns; a record follows every `every` steps.
- * Call it only after traces_power() returned true. */
-traces *traces_open(FILE *out, const records *form, uint64_t every);
+/* Writes the head to `out`, which stays the caller's. `form` has the records' columns. Call it only after traces_power()
+ * returned true. */
+traces *traces_open(FILE *out, const records *form);
 /* Enters the contacts' events of the last step, after this many steps. */
 void traces_step(traces *w, const void *run, uint64_t steps);
 /* Enters the record in r->row after this many steps; call traces_step() first. Returns false if writing failed. */

@@ -36,7 +36,6 @@ struct vcd {
     change *waiting; /* ordered by time */
     int64_t count;
     int64_t room;
-    uint64_t late;
 };
 
 static bool is_simple(char c) {
@@ -159,7 +158,6 @@ static void write_change(vcd *v, const change *c) {
     if (s->kind != VCD_EVENT && strcmp(text, s->value) == 0) {
         return;
     }
-    v->late += v->timed && c->time < v->time;
     write_time(v, c->time);
     memcpy(s->value, text, sizeof text);
     fputs(text, v->out);
@@ -201,15 +199,13 @@ void vcd_settle(vcd *v, int64_t time) {
     v->last = time > v->last ? time : v->last;
 }
 
-uint64_t vcd_end(vcd *v) {
+void vcd_end(vcd *v) {
     if (v == NULL) {
-        return 0;
+        return;
     }
     write_until(v, INT64_MAX);
     write_time(v, v->last);
-    const uint64_t late = v->late;
     free(v->signal);
     free(v->waiting);
     free(v);
-    return late;
 }

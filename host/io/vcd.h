@@ -33,7 +33,7 @@ void vcd_change(vcd *v, int signal, int64_t time, double value);
 /* The present time: no earlier change will follow. */
 void vcd_settle(vcd *v, int64_t time);
 
-/* Writes pending changes and the end time, and frees `v`. Returns the number of late changes. NULL is allowed. */
-uint64_t vcd_end(vcd *v);
+/* Writes pending changes and the end time, and frees `v`. NULL is allowed. */
+void vcd_end(vcd *v);
 
 #endif

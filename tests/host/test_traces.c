@@ -1,4 +1,4 @@
-/* test_traces.c: waveform files of a run (host/io/records.h). The unit of time is compared with integer arithmetic,
+/* test_traces.c: waveform files of a run (host/io/records.h). The unit of time has its bounds,
  * names with those of random scenes, and times of contacts with closed forms, to one unit of time. Also VCD. */
 #include "test.h"
 
@@ -18,83 +18,24 @@ enum { POWERS = 16, NAME = 60, CHANGES = 4000, SIGNALS = 60 };
 
 static dice die;
 
-/* The expected power k of the unit 10^-k s: the coarsest unit that divides every spacing and, with contacts, a
- * thousandth of a step. If there is none: the finest unit in which the end is below 2^52 and records have different
- * times. -1: none. */
-static int wanted_power(uint64_t over, uint64_t under, uint64_t every, double until_s,
-                        bool contacts) {
-    int whole = -1;
-    int apart = -1;
-    long double units_per_s = 1.0L;
-    for (int k = 0; k < POWERS; k++) {
-        if ((long double)until_s * units_per_s >= 0x1p52L) {
-            break;
-        }
-        /* is over * every * 10^k a multiple of `under`? One factor of ten at a time cannot overflow */
-        uint64_t rest = (over % under) * (every % under) % under;
-        for (int i = 0; i < k; i++) {
-            rest = rest * 10 % under;
-        }
-        const long double step = (long double)over * units_per_s; /* step length, times `under` */
-        if (rest == 0) {
-            if (!contacts || step >= 1000.0L * (long double)under) {
-                return k;
-            }
-            whole = k;
-        }
-        apart = step * (long double)every >= (long double)under ? k : apart;
-        units_per_s *= 10.0L;
-    }
-    return whole >= 0 ? whole : apart;
-}
-
+/* The unit must give a step a thousand units and the end less than 2^52; a coarser one must not. */
 TEST(traces, units) {
-    static const uint64_t unders[] = {
-        1, 2, 3, 4, 5, 7, 8, 10, 20, 100, 1000, 3000, 44100, 100000, 1000000, 12500000, 100000000};
     unsigned found[POWERS + 1] = {0};
     for (unsigned c = 0; c < 5000U; c++) {
-        const uint64_t under = unders[dice_one_of(&die, sizeof unders / sizeof unders[0])];
-        const uint64_t over = 1 + dice_one_of(&die, c % 2U == 0 ? 3 : 1000);
-        const uint64_t every = 1 + dice_one_of(&die, c % 3U == 0 ? 1 : 60);
-        const bool contacts = dice_one_of(&die, 2) == 0;
-        const image im = {.step = {over, under},
-                          .contacts = contacts ? 1 : 0,
-                          .until_s = exp(dice_between(&die, -7.0, 43.0))};
+        const image im = {.step_s = exp(dice_between(&die, -40.0, 5.0)),
+                          .until_s = exp(dice_between(&die, -40.0, 43.0))};
         int power = -2;
-        uint64_t a = over;
-        uint64_t b = under;
-        while (b != 0) { /* ratios are in lowest terms */
-            const uint64_t rest = a % b;
-            a = b;
-            b = rest;
-        }
-        image lowest = im;
-        lowest.step = (whole_ratio){over / a, under / a};
-        const bool is = traces_power(&lowest, every, &power);
-        const int wanted = wanted_power(over / a, under / a, every, im.until_s, contacts);
-        TEST_ASSERT_EQUAL_INT(wanted, power);
-        TEST_ASSERT_EQUAL(wanted >= 0, is);
-        found[wanted + 1]++;
+        const bool is = traces_power(&im, &power);
+        TEST_ASSERT_TRUE(power >= 0 && power < POWERS);
+        const double per_s = pow(10.0, power);
+        TEST_ASSERT_EQUAL(im.step_s * per_s >= 1.0 && im.until_s * per_s < 0x1p52, is);
+        TEST_ASSERT_TRUE(im.step_s * per_s >= 1e3 * (1.0 - 1e-12) || power == POWERS - 1 ||
+                         10.0 * im.until_s * per_s >= 0x1p52 * (1.0 - 1e-12));
+        TEST_ASSERT_TRUE(power == 0 || im.step_s * per_s < 1e4 * (1.0 + 1e-12));
+        found[is ? power : POWERS]++;
     }
-    for (int k = 0; k < POWERS - 4; k++) {
+    for (int k = 0; k <= POWERS; k++) {
         TEST_ASSERT_TRUE(found[k] > 0);
-    }
-}
-
-/* The end must be below 2^52 units of time. If it is not, the next coarser unit must be used, if there is one. */
-TEST(traces, ends) {
-    for (int k = 0; k < POWERS; k++) {
-        double per_s = 1.0;
-        for (int i = 0; i < k; i++) {
-            per_s *= 10.0;
-        }
-        image im = {.step = {1, 3}, .until_s = 0x1p52 / per_s * (k > 0 ? 1.0 + 0x1p-50 : 1.0)};
-        int power = -2;
-        TEST_ASSERT_EQUAL(k > 1, traces_power(&im, 1, &power));
-        TEST_ASSERT_EQUAL_INT(k > 1 ? k - 1 : -1, power);
-        im.until_s = 0x1.ffp51 / per_s;
-        TEST_ASSERT_EQUAL(k > 0, traces_power(&im, 1, &power));
-        TEST_ASSERT_EQUAL_INT(k > 0 ? k : -1, power);
     }
 }
 
@@ -273,7 +214,7 @@ TEST(traces, moments) {
         derived d = scene_of_bodies(&b);
         const engine_kind *kind = c % 4U < 3U ? &engine_double : &engine_float;
         int power = -1;
-        TEST_ASSERT_TRUE(traces_power(d.image, b.every, &power));
+        TEST_ASSERT_TRUE(traces_power(d.image, &power));
         char unit[60];
         const double units_per_s = pow(10.0, power);
         snprintf(unit, sizeof unit, "$timescale %d%s $end\n",
@@ -336,7 +277,7 @@ SUITE(traces) { die = dice_of("traces", 64); }
 
 /* === suite vcd ================================================================================ */
 /* Value change dumps (host/io/vcd.h), read by the test. Random changes of many signals, slightly out of sequence,
- * must appear sorted and once each. Late changes must be counted, and notes must follow their signals. */
+ * must appear sorted and once each. Late changes must not be lost, and notes must follow their signals. */
 
 enum { VCD_SIGNALS = 100, VCD_CHANGES = 400, VCD_VALUE = 40, JITTER = 20 };
 typedef enum kind_of { WIRE, REAL, EVENT } kind_of;
@@ -506,7 +447,7 @@ TEST(vcd, changes_come_in_order) {
                 highest = now - JITTER > highest ? now - JITTER : highest;
             }
         }
-        TEST_ASSERT_EQUAL_UINT64(0, vcd_end(v));
+        vcd_end(v);
         alloc_text_end(out);
         const int wanted = sort_made(count);
         TEST_ASSERT_EQUAL_INT(wanted, read_changes(read_head(text), &end));
@@ -520,8 +461,8 @@ TEST(vcd, changes_come_in_order) {
     }
 }
 
-/* A late change must appear at the last written time, and must be counted. */
-TEST(vcd, what_is_late_is_counted) {
+/* A late change must appear at the last written time. */
+TEST(vcd, what_is_late_is_written) {
     dice d = dice_of("vcd", 52);
     for (unsigned round = 0; round < 10U; round++) {
         char *text = NULL;
@@ -536,11 +477,11 @@ TEST(vcd, what_is_late_is_counted) {
         for (int i = 0; i < late; i++) {
             vcd_change(v, 2, (int64_t)dice_one_of(&d, 100), 1.0);
         }
-        TEST_ASSERT_EQUAL_UINT64((uint64_t)late, vcd_end(v));
+        vcd_end(v);
         alloc_text_end(out);
         TEST_ASSERT_EQUAL_INT(1 + late, read_changes(read_head(text), &end));
         TEST_ASSERT_EQUAL_INT64(100, end);
         free(text);
     }
-    TEST_ASSERT_EQUAL_UINT64(0, vcd_end(NULL));
+    vcd_end(NULL);
 }
