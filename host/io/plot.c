@@ -296,6 +296,20 @@ void plot_run_name(plot_run *run, int column, const char *name, const char *unit
     put(&c->text, text);
 }
 
+void plot_run_head(plot_run *run, int column, const char *heading) {
+    char *name = alloc_words("%s", heading);
+    char *unit = strrchr(name, '[');
+    char *end = unit != NULL ? strchr(unit, ']') : NULL;
+    if (unit != NULL && unit > name && unit[-1] == ' ' && end != NULL && end[1] == '\0') {
+        unit[-1] = '\0';
+        *end = '\0';
+        plot_run_name(run, column, name, unit + 1, "");
+    } else {
+        plot_run_name(run, column, name, strcmp(name, "time") == 0 ? "s" : NULL, "");
+    }
+    free(name);
+}
+
 void plot_run_close(plot_run *run) {
     for (int i = 0; i < run->columns; i++) {
         free(run->column[i].name);
@@ -531,21 +545,11 @@ static bool is_nan(const char *field) {
     return strcasecmp(field + (field[0] == '-'), "nan") == 0 || strcmp(field, "NA") == 0;
 }
 
-/* "theta [deg]": name and unit. */
 static void name_columns(plot_run *run, char *line) {
     for (char *name = next_field(&line); name != NULL; name = next_field(&line)) {
-        char *unit = strrchr(name, '[');
-        char *end = unit != NULL ? strchr(unit, ']') : NULL;
-        if (unit != NULL && unit > name && unit[-1] == ' ' && end != NULL && end[1] == '\0') {
-            unit[-1] = '\0';
-            *end = '\0';
-            unit++;
-        } else {
-            unit = strcmp(name, "time") == 0 ? "s" : NULL;
-        }
         run->column = alloc_more(run->column, run->columns + 1, sizeof *run->column);
         run->column[run->columns] = (plot_column){0};
-        plot_run_name(run, run->columns++, name, unit, "");
+        plot_run_head(run, run->columns++, name);
     }
 }
 

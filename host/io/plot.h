@@ -29,6 +29,8 @@ typedef struct plot_run {
 /* Opens a run without data, whose columns have no names yet. Texts are copied; `unit` may be NULL. */
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns);
 void plot_run_name(plot_run *run, int column, const char *name, const char *unit, const char *text);
+/* Names a column by its heading: the name, or NAME [UNIT]. The time is in seconds. */
+void plot_run_head(plot_run *run, int column, const char *heading);
 void plot_run_close(plot_run *run);
 
 /* Read the CSV file, and its description CSV.toml if that exists. A quantity's field that is not a number is NaN.

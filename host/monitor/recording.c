@@ -168,14 +168,13 @@ unsigned schema_bytes(const schema_field *fields, int count) {
 #define SETTLED_US 50000
 /* Displayed length of a pulse if the rig does not report ends. */
 #define PULSE_US 100
-#define ROWS_MOST 100000
 /* A larger gap in a channel's count means that the rig has restarted. */
 #define GAP_MOST 0x8000U
 
 enum { EVENT_PULSE, EVENT_STATE, EVENT_TRIP, EVENT_END };
 
 void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plots) {
-    *r = (recording){.csv = csv, .waves = waves, .ring = ring, .plots = plots, .every = 1};
+    *r = (recording){.csv = csv, .waves = waves, .ring = ring, .plots = plots};
 }
 
 static int64_t time_of(recording *r, uint32_t ticks) {
@@ -233,6 +232,7 @@ static void head(recording *r, const schema_channel *c) {
     }
     r->headed = true;
     r->columns = 1 + c->eaches + c->onces;
+    r->plot = r->plots ? decimation_new(r->columns, false) : NULL;
     if (r->waves != NULL) {
         r->vcd = vcd_new(r->waves, "telemetry, recorded by whirl monitor", 6, "rig", 9);
     }
@@ -257,32 +257,6 @@ static void head(recording *r, const schema_channel *c) {
             vcd_change(r->vcd, r->pulse[i], 0, 0.0);
         }
     }
-}
-
-/* Drops every second stored row. From now on, every second new row is dropped, too. */
-static void thin_out(recording *r) {
-    const size_t row = (size_t)r->columns;
-    for (int64_t i = 0; i < r->rows / 2; i++) {
-        memmove(r->row + (size_t)i * row, r->row + (size_t)(2 * i) * row, row * sizeof r->row[0]);
-    }
-    r->rows /= 2;
-    r->every *= 2;
-}
-
-static void keep_row(recording *r, const double *values) {
-    if (!r->plots || ++r->skipped < r->every) {
-        return;
-    }
-    r->skipped = 0;
-    if (r->rows == ROWS_MOST) {
-        thin_out(r);
-    }
-    if (r->rows == r->room) {
-        r->room = r->room > 0 ? 2 * r->room : 1024;
-        r->row = alloc_more(r->row, r->room * r->columns, sizeof r->row[0]);
-    }
-    memcpy(r->row + (size_t)(r->rows++ * r->columns), values,
-           (size_t)r->columns * sizeof values[0]);
 }
 
 /* Takes one sample: its own values, then those that the whole frame has in common. */
@@ -311,7 +285,9 @@ static void take_sample(recording *r, const schema_channel *c, int64_t time_us, 
     if (r->csv != NULL) {
         fputs("\r\n", r->csv);
     }
-    keep_row(r, values);
+    if (r->plot != NULL) {
+        decimation_enter(r->plot, values);
+    }
     r->counts.samples++;
 }
 
@@ -425,40 +401,30 @@ void recording_frame(recording *r, const schema *s, const wire_frame *frame) {
 
 bool recording_plot(const recording *r, const schema *s, const char *file) {
     const schema_channel *c = &s->channel[RECORDING_RUN];
-    plot_column column[2 * SCHEMA_FIELDS + 1] = {{"time", "s", ""}};
-    char names[2 * SCHEMA_FIELDS][SCHEMA_NAME];
+    plot_run run;
     bool any = false;
-    for (int i = 0; i + 1 < r->columns; i++) {
-        const schema_field *field = i < c->eaches ? &c->each[i] : &c->once[i - c->eaches];
-        snprintf(names[i], sizeof names[i], "%s", field->name);
-        char *unit = strchr(names[i], '[');
-        /* a column without a unit, which the plot omits */
-        column[i + 1] = (plot_column){"der()", NULL, ""};
-        if (unit != NULL) {
-            unit[-1] = '\0';
-            unit[strlen(unit) - 1U] = '\0';
-            column[i + 1] = (plot_column){names[i], unit + 1, ""};
-            any = true;
-        }
+    plot_run_open(&run, "Samples of the rig", "rig", r->columns > 0 ? r->columns : 1);
+    plot_run_head(&run, 0, "time");
+    for (int i = 1; i < r->columns; i++) {
+        const schema_field *field = i <= c->eaches ? &c->each[i - 1] : &c->once[i - 1 - c->eaches];
+        const bool has_unit = strchr(field->name, '[') != NULL;
+        /* the plot omits the rates, and so a column without a unit */
+        plot_run_head(&run, i, has_unit ? field->name : "der()");
+        any = any || has_unit;
     }
-    if (r->rows == 0 || !any) {
+    if (any) {
+        run.data = decimation_rows(r->plot, &run.rows);
+    } else {
         fputs("whirl monitor: error: nothing to plot: no samples came\n", stderr);
-        return false;
     }
-    const plot_run run = {.title = "Samples of the rig",
-                          .label = "rig",
-                          .column = column,
-                          .columns = r->columns,
-                          .data = r->row,
-                          .rows = (int)r->rows};
-    return plot_draw("monitor", file, &(plot_choice){0}, &run, 1);
+    const bool drawn = any && plot_draw("monitor", file, &(plot_choice){0}, &run, 1);
+    plot_run_close(&run);
+    return drawn;
 }
 
 void recording_end(recording *r) {
-    if (r->vcd != NULL) {
-        (void)vcd_end(r->vcd);
-    }
-    free(r->row);
+    vcd_end(r->vcd);
+    decimation_free(r->plot);
     r->vcd = NULL;
-    r->row = NULL;
+    r->plot = NULL;
 }

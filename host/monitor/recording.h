@@ -6,6 +6,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "host/io/minmax_decimation.h"
 #include "host/io/vcd.h"
 #include "host/monitor/wire.h"
 
@@ -78,12 +79,8 @@ typedef struct recording {
     bool ends;    /* the rig reports the ends of pulses */
     bool high[2]; /* the pulse of this sensor has not ended yet */
     int trip;
-    double *row; /* plotted rows of `columns` values, thinned out above the limit */
-    int64_t rows;
-    int64_t room;
-    int columns;
-    int64_t every;
-    int64_t skipped;
+    int columns;      /* the time and the run's fields */
+    decimation *plot; /* the rows for a picture; or NULL */
     recording_counts counts;
 } recording;
 

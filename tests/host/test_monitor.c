@@ -105,7 +105,7 @@ static void begin(bool files, bool plots) {
 
 static void end(void) {
     recording_end(&t.r);
-    TEST_ASSERT_TRUE(t.r.vcd == NULL && t.r.row == NULL);
+    TEST_ASSERT_TRUE(t.r.vcd == NULL && t.r.plot == NULL);
     alloc_text_end(t.to_csv);
     alloc_text_end(t.to_ring);
     if (t.r.csv != NULL) {
@@ -439,7 +439,9 @@ TEST(recording, streams) {
             send_any();
         }
         TEST_ASSERT_EQUAL_MEMORY(&t.counts, &t.r.counts, sizeof t.counts);
-        TEST_ASSERT_EQUAL_INT64(plots ? (int64_t)t.counts.samples : 0, t.r.rows);
+        int rows = 0;
+        free(t.r.plot != NULL ? decimation_rows(t.r.plot, &rows) : NULL);
+        TEST_ASSERT_EQUAL_INT64(plots ? (int64_t)t.counts.samples : 0, rows);
         end();
         if (files) {
             TEST_ASSERT_EQUAL_STRING(t.wanted_csv, t.csv);
