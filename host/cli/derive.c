@@ -241,7 +241,7 @@ static bool options_fit(derive_options *o) {
     /* Matlab runs the same function file as Octave */
     const char *form = options_same("matlab", o->form) ? "octave" : o->form;
     const int chosen = options_choose("derive", "form", form, forms, sizeof forms[0], FORMS);
-    const char *name = o->common.change.name; /* a name as in a .whirl file */
+    const char *name = o->common.changes.name; /* a name as in a .whirl file */
     if (chosen < 0 || (name != NULL && !options_is_name("derive", name, NAME_LENGTH_MAX))) {
         return false;
     }
@@ -254,15 +254,19 @@ static bool options_fit(derive_options *o) {
 }
 
 /* Derives all mechanisms of a file, if the form shows them and no name is given; otherwise the named one. */
-static int derive_opened(source_model *from, const derive_options *o) {
-    const overrides changes = options_overrides(&o->common.change);
+static int derive_source(source_model *from, void *options) {
+    derive_options *o = options;
+    const overrides *changes = &o->common.changes;
     const mechanism *of;
     const scene *in;
+    if (!options_fit(o)) {
+        return EXIT_BAD_INPUT;
+    }
     int code = EXIT_DONE;
     if (from->name[0] == '\0' && (o->as->is & SHOWS) != 0) {
         for (int i = 0; i < from->model->mechanism_count && code == EXIT_DONE; i++) {
             fputs(i > 0 ? "\n" : "", stdout);
-            code = derive_one(from, from->model->mechanisms[i], NULL, &changes, o, NULL);
+            code = derive_one(from, from->model->mechanisms[i], NULL, changes, o, NULL);
         }
         return code;
     }
@@ -270,25 +274,13 @@ static int derive_opened(source_model *from, const derive_options *o) {
     if (code == EXIT_DONE && o->header != NULL && !header_is_apart(o->header)) {
         code = EXIT_BAD_INPUT;
     }
-    return code == EXIT_DONE ? derive_one(from, of, in, &changes, o, o->header) : code;
-}
-
-static int derive_work(void *options) {
-    derive_options *o = options;
-    if (!options_fit(o)) {
-        return EXIT_BAD_INPUT;
-    }
-    source_model from;
-    int code = source_open(&from, o->target);
-    code = code == EXIT_DONE ? derive_opened(&from, o) : code;
-    source_close(&from);
-    return code;
+    return code == EXIT_DONE ? derive_one(from, of, in, changes, o, o->header) : code;
 }
 
 int command_derive(int count, char **words) {
     derive_options o = {.common = options_defaults(), .form = forms[TEXT].word};
     const own_option own[] = {{.word = "--as", .text = &o.form},
-                              {.word = "--name", .text = &o.common.change.name},
+                              {.word = "--name", .text = &o.common.changes.name},
                               {.word = "--header", .text = &o.header, .file = FILE_WRITTEN},
                               {.word = "--steps", .flag = &o.steps},
                               {.word = "--folded", .flag = &o.folded},
@@ -297,6 +289,6 @@ int command_derive(int count, char **words) {
                                   .usage = &usage,
                                   .table = own,
                                   .one = "scene or mechanism",
-                                  .work = derive_work};
+                                  .work_on = derive_source};
     return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

@@ -300,8 +300,7 @@ static int effects_of(const effects_options *o, subsets *s, diags *errors) {
 
 static int effects_source(source_model *from, void *options) {
     const effects_options *o = options;
-    const overrides changes = options_overrides(&o->common.change);
-    subsets s = {.changes = &changes};
+    subsets s = {.changes = &o->common.changes};
     int code = source_pick(from, true, &s.of, &s.in);
     if (code == EXIT_DONE) {
         code = effects_of(o, &s, from->errors);

@@ -37,7 +37,7 @@ static const command_usage plot_usage = {
     .why = OPTIONS_WHY_DRAWS};
 
 typedef struct plot_options {
-    common_options common; /* for sets_once(); a run parses `passed` */
+    common_options common; /* unused: each run parses `passed` */
     plot_choice choice;
     const char *out;
     char **target; /* [targets] */
@@ -49,32 +49,6 @@ typedef struct plot_options {
 static bool is_csv(const char *name) {
     const size_t length = strlen(name);
     return length > 4 && options_same(name + length - 4, ".csv");
-}
-
-/* Options apply to every scene, so no name can have two values. */
-static bool sets_once(const plot_options *o) {
-    const change_options *c = &o->common.change;
-    for (int i = 0; i < c->set_count + c->start_count; i++) {
-        const bool is_set = i < c->set_count;
-        const char *const *all = is_set ? c->sets : c->starts;
-        const int at = is_set ? i : i - c->set_count;
-        const size_t length = strcspn(all[at], "= ");
-        const char *option = is_set ? "set" : "start";
-        for (int k = 0; k < at; k++) {
-            if (strcspn(all[k], "= ") == length && strncmp(all[k], all[at], length) == 0) {
-                return options_fail(
-                    "plot",
-                    "%.*s is given twice, but an option changes all runs of the picture in the same way\n"
-                    "hint: record each run, then draw both:\n"
-                    "  whirl run %s --%s \"%s\" --csv a.csv\n"
-                    "  whirl run %s --%s \"%s\" --csv b.csv\n"
-                    "  whirl plot a.csv b.csv --out %s",
-                    (int)length, all[k], o->target[0], option, all[k], o->target[o->targets - 1],
-                    option, all[at], o->out);
-            }
-        }
-    }
-    return true;
 }
 
 /* Are the options complete and consistent? */
@@ -96,7 +70,7 @@ static bool is_whole(const plot_options *o) {
         return options_fail("plot", "the command names %d runs; the limit is %d", o->targets,
                             RUNS_MOST);
     }
-    return sets_once(o);
+    return true;
 }
 
 static int plot_work(void *options) {

@@ -168,17 +168,17 @@ static const char *value_of(int count, char **words, int *at, const char *name, 
     return words[*at - 1];
 }
 
-static void push(const char ***list, int *count, const char *text) {
-    const char **longer = alloc_more(*list, *count + 1, sizeof **list);
+static void push(const char *const **list, int *count, const char *text) {
+    const char **longer = alloc_more((void *)*list, *count + 1, sizeof **list);
     *list = longer;
     longer[(*count)++] = text;
 }
 
 /* A copy of text[length] without blanks at its ends, owned by the options. */
-static const char *keep(change_options *c, const char *text, size_t length) {
+static const char *keep(common_options *to, const char *text, size_t length) {
     char *name = alloc_trimmed(text, length);
-    c->owned = alloc_more(c->owned, c->owned_count + 1, sizeof *c->owned);
-    c->owned[c->owned_count++] = name;
+    to->owned = alloc_more(to->owned, to->owned_count + 1, sizeof *to->owned);
+    to->owned[to->owned_count++] = name;
     return name;
 }
 
@@ -193,11 +193,12 @@ static bool is_in(const char *const *list, int count, const char *name) {
 
 /* Adds each name of "E, E,...", with optional blanks. Returns false, and reports the reason, if a name is missing or
  * contradicts another. */
-static bool push_names(change_options *c, const char ***list, int *count, const char *option,
+static bool push_names(common_options *to, const char *const **list, int *count, const char *option,
                        const char *text) {
+    const overrides *c = &to->changes;
     for (const char *at = text;; at++) {
         const size_t field = strcspn(at, ",");
-        const char *name = keep(c, at, field);
+        const char *name = keep(to, at, field);
         if (name[0] == '\0') {
             fprintf(stderr,
                     "whirl: error: a name is missing in %s \"%s\"\n"
@@ -237,34 +238,20 @@ static const char *common_value(common_option which, int count, char **words, in
     return "";
 }
 
-overrides options_overrides(const change_options *c) {
-    return (overrides){.sets = c->sets,
-                       .set_count = c->set_count,
-                       .starts = c->starts,
-                       .start_count = c->start_count,
-                       .with = c->with,
-                       .with_count = c->with_count,
-                       .without = c->without,
-                       .without_count = c->without_count,
-                       .step = c->step,
-                       .until = c->until,
-                       .name = c->name};
-}
-
 common_options options_defaults(void) {
     return (common_options){.integration = IMAGE_SETTINGS_DEFAULT, .number = &engine_double};
 }
 
 void options_forget(common_options *options) {
-    change_options *c = &options->change;
-    for (int i = 0; i < c->owned_count; i++) {
-        free(c->owned[i]);
+    const overrides *c = &options->changes;
+    const char *const *const lists[] = {c->sets, c->starts, c->with, c->without};
+    for (int i = 0; i < options->owned_count; i++) {
+        free(options->owned[i]);
     }
-    free(c->owned);
-    free(c->sets);
-    free(c->starts);
-    free(c->with);
-    free(c->without);
+    free(options->owned);
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        free((void *)lists[i]);
+    }
 }
 
 bool options_fail(const char *command, const char *format, ...) {
@@ -394,14 +381,14 @@ static bool take(common_option which, const char *command, const char *value, co
         const char *word;
         const engine_kind *kind;
     } numbers[] = {{"double", &engine_double}, {"float", &engine_float}, {"fixed", &engine_fixed}};
-    change_options *c = &to->change;
+    overrides *c = &to->changes;
     const char *word = option_rows[which].word;
     int chosen;
     switch (which) {
     case OPTION_SET: push(&c->sets, &c->set_count, value); break;
     case OPTION_START: push(&c->starts, &c->start_count, value); break;
-    case OPTION_WITH: return push_names(c, &c->with, &c->with_count, word, value);
-    case OPTION_WITHOUT: return push_names(c, &c->without, &c->without_count, word, value);
+    case OPTION_WITH: return push_names(to, &c->with, &c->with_count, word, value);
+    case OPTION_WITHOUT: return push_names(to, &c->without, &c->without_count, word, value);
     case OPTION_STEP: c->step = value; break;
     case OPTION_UNTIL: c->until = value; break;
     case OPTION_METHOD: CHOOSE("method", wh_methods, WH_METHODS, wh_method, method);
@@ -627,10 +614,9 @@ int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request) {
     const mechanism *of;
     const scene *in;
-    const overrides changes = options_overrides(&common->change);
     *made = (loaded){0};
     request.settings = common->integration;
     const bool one = request.use == IMAGE_TO_WRITE || from->model->scene_count == 1;
     const int code = source_pick(from, one, &of, &in);
-    return code == EXIT_DONE ? load(made, from, of, in, &changes, &request) : code;
+    return code == EXIT_DONE ? load(made, from, of, in, &common->changes, &request) : code;
 }

@@ -105,26 +105,12 @@ bool options_number(const char *command, const char *option, const char *text, d
     "  --strict=off         exit status 0 even with a warning; without this option it is 1\n" \
     "  --strict=LIMIT       the allowed energy residual, as a part of the balance's largest entry\n"
 
-/* The options that change an instance: --set, --start, --with, --without, --step, --until. */
-typedef struct change_options {
-    const char **sets;
-    int set_count;
-    const char **starts;
-    int start_count;
-    const char **with;
-    int with_count;
-    const char **without;
-    int without_count;
-    const char *step;
-    const char *until;
-    const char *name; /* value of --name, for commands with this option; else NULL */
-    char **owned;     /* the parts of comma-separated lists */
-    int owned_count;
-} change_options;
-
 /* The values of a command's common options. */
 typedef struct common_options {
-    change_options change;
+    /* --set, --start, --with, --without, --step, --until; and --name, for commands with this option */
+    overrides changes;
+    char **owned; /* the names of comma-separated lists */
+    int owned_count;
     image_settings
         integration; /* --method, --compensated, --stabilized, --angles, --matrix, --tables, --cells */
     const engine_kind *number; /* --number: the number type */
@@ -145,8 +131,6 @@ const char *options_value(int count, char **words, int at, const char *name);
 
 /* Is it a name as in a .whirl file, with at most `most` letters? If not, reports it with a hint. */
 bool options_is_name(const char *command, const char *name, int most);
-
-overrides options_overrides(const change_options *changes);
 
 /* Prints "whirl COMMAND: error: MESSAGE" and a line end on standard error. Returns false. */
 bool options_fail(const char *command, const char *format, ...)

@@ -282,7 +282,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
         return EXIT_BAD_INPUT;
     }
     request->plant.rows = &rows;
-    if (o->common.change.until != NULL) {
+    if (o->common.changes.until != NULL) {
         request->until_s = im->until_s;
     }
     port line;
@@ -312,7 +312,7 @@ static int load_plant(const pil_options *o, source_model *from, const mechanism 
                       const scene *in, loaded *made) {
     char *parameter[FAULTS_MAX];
     int count = 0;
-    overrides changes = options_overrides(&o->common.change);
+    overrides changes = o->common.changes;
     const char **sets = alloc(changes.set_count + FAULTS_MAX, sizeof *sets);
     for (int i = 0; i < changes.set_count; i++) {
         sets[i] = changes.sets[i];

@@ -290,7 +290,7 @@ int pricing_open(pricing *p) {
     if (code != EXIT_DONE) {
         return code;
     }
-    p->changes = options_overrides(&p->common.change);
+    p->changes = p->common.changes;
     p->changes.balance = p->balance;
     overrides asked = p->changes;
     asked.until = NULL; /* printed command lines get their own --until */

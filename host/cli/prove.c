@@ -218,13 +218,12 @@ static int prove_source(source_model *from, void *options) {
     if (code != EXIT_DONE) {
         return code;
     }
-    const overrides changes = options_overrides(&o->common.change);
     const load_request request = {.settings = o->common.integration,
                                   .use = IMAGE_TO_RUN,
                                   .keep = KEEP_INSTANCE,
                                   .conserve = true};
     loaded made;
-    code = load(&made, from, of, in, &changes, &request);
+    code = load(&made, from, of, in, &o->common.changes, &request);
     code = code == EXIT_DONE ? prove_loaded(o, &made, of, from->errors) : code;
     unload(&made);
     return code;

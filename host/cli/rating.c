@@ -341,8 +341,8 @@ static int choose(pricing *p, const setting *s, char **step, char **chosen) {
 int rating_choose(const common_options *common, const char *target, const char *error,
                   source_model *from, char **step, char **chosen) {
     const char *equals = strchr(error, '=');
-    if (equals == NULL || equals == error || equals[1] == '\0' || common->change.step != NULL) {
-        fputs(equals != NULL && common->change.step != NULL
+    if (equals == NULL || equals == error || equals[1] == '\0' || common->changes.step != NULL) {
+        fputs(equals != NULL && common->changes.step != NULL
                   ? "whirl run: error: --error chooses the step, so --step cannot set it\n"
                     "hint: leave one of them out\n"
                   : "whirl run: error: --error takes a coordinate and its allowed error\nhint: "
@@ -352,7 +352,7 @@ int rating_choose(const common_options *common, const char *target, const char *
     }
     pricing p = pricing_defaults("run", 1);
     p.typed = target;
-    p.common.change = common->change;
+    p.common.changes = common->changes;
     p.balance = true; /* the verdict on the run needs the balance */
     p.value[PRICING_ERROR] = error;
     const setting s = {common->integration, common->number};

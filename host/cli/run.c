@@ -200,7 +200,7 @@ static int open_source(run_options *o, source_model *from, char **step, char **c
     }
     interrupts_catch();
     const int code = rating_choose(&o->common, o->target, o->error, from, step, chosen);
-    o->common.change.step = *step;
+    o->common.changes.step = *step;
     o->settings.chosen = *chosen;
     return code;
 }
@@ -218,7 +218,7 @@ static int run_target(run_options *o) {
     }
     if (code == EXIT_DONE) {
         loaded made;
-        overrides changes = options_overrides(&o->common.change);
+        overrides changes = o->common.changes;
         changes.balance = true;
         const double every_s = read_every_s(o, of);
         const load_request request = {.settings = o->common.integration,
@@ -269,8 +269,7 @@ static int run_target(run_options *o) {
 static int run_words(int count, char **words, run_options *o) {
     int code = EXIT_BAD_INPUT;
     if (read_options(count, words, o)) {
-        const overrides asked = options_overrides(&o->common.change);
-        char *changes = pricing_words(&asked, true);
+        char *changes = pricing_words(&o->common.changes, true);
         o->settings.changes = changes;
         code = run_target(o);
         free(changes);

@@ -107,7 +107,7 @@ typedef struct sweep_options {
     double strict;
     double tolerance;
     double effort;
-    bool fresh, quiet, json;
+    bool maps, fresh, quiet, json;
 } sweep_options;
 
 /* A whole number from 1 to `limit`, up to the end of the text or `end`. */
@@ -169,38 +169,6 @@ static bool is_whole_map(sweep_options *o) {
     return true;
 }
 
-/* --- common beginning ----------------------------------------------------------------------------*/
-
-static int load_base(const sweep_options *o, source_model *from, const sweep *s, loaded *base) {
-    const load_request request = {.settings = o->common.integration,
-                                  .use = IMAGE_TO_RUN,
-                                  .keep = KEEP_INSTANCE,
-                                  .conserve = true};
-    return load(base, from, s->mechanism, s->scene, s->changes, &request);
-}
-
-/* Reports errors that all points have in common, once for the scene without changes; returns false after one. */
-static bool begins(const sweep *s, const loaded *base, diags *errors) {
-    if (s->kind == &engine_float) {
-        say_float_range(base->image);
-    }
-    const bool good = changes_take_part(s->grid, base->instance) &&
-                      start_has_method(base->image, s->engine.method, errors);
-    diags_flush(errors, stderr);
-    return good;
-}
-
-static sweep sweep_of(const sweep_options *o, const mechanism *of, const scene *in, const grid *g,
-                      const overrides *changes) {
-    return (sweep){.grid = g,
-                   .mechanism = of,
-                   .scene = in,
-                   .changes = changes,
-                   .kind = o->common.number,
-                   .engine = o->common.integration,
-                   .strict = o->strict};
-}
-
 /* --- the sweep ---------------------------------------------------------------------------------*/
 
 static const char *model_text(const source_model *from) {
@@ -234,43 +202,26 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
     return code;
 }
 
-static int sweep_measured(const sweep_options *o, source_model *from, sweep *s) {
-    loaded base;
-    int code = load_base(o, from, s, &base);
-    if (code == EXIT_DONE && s->from_s > base.instance->until_s) {
-        fprintf(stderr, "whirl sweep: error: --from %.9g s is after the end, %.9g s\n", s->from_s,
-                base.instance->until_s);
-        code = EXIT_BAD_INPUT;
+/* Takes --from, which may name parameters, and --measure, to be freed. Returns NULL after an error. */
+static measures *take_measures(const sweep_options *o, sweep *s, diags *errors) {
+    const mechanism *of = s->mechanism;
+    if (o->from != NULL &&
+        !instance_duration(of, s->scene, s->changes, "from", o->from, errors, &s->from_s)) {
+        return NULL;
     }
-    if (code == EXIT_DONE && !sweep_ends_are_alike(s, base.instance->until_s)) {
-        code = EXIT_BAD_INPUT;
-    }
-    if (code == EXIT_DONE && !o->quiet) {
-        say_hints(&base);
-    }
-    if (code == EXIT_DONE) {
-        code = begins(s, &base, from->errors) ? sweep_loaded(o, from, &base, s) : EXIT_BAD_INPUT;
-    }
-    unload(&base);
-    return code;
+    measures *wanted = measures_new(of, o->measure, o->measure_count, errors);
+    s->measures = wanted;
+    s->mechanism = wanted != NULL ? &wanted->mechanism : of;
+    return wanted;
 }
 
-static int sweep_scene(const sweep_options *o, source_model *from, const mechanism *of,
-                       const scene *in, grid *g, const overrides *changes) {
-    sweep s = sweep_of(o, of, in, g, changes);
-    /* --from is parsed like --until, so that it may name parameters, too */
-    const bool good = o->from == NULL ||
-                      instance_duration(of, in, changes, "from", o->from, from->errors, &s.from_s);
-    measures *wanted = good ? measures_new(of, o->measure, o->measure_count, from->errors) : NULL;
-    int code = EXIT_BAD_INPUT;
-    diags_flush(from->errors, stderr);
-    if (wanted != NULL) {
-        s.measures = wanted;
-        s.mechanism = &wanted->mechanism;
-        code = sweep_measured(o, from, &s);
+/* Do --from and the ends of all points agree with the run? Otherwise reports the reason. */
+static bool ends_fit(const sweep *s, const loaded *base) {
+    if (s->from_s > base->instance->until_s) {
+        return options_fail("sweep", "--from %.9g s is after the end, %.9g s", s->from_s,
+                            base->instance->until_s);
     }
-    measures_free(wanted);
-    return code;
+    return sweep_ends_are_alike(s, base->instance->until_s);
 }
 
 /* --- the map -----------------------------------------------------------------------------------*/
@@ -371,52 +322,63 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
     return code;
 }
 
-static int map_scene(const sweep_options *o, source_model *from, const mechanism *of,
-                     const scene *in, grid *g, const overrides *changes) {
-    const sweep s = sweep_of(o, of, in, g, changes);
-    loaded base;
-    int code = load_base(o, from, &s, &base);
-    if (code == EXIT_DONE) {
-        code = begins(&s, &base, from->errors) ? map_loaded(o, &s, base.image) : EXIT_BAD_INPUT;
+/* --- the commands ------------------------------------------------------------------------------*/
+
+/* Reports errors that all points have in common, once for the scene without changes; returns false after one. */
+static bool begins(const sweep_options *o, const sweep *s, const loaded *base, diags *errors) {
+    if (!o->maps && !ends_fit(s, base)) {
+        return false;
     }
+    if (!o->maps && !o->quiet) {
+        say_hints(base);
+    }
+    if (s->kind == &engine_float) {
+        say_float_range(base->image);
+    }
+    return changes_take_part(s->grid, base->instance) &&
+           start_has_method(base->image, s->engine.method, errors);
+}
+
+static int sweep_picked(const sweep_options *o, source_model *from, sweep *s) {
+    const load_request request = {.settings = o->common.integration,
+                                  .use = IMAGE_TO_RUN,
+                                  .keep = KEEP_INSTANCE,
+                                  .conserve = true};
+    loaded base;
+    int code = load(&base, from, s->mechanism, s->scene, s->changes, &request);
+    const bool good = code == EXIT_DONE && begins(o, s, &base, from->errors);
+    diags_flush(from->errors, stderr);
+    code = !good     ? EXIT_BAD_INPUT
+           : o->maps ? map_loaded(o, s, base.image)
+                     : sweep_loaded(o, from, &base, s);
     unload(&base);
     return code;
 }
 
-/* --- the commands ------------------------------------------------------------------------------*/
-
-typedef int sweep_work(const sweep_options *o, source_model *from, const mechanism *of,
-                       const scene *in, grid *g, const overrides *changes);
-
-static int work_on(const sweep_options *o, sweep_work *work) {
-    source_model from;
-    const mechanism *of;
-    const scene *in;
-    int code = source_open(&from, o->target);
-    code = code == EXIT_DONE ? source_pick(&from, true, &of, &in) : code;
-    if (code == EXIT_DONE) {
-        overrides changes = options_overrides(&o->common.change);
-        grid g = {.command = o->command};
-        bool good = true;
-        changes.balance = true;
-        for (int i = 0; i < o->over_count && good; i++) {
-            good = grid_add(&g, of, o->over[i], from.errors);
-        }
-        diags_flush(from.errors, stderr);
-        good = good && changes_are_apart(&g, &changes);
-        code = good ? work(o, &from, of, in, &g, &changes) : EXIT_BAD_INPUT;
-        grid_free(&g);
+static int sweep_source(source_model *from, void *options) {
+    sweep_options *o = options;
+    overrides changes = o->common.changes;
+    grid g = {.command = o->command};
+    sweep s = {.grid = &g,
+               .changes = &changes,
+               .kind = o->common.number,
+               .engine = o->common.integration,
+               .strict = o->strict};
+    changes.balance = true;
+    bool good = (o->maps ? is_whole_map : is_whole_sweep)(o) &&
+                source_pick(from, true, &s.mechanism, &s.scene) == EXIT_DONE;
+    for (int i = 0; i < o->over_count && good; i++) {
+        good = grid_add(&g, s.mechanism, o->over[i], from->errors);
     }
-    source_close(&from);
+    diags_flush(from->errors, stderr);
+    good = good && changes_are_apart(&g, &changes);
+    measures *wanted = good && !o->maps ? take_measures(o, &s, from->errors) : NULL;
+    good = good && (o->maps || wanted != NULL);
+    diags_flush(from->errors, stderr);
+    const int code = good ? sweep_picked(o, from, &s) : EXIT_BAD_INPUT;
+    measures_free(wanted);
+    grid_free(&g);
     return code;
-}
-
-static int sweep_target(void *options) {
-    return is_whole_sweep(options) ? work_on(options, sweep_scene) : EXIT_BAD_INPUT;
-}
-
-static int map_target(void *options) {
-    return is_whole_map(options) ? work_on(options, map_scene) : EXIT_BAD_INPUT;
 }
 
 int command_sweep(int count, char **words) {
@@ -438,7 +400,7 @@ int command_sweep(int count, char **words) {
                               {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
     const target_reader reader = {
-        .command = "sweep", .usage = &sweep_usage, .table = own, .work = sweep_target};
+        .command = "sweep", .usage = &sweep_usage, .table = own, .work_on = sweep_source};
     const int code = target_command(&reader, count, words, &o.common, &o, &o.target);
     free(o.over);
     free(o.measure);
@@ -447,6 +409,7 @@ int command_sweep(int count, char **words) {
 
 int command_map(int count, char **words) {
     sweep_options o = {.command = "map",
+                       .maps = true,
                        .common = options_defaults(),
                        .over = alloc(count, sizeof(const char *)),
                        .tolerance = HORIZON_TOLERANCE,
@@ -460,7 +423,7 @@ int command_map(int count, char **words) {
                               {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
     const target_reader reader = {
-        .command = "map", .usage = &map_usage, .table = own, .work = map_target};
+        .command = "map", .usage = &map_usage, .table = own, .work_on = sweep_source};
     const int code = target_command(&reader, count, words, &o.common, &o, &o.target);
     free(o.over);
     return code;

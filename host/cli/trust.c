@@ -169,15 +169,20 @@ static int trust_loaded(const trust_options *o, image *im, const image *plain, d
     return code;
 }
 
-static int trust_source(const trust_options *o, source_model *from) {
+static int trust_source(source_model *from, void *options) {
+    const trust_options *o = options;
     const mechanism *of;
     const scene *in;
-    int code = source_open(from, o->target);
-    code = code == EXIT_DONE ? source_pick(from, true, &of, &in) : code;
+    if (o->json && options_is_standard(o->csv)) {
+        (void)options_fail("trust", "--json and rows cannot share standard output\n"
+                                    "hint: --csv rows.csv");
+        return EXIT_BAD_INPUT;
+    }
+    int code = source_pick(from, true, &of, &in);
     if (code != EXIT_DONE) {
         return code;
     }
-    overrides changes = options_overrides(&o->common.change);
+    overrides changes = o->common.changes;
     changes.balance = true;
     const load_request request = {.settings = o->common.integration,
                                   .use = IMAGE_TO_RUN,
@@ -195,20 +200,6 @@ static int trust_source(const trust_options *o, source_model *from) {
     }
     image_free(plain);
     unload(&made);
-    return code;
-}
-
-static int trust_target(void *options) {
-    const trust_options *o = options;
-    if (o->json && options_is_standard(o->csv)) {
-        fputs("whirl trust: error: --json and rows cannot share standard output\n"
-              "hint: --csv rows.csv\n",
-              stderr);
-        return EXIT_BAD_INPUT;
-    }
-    source_model from;
-    const int code = trust_source(o, &from);
-    source_close(&from);
     return code;
 }
 
@@ -239,6 +230,6 @@ int command_trust(int count, char **words) {
                               {.word = "--quiet", .flag = &o.quiet},
                               {.word = NULL}};
     const target_reader reader = {
-        .command = "trust", .usage = &usage, .table = own, .work = trust_target};
+        .command = "trust", .usage = &usage, .table = own, .work_on = trust_source};
     return target_command(&reader, count, words, &o.common, &o, &o.target);
 }

@@ -79,10 +79,10 @@ TEST(commands, lists_of_effects) {
             strcat(text, k + 1 < count ? "," : "");
         }
         common_options o;
-        const change_options *c = &o.change;
+        const overrides *c = &o.changes;
         const bool good = mistake != 1; /* a repeated name is no mistake */
         TEST_ASSERT_TRUE_MESSAGE(take(&o, with, text, i % 2 == 0) == good, text);
-        const char **list = with ? c->with : c->without;
+        const char *const *list = with ? c->with : c->without;
         if (mistake == 0) {
             TEST_ASSERT_EQUAL_INT(count, with ? c->with_count : c->without_count);
             TEST_ASSERT_EQUAL_INT(0, with ? c->without_count : c->with_count);

@@ -236,7 +236,7 @@ static cost priced_line(char *line, const cost_board *board, const char *number)
     }
     const load_request request = {
         .settings = options.integration, .use = IMAGE_TO_WRITE, .conserve = true};
-    const overrides changes = options_overrides(&options.change);
+    const overrides changes = options.changes;
     TEST_ASSERT_FALSE(bad);
     TEST_ASSERT_EQUAL_INT(EXIT_DONE, source_open(&from, words[2]));
     TEST_ASSERT_EQUAL_INT(EXIT_DONE, source_pick(&from, true, &of, &in));
