@@ -230,8 +230,8 @@ static const form *form_of(const char *word) {
 
 /* `first`: no entry was listed before. */
 static int list_one(const source_model *from, const form *as, bool first) {
-    bool good = from->model != NULL;
-    if (good && first && as->head != NULL) {
+    bool good = true;
+    if (first && as->head != NULL) {
         puts(as->head);
     }
     for (int i = 0; good && i < from->model->mechanism_count; i++) {
@@ -244,10 +244,9 @@ static int list_one(const source_model *from, const form *as, bool first) {
 static int list_builtin(const form *as) {
     int code = EXIT_DONE;
     for (size_t i = 0; i < builtin_model_count; i++) {
-        const struct builtin_model *b = &builtin_models[i];
-        source_model from = {.file = b->file, .errors = diags_new()};
-        from.model = model_parse(b->file, b->text, b->length, from.errors);
-        const int one = list_one(&from, as, i == 0);
+        source_model from;
+        const int one = source_builtin(&from, &builtin_models[i]) ? list_one(&from, as, i == 0)
+                                                                  : EXIT_BAD_INPUT;
         code = one > code ? one : code;
         source_close(&from);
     }

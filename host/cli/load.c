@@ -86,15 +86,6 @@ static bool is_mechanism(const sought *w, const mechanism *m) {
                                     strncmp(m->name, w->mechanism, w->mechanism_length) == 0);
 }
 
-static bool knows_mechanism(const sought *w, const whirl_model *m) {
-    for (int i = 0; i < m->mechanism_count; i++) {
-        if (is_mechanism(w, m->mechanisms[i])) {
-            return true;
-        }
-    }
-    return false;
-}
-
 /* The mechanism in one model that the target names, as source_pick() will find it; or NULL. */
 static const mechanism *find_in(const sought *w, const whirl_model *m) {
     for (int i = 0; i < m->scene_count; i++) {
@@ -110,109 +101,80 @@ static const mechanism *find_in(const sought *w, const whirl_model *m) {
     return NULL;
 }
 
-static void say_ambiguous(const sought *w, const struct builtin_model *models,
-                          whirl_model *const *read, size_t count) {
+static void say_ambiguous(const sought *w, const source_model *each, size_t count) {
     fprintf(stderr,
             "whirl: error: '%s' names more than one built-in scene or mechanism\nhint: "
             "choose one of:",
             w->name);
     for (size_t i = 0; i < count; i++) {
-        const mechanism *of = find_in(w, read[i]);
+        const mechanism *of = find_in(w, each[i].model);
         if (of != NULL) {
-            fprintf(stderr, " %s:%s (%s)", of->name, w->name, models[i].file);
+            fprintf(stderr, " %s:%s (%s)", of->name, w->name, each[i].file);
         }
     }
     fputc('\n', stderr);
 }
 
-/* All scenes of the named mechanism. */
-static void say_scenes(const sought *w, whirl_model *const *read, size_t count) {
-    fputs("hint: choose one of:", stderr);
-    for (size_t i = 0; i < count; i++) {
-        for (int k = 0; k < read[i]->scene_count; k++) {
-            if (is_mechanism(w, read[i]->scenes[k]->mechanism)) {
-                fprintf(stderr, " %s", read[i]->scenes[k]->name);
-            }
-        }
-    }
-    fputs(", or name the mechanism without a scene\n", stderr);
-}
-
-/* Reports an unknown name. The hint is the nearest scene of the named mechanism; without such a mechanism, the nearest of
- * all names. */
-static void say_unknown(const sought *w, const char *target, whirl_model *const *read,
+/* Reports an unknown name. The hint is the nearest name; after MECHANISM: that of a scene of the mechanism. */
+static void say_unknown(const sought *w, const char *target, const source_model *each,
                         size_t count) {
-    bool known = false;
-    for (size_t i = 0; i < count && w->mechanism != NULL; i++) {
-        known = known || knows_mechanism(w, read[i]);
-    }
-    const char *meant = known || w->mechanism == NULL ? w->name : w->mechanism;
-    nearest search =
-        nearest_start(meant, meant == w->mechanism ? w->mechanism_length : strlen(meant));
+    nearest search = nearest_start(w->name, strlen(w->name));
     for (size_t i = 0; i < count; i++) {
-        const whirl_model *m = read[i];
-        for (int k = 0; k < m->scene_count && meant == w->name; k++) {
+        const whirl_model *m = each[i].model;
+        for (int k = 0; k < m->scene_count; k++) {
             if (is_mechanism(w, m->scenes[k]->mechanism)) {
                 nearest_offer(&search, m->scenes[k]->name);
             }
         }
-        for (int k = 0; k < m->mechanism_count && !known; k++) {
+        for (int k = 0; k < m->mechanism_count && w->mechanism == NULL; k++) {
             nearest_offer(&search, m->mechanisms[k]->name);
         }
     }
-    if (known) {
-        fprintf(stderr, "whirl: error: the built-in mechanism '%.*s' has no scene '%s'\n",
-                (int)w->mechanism_length, w->mechanism, w->name);
-    } else {
-        fprintf(stderr, "whirl: error: there is no file and no built-in scene or mechanism '%s'\n",
-                target);
-    }
+    fprintf(stderr, "whirl: error: there is no file and no built-in scene or mechanism '%s'\n",
+            target);
     if (search.best != NULL) {
         fprintf(stderr, "hint: did you mean '%s'? `whirl list` shows all\n", search.best);
-    } else if (known) {
-        say_scenes(w, read, count);
     } else {
         fprintf(stderr, "hint: `whirl list` shows the built-in ones\n");
     }
 }
 
-int find_builtin(const struct builtin_model *models, size_t count, const char *target,
-                 diags *errors, whirl_model **found, const struct builtin_model **from,
-                 const char **name) {
+bool source_builtin(source_model *s, const struct builtin_model *model) {
+    *s = (source_model){.file = model->file, .errors = diags_new()};
+    s->model = model_parse(model->file, model->text, model->length, s->errors);
+    diags_flush(s->errors, stderr);
+    return s->model != NULL;
+}
+
+int source_find(source_model *s, const struct builtin_model *models, size_t count,
+                const char *target) {
     const sought w = wish_of(target);
-    whirl_model **read = alloc((int64_t)count, sizeof(whirl_model *));
+    source_model *each = alloc((int64_t)count, sizeof *each);
     size_t hits = 0;
     size_t hit = 0;
-    size_t good = 0;
-    for (; good < count; good++) {
-        const struct builtin_model *b = &models[good];
-        read[good] = model_parse(b->file, b->text, b->length, errors);
-        if (read[good] == NULL) {
-            diags_flush(errors, stderr);
-            break;
-        }
-        if (find_in(&w, read[good]) != NULL) {
-            hit = good;
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        good = source_builtin(&each[i], &models[i]) && good;
+        if (each[i].model != NULL && find_in(&w, each[i].model) != NULL) {
+            hit = i;
             hits++;
         }
     }
-    const bool one = good == count && hits == 1;
-    if (good == count && hits == 0) {
-        say_unknown(&w, target, read, count);
-    } else if (good == count && hits > 1) {
-        say_ambiguous(&w, models, read, count);
-    } else if (one) {
-        *found = read[hit];
-        *from = &models[hit];
-        *name = w.name;
+    if (good && hits == 0) {
+        say_unknown(&w, target, each, count);
+    } else if (good && hits > 1) {
+        say_ambiguous(&w, each, count);
     }
-    for (size_t i = 0; i < good; i++) {
-        if (!one || i != hit) {
-            model_free(read[i]);
+    good = good && hits == 1;
+    for (size_t i = 0; i < count; i++) {
+        if (!good || i != hit) {
+            source_close(&each[i]);
         }
     }
-    free(read);
-    return one ? EXIT_DONE : EXIT_BAD_INPUT;
+    *s = good ? each[hit] : (source_model){0};
+    s->name = alloc_words("%s", w.name);
+    free(each);
+    return good ? EXIT_DONE : EXIT_BAD_INPUT;
 }
 
 /* === reading and deriving ===================================================================== */
@@ -284,28 +246,15 @@ char *source_file(const char *target) {
     return path;
 }
 
-static int open_builtin(source_model *s, const char *target) {
-    const struct builtin_model *from;
-    const char *name;
-    const int code = find_builtin(builtin_models, builtin_model_count, target, s->errors, &s->model,
-                                  &from, &name);
-    if (code == EXIT_DONE) {
-        s->file = from->file;
-        s->name = alloc_copy(name, strlen(name));
-    }
-    return code;
-}
-
 int source_open(source_model *s, const char *target) {
-    *s = (source_model){.errors = diags_new()};
     const size_t length = file_part(target);
     char *path = alloc_copy(target, length);
     const bool looks_like_file = strchr(path, '/') != NULL || strstr(path, ".whirl") != NULL;
     if (!file_exists(path) && !looks_like_file) {
         free(path);
-        return open_builtin(s, target);
+        return source_find(s, builtin_models, builtin_model_count, target);
     }
-    s->path = path;
+    *s = (source_model){.path = path, .errors = diags_new()};
     s->file = strcmp(path, "-") == 0 ? "<standard input>" : path;
     s->name = alloc_copy(target[length] == ':' ? target + length + 1 : "",
                          target[length] == ':' ? strlen(target + length + 1) : 0);

@@ -24,14 +24,7 @@ bool files_same(const char *one, const char *other);
  * an output with files beside it. */
 bool files_meet(const char *output, const char *other, bool is_input);
 
-/* === a built-in scene or mechanism by its name ================================================ */
-
-/* Find `target`, SCENE, MECHANISM or MECHANISM:SCENE, in models [count]. *found is then parsed (free with
- * model_free()), *from is its entry, and *name, within `target`, is the name for source_pick(). Returns an exit status.
- * An unknown or ambiguous target is reported on standard error. */
-int find_builtin(const struct builtin_model *models, size_t count, const char *target,
-                 diags *errors, whirl_model **found, const struct builtin_model **from,
-                 const char **name);
+/* === a file, or a built-in model ============================================================== */
 
 /* A .whirl file, or the only built-in model that has the target. Free with source_close(). */
 typedef struct source_model {
@@ -45,6 +38,12 @@ typedef struct source_model {
 
 /* `target` is FILE, FILE:NAME, or a built-in SCENE, MECHANISM or MECHANISM:SCENE. Prints errors; returns an exit status. */
 int source_open(source_model *source, const char *target);
+/* The only one of the built-in models [count] with the target SCENE, MECHANISM or MECHANISM:SCENE. An unknown or ambiguous
+ * target is reported. Returns an exit status; call source_close() in any case. */
+int source_find(source_model *source, const struct builtin_model *models, size_t count,
+                const char *target);
+/* Opens a built-in model without a name. False: reported. */
+bool source_builtin(source_model *source, const struct builtin_model *model);
 void source_close(source_model *source);
 /* Free the model and its text when they are no longer needed; names and errors stay until source_close(). */
 void source_forget(source_model *source);

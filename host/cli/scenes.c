@@ -45,11 +45,9 @@ static int each_scene(int files, char **file, scene_visitor *visit, void *contex
         source_close(&from);
     }
     for (size_t i = 0; files == 0 && i < builtin_model_count && code == EXIT_DONE; i++) {
-        const struct builtin_model *b = &builtin_models[i];
-        source_model from = {.file = b->file, .errors = diags_new()};
-        from.model = model_parse(b->file, b->text, b->length, from.errors);
-        diags_flush(from.errors, stderr);
-        code = from.model == NULL ? EXIT_BAD_INPUT : each_scene_of(&from, visit, context);
+        source_model from;
+        code = source_builtin(&from, &builtin_models[i]) ? each_scene_of(&from, visit, context)
+                                                         : EXIT_BAD_INPUT;
         source_close(&from);
     }
     return code;

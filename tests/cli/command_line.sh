@@ -118,7 +118,7 @@ exits 2 "the command takes only one scene or mechanism: 'thomson' is a second on
 exits 2 'did you mean --json' describe epicyclic --jsn
 exits 2 "there is no method 'foo'" describe epicyclic --method foo
 prints '^start[(]theta1[)],' sweep thomson:thomson_a --until 2ms --over theta1=0..1:2 --quiet
-exits 2 "the built-in mechanism 'thomson' has no scene 'foo'" run thomson:foo
+exits 2 "no built-in scene or mechanism 'thomson:foo'" run thomson:foo
 "$whirl" accel - x=0.5 <<'END' >"$scratch/out" 2>"$scratch/err"
 mechanism oscillator
 coordinate x [m]

@@ -103,20 +103,16 @@ typedef struct found {
 
 static found look(const struct builtin_model *models, size_t count, const char *target) {
     found f = {0};
-    diags *errors = diags_new();
-    whirl_model *m = NULL;
-    const struct builtin_model *from = NULL;
-    const char *name = NULL;
+    source_model from;
     listen_to_errors();
-    f.code = find_builtin(models, count, target, errors, &m, &from, &name);
+    f.code = source_find(&from, models, count, target);
     snprintf(f.said, sizeof f.said, "%s", said());
     TEST_ASSERT_TRUE_MESSAGE((f.code == EXIT_DONE) == (f.said[0] == '\0'), f.said);
     if (f.code == EXIT_DONE) {
-        snprintf(f.file, sizeof f.file, "%s", from->file);
-        snprintf(f.name, sizeof f.name, "%s", name);
-        model_free(m);
+        snprintf(f.file, sizeof f.file, "%s", from.file);
+        snprintf(f.name, sizeof f.name, "%s", from.name);
     }
-    diags_free(errors);
+    source_close(&from);
     return f;
 }
 
@@ -146,16 +142,15 @@ TEST(commands, built_in_names) {
                {"rod:falls", "one.whirl", "falls"},
                {"rest", NULL, "hint: choose one of: gear:rest (one.whirl) lever:rest (two.whirl)"},
                {"gear", NULL, "hint: choose one of: gear:gear (one.whirl) gear:gear (three.whirl)"},
-               {"gear:only", NULL, "the built-in mechanism 'gear' has no scene 'only'"},
+               {"gear:only", NULL, "no built-in scene or mechanism 'gear:only'"},
                {"gear:spum", NULL, "hint: did you mean 'spun'?"},
-               {"rod:xyzzy", NULL,
-                "hint: choose one of: rod falls, or name the mechanism without a scene"},
-               {"gaer:spun", NULL, "hint: did you mean 'gear'?"},
+               {"rod:xyzzy", NULL, "hint: `whirl list` shows the built-in ones"},
+               {"gaer:spun", NULL, "hint: `whirl list` shows the built-in ones"},
                {"onyl", NULL, "hint: did you mean 'only'?"},
                {"", NULL, "no file and no built-in"},
                {":", NULL, "no file and no built-in"},
                {":rest", NULL, "no file and no built-in"},
-               {"lever:", NULL, "has no scene ''"},
+               {"lever:", NULL, "no file and no built-in"},
                {"gear:spun:spun", NULL, "no file and no built-in"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         const found f = look(made_up, 3, all[i].target);
