@@ -117,18 +117,8 @@ static void break_edges(const fault_plan *plan, fault_case *f, double time_s, wh
 
 /* --- samples -------------------------------------------------------------------------------------------------*/
 
-static const wh_signal *signal_of(const fault_plan *plan, unsigned channel) {
-    const binding *b = plan->plant->binding;
-    for (unsigned i = 0; i < b->count; i++) {
-        if (b->bound[i].signal.kind == WH_SIGNAL_SAMPLE && b->bound[i].channel == channel) {
-            return &b->bound[i].signal;
-        }
-    }
-    return NULL;
-}
-
 static void set_value(const fault_plan *plan, wh_sample *s, double value, bool added) {
-    const wh_signal *of = signal_of(plan, s->channel);
+    const wh_signal *of = hello_signal(plan->hello, WH_SIGNAL_SAMPLE, s->channel);
     const double count = (double)of->per_count;
     const double counts = value / count + (added ? (double)s->raw : 0.0);
     const double low = (double)of->low / count;
@@ -278,17 +268,13 @@ static bool find_inputs(const fault_case *f, const image *im) {
 
 /* Finds the fault's note in orders.output[], where the notes follow the outputs. */
 static bool find_note(fault_case *f, const wh_hello *hello) {
-    int at = 0;
-    for (unsigned i = 0; i < hello->signals; i++) {
-        at += hello->signal[i].kind == WH_SIGNAL_OUTPUT;
-    }
-    for (unsigned i = 0; i < hello->signals && f->note[0] != '\0'; i++) {
-        const wh_signal *s = &hello->signal[i];
-        if (s->kind == WH_SIGNAL_NOTE && strcmp(s->name, f->note) == 0) {
-            f->note_at = at;
+    const unsigned outputs = hello_channels(hello, WH_SIGNAL_OUTPUT);
+    const wh_signal *s;
+    for (unsigned i = 0; (s = hello_signal(hello, WH_SIGNAL_NOTE, i)) != NULL; i++) {
+        if (strcmp(s->name, f->note) == 0) {
+            f->note_at = (int)(outputs + i);
             return true;
         }
-        at += s->kind == WH_SIGNAL_NOTE;
     }
     if (f->note[0] != '\0') {
         fprintf(stderr, "whirl pil: error: --fault %s@%s=...: the firmware declares no note '%s'\n",
@@ -297,9 +283,10 @@ static bool find_note(fault_case *f, const wh_hello *hello) {
     return f->note[0] == '\0';
 }
 
-static bool has_channel(const fault_case *f, const plant *p) {
+static bool has_channel(const fault_case *f, const wh_hello *hello) {
     const fault_place at = fault_rows[f->kind].place;
-    const unsigned count = at == FAULT_SAMPLES ? p->binding->samples : p->binding->edges;
+    const unsigned count =
+        hello_channels(hello, at == FAULT_SAMPLES ? WH_SIGNAL_SAMPLE : WH_SIGNAL_EDGE);
     const bool asks = at == FAULT_SAMPLES || at == FAULT_EDGES || at == FAULT_SENSORS;
     if (asks && f->channel >= (int)count) {
         fprintf(stderr,
@@ -426,10 +413,11 @@ static void look_at_time(fault_plan *plan, double time_s) {
 static bool tap_start(void *of, const wh_hello *hello, plant *p) {
     fault_plan *plan = of;
     plan->plant = p;
+    plan->hello = hello;
     plan->ticks_per_s = (double)hello->ticks_per_s;
     for (unsigned i = 0; i < plan->count; i++) {
         fault_case *f = &plan->fault[i];
-        if (!find_inputs(f, p->image) || !find_note(f, hello) || !has_channel(f, p)) {
+        if (!find_inputs(f, p->image) || !find_note(f, hello) || !has_channel(f, hello)) {
             return false;
         }
         f->reached = f->note_at < 0;

@@ -174,6 +174,7 @@ typedef struct fault_plan {
     fault_case fault[FAULTS_MAX];
     /* While it runs: */
     plant *plant;
+    const wh_hello *hello;
     double ticks_per_s;
     wh_orders last;  /* the last orders that were not lost */
     unsigned resets; /* resets of the plant so far */

@@ -254,14 +254,12 @@ static bool hear_hello(talk *t) {
     } else if (!take_hello(t, &t->hello, t->signal, t->words, sizeof t->words)) {
         return false;
     }
-    for (unsigned i = 0; i < t->hello.signals; i++) {
-        const wh_signal *s = &t->signal[i];
-        t->outputs += s->kind == WH_SIGNAL_OUTPUT || s->kind == WH_SIGNAL_NOTE;
-        if (s->kind == WH_SIGNAL_NOTE) {
-            last_note *note = &t->report->note[t->report->notes++];
-            snprintf(note->name, sizeof note->name, "%s", s->name);
-            snprintf(note->unit, sizeof note->unit, "%s", s->unit);
-        }
+    t->report->notes = hello_channels(&t->hello, WH_SIGNAL_NOTE);
+    t->outputs = hello_channels(&t->hello, WH_SIGNAL_OUTPUT) + t->report->notes;
+    for (unsigned i = 0; i < t->report->notes; i++) {
+        const wh_signal *s = hello_signal(&t->hello, WH_SIGNAL_NOTE, i);
+        snprintf(t->report->note[i].name, sizeof t->report->note[i].name, "%s", s->name);
+        snprintf(t->report->note[i].unit, sizeof t->report->note[i].unit, "%s", s->unit);
     }
     snprintf(t->report->program, sizeof t->report->program, "%s", t->hello.program);
     snprintf(t->report->board, sizeof t->report->board, "%s", t->hello.board);
@@ -563,34 +561,13 @@ static void run_bound(loop *l, const image *im) {
 }
 
 static bool has_places(const loop *l, unsigned places) {
-    const bool has = places <= l->binding.edges;
+    const unsigned edges = hello_channels(&l->talk.hello, WH_SIGNAL_EDGE);
+    const bool has = places <= edges;
     if (!has) {
         fprintf(stderr,
                 "whirl pil: error: --place has %u values, but the firmware has %u edges\n"
                 "hint: give one value for each edge, in the firmware's sequence\n",
-                places, l->binding.edges);
-    }
-    return has;
-}
-
-/* Does the plant's queue have room for the samples of one delay? Otherwise the plant would lose samples, and the
- * firmware would wait for them. */
-static bool has_room(const loop *l, double delay_s) {
-    double most = 0.0;
-    for (unsigned i = 0; i < l->binding.count; i++) {
-        const wh_signal *s = &l->binding.bound[i].signal;
-        most += s->kind == WH_SIGNAL_SAMPLE
-                    ? 1.0 + delay_s * (double)l->talk.hello.ticks_per_s / (double)s->period_ticks
-                    : 0.0;
-    }
-    const bool has = most <= (double)PLANT_PENDING;
-    if (!has) {
-        fprintf(
-            stderr,
-            "whirl pil: error: --delay %g s: %.0f samples would be delayed at the same time, more "
-            "than the limit of %d\n"
-            "hint: use a shorter --delay, or delay one channel only: --fault cell-late:1=50ms\n",
-            delay_s, most, PLANT_PENDING);
+                places, edges);
     }
     return has;
 }
@@ -600,7 +577,7 @@ void lockstep_run(const lockstep_request *request, const image *im, lockstep_rep
     *report = (lockstep_report){.end = LOCKSTEP_DONE};
     if (talk_start(&l.talk, request, report, request->tape)) {
         if (bind_signals(&l.binding, &l.talk.hello, im, request->renames) &&
-            has_places(&l, request->plant.places) && has_room(&l, request->plant.delay_s)) {
+            has_places(&l, request->plant.places)) {
             run_bound(&l, im);
         } else {
             report->end = LOCKSTEP_BAD;

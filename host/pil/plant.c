@@ -14,11 +14,9 @@
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 
-enum { NAME_BYTES = 80 };
-
 /* An angle is a number: rad equals 1, rad/s equals 1/s. */
 static bool is_same_unit(const char *one, const char *other) {
-    char both[2][NAME_BYTES];
+    char both[2][BOUND_NAME];
     const char *const of[2] = {one, other};
     for (int i = 0; i < 2; i++) {
         const bool is_rad = strncmp(of[i], "rad", 3) == 0;
@@ -102,19 +100,6 @@ static void say_unknown(const bound *b, const image *im, const char *name) {
             search.best != NULL ? search.best : "NAME");
 }
 
-/* Writes the scene's name for the firmware's `name` to other[NAME_BYTES]. */
-static void rename_signal(const char *renames, const char *name, char *other) {
-    snprintf(other, NAME_BYTES, "%s", name);
-    const size_t length = strlen(name);
-    for (const char *at = renames; at != NULL && *at != '\0'; at += strcspn(at, ",")) {
-        at += *at == ',';
-        if (strncmp(at, name, length) == 0 && at[length] == '=') {
-            const char *value = at + length + 1;
-            snprintf(other, NAME_BYTES, "%.*s", (int)strcspn(value, ","), value);
-        }
-    }
-}
-
 /* Do both ends of the signal's range, in counts, fit into the 32 bits of a sample? */
 static bool fits_counts(const wh_signal *s) {
     return (double)s->low / (double)s->per_count >= (double)INT32_MIN &&
@@ -147,13 +132,12 @@ static bool has_good_range(const bound *b) {
     return true;
 }
 
-static bool bind_one(bound *b, const image *im, const char *renames) {
+static bool bind_one(bound *b, const image *im) {
     if (b->signal.kind == WH_SIGNAL_NOTE) {
         b->place = BOUND_NOWHERE;
         return true;
     }
-    char name[NAME_BYTES];
-    rename_signal(renames, b->signal.name, name);
+    const char *name = b->renamed[0] != '\0' ? b->renamed : b->signal.name;
     const char *unit = is_output(b) ? find_set(b, im, name) : bind_read(b, im, name);
     if (unit == NULL) {
         say_unknown(b, im, name);
@@ -169,31 +153,22 @@ static bool bind_one(bound *b, const image *im, const char *renames) {
     return has_good_range(b);
 }
 
-/* The reason why a renaming is invalid, or NULL. A name that the firmware does not have would silently rename nothing,
- * and so would a second renaming of the same name. */
-static const char *against(const binding *b, const char *renames, const char *at, size_t length) {
-    const size_t name = strcspn(at, "=");
-    if (name == 0 || name >= length || name + 1U == length) {
-        return "this is not NAME=OTHER";
-    }
-    for (const char *before = renames; before < at; before += strcspn(before, ",") + 1U) {
-        if (strncmp(before, at, name + 1U) == 0) {
-            return "--bind already renames this signal of the firmware";
-        }
-    }
-    for (unsigned i = 0; i < b->count; i++) {
-        const char *known = b->bound[i].signal.name;
-        if (strlen(known) == name && strncmp(at, known, name) == 0) {
-            return NULL;
-        }
-    }
-    return "the firmware has no signal of that name";
-}
-
-static bool all_are_used(const binding *b, const char *renames) {
+/* Takes the words NAME=OTHER of --bind, each for a signal of its own. Returns false, and reports the reason, for another
+ * word. */
+static bool take_renames(binding *b, const char *renames) {
     for (const char *at = renames; at != NULL;) {
         const size_t length = strcspn(at, ",");
-        const char *why = against(b, renames, at, length);
+        const size_t name = strcspn(at, "=");
+        bound *one = NULL;
+        for (unsigned i = 0; i < b->count; i++) {
+            const char *known = b->bound[i].signal.name;
+            one = strlen(known) == name && strncmp(at, known, name) == 0 ? &b->bound[i] : one;
+        }
+        const char *why = name == 0 || name + 1U >= length ? "this is not NAME=OTHER"
+                          : one == NULL ? "the firmware has no signal of that name"
+                          : one->renamed[0] != '\0'
+                              ? "--bind already renames this signal of the firmware"
+                              : NULL;
         if (why != NULL) {
             fprintf(stderr,
                     "whirl pil: error: --bind '%.*s': %s\n"
@@ -201,26 +176,42 @@ static bool all_are_used(const binding *b, const char *renames) {
                     (int)length, at, why);
             return false;
         }
+        snprintf(one->renamed, sizeof one->renamed, "%.*s", (int)(length - name - 1U),
+                 at + name + 1);
         at = at[length] == ',' ? at + length + 1 : NULL;
     }
     return true;
 }
 
-bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char *renames) {
-    *b = (binding){.count = hello->signals};
+unsigned hello_channels(const wh_hello *hello, wh_signal_kind kind) {
+    unsigned count = 0;
+    while (hello_signal(hello, kind, count) != NULL) {
+        count++;
+    }
+    return count;
+}
+
+const wh_signal *hello_signal(const wh_hello *hello, wh_signal_kind kind, unsigned channel) {
     for (unsigned i = 0; i < hello->signals; i++) {
-        b->bound[i].signal = hello->signal[i];
-        switch (hello->signal[i].kind) {
-        case WH_SIGNAL_OUTPUT: b->bound[i].channel = b->outputs++; break;
-        case WH_SIGNAL_SAMPLE: b->bound[i].channel = b->samples++; break;
-        case WH_SIGNAL_EDGE: b->bound[i].channel = b->edges++; break;
-        case WH_SIGNAL_NOTE: b->bound[i].channel = b->notes++; break;
-        }
-        if (!bind_one(&b->bound[i], im, renames)) {
-            return false;
+        if (hello->signal[i].kind == kind && channel-- == 0) {
+            return &hello->signal[i];
         }
     }
-    return all_are_used(b, renames);
+    return NULL;
+}
+
+bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char *renames) {
+    *b = (binding){.count = hello->signals};
+    unsigned channels[WH_SIGNAL_NOTE + 1] = {0};
+    for (unsigned i = 0; i < b->count; i++) {
+        b->bound[i].signal = hello->signal[i];
+        b->bound[i].channel = channels[hello->signal[i].kind]++;
+    }
+    bool good = take_renames(b, renames);
+    for (unsigned i = 0; i < b->count && good; i++) {
+        good = bind_one(&b->bound[i], im);
+    }
+    return good;
 }
 
 /* === records of the plant of a run in the loop as comma-separated values ====================== */
@@ -348,6 +339,8 @@ void plant_stop(plant *p) {
     free(p->after);
     free(p->output);
     free(p->output_after);
+    free(p->edges.event);
+    free(p->samples.event);
     *p = (plant){.run = NULL};
 }
 
@@ -442,11 +435,8 @@ void plant_restart(plant *p) {
 
 /* --- inputs of the controller ------------------------------------------------------------------------------ */
 
-static void enqueue(plant *p, plant_queue *q, plant_event event) {
-    if (q->count == PLANT_PENDING) {
-        p->lost++;
-        return;
-    }
+static void enqueue(plant_queue *q, plant_event event) {
+    q->event = alloc_more(q->event, q->count + 1, sizeof *q->event);
     unsigned at = q->count++;
     for (; at > 0 && q->event[at - 1].at_ticks > event.at_ticks; at--) {
         q->event[at] = q->event[at - 1];
@@ -524,10 +514,9 @@ static void see_edges(plant *p) {
                 ticks = ticks > 0.0 ? ticks : 0.0;
             }
             p->edges_made++;
-            enqueue(p, &p->edges,
-                    (plant_event){.at_ticks = ticks,
-                                  .ticks = shown(p, ticks),
-                                  .channel = (uint8_t)b->channel});
+            enqueue(&p->edges, (plant_event){.at_ticks = ticks,
+                                             .ticks = shown(p, ticks),
+                                             .channel = (uint8_t)b->channel});
         }
     }
 }
@@ -564,7 +553,7 @@ static void take_samples(plant *p) {
             convert(b, b->place == BOUND_OUTPUT ? p->output_after[b->index] : p->after[b->index]);
         e.at_ticks = plant_now(p) + p->request.delay_s;
         e.ticks = shown(p, e.at_ticks);
-        enqueue(p, &p->samples, e);
+        enqueue(&p->samples, e);
         while ((double)p->due[b->channel] <= plant_now(p) + NEARLY) {
             p->due[b->channel] += p->period[b->channel];
         }

@@ -14,8 +14,11 @@
 
 typedef enum bound_place { BOUND_INPUT, BOUND_OUTPUT, BOUND_COMPONENT, BOUND_NOWHERE } bound_place;
 
+enum { BOUND_NAME = 80 };
+
 typedef struct bound {
-    wh_signal signal; /* the signal's texts are in the hello */
+    wh_signal signal;         /* the signal's texts are in the hello */
+    char renamed[BOUND_NAME]; /* the scene's name for the signal; "": the firmware's */
     unsigned channel;
     bound_place place;
     int index;  /* index of the input, the output or the state component (angles first) */
@@ -25,12 +28,12 @@ typedef struct bound {
 
 typedef struct binding {
     unsigned count;
-    bound bound[WH_SIGNALS_MAX]; /* bindings, in the order of the hello */
-    unsigned outputs;            /* number of the firmware's outputs */
-    unsigned edges;
-    unsigned samples;
-    unsigned notes; /* notes are not bound */
+    bound bound[WH_SIGNALS_MAX]; /* bindings, in the order of the hello; notes are not bound */
 } binding;
+
+/* The number of the hello's signals of this kind, and the signal of a channel; NULL if there is none. */
+unsigned hello_channels(const wh_hello *hello, wh_signal_kind kind);
+const wh_signal *hello_signal(const wh_hello *hello, wh_signal_kind kind, unsigned channel);
 
 /* The index of the input of that name, or -1. */
 int bind_input(const image *im, const char *name);
@@ -60,8 +63,6 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
 /* Returns false, and reports the reason, if the file is incomplete. */
 bool recorded_close(recorded *r);
 
-#define PLANT_PENDING 64
-
 /* Settings outside the scene: positions, noise and delay of the sensors. */
 typedef struct plant_request {
     double place[WH_SIGNALS_MAX]; /* position error of each edge's sensor; degrees for an angle,
@@ -83,7 +84,7 @@ typedef struct plant_event {
 
 /* A queue, in order of at_ticks. */
 typedef struct plant_queue {
-    plant_event event[PLANT_PENDING];
+    plant_event *event; /* [count] */
     unsigned count;
 } plant_queue;
 
@@ -132,7 +133,7 @@ typedef struct plant {
     uint64_t edges_made;
     uint64_t edges_seen; /* delivered to the controller */
     uint64_t samples_seen;
-    uint64_t lost; /* dropped for lack of space */
+    uint64_t lost; /* more readings than a message can hold */
 } plant;
 
 /* --place: one number for each edge, separated by commas. Returns false, and reports the reason, for any other text. */

@@ -106,20 +106,12 @@ static void taped_close(taped *t) {
     }
 }
 
-static unsigned taped_channels(const taped *t, wh_signal_kind kind) {
-    unsigned count = 0;
-    for (unsigned i = 0; i < t->hello.signals; i++) {
-        count += t->signal[i].kind == kind;
-    }
-    return count;
-}
-
 /* Do all channels exist in the hello? */
 static bool has_channels(const taped *t, const taped_turn *turn) {
-    const unsigned edges = taped_channels(t, WH_SIGNAL_EDGE);
-    const unsigned samples = taped_channels(t, WH_SIGNAL_SAMPLE);
+    const unsigned edges = hello_channels(&t->hello, WH_SIGNAL_EDGE);
+    const unsigned samples = hello_channels(&t->hello, WH_SIGNAL_SAMPLE);
     const unsigned outputs =
-        taped_channels(t, WH_SIGNAL_OUTPUT) + taped_channels(t, WH_SIGNAL_NOTE);
+        hello_channels(&t->hello, WH_SIGNAL_OUTPUT) + hello_channels(&t->hello, WH_SIGNAL_NOTE);
     bool good = !turn->answered || turn->orders.outputs == outputs;
     for (unsigned i = 0; i < turn->readings.edges; i++) {
         good = good && turn->readings.edge[i].channel < edges;
@@ -204,15 +196,6 @@ typedef struct rows {
     float value[WH_SIGNALS_MAX]; /* values by channel, the notes after the outputs */
 } rows;
 
-static const wh_signal *signal_of(const taped *t, wh_signal_kind kind, unsigned channel) {
-    for (unsigned i = 0; i < t->hello.signals; i++) {
-        if (t->signal[i].kind == kind && channel-- == 0) {
-            return &t->signal[i];
-        }
-    }
-    return NULL; /* does not happen: taped_next() has checked the channels */
-}
-
 static void print_time(const rows *r, int64_t ticks) {
     fprintf(r->out, "%.*f,", r->decimals, (double)ticks / (double)r->tape->hello.ticks_per_s);
 }
@@ -240,12 +223,12 @@ static void print_named(const rows *r, const wh_signal *s, unsigned channel) {
 
 static void print_edge(const rows *r, const wh_edge *e) {
     begin_row(r, e->ticks, "edge");
-    print_named(r, signal_of(r->tape, WH_SIGNAL_EDGE, e->channel), e->channel);
+    print_named(r, hello_signal(&r->tape->hello, WH_SIGNAL_EDGE, e->channel), e->channel);
     fputs(",,\n", r->out);
 }
 
 static void print_sample(const rows *r, const wh_sample *e) {
-    const wh_signal *s = signal_of(r->tape, WH_SIGNAL_SAMPLE, e->channel);
+    const wh_signal *s = hello_signal(&r->tape->hello, WH_SIGNAL_SAMPLE, e->channel);
     begin_row(r, e->ticks, "sample");
     print_named(r, s, e->channel);
     fprintf(r->out, "%.9g,", (double)e->raw * (double)s->per_count);
@@ -274,12 +257,12 @@ static void print_readings(const rows *r, const wh_readings *readings) {
 }
 
 static void print_orders(rows *r, const wh_orders *orders) {
-    const unsigned outputs = taped_channels(r->tape, WH_SIGNAL_OUTPUT);
+    const unsigned outputs = hello_channels(&r->tape->hello, WH_SIGNAL_OUTPUT);
     for (unsigned i = 0; i < orders->outputs; i++) {
         const bool is_note = i >= outputs;
         const unsigned channel = is_note ? i - outputs : i;
         const wh_signal *s =
-            signal_of(r->tape, is_note ? WH_SIGNAL_NOTE : WH_SIGNAL_OUTPUT, channel);
+            hello_signal(&r->tape->hello, is_note ? WH_SIGNAL_NOTE : WH_SIGNAL_OUTPUT, channel);
         if (r->has_rows && memcmp(&r->value[i], &orders->output[i], sizeof r->value[i]) == 0) {
             continue;
         }

@@ -268,8 +268,8 @@ exits 2 "'push' is in N, but 'duty' of 'rig_coupled' is in 1" rig_coupled --bind
 exits 2 'no signal of that name' docs/plants/cart.whirl --bind pull=push --firmware "$build/pil_cart"
 exits 2 'this is not NAME=OTHER' docs/plants/cart.whirl --bind push --firmware "$build/pil_cart"
 exits 2 'already renames this signal' docs/plants/cart.whirl --bind push=push,push=push --firmware "$build/pil_cart"
-exits 2 'more than the limit' docs/plants/cart.whirl --delay 10s --firmware "$build/pil_cart"
-exits 2 'more than the limit' $rig --delay 0.1 --firmware "$build/pil_rig"
+timeout 60 "$whirl" pil docs/plants/rig.whirl --delay 0.1 --until 1s --firmware "$build/pil_rig" | grep -q ' 0 lost$'
+verdict $? "a long delay loses no sample"
 exits 2 'numbers with commas between them' docs/plants/cart.whirl --place 1,x --firmware "$build/pil_cart"
 exits 2 'is not a time' docs/plants/cart.whirl --delay 3kg --firmware "$build/pil_cart"
 exits 2 "no board 'pdp11'" rig_coupled --board pdp11 --firmware "$build/pil_rig"
@@ -291,8 +291,7 @@ done <<'END'
 --patience --patience_takes_a_number -1 0 nan inf 1e7 empty
 --place --place_.*:_give_numbers_with_commas_between_them nan inf -inf 1e999 , 1, ,1 0x10 1,nan empty
 --place --place_has_[2-9]_values,_but_the_firmware_has 0,0,0
---bind this_is_not_NAME=OTHER = =push , push=push, ,push=push push empty
---bind has_no_input_'' push= push=,push=
+--bind this_is_not_NAME=OTHER = =push , push=push, ,push=push push push= push=,push= empty
 --board no_board nan , empty
 --tape cannot_be_written /dev/null/x empty
 END

@@ -294,8 +294,8 @@ TEST(plant, notes) {
     add_push();
     add((wh_signal){.kind = WH_SIGNAL_NOTE, .name = "x", .unit = "kg"});
     open_bench(0.0, 0.0, 50e-6, &request);
-    TEST_ASSERT_EQUAL_UINT(2, bound_to.notes);
-    TEST_ASSERT_EQUAL_UINT(1, bound_to.outputs);
+    TEST_ASSERT_EQUAL_UINT(1, bound_to.bound[2].channel);
+    TEST_ASSERT_EQUAL_UINT(0, bound_to.bound[1].channel);
     const wh_orders orders = {.outputs = 3, .output = {1.0F, NAN, -7.0F}};
     plant_order(&on, &orders, 0.0);
     TEST_ASSERT_TRUE(plant_advance(&on, 4000.0));
