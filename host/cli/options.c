@@ -2,6 +2,7 @@
 #include "options.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -174,12 +175,16 @@ static void push(const char *const **list, int *count, const char *text) {
     longer[(*count)++] = text;
 }
 
-/* A copy of text[length] without blanks at its ends, owned by the options. */
-static const char *keep(common_options *to, const char *text, size_t length) {
-    char *name = alloc_trimmed(text, length);
+static const char *keep(common_options *to, char *text) {
     to->owned = alloc_more(to->owned, to->owned_count + 1, sizeof *to->owned);
-    to->owned[to->owned_count++] = name;
-    return name;
+    to->owned[to->owned_count++] = text;
+    return text;
+}
+
+void options_set(common_options *options, char *text) {
+    if (text != NULL) {
+        push(&options->changes.sets, &options->changes.set_count, keep(options, text));
+    }
 }
 
 static bool is_in(const char *const *list, int count, const char *name) {
@@ -198,7 +203,7 @@ static bool push_names(common_options *to, const char *const **list, int *count,
     const overrides *c = &to->changes;
     for (const char *at = text;; at++) {
         const size_t field = strcspn(at, ",");
-        const char *name = keep(to, at, field);
+        const char *name = keep(to, alloc_trimmed(at, field));
         if (name[0] == '\0') {
             fprintf(stderr,
                     "whirl: error: a name is missing in %s \"%s\"\n"
@@ -315,6 +320,23 @@ bool options_number(const char *command, const char *option, const char *text, d
     if (!good) {
         fprintf(stderr, "whirl %s: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
                 command, option, least, most, text, hint);
+    }
+    return good;
+}
+
+bool options_time(const char *command, const char *option, const char *text, const mechanism *of,
+                  double most_s, double *time_s) {
+    diags *errors = diags_new();
+    *time_s = 0.0;
+    const bool good =
+        text == NULL ||
+        (instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= most_s);
+    diags_free(errors); /* a general message is clearer than the parser's */
+    if (!good) {
+        fprintf(
+            stderr,
+            "whirl %s: error: --%s '%s' is not a time%s\nhint: write a time such as 20us or 1ms\n",
+            command, option, text, isfinite(most_s) ? " from 0 to one hour" : "");
     }
     return good;
 }

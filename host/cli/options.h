@@ -97,6 +97,10 @@ bool options_help(int count, char **words, const command_usage *usage);
 bool options_number(const char *command, const char *option, const char *text, double least,
                     double most, const char *hint, double *number);
 
+/* Reads a time such as 1ms, from 0 to most_s; 0 without a text. For other text, returns false and reports it. */
+bool options_time(const char *command, const char *option, const char *text, const mechanism *of,
+                  double most_s, double *time_s);
+
 /* The range of --effort, a number of operations. */
 #define EFFORT_LEAST 1e4
 #define EFFORT_MOST 1e15
@@ -119,6 +123,9 @@ typedef struct common_options {
 /* The values without any option. */
 common_options options_defaults(void);
 void options_forget(common_options *options);
+
+/* Adds --set, whose text the options own; nothing for NULL. */
+void options_set(common_options *options, char *text);
 
 /* If words[*at] is an option of `groups`, stores its value, advances *at past it and returns true. An invalid value is
  * reported and sets *bad. */

@@ -180,24 +180,6 @@ static bool is_known_board(pil_options *o) {
                           (int)(sizeof boards / sizeof boards[0])) >= 0;
 }
 
-static bool read_time(const char *option, const char *text, const mechanism *of, double *time_s) {
-    *time_s = 0.0;
-    if (text == NULL) {
-        return true;
-    }
-    diags *errors = diags_new();
-    const bool good =
-        instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= LONGEST_S;
-    diags_free(errors); /* a general message is clearer than the parser's */
-    if (!good) {
-        fprintf(stderr,
-                "whirl pil: error: --%s '%s' is not a time from 0 to one hour\nhint: write a time "
-                "such as 20us or 1ms\n",
-                option, text);
-    }
-    return good;
-}
-
 static lockstep_request wish_of(const pil_options *o) {
     return (lockstep_request){.guest = {.image = o->firmware,
                                         .board = o->machine[0] != '\0' ? o->machine
@@ -308,31 +290,16 @@ static int run_image(const pil_options *o, const source_model *from, const image
 }
 
 /* Loads the plant. Parameters changed by faults come after those of --set, and so replace them. */
-static int load_plant(const pil_options *o, source_model *from, const mechanism *of,
-                      const scene *in, loaded *made) {
-    char *parameter[FAULTS_MAX];
-    int count = 0;
-    overrides changes = o->common.changes;
-    const char **sets = alloc(changes.set_count + FAULTS_MAX, sizeof *sets);
-    for (int i = 0; i < changes.set_count; i++) {
-        sets[i] = changes.sets[i];
-    }
+static int load_plant(pil_options *o, source_model *from, const mechanism *of, const scene *in,
+                      loaded *made) {
+    overrides *changes = &o->common.changes;
     for (unsigned i = 0; i < o->faults.count; i++) {
-        parameter[count] = fault_parameter(&o->faults, i);
-        if (parameter[count] != NULL) {
-            sets[changes.set_count++] = parameter[count++];
-        }
+        options_set(&o->common, fault_parameter(&o->faults, i));
     }
-    changes.sets = sets;
-    changes.step = changes.step != NULL ? changes.step : FINE_STEP;
+    changes->step = changes->step != NULL ? changes->step : FINE_STEP;
     const load_request what = {
         .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
-    const int code = load(made, from, of, in, &changes, &what);
-    while (count > 0) {
-        free(parameter[--count]);
-    }
-    free(sets);
-    return code;
+    return load(made, from, of, in, changes, &what);
 }
 
 static int run_source(pil_options *o, source_model *from) {
@@ -345,9 +312,9 @@ static int run_source(pil_options *o, source_model *from) {
     if (code != EXIT_DONE) {
         return code;
     }
-    if (!read_time("jitter", o->jitter, of, &request.plant.jitter_s) ||
-        !read_time("delay", o->delay, of, &request.plant.delay_s) ||
-        !read_time("every", o->every, of, &every_s) ||
+    if (!options_time("pil", "jitter", o->jitter, of, LONGEST_S, &request.plant.jitter_s) ||
+        !options_time("pil", "delay", o->delay, of, LONGEST_S, &request.plant.delay_s) ||
+        !options_time("pil", "every", o->every, of, LONGEST_S, &every_s) ||
         !plant_read_places(o->place, &request.plant)) {
         return EXIT_BAD_INPUT;
     }

@@ -117,30 +117,16 @@ static bool read_options(int count, char **words, run_options *o) {
     return true;
 }
 
-/* The value of --every in seconds; 0 without it, below 0 if it is not a time. */
-static double read_every_s(const run_options *o, const mechanism *of) {
-    double spacing_s = 0.0;
-    if (o->every != NULL) {
-        diags *errors = diags_new();
-        if (!instance_duration(of, NULL, NULL, "every", o->every, errors, &spacing_s)) {
-            spacing_s = -1.0;
-        }
-        diags_free(errors); /* a general message is clearer than the parser's */
-    }
-    return spacing_s;
-}
-
 /* The interval of --every as a number of steps. Returns false after an error, which is reported. */
-static bool count_every(const run_options *o, double spacing_s, const image *im, uint64_t *steps) {
+static bool count_every(const run_options *o, const mechanism *of, const image *im,
+                        uint64_t *steps) {
+    double spacing_s;
     *steps = 1;
     if (o->every == NULL) {
         return true;
     }
-    if (spacing_s < 0.0) {
-        return options_fail("run",
-                            "--every %s is not a time\nhint: write a time such as 2ms, or "
-                            "0.002 in seconds; the step is %.9g s",
-                            o->every, im->step_s);
+    if (!options_time("run", "every", o->every, of, (double)INFINITY, &spacing_s)) {
+        return false;
     }
     if (!ratio_count_each(spacing_s, im->step, steps)) {
         return options_fail("run",
@@ -161,10 +147,7 @@ static bool shows_progress(const simulation_settings *s) {
 #define STEPS_MANY 100000000U
 
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
-                     double every_s, rating_request *rated) {
-    if (!count_every(o, every_s, im, &o->settings.every)) {
-        return EXIT_BAD_INPUT;
-    }
+                     rating_request *rated) {
     if (!start_has_method(im, im->settings.method, from->errors) ||
         !start_is_possible(im, o->settings.kind, from->errors)) {
         diags_flush(from->errors, stderr);
@@ -220,12 +203,14 @@ static int run_target(run_options *o) {
         loaded made;
         overrides changes = o->common.changes;
         changes.balance = true;
-        const double every_s = read_every_s(o, of);
         const load_request request = {.settings = o->common.integration,
                                       .use = IMAGE_TO_RUN,
                                       .keep = trusting_keep(&o->common.integration),
                                       .conserve = true};
         code = load(&made, &from, of, in, &changes, &request);
+        if (code == EXIT_DONE && !count_every(o, of, made.image, &o->settings.every)) {
+            code = EXIT_BAD_INPUT;
+        }
         image *plain = trusting_plain(&made);
         if (o->settings.quiet) {
             source_forget(&from);
@@ -254,7 +239,7 @@ static int run_target(run_options *o) {
                                     .of = of,
                                     .in = in,
                                     .errors = from.errors};
-            code = run_image(o, &from, made.image, plain, every_s, &rated);
+            code = run_image(o, &from, made.image, plain, &rated);
         }
         fixed_plan_free(plan);
         image_free(plain);

@@ -72,13 +72,12 @@ typedef struct lockstep_report {
     uint64_t edges;
     uint64_t samples;
     uint64_t lost;
-    bool cut;              /* the watchdog has cut the outputs */
-    double cut_s;          /* time of the cut */
-    unsigned resets;       /* resets of the firmware's processor */
-    double reset_s;        /* time of the last reset */
-    uint64_t hash;         /* hash of all orders, without instruction counts */
-    uint64_t op_list_hash; /* hash of the tape's orders */
-    uint64_t plant_hash;   /* hash of the last state of the plant */
+    bool cut;            /* the watchdog has cut the outputs */
+    double cut_s;        /* time of the cut */
+    unsigned resets;     /* resets of the firmware's processor */
+    double reset_s;      /* time of the last reset */
+    uint64_t hash;       /* hash of all orders, without instruction counts */
+    uint64_t plant_hash; /* hash of the last state of the plant */
 } lockstep_report;
 
 /* === frames ===================================================================================== */

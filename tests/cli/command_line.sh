@@ -212,8 +212,8 @@ exits 2 "--over sweeps 'm', but --set sets it, too" sweep epicyclic_from_rest --
 exits 2 '--every 1.5ms is not a multiple of the step' run epicyclic_from_rest --every 1.5ms
 exits 2 'hint: the step is 0.001 s' run epicyclic_from_rest --every 1.5ms
 exits 2 '--every 0 is not a multiple' run thomson_a --every 0
-exits 2 '--every -1ms is not a time' run thomson_a --every -1ms
-exits 2 '--every often is not a time' run thomson_a --every often
+exits 2 "--every '-1ms' is not a time" run thomson_a --every -1ms
+exits 2 "--every 'often' is not a time" run thomson_a --every often
 # An output that cannot be opened is bad input, found before any work. One that cannot be written is a failure.
 mkdir "$scratch/folder.svg" "$scratch/late.toml"
 exits 1 'late.toml: error: cannot be written' run epicyclic_from_rest --until 20ms --csv "$scratch/late"
