@@ -76,11 +76,11 @@ static void start_unknown(image_draft *d, const instance *inst, int i) {
     u->start_at = image_room(d, u->starts, sizeof *u->start_at);
     for (int k = 0; k < u->starts; k++) {
         u->start[k] = inst->start[i][k];
-        u->start_at[k] = image_place(d, inst->start_at[i][k]);
+        u->start_at[k] = image_place(d, inst->start_given[i][k].at);
     }
     int parts = 0;
-    u->start_written =
-        inst->start_given[i][0] != NULL && is_written(inst, inst->start_given[i][0], &parts);
+    u->start_written = inst->start_given[i][0].value != NULL &&
+                       is_written(inst, inst->start_given[i][0].value, &parts);
 }
 
 /* Sets the starts of the components and the inputs from those of the unknowns. */

@@ -177,55 +177,6 @@ static void limits_check(const instance *made, valuation *known) {
     check_pairs(made, known->diags);
 }
 
-/* === the numbers of an instance, evaluated once more ========================================== */
-
-static double value_of(const expr *given, const symbol *of, valuation *values) {
-    return given != NULL ? finite_value(given, values, given->at, of->name) : 0.0;
-}
-
-static void evaluate_again(valuation *values, const instance *first, instance *made) {
-    const mechanism *of = first->mechanism;
-    for (int i = 0; i < of->parameter_count; i++) {
-        values->parameter_expr[i] = first->parameter_given[i];
-    }
-    for (int i = 0; i < of->parameter_count; i++) {
-        made->parameter[i] = parameter_value(values, i);
-    }
-    for (int i = 0; i < of->input_count; i++) {
-        made->input[i] = value_of(first->input_given[i], of->inputs[i], values);
-    }
-    for (int i = 0; i < of->coordinate_count; i++) {
-        for (int k = 0; k < first->start_count[i]; k++) {
-            made->start[i][k] = value_of(first->start_given[i][k], of->coordinates[i], values);
-        }
-    }
-}
-
-instance *instance_again(const instance *first) {
-    const mechanism *of = first->mechanism;
-    struct arena *memory = arena_new();
-    instance *made = arena_alloc(memory, sizeof *made);
-    *made = *first;
-    made->arena = memory;
-    made->parameter = arena_alloc(memory, (size_t)of->parameter_count * sizeof *made->parameter);
-    made->input = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input);
-    made->start = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start);
-    for (int i = 0; i < of->coordinate_count; i++) {
-        const int count = first->start_count[i] < 2 ? 2 : first->start_count[i];
-        made->start[i] = arena_alloc(memory, (size_t)count * sizeof **made->start);
-    }
-    diags *unsaid = diags_new();
-    valuation values = valuation_new(of, memory, unsaid);
-    evaluate_again(&values, first, made);
-    const bool good = diags_calls(unsaid) == 0;
-    diags_free(unsaid);
-    if (!good) {
-        instance_free(made);
-        return NULL;
-    }
-    return made;
-}
-
 /* === a scene in numbers ======================================================================= */
 
 #define STEP_DEFAULT_S 1e-3
@@ -234,23 +185,18 @@ instance *instance_again(const instance *first) {
 
 enum { WORDS_SIZE = 120 };
 
-typedef struct given {
-    const expr *value; /* NULL: not given */
-    place at;
-} given;
-
 /* The values from the scene and from the command line, which overrides the scene. */
 typedef struct plan {
     valuation values;
-    given *input;  /* [input_count] */
-    given **start; /* [coordinate_count][order] */
-    given step;
-    given until;
+    given_value *input;  /* [input_count] */
+    given_value **start; /* the instance's start_given */
+    given_value step;
+    given_value until;
 } plan;
 
 static void apply(plan *into, const assignment *change) {
     const int index = change->symbol->index;
-    const given value = {change->value, change->at};
+    const given_value value = {change->value, change->at};
     switch (change->symbol->kind) {
     case SYM_PARAMETER:
         into->values.parameter_expr[index] = value.value;
@@ -267,15 +213,10 @@ static void apply(plan *into, const assignment *change) {
 
 static plan plan_new(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
-    plan fresh = {.values = valuation_new(of, made->arena, all)};
+    plan fresh = {.values = valuation_new(of, made->arena, all), .start = made->start_given};
     fresh.input = arena_alloc(made->arena, (size_t)of->input_count * sizeof *fresh.input);
     for (int i = 0; i < of->input_count; i++) {
-        fresh.input[i] = (given){of->inputs[i]->value, of->inputs[i]->at};
-    }
-    fresh.start = arena_alloc(made->arena, (size_t)of->coordinate_count * sizeof *fresh.start);
-    for (int i = 0; i < of->coordinate_count; i++) {
-        const size_t order = (size_t)of->coordinates[i]->order;
-        fresh.start[i] = arena_alloc(made->arena, order * sizeof **fresh.start);
+        fresh.input[i] = (given_value){of->inputs[i]->value, of->inputs[i]->at};
     }
     return fresh;
 }
@@ -293,10 +234,10 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
         apply(into, &from->starts[i]);
     }
     if (from->step != NULL) {
-        into->step = (given){from->step, from->step->at};
+        into->step = (given_value){from->step, from->step->at};
     }
     if (from->until != NULL) {
-        into->until = (given){from->until, from->until->at};
+        into->until = (given_value){from->until, from->until->at};
     }
 }
 
@@ -392,11 +333,11 @@ static void apply_overrides(plan *into, instance *made, const overrides *changes
     apply_texts(into, made, OVERRIDE_EITHER, changes->values, changes->value_count);
     if (changes->step != NULL) {
         const expr *value = override_duration(of, "step", changes->step, made->arena, all);
-        into->step = value == NULL ? into->step : (given){value, value->at};
+        into->step = value == NULL ? into->step : (given_value){value, value->at};
     }
     if (changes->until != NULL) {
         const expr *value = override_duration(of, "until", changes->until, made->arena, all);
-        into->until = value == NULL ? into->until : (given){value, value->at};
+        into->until = value == NULL ? into->until : (given_value){value, value->at};
     }
 }
 
@@ -473,28 +414,37 @@ static void evaluate(plan *from, instance *made) {
     for (int i = 0; i < of->coordinate_count; i++) {
         for (int k = 0; k < made->start_count[i]; k++) {
             const symbol *input = of->coordinates[i]->driven;
-            const given *each = input == NULL ? &from->start[i][k]
-                                              : &from->input[(k == 0 ? input : input->rate)->index];
+            given_value *each = &made->start_given[i][k];
+            if (input != NULL) {
+                *each = from->input[(k == 0 ? input : input->rate)->index];
+            }
             snprintf(what, sizeof what, "the initial value of '%s'", of->coordinates[i]->name);
-            made->start_at[i][k] = each->at;
-            made->start_given[i][k] = each->value;
             made->start[i][k] = each->value == NULL
                                     ? 0.0
                                     : finite_value(each->value, &from->values, each->at, what);
         }
     }
-    evaluate_ranges(from, made);
-    evaluate_durations(from, made);
+}
+
+/* Allocates the numbers of parameters, inputs and starts. */
+static void allocate_numbers(instance *made) {
+    const mechanism *of = made->mechanism;
+    struct arena *memory = made->arena;
+    made->parameter = arena_alloc(memory, (size_t)of->parameter_count * sizeof *made->parameter);
+    made->input = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input);
+    made->start = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start);
+    for (int i = 0; i < of->coordinate_count; i++) {
+        const int order = of->coordinates[i]->order;
+        made->start[i] =
+            arena_alloc(memory, (size_t)(order < 2 ? 2 : order) * sizeof **made->start);
+    }
 }
 
 static void allocate(instance *made) {
     const mechanism *of = made->mechanism;
     struct arena *memory = made->arena;
+    allocate_numbers(made);
     made->with = arena_alloc(memory, (size_t)of->effect_count * sizeof *made->with);
-    made->parameter = arena_alloc(memory, (size_t)of->parameter_count * sizeof *made->parameter);
-    made->input = arena_alloc(memory, (size_t)of->input_count * sizeof *made->input);
-    made->start = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start);
-    made->start_at = arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_at);
     made->start_given =
         arena_alloc(memory, (size_t)of->coordinate_count * sizeof *made->start_given);
     made->parameter_given =
@@ -505,9 +455,6 @@ static void allocate(instance *made) {
     for (int i = 0; i < of->coordinate_count; i++) {
         const int order = of->coordinates[i]->order;
         made->start_count[i] = order;
-        made->start[i] =
-            arena_alloc(memory, (size_t)(order < 2 ? 2 : order) * sizeof **made->start);
-        made->start_at[i] = arena_alloc(memory, (size_t)order * sizeof **made->start_at);
         made->start_given[i] = arena_alloc(memory, (size_t)order * sizeof **made->start_given);
     }
 }
@@ -555,12 +502,38 @@ instance *instance_make(const mechanism *of, const scene *from, const overrides 
     plan what;
     instance *made = begin(of, from, changes, all, &what);
     evaluate(&what, made);
+    evaluate_ranges(&what, made);
+    evaluate_durations(&what, made);
     made->folding = noted;
     (void)folding_use(before);
     if (diags_calls(all) == calls) {
         limits_check(made, &what.values);
     }
     if (diags_calls(all) != calls) {
+        instance_free(made);
+        return NULL;
+    }
+    return made;
+}
+
+instance *instance_again(const instance *first) {
+    struct arena *memory = arena_new();
+    instance *made = arena_alloc(memory, sizeof *made);
+    *made = *first;
+    made->arena = memory;
+    allocate_numbers(made);
+    diags *unsaid = diags_new();
+    plan what = plan_new(made, unsaid);
+    for (int i = 0; i < made->mechanism->parameter_count; i++) {
+        what.values.parameter_expr[i] = first->parameter_given[i];
+    }
+    for (int i = 0; i < made->mechanism->input_count; i++) {
+        what.input[i].value = first->input_given[i];
+    }
+    evaluate(&what, made);
+    const bool good = diags_calls(unsaid) == 0;
+    diags_free(unsaid);
+    if (!good) {
         instance_free(made);
         return NULL;
     }

@@ -272,6 +272,12 @@ typedef struct range_value {
     place at;
 } range_value;
 
+/* A value as it is written, and its place; no value: not given. */
+typedef struct given_value {
+    const expr *value;
+    place at;
+} given_value;
+
 typedef struct instance {
     const mechanism *mechanism;
     const scene *scene; /* NULL for a bare mechanism */
@@ -286,10 +292,9 @@ typedef struct instance {
     double *input;                /* [input_count] SI */
     const expr **parameter_given; /* expressions of the values */
     const expr **input_given;
-    const expr ***start_given; /* NULL: not given, so the start is 0 */
+    given_value **start_given; /* [coordinate_count][order] a start that is not given is 0 */
     /* [coordinate_count][order] the start in SI: value, rate, ...; order is at least 2 */
     double **start;
-    place **start_at;   /* [coordinate_count][order] place of each start; no source for a default */
     int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
     range_value *range; /* [range_count] */
     int range_count;

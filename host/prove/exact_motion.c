@@ -280,7 +280,7 @@ static bool read_starts(making *k, exact_motion *m) {
     int at = 0;
     for (int i = 0; i < k->count; i++) {
         for (int p = 0; p < k->symbols.order[i]; p++) {
-            const expr *given = k->instance->start_given[i][p];
+            const expr *given = k->instance->start_given[i][p].value;
             const int start =
                 given != NULL ? read_node(&k->symbols, given) : graph_whole(k->graph, 0);
             if (start < 0 || !graph_is_number(k->graph, start)) {
