@@ -170,12 +170,7 @@ static bool take_target(parser *in, const contact_statement *made, assignment *s
                    words);
         return true;
     }
-    for (int i = 0; i < made->set_count; i++) {
-        if (made->sets[i].symbol == target && made->sets[i].primes == name.primes) {
-            diag_error(in->diags, name.at, NULL, "%s was already set in line %d", words,
-                       made->sets[i].at.line);
-        }
-    }
+    check_assigned_once(in, made->sets, made->set_count, target, &name, "set");
     *set = (assignment){target, name.primes, NULL, name.at};
     *usable = true;
     return true;
@@ -184,30 +179,10 @@ static bool take_target(parser *in, const contact_statement *made, assignment *s
 static bool parse_set(parser *in, contact_statement *made) {
     assignment set = {.symbol = NULL};
     bool usable = false;
-    char words[80];
     const token name = in->token;
-    if (!take_target(in, made, &set, &usable)) {
+    if (!take_target(in, made, &set, &usable) ||
+        !parse_assigned(in, &name, usable ? set.symbol : NULL, CONTEXT_EVENT, form(), &set.value)) {
         return false;
-    }
-    if (!parser_is_sign(in, '=')) {
-        char next[80];
-        return parser_fail(in, form(), "'=' is missing after %s, before %s",
-                           token_words(&name, words, sizeof words),
-                           token_words(&in->token, next, sizeof next));
-    }
-    parser_next(in);
-    const place at = in->token.at;
-    set.value = parse_expression(in, CONTEXT_EVENT);
-    if (set.value == NULL) {
-        return false;
-    }
-    dimension wanted;
-    if (usable && dim_derivative(set.symbol->dim, name.primes, &wanted)) {
-        char rule[RULE_SIZE];
-        token_words(&name, words, sizeof words);
-        if (check_unit(in, at, set.value, set.symbol, name.primes)) {
-            check_dimension(in, at, set.value, wanted, dimension_rule(rule, words, "is", wanted));
-        }
     }
     if (usable) {
         made->sets = arena_push(in->arena, made->sets, &made->set_count, &set, sizeof set);
@@ -358,8 +333,7 @@ static const expr *parse_number_between(parser *in, const char *what) {
     const place at = in->token.at;
     const expr *value = parse_expression(in, CONTEXT_EVENT);
     if (value != NULL) {
-        char rule[RULE_SIZE];
-        check_dimension(in, at, value, dim_none(), dimension_rule(rule, what, "is", dim_none()));
+        check_named(in, at, value, dim_none(), what, "is");
     }
     return value;
 }
@@ -407,17 +381,17 @@ static const expr *parse_normal(parser *in, const symbol *coordinate) {
     dimension wanted;
     if (value != NULL && coordinate != NULL && coordinate->kind == SYM_COORDINATE &&
         dim_divide(dim_energy(), coordinate->dim, &wanted)) {
-        char rule[RULE_SIZE];
-        char what[NAME_LENGTH_MAX + 40];
-        snprintf(what, sizeof what, "the normal force on '%s'", coordinate->name);
-        dimension_rule(rule, what, "must be", wanted);
+        char what[NAME_LENGTH_MAX + 100];
         if (coordinate->is_angle) {
             snprintf(
-                rule, sizeof rule,
+                what, sizeof what,
                 "'%s' is an angle: its normal force times the radius must be a torque [kg*m^2/s^2]",
                 coordinate->name);
+            check_dimension(in, at, value, wanted, what);
+        } else {
+            snprintf(what, sizeof what, "the normal force on '%s'", coordinate->name);
+            check_named(in, at, value, wanted, what, "must be");
         }
-        check_dimension(in, at, value, wanted, rule);
     }
     return value;
 }

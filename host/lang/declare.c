@@ -96,10 +96,8 @@ bool read_noise(parser *in, const statement_word *word) {
         return false;
     }
     if (made.output != NULL) {
-        char rule[RULE_SIZE];
-        token_words(&name, words, sizeof words);
-        check_dimension(in, at, made.deviation, made.output->dim,
-                        dimension_rule(rule, words, "is", made.output->dim));
+        check_named(in, at, made.deviation, made.output->dim,
+                    token_words(&name, words, sizeof words), "is");
     }
     if (!parser_at_end_of_line(in) && !parser_is_sign(in, '}')) {
         if (!parser_expect_word(in, WORD_SEED, WORD_NOISE) || !parse_seed(in, &made.seed)) {
@@ -347,11 +345,9 @@ bool read_output(parser *in, const statement_word *word) {
         made->unit = unit_text;
         if (has_unit) {
             made->declared = written;
-            char rule[RULE_SIZE];
             char what[NAME_LENGTH_MAX + 16];
             snprintf(what, sizeof what, "output '%s'", made->name);
-            dimension_rule(rule, what, "is", written.dim);
-            check_dimension(in, value_at, made->value, written.dim, rule);
+            check_named(in, value_at, made->value, written.dim, what, "is");
             made->dim = written.dim;
         }
     }

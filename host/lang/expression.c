@@ -315,6 +315,17 @@ void no_such_symbol(parser *in, const mechanism *of, const token *name) {
                "%s is unknown in mechanism '%s'", token_words(name, words, sizeof words), of->name);
 }
 
+void check_assigned_once(parser *in, const assignment *list, int count, const symbol *of,
+                         const token *name, const char *verb) {
+    char words[80];
+    for (int i = 0; i < count; i++) {
+        if (list[i].symbol == of && list[i].primes == name->primes) {
+            diag_error(in->diags, name->at, NULL, "%s was already %s in line %d",
+                       token_words(name, words, sizeof words), verb, list[i].at.line);
+        }
+    }
+}
+
 const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
     const named *found = names_find(in->builder->names, name->text, name->length);
     char words[80];
@@ -605,4 +616,22 @@ const expr *parse_expression(parser *in, expr_context context) {
     const expr *made = parse_sum(in);
     in->context = outer;
     return made;
+}
+
+bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
+                    const char *hint, const expr **value) {
+    if (!parser_is_sign(in, '=')) {
+        char words[80];
+        char next[80];
+        return parser_fail(in, hint, "'=' is missing after %s, before %s",
+                           token_words(name, words, sizeof words),
+                           token_words(&in->token, next, sizeof next));
+    }
+    parser_next(in);
+    const place at = in->token.at;
+    *value = parse_expression(in, context);
+    if (*value != NULL && of != NULL) {
+        (void)check_value(in, at, *value, of, name);
+    }
+    return *value != NULL;
 }

@@ -22,6 +22,13 @@ void no_such_coordinate(parser *in, const token *name);
 /* As no_such_coordinate(), for a name that a scene or the command line changes. */
 void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
+/* Reads "= EXPR", the value of `name`. It is not checked if the name is unknown (`of` is NULL). */
+bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
+                    const char *hint, const expr **value);
+/* Reports an earlier assignment to the symbol `name`; `verb` says what it was: "set" or "given". */
+void check_assigned_once(parser *in, const assignment *list, int count, const symbol *of,
+                         const token *name, const char *verb);
+
 /* Returns the coordinate of that name, or NULL (reported). `whose` names the statement in messages. */
 const symbol *find_coordinate(parser *in, const token *name, const char *whose);
 
@@ -41,13 +48,15 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
 bool expr_constant(const expr *tree, double *value);
 /* Reports "RULE, but this is ..." at `at`, and returns false, if the dimension of `value` is not `wanted`. */
 bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule);
+/* As check_dimension(), with a rule such as "SUBJECT is mass [kg]"; `verb` is "is" or "must be". */
+bool check_named(parser *in, place at, const expr *value, dimension wanted, const char *subject,
+                 const char *verb);
 /* Reports a nonzero value without a unit at `at`, and returns false, if the declared unit of the symbol (or of its
  * derivative) is not SI. The current token must be the one after the value. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
+/* Checks unit and dimension of a value that `name`, the symbol `of` or its derivative, is to take. */
+bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name);
 /* As check_unit(), for the limit `value` of a stop or a crossing. True if `of` is more than a single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
-/* Writes the rule for check_dimension(), such as "SUBJECT is mass [kg]", to buffer[RULE_SIZE]. Returns `buffer`. */
-enum { RULE_SIZE = 300 };
-char *dimension_rule(char *buffer, const char *subject, const char *verb, dimension dim);
 
 #endif

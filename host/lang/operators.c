@@ -94,12 +94,6 @@ static void number_hint(char *hint, size_t size, const expr *number, dimension w
              dim_unit(wanted, text, sizeof text));
 }
 
-char *dimension_rule(char *buffer, const char *subject, const char *verb, dimension dim) {
-    char text[DIM_TEXT_SIZE];
-    snprintf(buffer, RULE_SIZE, "%s %s %s", subject, verb, dim_text(dim, text, sizeof text));
-    return buffer;
-}
-
 bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule) {
     if (dim_fits(value->dim, wanted)) {
         return true;
@@ -112,6 +106,14 @@ bool check_dimension(parser *in, place at, const expr *value, dimension wanted, 
     diag_error(in->diags, at, hint, "%s, but this is %s", rule,
                dim_text(value->dim, is, sizeof is));
     return false;
+}
+
+bool check_named(parser *in, place at, const expr *value, dimension wanted, const char *subject,
+                 const char *verb) {
+    char text[DIM_TEXT_SIZE];
+    char rule[300];
+    snprintf(rule, sizeof rule, "%s %s %s", subject, verb, dim_text(wanted, text, sizeof text));
+    return check_dimension(in, at, value, wanted, rule);
 }
 
 static const char is_declared[] = "'%s' is declared in [%s], and this value has no unit";
@@ -187,6 +189,14 @@ static bool has_unit(parser *in, place at, const expr *value, const symbol *of, 
 
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes) {
     return has_unit(in, at, value, of, primes, true);
+}
+
+bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name) {
+    char words[80];
+    dimension wanted;
+    return dim_derivative(of->dim, name->primes, &wanted) &&
+           check_unit(in, at, value, of, name->primes) &&
+           check_named(in, at, value, wanted, token_words(name, words, sizeof words), "is");
 }
 
 bool check_limit(parser *in, place at, const expr *value, const expr *of) {

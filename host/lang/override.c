@@ -77,8 +77,7 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
     }
     const bool is_bare = made->uses == 0 && dim_is_none(made->dim);
     if (!is_bare) {
-        char rule[RULE_SIZE];
-        check_dimension(in, at, made, wanted, dimension_rule(rule, what, "is", wanted));
+        check_named(in, at, made, wanted, what, "is");
     }
     return made;
 }

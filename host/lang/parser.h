@@ -15,10 +15,9 @@ typedef struct named {
     symbol symbol;       /* must be first: a symbol's address is also that of its `named` */
     bool is_placeholder; /* used but not declared; reported */
     bool is_open;        /* the parser is reading its declaration */
-    int mark;            /* number of the last walk, or scene, that visited the symbol */
-    place mark_at;
-    struct named *rate; /* let: its time derivative, if an expression has named it */
-    struct named *next; /* next entry in the same slot */
+    int mark;            /* number of the last walk that visited the symbol */
+    struct named *rate;  /* let: its time derivative, if an expression has named it */
+    struct named *next;  /* next entry in the same slot */
 } named;
 
 typedef struct names names;
@@ -64,7 +63,6 @@ typedef struct draft {
     bool *with;
     bool *conserve;
     builder *of;
-    int number;       /* the scene's number, from 2; the symbols that it sets get this `mark` */
     bool has_content; /* has a statement other than `use` */
     place step_at;    /* line 0: no step yet */
     place until_at;

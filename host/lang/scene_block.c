@@ -67,14 +67,11 @@ static bool range_item(parser *in, const statement_word *word) {
     scene *made = into->made;
     token name;
     named *found = NULL;
-    dimension wanted = dim_none();
     char words[80];
-    char rule[RULE_SIZE];
     if (!scene_take_symbol(in, into, word, &name, &found)) {
         return false;
     }
-    bool usable = found != NULL && !found->is_placeholder && has_range(in, &name, found);
-    usable = usable && dim_derivative(found->symbol.dim, name.primes, &wanted);
+    const bool usable = found != NULL && !found->is_placeholder && has_range(in, &name, found);
     token_words(&name, words, sizeof words);
     if (!parser_expect_sign(in, '=', "after the name")) {
         return false;
@@ -98,11 +95,8 @@ static bool range_item(parser *in, const statement_word *word) {
     static const char *const nothing[] = {"", ""};
     in->around = nothing; /* the hint for a missing unit is one end, without the name */
     low = with_unit(in, low, high);
-    dimension_rule(rule, words, "is", wanted);
-    if (check_unit(in, high_at, high, &found->symbol, name.primes) &&
-        check_unit(in, low_at, low, &found->symbol, name.primes) &&
-        check_dimension(in, low_at, low, wanted, rule) &&
-        check_dimension(in, high_at, high, wanted, rule)) {
+    if (check_value(in, low_at, low, &found->symbol, &name) &&
+        check_value(in, high_at, high, &found->symbol, &name)) {
         const range_statement one = {&found->symbol, name.primes, low, high, name.at};
         made->ranges = arena_push(in->arena, made->ranges, &made->range_count, &one, sizeof one);
     }
@@ -166,31 +160,9 @@ static bool scene_take_symbol(parser *in, draft *into, const statement_word *wor
     return true;
 }
 
-/* Reads "= EXPR" of the wanted dimension, which is not checked if the name is unknown (`of` is NULL). */
-static bool parse_assigned(parser *in, const token *name, const symbol *of, dimension wanted,
-                           const expr **value) {
-    char words[80];
-    token_words(name, words, sizeof words);
-    if (!parser_is_sign(in, '=')) {
-        char next[80];
-        return parser_fail(in, NULL, "'=' is missing after %s, before %s", words,
-                           token_words(&in->token, next, sizeof next));
-    }
-    parser_next(in);
-    const place at = in->token.at;
-    *value = parse_expression(in, CONTEXT_CONSTANT);
-    if (*value == NULL) {
-        return false;
-    }
-    char rule[RULE_SIZE];
-    if (of != NULL && check_unit(in, at, *value, of, name->primes)) {
-        check_dimension(in, at, *value, wanted, dimension_rule(rule, words, "is", wanted));
-    }
-    return true;
-}
-
 static bool set_item(parser *in, const statement_word *word) {
     draft *into = in->draft;
+    scene *made = into->made;
     token name;
     named *found = NULL;
     const expr *value = NULL;
@@ -207,18 +179,14 @@ static bool set_item(parser *in, const statement_word *word) {
     } else if (usable && name.primes > 0) {
         diag_error(in->diags, name.at, NULL, "'%s' has no derivative", found->symbol.name);
         usable = false;
-    } else if (usable && found->mark == into->number) {
-        diag_error(in->diags, name.at, NULL, "'%s' was already set in line %d", found->symbol.name,
-                   found->mark_at.line);
+    } else if (usable) {
+        check_assigned_once(in, made->sets, made->set_count, &found->symbol, &name, "set");
     }
-    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL,
-                        usable ? found->symbol.dim : dim_none(), &value)) {
+    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL, CONTEXT_CONSTANT, NULL,
+                        &value)) {
         return false;
     }
     if (usable) {
-        scene *made = into->made;
-        found->mark = into->number;
-        found->mark_at = name.at;
         const assignment set = {&found->symbol, 0, value, name.at};
         made->sets = arena_push(in->arena, made->sets, &made->set_count, &set, sizeof set);
     }
@@ -243,23 +211,12 @@ static void scene_check_sets(parser *in, const draft *read) {
     }
 }
 
-static void check_started_once(parser *in, const scene *made, const symbol *what,
-                               const token *name) {
-    for (int i = 0; i < made->start_count; i++) {
-        if (made->starts[i].symbol == what && made->starts[i].primes == name->primes) {
-            char words[80];
-            diag_error(in->diags, name->at, NULL, "%s was already given in line %d",
-                       token_words(name, words, sizeof words), made->starts[i].at.line);
-        }
-    }
-}
-
 static bool start_item(parser *in, const statement_word *word) {
     draft *into = in->draft;
+    scene *made = into->made;
     token name;
     named *found = NULL;
     const expr *value = NULL;
-    dimension wanted = dim_none();
     if (!scene_take_symbol(in, into, word, &name, &found)) {
         return false;
     }
@@ -277,14 +234,13 @@ static bool start_item(parser *in, const statement_word *word) {
             found->symbol.name, found->symbol.order - 1, found->symbol.order == 2 ? "" : "s");
         usable = false;
     } else if (usable) {
-        check_started_once(in, into->made, &found->symbol, &name);
-        usable = dim_derivative(found->symbol.dim, name.primes, &wanted);
+        check_assigned_once(in, made->starts, made->start_count, &found->symbol, &name, "given");
     }
-    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL, wanted, &value)) {
+    if (!parse_assigned(in, &name, usable ? &found->symbol : NULL, CONTEXT_CONSTANT, NULL,
+                        &value)) {
         return false;
     }
     if (usable) {
-        scene *made = into->made;
         const assignment start = {&found->symbol, name.primes, value, name.at};
         made->starts =
             arena_push(in->arena, made->starts, &made->start_count, &start, sizeof start);
@@ -381,9 +337,7 @@ static bool parse_duration(parser *in, const statement_word *word, place *first,
     if (value == NULL) {
         return false;
     }
-    const dimension wanted = dim_of(0, 0, 1, 0, 0);
-    char rule[RULE_SIZE];
-    check_dimension(in, at, value, wanted, dimension_rule(rule, word->text, "is", wanted));
+    check_named(in, at, value, dim_of(0, 0, 1, 0, 0), word->text, "is");
     *into = value;
     return parser_end_statement(in, "the expression");
 }
@@ -484,8 +438,6 @@ static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     }
     in->scenes = arena_room(in->arena, in->scenes, in->scene_count, sizeof *in->scenes);
     in->scenes[in->scene_count++] = into->made;
-    /* from 2 on: statements.c marks lets with 1 */
-    into->number = 2 + in->scene_count;
     const bool good = parse_body(in);
     if (good && into->of == NULL) {
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",

@@ -114,14 +114,13 @@ bool read_force(parser *in, const statement_word *word) {
         return false;
     }
     if (coordinate != NULL) {
-        char rule[RULE_SIZE];
         dimension wanted;
-        if (dim_divide(dim_energy(), coordinate->dim, &wanted)) {
-            dimension_rule(rule, what, "must be", wanted);
-            if (dim_is_none(coordinate->dim)) {
-                snprintf(rule, sizeof rule, "%s must be a torque [kg*m^2/s^2]", what);
-            }
-            check_dimension(in, value_at, value, wanted, rule);
+        if (dim_is_none(coordinate->dim)) {
+            char rule[sizeof what + 40];
+            snprintf(rule, sizeof rule, "%s must be a torque [kg*m^2/s^2]", what);
+            check_dimension(in, value_at, value, dim_energy(), rule);
+        } else if (dim_divide(dim_energy(), coordinate->dim, &wanted)) {
+            check_named(in, value_at, value, wanted, what, "must be");
         }
     }
     add_term(in, (term){TERM_Q, coordinate, value, NULL, in->effect, at});
