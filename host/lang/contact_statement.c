@@ -209,21 +209,18 @@ static bool parse_sets(parser *in, contact_statement *made) {
 
 static bool parse_block(parser *in, contact_statement *made) {
     const size_t before = diags_calls(in->diags);
-    for (;;) {
-        parser_skip_lines(in);
-        if (parser_is_sign(in, '}')) {
-            parser_next(in);
-            break;
-        }
-        if (in->token.kind == TOKEN_END || parser_leaves(in, ENDS_WHEN)) {
-            diag_error(in->diags, made->at, form(), "this 'when' is not closed with '}'");
-            return true;
-        }
+    bool closed;
+    while (parser_in_block(in, ENDS_WHEN, &closed)) {
         in->statement_at = in->token.at;
         if (!parse_sets(in, made)) {
             parser_skip_statement(in);
         }
     }
+    if (!closed) {
+        diag_error(in->diags, made->at, form(), "this 'when' is not closed with '}'");
+        return true;
+    }
+    parser_next(in);
     if (made->set_count == 0 && diags_calls(in->diags) == before) {
         diag_error(in->diags, made->at, form(), "this 'when' sets no value");
     }

@@ -423,9 +423,7 @@ bool parse_close(parser *in, place open) {
         return false;
     }
     if (in->token.kind == TOKEN_NAME || in->token.kind == TOKEN_NUMBER) {
-        char hint[OPERATOR_HINT];
-        return parser_fail(in, parser_operator_hint(in, hint),
-                           "')' or an operator is missing before %s", words);
+        return parser_fail(in, HINT_PRODUCT, "')' or an operator is missing before %s", words);
     }
     if (in->token.kind == TOKEN_UNIT) {
         return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");

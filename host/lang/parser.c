@@ -104,7 +104,8 @@ const statement_word *token_statement(const token *each) {
 
 bool parser_is_word(const parser *in, word_id word) { return token_is_word(&in->token, word); }
 
-bool parser_leaves(const parser *in, unsigned rule) {
+/* Does the token begin a line, and has its word this rule (ENDS_EFFECT, ...)? Then the word ends the block. */
+static bool parser_leaves(const parser *in, unsigned rule) {
     const statement_word *word = in->token.starts_line ? token_statement(&in->token) : NULL;
     return word != NULL && (word->rules & rule) != 0;
 }
@@ -187,6 +188,12 @@ void parser_skip_newlines(parser *in) {
     }
 }
 
+bool parser_in_block(parser *in, unsigned rule, bool *closed) {
+    parser_skip_lines(in);
+    *closed = parser_is_sign(in, '}');
+    return !*closed && in->token.kind != TOKEN_END && !parser_leaves(in, rule);
+}
+
 bool parser_is_body_word(const parser *in) {
     const statement_word *word = token_statement(&in->token);
     return word != NULL && (word->stands & IN_BODY) != 0;
@@ -220,56 +227,11 @@ static bool is_decimal_comma(const token *sign) {
            isdigit((unsigned char)sign->text[1]);
 }
 
-const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]) {
-    const token *next = &in->token;
-    const char *line = next->text - next->at.offset; /* beginning of the text */
-    const char *end = next->text;                    /* end of the operand before the token */
-    while (end > line && (end[-1] == ' ' || end[-1] == '\t')) {
-        end--;
-    }
-    const char *begin = end;
-    while (begin > line &&
-           (isalnum((unsigned char)begin[-1]) || strchr("_.'", begin[-1]) != NULL)) {
-        begin--;
-    }
-    const bool opens = parser_is_sign(in, '(');
-    const char *name = opens ? next->text + 1 : next->text;
-    const size_t length = opens ? strcspn(name, ")\n") : next->length;
-    const size_t rest = opens ? length + 2 : length + (size_t)next->primes;
-    const int before = (int)(end - begin);
-    const bool known = in->names != NULL && names_find(in->names, name, length) != NULL;
-    size_t unit = length; /* length of the longest beginning that may be a unit, such as kg/s */
-    while (!opens && (isalnum((unsigned char)name[unit]) || strchr("*/^", name[unit]) != NULL) &&
-           name[unit] != '\0') {
-        unit++;
-    }
-    unit_scale scale;
-    unit_error unsaid;
-    const bool counts =
-        isdigit((unsigned char)*begin) && (unit_parse(name, unit, &scale, &unsaid) ||
-                                           unit_parse(name, unit = length, &scale, &unsaid));
-    const bool whole = !opens || (name[length] == ')' && memchr(name, '(', length) == NULL);
-    if (before == 0 || before > 40 || rest > 60 || !whole) {
-        snprintf(hint, OPERATOR_HINT, "write products with * and units in brackets: 2*m, 2 [m]");
-    } else if (counts && !known) {
-        snprintf(hint, OPERATOR_HINT, "write %.*s [%.*s]", before, begin, (int)unit, name);
-    } else {
-        snprintf(hint, OPERATOR_HINT, "write %.*s*%.*s", before, begin, (int)rest, next->text);
-    }
-    if (counts && known) {
-        const size_t at = strlen(hint);
-        snprintf(hint + at, OPERATOR_HINT - at, ", or with a unit %.*s [%.*s]", before, begin,
-                 (int)unit, name);
-    }
-    return hint;
-}
-
 bool parser_end_statement(parser *in, const char *what) {
     if (parser_at_end_of_line(in) || parser_is_sign(in, '}')) {
         return true;
     }
     char words[80];
-    char hint[OPERATOR_HINT];
     token_words(&in->token, words, sizeof words);
     const char *first = first_word_hint(in->token.text, in->token.length);
     switch (in->token.kind) {
@@ -277,7 +239,7 @@ bool parser_end_statement(parser *in, const char *what) {
         return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");
     case TOKEN_NAME:
     case TOKEN_NUMBER:
-        return parser_fail(in, first != NULL ? first : parser_operator_hint(in, hint),
+        return parser_fail(in, first != NULL ? first : HINT_PRODUCT,
                            "an operator is missing before %s", words);
     case TOKEN_SIGN:
         if (in->token.sign == ')') {
@@ -286,7 +248,7 @@ bool parser_end_statement(parser *in, const char *what) {
         return parser_fail(in,
                            is_decimal_comma(&in->token) ? "write a decimal point: 2.5"
                            : first != NULL              ? first
-                           : parser_is_sign(in, '(')    ? parser_operator_hint(in, hint)
+                           : parser_is_sign(in, '(')    ? HINT_PRODUCT
                                                         : "begin a new line after the statement",
                            "%s is unexpected after %s", words, what);
     case TOKEN_STRING:

@@ -113,8 +113,6 @@ bool token_is_word(const token *each, word_id word);
 /* Returns the row of the statement that this token begins, or NULL. */
 const statement_word *token_statement(const token *each);
 bool parser_is_body_word(const parser *in); /* begins a statement of a file, mechanism or effect */
-/* Does the token begin a line, and has its word this rule (ENDS_EFFECT, ...)? Then the word ends the block. */
-bool parser_leaves(const parser *in, unsigned rule);
 /* Expects this word. If it is missing, reports this with the statement's form as a hint, and returns false. */
 bool parser_expect_word(parser *in, word_id word, word_id statement);
 /* Reports an error at the current token, unless the lexer has already reported it. Returns false. */
@@ -127,9 +125,11 @@ const char *token_words(const token *each, char *buffer, size_t size);
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */
 void parser_skip_newlines(parser *in); /* skip empty lines only */
-/* Writes the hint for a missing operator before the current name, number or '('. Returns `hint`. */
-enum { OPERATOR_HINT = 200 };
-const char *parser_operator_hint(const parser *in, char hint[OPERATOR_HINT]);
+/* Skips to the next statement of a block that words with `rule` end. Returns false after the last one; *closed: '}' is
+ * the current token. */
+bool parser_in_block(parser *in, unsigned rule, bool *closed);
+/* the hint for a missing operator */
+#define HINT_PRODUCT "write products with * and units in brackets: 2*m, 2 [m]"
 bool parser_end_statement(parser *in, const char *what);
 char *parser_copy_text(parser *in, const token *each);
 /* Reads an optional text in quotes; returns "" if there is none. */

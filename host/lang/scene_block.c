@@ -383,18 +383,8 @@ static bool parse_scene_statement(parser *in) {
 
 static bool parse_body(parser *in) {
     draft *into = in->draft;
-    for (;;) {
-        parser_skip_lines(in);
-        if (parser_is_sign(in, '}')) {
-            into->made->last_line = in->token.at.line;
-            parser_next(in);
-            return parser_end_statement(in, "the scene");
-        }
-        if (in->token.kind == TOKEN_END || parser_leaves(in, ENDS_SCENE)) {
-            diag_error(in->diags, into->made->at, NULL, "scene '%s' is not closed with '}'",
-                       into->made->name);
-            return false;
-        }
+    bool closed;
+    while (parser_in_block(in, ENDS_SCENE, &closed)) {
         const bool had_mechanism = into->of != NULL;
         if (!parse_scene_statement(in)) {
             parser_skip_statement(in);
@@ -403,6 +393,14 @@ static bool parse_body(parser *in) {
             return false; /* unknown mechanism: no further checks */
         }
     }
+    if (!closed) {
+        diag_error(in->diags, into->made->at, NULL, "scene '%s' is not closed with '}'",
+                   into->made->name);
+        return false;
+    }
+    into->made->last_line = in->token.at.line;
+    parser_next(in);
+    return parser_end_statement(in, "the scene");
 }
 
 static void read_scene(parser *in, const pending_scene *pending, draft *into) {

@@ -302,24 +302,21 @@ static bool read_effect(parser *in, const statement_word *word) {
     if (!parser_expect_sign(in, '{', "after the effect's name")) {
         return false;
     }
-    for (;;) {
-        parser_skip_lines(in);
-        if (parser_is_sign(in, '}')) {
-            longer[in->effect].last_line = in->token.at.line;
-            parser_next(in);
-            in->effect = -1;
-            return parser_end_statement(in, "the effect");
-        }
-        if (in->token.kind == TOKEN_END || parser_leaves(in, ENDS_EFFECT)) {
-            diag_error(in->diags, made.at, NULL, "effect '%s' is not closed with '}'", made.name);
-            in->effect = -1;
-            return true;
-        }
+    bool closed;
+    while (parser_in_block(in, ENDS_EFFECT, &closed)) {
         if (!read_statement(in, IN_EFFECT)) {
             parser_skip_statement(in);
             in->builder->broken = true;
         }
     }
+    longer[in->effect].last_line = in->token.at.line;
+    in->effect = -1;
+    if (!closed) {
+        diag_error(in->diags, made.at, NULL, "effect '%s' is not closed with '}'", made.name);
+        return true;
+    }
+    parser_next(in);
+    return parser_end_statement(in, "the effect");
 }
 
 static builder *begin_mechanism(parser *in, place at) {
