@@ -543,48 +543,23 @@ bool poly_may_contain(const poly *p, const symbol *sym, int primes) {
     return (p->symbols & symbol_bit(sym, primes)) != 0;
 }
 
-/* left + scale * right: a merge of two sorted lists. */
-static const poly *merge(algebra *a, const poly *left, const poly *right, double scale) {
-    algebra_work(a, (size_t)left->count + (size_t)right->count);
-    poly *sum = poly_scratch(left->count + right->count);
-    int i = 0;
-    int j = 0;
-    while (i < left->count || j < right->count) {
-        const mono *l = i < left->count ? left->terms[i].mono : NULL;
-        const mono *r = j < right->count ? right->terms[j].mono : NULL;
-        const int order = l == NULL ? 1 : r == NULL ? -1 : mono_order(l, r);
-        if (order < 0) {
-            sum->terms[sum->count++] = left->terms[i++];
-        } else if (order > 0) {
-            sum->terms[sum->count++] =
-                (poly_term){folding_product(right->terms[j++].coefficient, scale), r};
-        } else {
-            const double x = left->terms[i++].coefficient;
-            const double both =
-                coefficient_sum(x, folding_product(right->terms[j++].coefficient, scale));
-            if (both != 0.0) {
-                sum->terms[sum->count++] = (poly_term){both, l};
-            }
-        }
-    }
-    const poly *made = poly_intern(a, sum);
-    free(sum);
-    return made;
+static const poly *sum_of_two(algebra *a, const poly *left, const poly *right, double scale) {
+    poly_sum sum = {0};
+    sum_add(a, &sum, left, 1.0);
+    sum_add(a, &sum, right, scale);
+    return sum_close(a, &sum);
 }
 
 const poly *poly_add(algebra *a, const poly *left, const poly *right) {
-    return merge(a, left, right, 1.0);
+    return sum_of_two(a, left, right, 1.0);
 }
 
 const poly *poly_sub(algebra *a, const poly *left, const poly *right) {
-    return merge(a, left, right, -1.0);
+    return sum_of_two(a, left, right, -1.0);
 }
 
 const poly *poly_scale(algebra *a, const poly *p, double scale) {
-    if (scale == 0.0) {
-        return a->zero;
-    }
-    return scale == 1.0 ? p : merge(a, a->zero, p, scale);
+    return scale == 0.0 ? a->zero : poly_each_number(a, p, folding_product, scale);
 }
 
 const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),

@@ -665,8 +665,9 @@ TEST(algebra_limits, work_is_counted_alike_on_every_host) {
     before = a->work;
     poly_symbol(a, &form_symbols[1], 0); /* the symbol exists already: no work */
     TEST_ASSERT_EQUAL_UINT64(0, a->work - before);
-    const poly *sum = poly_add(a, q, r); /* work for two terms and for a new sum of two terms */
-    TEST_ASSERT_EQUAL_UINT64(2 * TERM + POLY + 2 * PART, a->work - before);
+    const poly *sum =
+        poly_add(a, q, r); /* work for two operands of one term, and for a new sum of two terms */
+    TEST_ASSERT_EQUAL_UINT64(4 * TERM + POLY + 2 * PART, a->work - before);
     before = a->work;
     /* work for a new product of two factors, for a sum of this one term, and for a table entry of the pair */
     const poly *product = poly_mul(a, q, r);
