@@ -39,7 +39,7 @@ static void make_constraint(algebra *a, const mechanism *m, const poly *held, co
 }
 
 static void make_law(algebra *a, const mechanism *m, const contact_statement *from,
-                     contact_law *law, contact_set *set) {
+                     contact_law *law) {
     const poly *zero = poly_number(a, 0.0);
     law->from = from;
     law->first = law->second = law->bias = law->speed = zero;
@@ -65,9 +65,9 @@ static void make_law(algebra *a, const mechanism *m, const contact_statement *fr
     }
     case CONTACT_WHEN:
         law->value = poly_from_expr(a, from->value);
-        set->value = alloc(from->set_count, sizeof(const poly *));
+        law->set = alloc(from->set_count, sizeof(const poly *));
         for (int i = 0; i < from->set_count; i++) {
-            set->value[i] = poly_from_expr(a, from->sets[i].value);
+            law->set[i] = poly_from_expr(a, from->sets[i].value);
         }
         break;
     }
@@ -102,8 +102,7 @@ static void make_loosening(algebra *a, const mechanism *m, contact_laws *laws) {
                                      .normal = of->normal,
                                      .effect = of->effect,
                                      .at = of->at};
-            make_law(a, m, h, &laws->law[laws->count], &laws->sets[laws->count]);
-            laws->count++;
+            make_law(a, m, h, &laws->law[laws->count++]);
         }
     }
 }
@@ -114,7 +113,6 @@ contact_laws *contact_laws_make(algebra *a, const instance *inst) {
     const int most = 2 * m->contact_count + own; /* room for a crossing for each friction */
     contact_laws *laws = alloc(1, sizeof *laws);
     laws->law = alloc(most, sizeof *laws->law);
-    laws->sets = alloc(most, sizeof *laws->sets);
     for (int k = 0; k < CONTACT_KINDS; k++) {
         for (int i = 0; i < m->contact_count + own; i++) {
             const contact_statement *h =
@@ -123,8 +121,7 @@ contact_laws *contact_laws_make(algebra *a, const instance *inst) {
                 (i < m->contact_count && !instance_has(inst, h->effect))) {
                 continue;
             }
-            make_law(a, m, h, &laws->law[laws->count], &laws->sets[laws->count]);
-            laws->count++;
+            make_law(a, m, h, &laws->law[laws->count++]);
             laws->forced += h->kind != CONTACT_WHEN;
             laws->set_count += h->kind == CONTACT_WHEN ? h->set_count : 0;
         }
@@ -143,11 +140,10 @@ static void contact_laws_free(contact_laws *laws) {
     }
     for (int k = 0; k < laws->count; k++) {
         free(laws->law[k].row);
-        free(laws->sets[k].value);
+        free(laws->law[k].set);
     }
     free(laws->loose);
     free(laws->law);
-    free(laws->sets);
     free(laws);
 }
 
@@ -161,7 +157,7 @@ const poly *contact_law_poly(const equations *e, int k, int i) {
     if (law->row != NULL) {
         return more < e->count ? law->row[more] : NULL;
     }
-    return more < law->from->set_count ? e->contacts->sets[k].value[more] : NULL;
+    return more < law->from->set_count ? law->set[more] : NULL;
 }
 
 bool contact_law_pushes(const contact_law *law, int i) {

@@ -23,19 +23,15 @@ typedef struct contact_law {
     const poly *second; /* friction: mu_kinetic * max(N, 0) */
     const poly *bias;   /* J' q' */
     const poly **row;   /* [coordinates] J; NULL for a crossing */
+    const poly **set;   /* [from->set_count] values that a crossing sets */
     bool straight;      /* J is constant, and the hold's expression contains no input */
     bool driven;        /* the contact follows an input with a rate */
 } contact_law;
-
-typedef struct contact_set {
-    const poly **value; /* [from->set_count] values that a crossing sets */
-} contact_set;
 
 typedef struct contact_laws {
     int count;
     int forced;               /* number of contacts that are not crossings; crossings come last */
     contact_law *law;         /* [count] */
-    contact_set *sets;        /* [count] */
     int set_count;            /* number of values that crossings set */
     contact_statement *loose; /* [loosening] crossings added by Whirl: see contact_loosens() */
     int loosening;

@@ -78,7 +78,7 @@ static op_list *make_sets(layout *map) {
     int count = 0;
     for (int k = laws->forced; k < laws->count; k++) {
         for (int i = 0; i < laws->law[k].from->set_count; i++) {
-            wanted[count++] = laws->sets[k].value[i];
+            wanted[count++] = laws->law[k].set[i];
         }
     }
     op_list *t = enter(map, wanted, count);

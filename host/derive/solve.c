@@ -365,10 +365,10 @@ typedef struct arranged {
     const poly **force; /* [n] */
     int hinges;
     const poly **across; /* [hinges * (n + 1)] `across` of hinge_eliminate() for each hinge */
-    double *inverse;     /* [hinges] factor of the products of across */
-    double *scale;       /* [n] scale of each row and column */
-    bool *gone;          /* [n] eliminated symbolically */
-    int *order;          /* [n] eliminated unknowns first */
+    double inverse[COORDINATES_MAX]; /* [hinges] factor of the products of across */
+    double scale[COORDINATES_MAX];   /* [n] scale of each row and column */
+    bool gone[COORDINATES_MAX];      /* [n] eliminated symbolically */
+    int order[COORDINATES_MAX];      /* [n] eliminated unknowns first */
     int eliminated;
 } arranged;
 
@@ -536,26 +536,6 @@ static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly 
     scale_equations(a, n, mass, force, gone, 1.0 / tally_favourite(&all));
 }
 
-static arranged arranged_room(int n) {
-    arranged w = {.n = n, .polys = n * n + n + n * (n + 1)};
-    w.mass = alloc(w.polys, sizeof *w.mass);
-    w.force = w.mass + n * n;
-    w.across = w.force + n;
-    w.inverse = alloc(n, sizeof *w.inverse);
-    w.scale = alloc(n, sizeof *w.scale);
-    w.gone = alloc(n, sizeof *w.gone);
-    w.order = alloc(n, sizeof *w.order);
-    return w;
-}
-
-static void arranged_free(arranged *w) {
-    free(w->mass);
-    free(w->inverse);
-    free(w->scale);
-    free(w->gone);
-    free(w->order);
-}
-
 static void scale_all(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
     const int n = s->n;
     double common = 1.0;
@@ -652,10 +632,13 @@ static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w)
     }
 }
 
-/* Builds one arrangement of the system. Returns false if it is impossible. The caller frees *w in both cases. */
+/* Builds one arrangement of the system. Returns false if it is impossible. The caller frees w->mass in both cases. */
 static bool arrange(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
     const int n = s->n;
-    *w = arranged_room(n);
+    *w = (arranged){.n = n, .polys = n * n + n + n * (n + 1)};
+    w->mass = alloc(w->polys, sizeof *w->mass);
+    w->force = w->mass + n * n;
+    w->across = w->force + n;
     scale_all(a, s, how, w);
     if (how->hinged && !eliminate_hinged(a, s, how, w)) {
         return false;
@@ -744,7 +727,7 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
         }
         free(node);
     }
-    arranged_free(&w);
+    free(w.mass);
     return can;
 }
 

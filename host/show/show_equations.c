@@ -347,7 +347,7 @@ static void show_lines(const show *s, const equations *e, const char *prefix) {
             fputs(i == 0 ? ": " : ", ", s->out);
             show_symbol(s, from->sets[i].symbol, from->sets[i].primes);
             fputs(" = ", s->out);
-            show_poly(s, laws->sets[k].value[i]);
+            show_poly(s, law->set[i]);
         }
         fputc('\n', s->out);
     }
@@ -379,8 +379,7 @@ static void write_row(const show *s, const char *before, const symbol *of, int p
 }
 
 /* *between: the text before the next row, first "". */
-static void latex_rows(const show *s, const contact_law *law, const contact_set *set,
-                       const char **between) {
+static void latex_rows(const show *s, const contact_law *law, const char **between) {
     static const char next[] = " \\\\\n";
     const contact_statement *from = law->from;
     for (int i = 0; i < 2 && forms[from->kind].latex[i] != NULL && !contact_loosens(from); i++) {
@@ -399,7 +398,7 @@ static void latex_rows(const show *s, const contact_law *law, const contact_set 
         fputs(*between, s->out);
         *between = next;
         write_row(s, "  \\text{set } ", from->sets[i].symbol, from->sets[i].primes,
-                  " &= ", set->value[i], "");
+                  " &= ", law->set[i], "");
     }
 }
 
@@ -422,7 +421,7 @@ static void show_contacts(const show *s, const equations *e) {
         return;
     }
     for (int k = 0; k < laws->count; k++) {
-        latex_rows(s, &laws->law[k], &laws->sets[k], &between);
+        latex_rows(s, &laws->law[k], &between);
     }
     fputs("\n\\end{align*}\n", s->out);
 }
