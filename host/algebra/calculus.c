@@ -63,42 +63,36 @@ static double atom_value(const atom *x, poly_value *value, void *context) {
     return 0.0;
 }
 
-double poly_evaluate(const poly *p, poly_value *value, void *context) {
+/* Returns the sum of the terms; with `sizes`, of their absolute values, in which a wave counts as one. */
+static double sum_of_terms(const poly *p, poly_value *value, void *context, bool sizes) {
     double sum = 0.0;
     for (int i = 0; i < p->count; i++) {
         const mono *m = p->terms[i].mono;
         double product = p->terms[i].coefficient;
         for (int k = 0; k < m->count; k++) {
-            const double base = atom_value(m->factors[k].atom, value, context);
+            const atom *x = m->factors[k].atom;
             const double exponent = m->factors[k].exponent;
-            product *= exponent == 1.0 ? base : number_power(base, exponent);
+            double base = atom_value(x, value, context);
+            if (sizes && x->kind == ATOM_GROUP && exponent > 0.0) {
+                base = number_most(fabs(base), sum_of_terms(x->argument[0], value, context, true));
+            }
+            product *= exponent == 1.0 ? base : number_power(sizes ? fabs(base) : base, exponent);
         }
-        if (m->trig != TRIG_NONE) {
+        if (m->trig != TRIG_NONE && !sizes) {
             const double angle = poly_evaluate(m->angle, value, context);
             product *= m->trig == TRIG_SIN ? number_sine(angle) : number_cosine(angle);
         }
-        sum += product;
+        sum += sizes ? fabs(product) : product;
     }
     return sum;
 }
 
+double poly_evaluate(const poly *p, poly_value *value, void *context) {
+    return sum_of_terms(p, value, context, false);
+}
+
 double poly_magnitude(const poly *p, poly_value *value, void *context) {
-    double sum = 0.0;
-    for (int i = 0; i < p->count; i++) {
-        const mono *m = p->terms[i].mono;
-        double product = fabs(p->terms[i].coefficient);
-        for (int k = 0; k < m->count; k++) {
-            const atom *x = m->factors[k].atom;
-            const double exponent = m->factors[k].exponent;
-            double base = fabs(atom_value(x, value, context));
-            if (x->kind == ATOM_GROUP && exponent > 0.0) {
-                base = number_most(base, poly_magnitude(x->argument[0], value, context));
-            }
-            product *= number_power(base, exponent);
-        }
-        sum += product;
-    }
-    return sum;
+    return sum_of_terms(p, value, context, true);
 }
 
 bool poly_is_finite(const poly *p) {

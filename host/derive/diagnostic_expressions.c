@@ -9,21 +9,20 @@
 
 #include "host/base/alloc.h"
 
-/* A poly or an atom that was already entered. */
+/* The nodes of the polys or atoms that are already entered: node[id] is the node plus one, or 0. */
 typedef struct known {
-    const void *what;
-    int node;
+    int *node;
+    unsigned room;
 } known;
 
 typedef struct maker {
     image_draft *draft;
     image *made;
     const equations *equations;
-    int *input;   /* [inputs of the mechanism] number in the image, or -1 */
-    int *let;     /* [lets of the mechanism] node, or -1 */
-    known *table; /* [table_size] hash table, by address */
-    size_t entered;
-    size_t table_size; /* a power of two, or 0 */
+    int *input; /* [inputs of the mechanism] number in the image, or -1 */
+    int *let;   /* [lets of the mechanism] node, or -1 */
+    known polys;
+    known atoms;
 } maker;
 
 static int enter(maker *k, diagnostics_node node) {
@@ -100,52 +99,34 @@ static int of_expr(maker *k, const expr *tree) {
     return node;
 }
 
-static known *find(const maker *k, const void *what) {
-    size_t at = (size_t)(((uintptr_t)what >> 4) * UINT64_C(0x9e3779b97f4a7c15) >> 32);
-    while (k->table[at & (k->table_size - 1)].what != NULL &&
-           k->table[at & (k->table_size - 1)].what != what) {
-        at++;
+/* Returns the place of the node with this id, which is valid until the next call. */
+static int *node_of(known *of, unsigned id) {
+    if (id >= of->room) {
+        of->node = alloc_more(of->node, 2 * (int64_t)id + 1, sizeof *of->node);
+        memset(of->node + of->room, 0, (2 * (size_t)id + 1 - of->room) * sizeof *of->node);
+        of->room = 2 * id + 1;
     }
-    return &k->table[at & (k->table_size - 1)];
-}
-
-static int remember(maker *k, const void *what, int node) {
-    if (2 * (k->entered + 1) > k->table_size) {
-        known *before = k->table;
-        const size_t size = k->table_size;
-        k->table_size = size == 0 ? 64 : 2 * size;
-        k->table = alloc((int64_t)k->table_size, sizeof *k->table);
-        for (size_t i = 0; i < size; i++) {
-            if (before[i].what != NULL) {
-                *find(k, before[i].what) = before[i];
-            }
-        }
-        free(before);
-    }
-    *find(k, what) = (known){what, node};
-    k->entered++;
-    return node;
+    return &of->node[id];
 }
 
 static int of_poly(maker *k, const poly *p);
 
-static int of_atom(maker *k, const atom *x) {
-    const known *before = k->table_size > 0 ? find(k, x) : NULL;
-    if (before != NULL && before->what != NULL) {
-        return before->node;
-    }
+static int new_atom(maker *k, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
-        return remember(k, x, enter_symbol(k, x->symbol, x->primes));
+        return enter_symbol(k, x->symbol, x->primes);
     }
     const int a = of_poly(k, x->argument[0]);
     const int b = x->argument[1] != NULL ? of_poly(k, x->argument[1]) : -1;
-    switch (x->kind) {
-    case ATOM_GROUP: return remember(k, x, a);
-    case ATOM_POWER: return remember(k, x, enter_op(k, DIAGNOSTICS_POW, 0, a, b));
-    case ATOM_CALL: return remember(k, x, enter_op(k, DIAGNOSTICS_CALL, x->function, a, b));
-    case ATOM_SYMBOL: break; /* handled above */
-    }
-    return a;
+    return x->kind == ATOM_GROUP   ? a
+           : x->kind == ATOM_POWER ? enter_op(k, DIAGNOSTICS_POW, 0, a, b)
+                                   : enter_op(k, DIAGNOSTICS_CALL, x->function, a, b);
+}
+
+static int of_atom(maker *k, const atom *x) {
+    const int before = *node_of(&k->atoms, x->id);
+    const int node = before > 0 ? before - 1 : new_atom(k, x);
+    *node_of(&k->atoms, x->id) = node + 1;
+    return node;
 }
 
 static int of_term(maker *k, const poly_term *t) {
@@ -169,16 +150,17 @@ static int of_term(maker *k, const poly_term *t) {
 }
 
 static int of_poly(maker *k, const poly *p) {
-    const known *before = k->table_size > 0 ? find(k, p) : NULL;
-    if (before != NULL && before->what != NULL) {
-        return before->node;
+    const int before = *node_of(&k->polys, p->id);
+    if (before > 0) {
+        return before - 1;
     }
     int node = p->count == 0 ? enter_number(k, 0.0) : of_term(k, &p->terms[0]);
     for (int i = 1; i < p->count; i++) {
         const int more = of_term(k, &p->terms[i]);
         node = enter_op(k, DIAGNOSTICS_ADD, 0, node, more);
     }
-    return remember(k, p, node);
+    *node_of(&k->polys, p->id) = node + 1;
+    return node;
 }
 
 /* Returns true for sums and products of numbers, symbols and waves, which are differentiable at every state. */
@@ -316,5 +298,6 @@ void diagnostics_make(image_draft *d, const equations *e) {
     ask_all(&k);
     free(k.input);
     free(k.let);
-    free(k.table);
+    free(k.polys.node);
+    free(k.atoms.node);
 }

@@ -505,69 +505,41 @@ static int phase_of(lowering *l, const poly *angle) {
 
 /* In this file each operation is entered by its own statement. C does not fix the order in which arguments are
  * evaluated, and that order would become the order of the list. */
-static int sine_of(lowering *l, int i);
+static int wave_node(lowering *l, int i, trig which);
 
-static int cosine_of(lowering *l, int i) {
-    const wave w = l->waves[i];
-    op_list *t = l->list;
-    if (w.cosine >= 0) {
-        return w.cosine;
-    }
-    int result = -1;
-    switch (w.rule) {
-    case WAVE_EVALUATED: result = op_list_unary(t, OP_COS, phase_of(l, w.angle)); break;
-    case WAVE_DOUBLE: {
-        const int c = cosine_of(l, w.p);
-        const int twice = op_list_mul(t, op_list_constant(t, 2.0), c);
-        const int squares = op_list_mul(t, twice, c);
-        result = op_list_sub(t, squares, op_list_constant(t, 1.0));
-        break;
-    }
-    case WAVE_SUM:
-    case WAVE_DIFFERENCE: {
-        const int cos_p = cosine_of(l, w.p);
-        const int cos_q = cosine_of(l, w.q);
-        const int cc = op_list_mul(t, cos_p, cos_q);
-        const int sin_p = sine_of(l, w.p);
-        const int sin_q = sine_of(l, w.q);
-        const int ss = op_list_mul(t, sin_p, sin_q);
-        result = w.rule == WAVE_SUM ? op_list_sub(t, cc, ss) : op_list_add(t, cc, ss);
-        break;
-    }
-    }
-    l->waves[i].cosine = result;
-    return result;
+/* Returns the product of two waves. */
+static int waves_product(lowering *l, int p, trig of_p, int q, trig of_q) {
+    const int x = wave_node(l, p, of_p);
+    return op_list_mul(l->list, x, wave_node(l, q, of_q));
 }
 
-static int sine_of(lowering *l, int i) {
-    const wave w = l->waves[i];
+static int wave_enter(lowering *l, wave w, trig which) {
     op_list *t = l->list;
-    if (w.sine >= 0) {
-        return w.sine;
+    const bool sine = which == TRIG_SIN;
+    if (w.rule == WAVE_EVALUATED) {
+        return op_list_unary(t, sine ? OP_SIN : OP_COS, phase_of(l, w.angle));
     }
-    int result = -1;
-    switch (w.rule) {
-    case WAVE_EVALUATED: result = op_list_unary(t, OP_SIN, phase_of(l, w.angle)); break;
-    case WAVE_DOUBLE: {
-        const int c = cosine_of(l, w.p);
+    if (w.rule == WAVE_DOUBLE) { /* 2 cos sin, or 2 cos cos - 1 */
+        const int c = wave_node(l, w.p, TRIG_COS);
         const int twice = op_list_mul(t, op_list_constant(t, 2.0), c);
-        result = op_list_mul(t, twice, sine_of(l, w.p));
-        break;
+        const int product = op_list_mul(t, twice, wave_node(l, w.p, which));
+        return sine ? product : op_list_sub(t, product, op_list_constant(t, 1.0));
     }
-    case WAVE_SUM:
-    case WAVE_DIFFERENCE: {
-        const int sin_p = sine_of(l, w.p);
-        const int cos_q = cosine_of(l, w.q);
-        const int sc = op_list_mul(t, sin_p, cos_q);
-        const int cos_p = cosine_of(l, w.p);
-        const int sin_q = sine_of(l, w.q);
-        const int cs = op_list_mul(t, cos_p, sin_q);
-        result = w.rule == WAVE_SUM ? op_list_add(t, sc, cs) : op_list_sub(t, sc, cs);
-        break;
+    /* sin cos and cos sin, or cos cos and sin sin */
+    const int x = waves_product(l, w.p, which, w.q, TRIG_COS);
+    const int y = waves_product(l, w.p, sine ? TRIG_COS : TRIG_SIN, w.q, TRIG_SIN);
+    return (w.rule == WAVE_SUM) == sine ? op_list_add(t, x, y) : op_list_sub(t, x, y);
+}
+
+/* Returns the operation for the sine or cosine of wave i. */
+static int wave_node(lowering *l, int i, trig which) {
+    const wave w = l->waves[i];
+    int node = which == TRIG_SIN ? w.sine : w.cosine;
+    if (node < 0) {
+        node = wave_enter(l, w, which);
+        *(which == TRIG_SIN ? &l->waves[i].sine : &l->waves[i].cosine) = node;
     }
-    }
-    l->waves[i].sine = result;
-    return result;
+    return node;
 }
 
 static int planned(lowering *l, const poly *angle) {
@@ -576,8 +548,13 @@ static int planned(lowering *l, const poly *angle) {
 }
 
 /* Returns the operation for the sine or cosine of `angle`. If no identity was planned for it, the core's sine computes it. */
-static int waves_sine(lowering *l, const poly *angle) { return sine_of(l, planned(l, angle)); }
-static int waves_cosine(lowering *l, const poly *angle) { return cosine_of(l, planned(l, angle)); }
+static int waves_sine(lowering *l, const poly *angle) {
+    return wave_node(l, planned(l, angle), TRIG_SIN);
+}
+
+static int waves_cosine(lowering *l, const poly *angle) {
+    return wave_node(l, planned(l, angle), TRIG_COS);
+}
 
 /* === polys to operations ====================================================================== */
 
