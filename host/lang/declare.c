@@ -188,6 +188,12 @@ static bool take_name(parser *in, const char *statement, token *name) {
     return true;
 }
 
+static void check_not_time(parser *in, const token *name, bool recorded) {
+    if (recorded && token_is(name, "time")) {
+        diag_error(in->diags, name->at, NULL, "'time' is the first column of every record");
+    }
+}
+
 bool read_unknown(parser *in, const statement_word *word) {
     token name;
     if (!take_name(in, word->text, &name)) {
@@ -199,9 +205,7 @@ bool read_unknown(parser *in, const statement_word *word) {
         in->lexer.stopped = true;
         return false;
     }
-    if (token_is(&name, "time")) {
-        diag_error(in->diags, name.at, NULL, "'time' is the first column of every record");
-    }
+    check_not_time(in, &name, true);
     symbol *made = declare(in, &name, (symbol_kind)word->kind);
     symbol unused = {0};
     if (made == NULL) {
@@ -286,69 +290,55 @@ static bool parse_rate(parser *in, symbol *made) {
     return true;
 }
 
-bool read_constant(parser *in, const statement_word *word) {
+/* Reads `[UNIT]` before the value: only an output has one. */
+static bool parse_output_unit(parser *in, symbol_kind kind, unit_scale *unit, const char **text) {
+    if (in->token.kind != TOKEN_UNIT) {
+        return true;
+    }
+    if (kind != SYM_OUTPUT) {
+        return parser_fail(in, "the unit belongs to the number: parameter m = 2 [kg]",
+                           "a unit in the wrong place");
+    }
+    parse_unit(in, unit, text);
+    return true;
+}
+
+bool read_valued(parser *in, const statement_word *word) {
+    static const expr_context contexts[] = {[SYM_PARAMETER] = CONTEXT_CONSTANT,
+                                            [SYM_INPUT] = CONTEXT_CONSTANT,
+                                            [SYM_LET] = CONTEXT_LET,
+                                            [SYM_OUTPUT] = CONTEXT_OUTPUT};
     const symbol_kind kind = (symbol_kind)word->kind;
     token name;
     if (!take_name(in, word->text, &name)) {
         return false;
     }
+    check_not_time(in, &name, kind == SYM_OUTPUT);
     symbol *made = declare(in, &name, kind);
-    if (in->token.kind == TOKEN_UNIT) {
-        return parser_fail(in, "the unit belongs to the number: parameter m = 2 [kg]",
-                           "a unit in the wrong place");
-    }
+    unit_scale written = {0};
+    const char *unit_text = NULL;
     place value_at;
-    const bool is_input = kind == SYM_INPUT;
-    if (is_input && !parse_rate(in, made)) {
-        return false;
-    }
-    if (!parse_value(in, made, word, kind == SYM_LET ? CONTEXT_LET : CONTEXT_CONSTANT, &value_at)) {
-        return false;
-    }
-    if (is_input && !parse_rate(in, made)) {
+    if (!parse_output_unit(in, kind, &written, &unit_text) ||
+        (kind == SYM_INPUT && !parse_rate(in, made)) ||
+        !parse_value(in, made, word, contexts[kind], &value_at) ||
+        (kind == SYM_INPUT && !parse_rate(in, made))) {
         return false;
     }
     const char *text = parser_title(in);
     if (made != NULL) {
         made->text = text;
         const expr *number = made->value->op == EXPR_NEG ? made->value->left : made->value;
-        if (number->op == EXPR_NUMBER && (number->uses & USES_UNIT) != 0) {
-            made->unit = in->number_unit_text;
-            made->declared = in->number_unit;
-        }
-    }
-    return parser_end_statement(in, "the expression");
-}
-
-bool read_output(parser *in, const statement_word *word) {
-    token name;
-    if (!take_name(in, word->text, &name)) {
-        return false;
-    }
-    if (token_is(&name, "time")) {
-        diag_error(in->diags, name.at, NULL, "'time' is the first column of every record");
-    }
-    symbol *made = declare(in, &name, SYM_OUTPUT);
-    unit_scale written = {1.0, 1.0, dim_none(), enclosure_of(1.0)};
-    const char *unit_text = "";
-    const bool has_unit = in->token.kind == TOKEN_UNIT;
-    if (has_unit) {
-        parse_unit(in, &written, &unit_text);
-    }
-    place value_at;
-    if (!parse_value(in, made, word, CONTEXT_OUTPUT, &value_at)) {
-        return false;
-    }
-    const char *text = parser_title(in);
-    if (made != NULL) {
-        made->text = text;
-        made->unit = unit_text;
-        if (has_unit) {
-            made->declared = written;
+        if (unit_text != NULL) {
             char what[NAME_LENGTH_MAX + 16];
             snprintf(what, sizeof what, "output '%s'", made->name);
             check_named(in, value_at, made->value, written.dim, what, "is");
+            made->unit = unit_text;
+            made->declared = written;
             made->dim = written.dim;
+        } else if (kind != SYM_OUTPUT && number->op == EXPR_NUMBER &&
+                   (number->uses & USES_UNIT) != 0) {
+            made->unit = in->number_unit_text;
+            made->declared = in->number_unit;
         }
     }
     return parser_end_statement(in, "the expression");

@@ -9,11 +9,11 @@
 
 typedef bool statement_reader(parser *in, const statement_word *word);
 
-statement_reader read_unknown, read_constant, read_output; /* declare.c */
-statement_reader read_energy, read_force, read_equation;   /* statements.c */
-statement_reader read_stop, read_friction, read_hold;      /* contact_statement.c */
-statement_reader read_when;                                /* contact_statement.c */
-statement_reader read_noise;                               /* declare.c */
+statement_reader read_unknown, read_valued;              /* declare.c */
+statement_reader read_energy, read_force, read_equation; /* statements.c */
+statement_reader read_stop, read_friction, read_hold;    /* contact_statement.c */
+statement_reader read_when;                              /* contact_statement.c */
+statement_reader read_noise;                             /* declare.c */
 
 /* Reports that the contact cannot be combined with state and equation. */
 void contact_on_system(parser *in, const contact_statement *each);

@@ -106,12 +106,12 @@ enum {
     X(STATE, "state", IN_MECHANISM, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN | BY_EQUATIONS, \
       read_unknown, SYM_STATE, "state x") \
     X(PARAMETER, "parameter", IN_MECHANISM | IN_EFFECT, \
-      RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, read_constant, SYM_PARAMETER, \
+      RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, read_valued, SYM_PARAMETER, \
       "parameter name = expression") \
-    X(INPUT, "input", IN_MECHANISM | IN_EFFECT, RESERVED | DECLARES | ENDS_WHEN, read_constant, \
+    X(INPUT, "input", IN_MECHANISM | IN_EFFECT, RESERVED | DECLARES | ENDS_WHEN, read_valued, \
       SYM_INPUT, "input name = expression") \
     X(LET, "let", IN_MECHANISM | IN_EFFECT, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, \
-      read_constant, SYM_LET, "let name = expression") \
+      read_valued, SYM_LET, "let name = expression") \
     X(T, "T", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | BY_ENERGIES, read_energy, TERM_T, \
       "T = m*X'^2/2") \
     X(V, "V", IN_MECHANISM | IN_EFFECT, RESERVED | ENDS_WHEN | BY_ENERGIES, read_energy, TERM_V, \
@@ -122,7 +122,7 @@ enum {
       "write Q(theta) = ...") \
     X(EQUATION, "equation", IN_MECHANISM, RESERVED | ENDS_SCENE | ENDS_WHEN | BY_EQUATIONS, \
       read_equation, TERM_EQUATION, "equation left = right") \
-    X(OUTPUT, "output", IN_MECHANISM, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, read_output, \
+    X(OUTPUT, "output", IN_MECHANISM, RESERVED | DECLARES | ENDS_SCENE | ENDS_WHEN, read_valued, \
       SYM_OUTPUT, "output name = expression") \
     X(EFFECT, "effect", IN_FILE, RESERVED | ENDS_ALL, read_effect, 0, \
       "effect drag \"viscous drag\" { F += b*X'^2/2 }") \
