@@ -152,9 +152,6 @@ refused "--ylabel has 3 texts for 1 panel" 'write a comma between' plot "$scratc
 refused "--legend has 1 name for 2 runs" '--legend "first, second"' plot "$scratch/soft.csv" "$scratch/stiff.csv" --legend one "$out"
 refused "--set changes a scene" "whirl plot SCENE --set" plot "$scratch/soft.csv" --set k=1 "$out"
 refused "'k' is given twice on the command line" "leave one of them out" plot "$model" --set k=5 "$model" --set=k=90 "$out"
-sed -n 's/^  whirl //p' "$scratch/err" | (cd "$scratch" && while read -r line; do eval "\"$program\" $line" || exit 1; done) >"$scratch/said" 2>&1 && [ -s "$scratch/no.svg" ]
-verdict $? "whose commands do" "$scratch/said"
-rm -f "$scratch/no.svg"
 for name in k "x'"; do
     refused "--y is given twice" "--y \"a, $name\"" plot "$model" --y a --y="$name" "$out"
 done
