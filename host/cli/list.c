@@ -216,17 +216,7 @@ static const form forms[] = {
              "title",
      .put = put_rows},
 };
-
-static const form *form_of(const char *word) {
-    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
-        if (options_same(forms[i].word, word)) {
-            return &forms[i];
-        }
-    }
-    fprintf(stderr, "whirl list: error: --as takes text or table, not '%s'\nhint: --as table\n",
-            word);
-    return NULL;
-}
+enum { FORMS = sizeof forms / sizeof forms[0] };
 
 /* `first`: no entry was listed before. */
 static int list_one(const source_model *from, const form *as, bool first) {
@@ -326,10 +316,14 @@ static int list_work(void *options) {
     if (other > 0) {
         return o->units ? list_units() : o->hard ? list_hard() : list_figures();
     }
-    const form *as = form_of(o->form != NULL ? o->form : "text");
-    int code = as == NULL ? EXIT_BAD_INPUT : o->files == 0 ? list_builtin(as) : EXIT_DONE;
-    for (int i = 0; i < o->files && as != NULL; i++) {
-        const int one = list_file(o->file[i], as, i == 0);
+    const int chosen = options_choose("list", "form", o->form != NULL ? o->form : "text", forms,
+                                      sizeof forms[0], FORMS);
+    if (chosen < 0) {
+        return EXIT_BAD_INPUT;
+    }
+    int code = o->files == 0 ? list_builtin(&forms[chosen]) : EXIT_DONE;
+    for (int i = 0; i < o->files; i++) {
+        const int one = list_file(o->file[i], &forms[chosen], i == 0);
         code = one > code ? one : code;
     }
     return code;

@@ -282,24 +282,15 @@ void source_close(source_model *s) {
     free(s->name);
 }
 
-static bool has_scene(const whirl_model *m, const mechanism *of) {
-    for (int i = 0; i < m->scene_count; i++) {
-        if (m->scenes[i]->mechanism == of) {
-            return true;
-        }
-    }
-    return false;
-}
-
+/* The file's scenes, or its mechanisms. */
 static void say_choices(const source_model *s, bool scenes) {
+    const whirl_model *m = s->model;
     fprintf(stderr, "hint: name one:");
-    for (int i = 0; scenes && i < s->model->scene_count; i++) {
-        fprintf(stderr, " %s:%s", s->file, s->model->scenes[i]->name);
+    for (int i = 0; scenes && i < m->scene_count; i++) {
+        fprintf(stderr, " %s:%s", s->file, m->scenes[i]->name);
     }
-    for (int i = 0; i < s->model->mechanism_count; i++) {
-        if (!scenes || !has_scene(s->model, s->model->mechanisms[i])) {
-            fprintf(stderr, " %s:%s", s->file, s->model->mechanisms[i]->name);
-        }
+    for (int i = 0; i < m->mechanism_count && !(scenes && m->scene_count > 0); i++) {
+        fprintf(stderr, " %s:%s", s->file, m->mechanisms[i]->name);
     }
     fprintf(stderr, "\n");
 }

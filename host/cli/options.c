@@ -370,20 +370,17 @@ static bool take_strict(const char *command, int count, char **words, int *at, d
 }
 
 static bool take_cells(const char *command, const char *value, int *cells) {
-    const size_t digits = strspn(value, "0123456789");
-    const long least = IMAGE_CELLS_LEAST;
-    const long most = IMAGE_CELLS_MOST;
-    const long number =
-        digits > 0 && digits < 9 && value[digits] == '\0' ? strtol(value, NULL, 10) : 0;
-    const bool good = number >= least && number <= most && (number & (number - 1)) == 0;
-    if (!good) {
-        fprintf(stderr,
-                "whirl %s: error: --cells '%.40s' is not a power of two from %ld to %ld\n"
-                "hint: --cells 64, --cells 256, ...\n",
-                command, value, least, most);
+    static const char hint[] = "a power of two: --cells 64, --cells 256, ...";
+    double number;
+    if (!options_number(command, "--cells", value, IMAGE_CELLS_LEAST, IMAGE_CELLS_MOST, hint,
+                        &number)) {
+        return false;
     }
     *cells = (int)number;
-    return good;
+    if (number > (double)*cells || (*cells & (*cells - 1)) != 0) {
+        return options_fail(command, "--cells %s is not a power of two\nhint: %s", value, hint);
+    }
+    return true;
 }
 
 /* Does the command accept fixed point? Sweeps and prices do not, because they do not search for ranges. */

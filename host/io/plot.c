@@ -32,10 +32,7 @@ static char *shown_name(const char *name) {
 
 static int column_named(const plot_run *run, const char *name) {
     for (int i = 0; i < run->columns; i++) {
-        char *shown = shown_name(run->column[i].name);
-        const bool is = strcmp(shown, name) == 0 || strcmp(run->column[i].name, name) == 0;
-        free(shown);
-        if (is) {
+        if (strcmp(run->column[i].shown, name) == 0 || strcmp(run->column[i].name, name) == 0) {
             return i;
         }
     }
@@ -44,12 +41,9 @@ static int column_named(const plot_run *run, const char *name) {
 
 static void say_unknown(const char *command, const char *name, const plot_run *runs, int count) {
     nearest search = nearest_start(name, strlen(name));
-    char **kept = alloc((int64_t)count * PANELS_QUANTITIES, sizeof *kept);
-    int names = 0;
     for (int k = 0; k < count; k++) {
-        for (int i = 0; i < runs[k].columns && i < PANELS_QUANTITIES; i++) {
-            kept[names] = shown_name(runs[k].column[i].name);
-            nearest_offer(&search, kept[names++]);
+        for (int i = 0; i < runs[k].columns; i++) {
+            nearest_offer(&search, runs[k].column[i].shown);
         }
     }
     fprintf(stderr, "whirl %s: error: there is no quantity '%.80s'\n", command, name);
@@ -58,14 +52,10 @@ static void say_unknown(const char *command, const char *name, const plot_run *r
     } else {
         fputs("hint: the quantities are ", stderr);
         for (int i = 0; i < runs[0].columns; i++) {
-            fprintf(stderr, "%s%s", i > 0 ? ", " : "", kept[i]);
+            fprintf(stderr, "%s%s", i > 0 ? ", " : "", runs[0].column[i].shown);
         }
         fputc('\n', stderr);
     }
-    for (int i = 0; i < names; i++) {
-        free(kept[i]);
-    }
-    free(kept);
 }
 
 static bool same_unit(const char *a, const char *b) {
@@ -292,6 +282,8 @@ void plot_run_name(plot_run *run, int column, const char *name, const char *unit
                    const char *text) {
     plot_column *c = &run->column[column];
     put(&c->name, name);
+    free(c->shown);
+    c->shown = shown_name(name);
     put(&c->unit, unit);
     put(&c->text, text);
 }
@@ -313,6 +305,7 @@ void plot_run_head(plot_run *run, int column, const char *heading) {
 void plot_run_close(plot_run *run) {
     for (int i = 0; i < run->columns; i++) {
         free(run->column[i].name);
+        free(run->column[i].shown);
         free(run->column[i].unit);
         free(run->column[i].text);
     }
@@ -359,33 +352,44 @@ static void write_texts(FILE *to, const plot_run *run, bool units) {
     }
 }
 
-bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables) {
+/* Writes CSV.toml. Returns false after an error, which it has reported. */
+static bool write_beside(const char *csv, const char *text) {
     char *file = alloc_words("%s.toml", csv);
-    char *title = plot_run_quoted(run->title);
-    char *label = plot_run_quoted(run->label);
     FILE *to = atomic_file_open(file);
-    bool good = false;
     if (to != NULL) {
-        fprintf(to, "%stitle = %s\nlabel = %s\n", facts, title, label);
-        if (run->trusted_s > 0.0) {
-            fprintf(to, "trusted_s = %.17g\n", run->trusted_s);
-        }
-        fputs("marks_s = [", to);
-        for (int i = 0; i < run->marks; i++) {
-            fprintf(to, "%s%.17g", i > 0 ? ", " : "", run->mark_s[i]);
-        }
-        fputs("] # events, at most 400\n", to);
-        write_texts(to, run, true);
-        write_texts(to, run, false);
-        fputs(tables, to);
-        good = atomic_file_close(to, file, true);
+        fputs(text, to);
     }
+    const bool good = to != NULL && atomic_file_close(to, file, true);
     if (!good) {
         atomic_file_not_whole(); /* too late for bad input */
     }
     free(file);
+    return good;
+}
+
+bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables) {
+    char *text;
+    size_t length;
+    FILE *to = alloc_text(&text, &length);
+    char *title = plot_run_quoted(run->title);
+    char *label = plot_run_quoted(run->label);
+    fprintf(to, "%stitle = %s\nlabel = %s\n", facts, title, label);
+    if (run->trusted_s > 0.0) {
+        fprintf(to, "trusted_s = %.17g\n", run->trusted_s);
+    }
+    fputs("marks_s = [", to);
+    for (int i = 0; i < run->marks; i++) {
+        fprintf(to, "%s%.17g", i > 0 ? ", " : "", run->mark_s[i]);
+    }
+    fputs("] # events, at most 400\n", to);
+    write_texts(to, run, true);
+    write_texts(to, run, false);
+    fputs(tables, to);
+    alloc_text_end(to);
+    const bool good = write_beside(csv, text);
     free(title);
     free(label);
+    free(text);
     return good;
 }
 
@@ -397,17 +401,10 @@ bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *comman
     if (!closed || !described) {
         return closed;
     }
-    char *file = alloc_words("%s.toml", name);
-    FILE *to = atomic_file_open(file);
-    if (to != NULL) {
-        fprintf(to, "whirl = \"" WH_VERSION "\"\ncommand = \"%s\"\nscene = \"%s\"\n", command,
-                scene);
-    }
-    const bool good = to != NULL && atomic_file_close(to, file, true);
-    if (!good) {
-        atomic_file_not_whole(); /* too late for bad input */
-    }
-    free(file);
+    char *text = alloc_words("whirl = \"" WH_VERSION "\"\ncommand = \"%s\"\nscene = \"%s\"\n",
+                             command, scene);
+    const bool good = write_beside(name, text);
+    free(text);
     return good;
 }
 

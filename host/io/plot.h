@@ -8,9 +8,10 @@
 /* === the quantities of one run or sweep, with their units, from memory or from a CSV file ===== */
 
 typedef struct plot_column {
-    char *name; /* x, der(x), der(der(x)), ... */
-    char *unit; /* unit, as declared; NULL: unknown */
-    char *text; /* the quantity in words, or "" */
+    char *name;  /* x, der(x), der(der(x)), ... */
+    char *shown; /* x, x', x'', ... */
+    char *unit;  /* unit, as declared; NULL: unknown */
+    char *text;  /* the quantity in words, or "" */
 } plot_column;
 
 /* Owner of all its data. Column 0 is the time, or the first swept value. */

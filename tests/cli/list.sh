@@ -105,7 +105,7 @@ for name in $names; do
     [ $bad -eq 0 ] || { cat "$scratch/got" >>"$scratch/err"; break; }
 done
 verdict $bad "names of files and titles with ends of fields and lines in them (seed $seed)"
-exits 2 '--as takes text or table, not .csv.' list --as csv
+exits 2 "there is no form 'csv'" list --as csv
 exits 2 'is a part of a file' list core/models/cuff.whirl:cuff --as table
 exits 2 'unknown option' list --table
 
