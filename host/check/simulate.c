@@ -313,10 +313,7 @@ static void name_course(simulation *sim) {
     for (int i = 1; i < r->columns; i++) {
         const record_column *c = &r->column[i];
         char *name = records_name(c);
-        plot_run_name(&sim->course, i, name, c->unit->shown,
-                      c->primes > 0     ? ""
-                      : c->unknown >= 0 ? im->unknown[c->unknown].text
-                                        : im->output[i - (r->columns - im->own_outputs)].text);
+        plot_run_name(&sim->course, i, name, c->unit->shown, c->text);
         free(name);
     }
     free(title);

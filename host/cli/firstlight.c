@@ -162,7 +162,8 @@ static char *light_row(const light *l, int equal, const char *differ) {
     return row;
 }
 
-/* Adds the row to the end of the page's table, unless the page has this record. Prints if it did. Returns an exit status. */
+/* Adds the row to the page, which ends with the table, unless the page has this record. Prints if it did. Returns an exit
+ * status. */
 static int light_append(const char *page, const char *row, uint32_t crc) {
     size_t length = 0;
     char seen[24];
@@ -174,36 +175,24 @@ static int light_append(const char *page, const char *row, uint32_t crc) {
         return EXIT_RUN_FAILED;
     }
     (void)snprintf(seen, sizeof seen, "| 0x%08" PRIx32 " |", crc);
+    bool good = true;
     if (strstr(text, seen) != NULL) {
         printf("row: not added, because %s already has this record\n", page);
-        free(text);
-        return EXIT_DONE;
-    }
-    char *behind = NULL; /* the end of a table's last line */
-    for (char *at = text; at != NULL; at = *at != '\0' ? strchr(at + 1, '\n') : NULL) {
-        behind = at[0] == '|' || (at[0] == '\n' && at[1] == '|') ? at + 1 : behind;
-    }
-    behind = behind != NULL ? strchr(behind, '\n') : NULL;
-    if (behind == NULL) {
-        free(text);
+    } else if (length < 2 || strcmp(text + length - 2, "|\n") != 0) {
         fprintf(stderr,
-                "%s: error: this page has no table for the row\nhint: " LIGHT_PAGE " has "
-                "one\n",
+                "%s: error: this page does not end with a table for the row\nhint: " LIGHT_PAGE
+                " does\n",
                 page);
-        return EXIT_RUN_FAILED;
-    }
-    static const char empty[] = "\nno row yet\n";
-    const char *rest = behind + 1;
-    rest += strncmp(rest, empty, sizeof empty - 1) == 0 ? sizeof empty - 1 : 0;
-    FILE *out = atomic_file_open(page);
-    bool good = out != NULL;
-    if (good) {
-        fwrite(text, 1, (size_t)(behind + 1 - text), out);
-        fprintf(out, "%s%s", row, rest);
-        good = atomic_file_close(out, page, true);
-    }
-    if (good) {
-        printf("row: appended to %s\n", page);
+        good = false;
+    } else {
+        FILE *out = atomic_file_open(page);
+        if (out != NULL) {
+            fprintf(out, "%s%s", text, row);
+        }
+        good = out != NULL && atomic_file_close(out, page, true);
+        if (good) {
+            printf("row: appended to %s\n", page);
+        }
     }
     free(text);
     return good ? EXIT_DONE : EXIT_RUN_FAILED;

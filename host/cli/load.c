@@ -172,6 +172,7 @@ int source_find(source_model *s, const struct builtin_model *models, size_t coun
         }
     }
     *s = good ? each[hit] : (source_model){0};
+    s->text = good ? alloc_words("%s", models[hit].text) : NULL;
     s->name = alloc_words("%s", w.name);
     free(each);
     return good ? EXIT_DONE : EXIT_BAD_INPUT;
@@ -181,12 +182,6 @@ int source_find(source_model *s, const struct builtin_model *models, size_t coun
 
 char *read_all(const char *path, size_t most, size_t *length) {
     FILE *in = strcmp(path, "-") == 0 ? stdin : fopen(path, "rb");
-    struct stat about;
-    if (in != NULL && in != stdin && fstat(fileno(in), &about) == 0 && S_ISDIR(about.st_mode)) {
-        fclose(in);
-        in = NULL;
-        errno = EISDIR;
-    }
     if (in == NULL) {
         fprintf(stderr, "%s: error: cannot be read: %s\n", path, strerror(errno));
         return NULL;

@@ -29,7 +29,7 @@ bool files_meet(const char *output, const char *other, bool is_input);
 /* A .whirl file, or the only built-in model that has the target. Free with source_close(). */
 typedef struct source_model {
     const char *file; /* the file's name in messages */
-    char *text;       /* owned; NULL for a built-in model */
+    char *text;       /* owned; NULL if nothing was read, or for source_builtin() */
     char *path;       /* owned */
     char *name;       /* owned: the name after the ':', or the built-in name; "" without a name */
     whirl_model *model;

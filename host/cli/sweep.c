@@ -12,7 +12,6 @@
 #include "host/cli/load.h"
 #include "host/engine/start.h"
 #include "host/io/plot.h"
-#include "host/lang/builtin.h"
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 #include "host/os/jobs.h"
@@ -171,22 +170,13 @@ static bool is_whole_map(sweep_options *o) {
 
 /* --- the sweep ---------------------------------------------------------------------------------*/
 
-static const char *model_text(const source_model *from) {
-    for (size_t i = 0; i < builtin_model_count && from->text == NULL; i++) {
-        if (strcmp(builtin_models[i].file, from->file) == 0) {
-            return builtin_models[i].text;
-        }
-    }
-    return from->text != NULL ? from->text : "";
-}
-
 static int sweep_loaded(const sweep_options *o, const source_model *from, const loaded *base,
                         sweep *s) {
     s->shared = sweep_can_share(s->grid, base->image) ? base->image : NULL;
     uint64_t first;
     uint64_t end;
     grid_shard(s->grid, o->part.number, o->part.of, &first, &end);
-    char *fingerprint = fingerprint_make(s, model_text(from), base->instance, base->image, o->part);
+    char *fingerprint = fingerprint_make(s, from->text, base->instance, base->image, o->part);
     const session_settings settings = {.csv = o->csv,
                                        .fingerprint = fingerprint,
                                        .first = first,

@@ -112,11 +112,6 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
         panel = same_unit(p->unit[i], unit) ? i : panel;
     }
     panel = panel < 0 ? p->count : panel;
-    if (panel == PANELS_MOST) {
-        fprintf(stderr, "whirl %s: error: the plot has more than %d panels\nhint: --y NAME,NAME\n",
-                command, PANELS_MOST);
-        return false;
-    }
     if (panel < p->count && !same_unit(p->unit[panel], unit) &&
         (p->unit[panel] != NULL || unit != NULL)) {
         const char *other = "";

@@ -73,7 +73,7 @@ bool plot_fits(const char *command, const plot_choice *choice, const plot_run *r
 /* True if x is a quantity other than column 0. */
 bool plot_is_path(const plot_choice *choice);
 
-enum { PANELS_MOST = 64, PANELS_QUANTITIES = 256 };
+enum { PANELS_QUANTITIES = 256 };
 
 /* A drawn quantity: its column in each run, or -1. */
 typedef struct panels_quantity {
@@ -85,7 +85,7 @@ typedef struct panels_quantity {
 typedef struct panels {
     panels_quantity quantity[PANELS_QUANTITIES];
     int quantities;
-    const char *unit[PANELS_MOST]; /* NULL: unknown */
+    const char *unit[PANELS_QUANTITIES]; /* NULL: unknown */
     int count;
     int *x; /* [runs] column of the x axis */
     const char *x_unit;

@@ -28,13 +28,14 @@ static void name_columns(records *r) {
         for (int i = 0; i < im->count; i++) {
             const image_unknown *u = &im->unknown[i];
             if (u->order > primes) {
-                r->column[column++] = (record_column){u->name, i, primes, &u->unit[primes]};
+                r->column[column++] = (record_column){u->name, i, primes, &u->unit[primes],
+                                                      primes == 0 ? u->text : ""};
             }
         }
     }
     for (int i = 0; i < im->own_outputs; i++) {
         const image_quantity *output = &im->output[i];
-        r->column[column++] = (record_column){output->name, -1, 0, &output->unit};
+        r->column[column++] = (record_column){output->name, -1, 0, &output->unit, output->text};
     }
 }
 
@@ -216,11 +217,7 @@ static void name_traces(traces *w) {
     for (int i = 1; i < r->columns; i++) {
         const record_column *c = &r->column[i];
         char *name = records_name(c);
-        const int output = i - (r->columns - r->image->own_outputs);
-        const char *text = c->primes > 0     ? ""
-                           : c->unknown >= 0 ? r->image->unknown[c->unknown].text
-                                             : r->image->output[output].text;
-        name_quantity(w, &w->signal[i], name, text, c->unit, 0.0);
+        name_quantity(w, &w->signal[i], name, c->text, c->unit, 0.0);
         free(name);
     }
 }

@@ -17,6 +17,7 @@ typedef struct record_column {
     int unknown;      /* index of the unknown; -1 for an output */
     int primes;
     const image_unit *unit; /* unit of the numbers */
+    const char *text;       /* the quantity in words, or "" */
 } record_column;
 
 typedef struct records {

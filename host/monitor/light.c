@@ -37,21 +37,15 @@ const char *light_end(const char *from, const char *end) {
     return at != NULL ? at + 1 : NULL;
 }
 
-/* Stores the text without carriage returns before line feeds. Returns false if it is too long. */
+/* Stores the text without carriage returns. Returns false if it is too long. */
 static bool keep_text(light *l, const char *from, const char *end) {
     l->length = 0;
     for (; from < end; from++) {
-        const char *next = from;
-        while (next < end && *next == '\r') {
-            next++;
-        }
-        if (next < end && *next == '\n') {
-            from = next;
-        }
         if (l->length == LIGHT_ROOM - 1) {
             return false;
         }
-        l->text[l->length++] = *from;
+        l->text[l->length] = *from;
+        l->length += *from != '\r';
     }
     l->text[l->length] = '\0';
     return true;

@@ -24,8 +24,7 @@ typedef struct light {
     uint32_t crc;
 } light;
 
-/* Reads bytes[count]: noise, then one record at the end. Carriage returns before line feeds come from a terminal and
- * are dropped. Returns NULL if the record is whole; otherwise the error in words, and sets *hint. */
+/* Reads bytes[count]: noise, then one record at the end. Carriage returns come from a terminal and are dropped. Returns NULL if the record is whole; otherwise the error in words, and sets *hint. */
 const char *light_read(light *l, const char *bytes, size_t count, const char **hint);
 
 /* light_begin() finds the beginning of the last record, light_end() the first byte after a record's end; both return
