@@ -38,4 +38,41 @@ unsigned wh_list_find(const char *list, const char *word);
 /* Returns the item with this index. The index must be below the number of items. */
 const char *wh_list_item(const char *list, unsigned number);
 
+/* === reasons for refusing a console line ===================================================== */
+
+/* Reasons other than the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). The numbers never
+ * change. */
+#define WH_STATION_ERROR_ROWS(X) \
+    X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
+    X(WH_STATION_LINE, 101, "the line is too long, or has an invalid character") \
+    X(WH_STATION_WORDS, 102, "too many words") \
+    X(WH_STATION_NO_NUMBER, 103, "give a number, such as 330 or 330.5") \
+    X(WH_STATION_NO_RESULT, 104, "there is no result") \
+    X(WH_STATION_ON_OFF, 105, "give on or off") \
+    X(WH_STATION_SECONDS, 106, "give 0, or a number of seconds from 1 to 3600") \
+    X(WH_STATION_BUSY, 107, "this works only while the rig is idle") \
+    X(WH_STATION_CONF_HOW, 108, "conf has no such subcommand; help conf shows them") \
+    X(WH_STATION_CONF_NONE, 109, "no such setting; conf list shows them, FROM = next") \
+    X(WH_STATION_CONF_VALUE, 110, "not a value of this setting; conf get shows its type") \
+    X(WH_STATION_CONF_RANGE, 111, "outside the setting's range; conf get shows it") \
+    X(WH_STATION_CONF_AGAINST, 112, "conflicts with another speed, supply or motor setting") \
+    X(WH_STATION_CONF_FAILED, 113, \
+      "the settings memory failed; the settings saved before are kept") \
+    X(WH_STATION_NOT_HERE, 114, "this program does not support it") \
+    X(WH_STATION_TEL_HOW, 115, "tel has no such subcommand; help tel shows them") \
+    X(WH_STATION_TEL_RATE, 116, "give a divisor of the load cell's rate; at most 100 as text") \
+    X(WH_STATION_TEL_CHANNEL, 117, "no such channel; tel list shows all") \
+    X(WH_STATION_TEL_FORMAT, 118, "give frames, teleplot or arduino") \
+    X(WH_STATION_TEL_RING, 119, "the ring has no records yet")
+
+#define WH_STATION_NAME(name, number, words) name = (number),
+typedef enum wh_station_error {
+    WH_STATION_FINE,
+    WH_STATION_ERROR_ROWS(WH_STATION_NAME)
+} wh_station_error;
+#undef WH_STATION_NAME
+
+/* Replace the answer by "ERR why words". `why` is a wh_station_error or a wh_refusal. */
+void wh_answer_refused(wh_text *answer, unsigned why);
+
 #endif

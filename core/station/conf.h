@@ -7,10 +7,10 @@
 #ifndef WH_STATION_CONF_H
 #define WH_STATION_CONF_H
 
+#include "answer.h"
 #include "conf_rows.h"
 #include "core/rig/rig.h"
 #include "core/text.h"
-#include "errors.h"
 #include "line.h"
 #include "store.h"
 

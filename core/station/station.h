@@ -19,7 +19,6 @@
 
 #include "conf.h"
 #include "core/rig/rig.h"
-#include "errors.h"
 #include "line.h"
 #include "ring.h"
 #include "step_inputs.h"

@@ -21,9 +21,9 @@
 #ifndef WH_STATION_TELEMETRY_H
 #define WH_STATION_TELEMETRY_H
 
+#include "answer.h"
 #include "core/rig/rig.h"
 #include "core/text.h"
-#include "errors.h"
 #include "line.h"
 #include "ring.h"
 #include "step_inputs.h"
