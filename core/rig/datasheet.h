@@ -29,6 +29,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_DEG_PER_RAD WH_R(57.29577951308232)
 #define WH_RIG_LBF_PER_N WH_R(0.22480894309971047)
 
+#define WH_RIG_SENSORS 2U /* slot sensors */
+
 /* Mass of both sets of arm and disc: an arm has 0.152 lb and is 7.25 in long, a disc has 0.15 lb. The discs' centres
  * are 6.5 in from the shaft, or disc_m metres in the macros that take disc_m. */
 #define WH_RIG_ECCENTRIC_KG (WH_R(2.0) * (WH_R(0.152) + WH_R(0.15)) * WH_R(0.45359237))

@@ -2,6 +2,7 @@
 #include "free_swing.h"
 
 #include "core/root.h"
+#include "core/text.h"
 #include "datasheet.h"
 #include "polar.h"
 
@@ -31,7 +32,7 @@ static void keep(wh_swing *swing, unsigned sensor, uint32_t ticks) {
 }
 
 WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) {
-    if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_SWING_SENSORS) {
+    if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_RIG_SENSORS) {
         return;
     }
     /* If a sensor fires twice in succession, the rotor passes it the second time in the opposite direction. */
@@ -92,9 +93,9 @@ static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *sw
  * ones backwards. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     swing->ticks = swing->kept_ticks[swing->first];
-    wh_free_rotor_start(
-        &swing->way, stands(rotor, swing, 0, WH_R(2.0) * config->lead_rad) + swing->x[WH_SWING_Q],
-        swing->x[WH_SWING_RATE]);
+    wh_free_rotor_start(&swing->way,
+                        stands(rotor, swing, 0, WH_R(2.0) * config->lead_rad) + swing->x[WH_FREE_Q],
+                        swing->x[WH_FREE_RATE]);
 }
 
 static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rotor,
@@ -137,9 +138,9 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 #define SLOW_FRICTIONS WH_R(1.5)
 
 static bool is_slow(const wh_swing *swing) {
-    const wh_real gravity = swing->x[WH_SWING_GRAVITY];
+    const wh_real gravity = swing->x[WH_FREE_GRAVITY];
     const wh_real wide = WH_ABS(swing->way.rate_radps) / WH_SQRT(gravity);
-    return wide < SLOW_RAD || wide * gravity < SLOW_FRICTIONS * swing->x[WH_SWING_FRICTION];
+    return wide < SLOW_RAD || wide * gravity < SLOW_FRICTIONS * swing->x[WH_FREE_FRICTION];
 }
 
 #define FAR_RAD WH_R(0.5)
@@ -160,10 +161,10 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     const wh_real weight = WH_R(1.0) / (square_of(config->jitter_s * way->rate_radps) +
                                         square_of(config->rough_rad) + swing->soft_rad2);
     wh_real by[WH_NORMAL_UNKNOWNS];
-    for (unsigned i = WH_SWING_Q; i < WH_SWING_PLACE; i++) {
+    for (unsigned i = WH_FREE_Q; i < WH_SWING_PLACE; i++) {
         by[i] = swing->within[i] * way->q_by[i];
     }
-    by[WH_SWING_PLACE] = swing->within[WH_SWING_PLACE] * way->q_by[WH_SWING_Q];
+    by[WH_SWING_PLACE] = swing->within[WH_SWING_PLACE] * way->q_by[WH_FREE_Q];
     by[WH_SWING_PLACE + 1U] = WH_R(0.0);
     by[WH_SWING_PLACE + sensor] -= swing->within[WH_SWING_PLACE + sensor];
     wh_normal_add(&swing->normal, by, off, weight);
@@ -180,7 +181,7 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
     const wh_real rough = swing->normal.misfit / freedom;
     const wh_real student = wh_student((uint32_t)freedom);
     const wh_real wider = rough > WH_R(1.0) ? student * student * rough : square_of(WH_R(1.96));
-    for (unsigned i = 0; i < WH_SWING_SENSORS; i++) {
+    for (unsigned i = 0; i < WH_RIG_SENSORS; i++) {
         const wh_real one = swing->within[WH_SWING_PLACE + i] *
                             wh_normal_deviation(&swing->normal, WH_SWING_PLACE + i);
         result->place_rad[i] = swing->x[WH_SWING_PLACE + i];
@@ -207,14 +208,14 @@ static wh_swing_piece move(wh_swing *swing) {
     const wh_real *y = swing->normal.right;
     wh_normal_solve(&swing->normal);
     wh_real most = WH_R(0.0);
-    for (unsigned i = WH_SWING_RATE; i < WH_NORMAL_UNKNOWNS; i++) {
+    for (unsigned i = WH_FREE_RATE; i < WH_NORMAL_UNKNOWNS; i++) {
         most = WH_ABS(y[i]) > most ? WH_ABS(y[i]) : most;
     }
     const wh_real part = most > WH_R(1.0) ? WH_R(1.0) / most : WH_R(1.0);
     for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         swing->x[i] += part * swing->within[i] * y[i];
     }
-    for (unsigned i = WH_SWING_FRICTION; i <= WH_SWING_DRAG; i++) {
+    for (unsigned i = WH_FREE_FRICTION; i <= WH_FREE_DRAG; i++) {
         swing->x[i] = swing->x[i] > WH_R(0.0) ? swing->x[i] : WH_R(0.0);
     }
     swing->pass++;
@@ -291,15 +292,11 @@ void wh_swing_doubt(const wh_swing_config *config, const wh_swing *swing, wh_mea
     }
 }
 
-#define CASE(name, words) \
-    case name: return words;
+#define ITEM(name, words) WH_WORDS(words)
 
 const char *wh_swing_text(wh_swing_why why) {
-    switch (why) {
-        WH_SWING_ROWS(CASE)
-    case WH_SWING_WHYS: break;
-    }
-    return "unknown reason";
+    static const char words[] WH_WORD_LIST = WH_SWING_ROWS(ITEM) WH_WORDS("unknown reason");
+    return wh_words_item(words, why);
 }
 
 /* === the rotor =============================================================================== */

@@ -96,16 +96,9 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 
 /* === the state of an evaluation ============================================================== */
 
-enum wh_swing_unknown {
-    WH_SWING_Q = WH_FREE_Q,
-    WH_SWING_RATE = WH_FREE_RATE,
-    WH_SWING_GRAVITY = WH_FREE_GRAVITY,
-    WH_SWING_FRICTION = WH_FREE_FRICTION,
-    WH_SWING_DRAG = WH_FREE_DRAG,
-    WH_SWING_PLACE = WH_FREE_CAUSES, /* position of sensor 1; that of sensor 2 follows */
-};
+/* The unknowns are the rotor's parameters, and then the positions of both sensors. */
+#define WH_SWING_PLACE WH_FREE_CAUSES
 
-#define WH_SWING_SENSORS 2U
 #define WH_SWING_TURNING 6U /* maximum number of pulses stored from the turns before the swings */
 #define WH_SWING_PULSES 36U /* maximum number of pulses stored altogether */
 #define WH_SWING_LAST 10U   /* number of sensor 1's last pulses whose times are stored */
@@ -155,9 +148,9 @@ typedef struct wh_swing_config {
 
 typedef struct wh_swung {
     wh_swing_why why;
-    wh_real place_rad[WH_SWING_SENSORS]; /* position of each sensor, if found */
-    wh_real half_rad[WH_SWING_SENSORS];  /* half-widths of the intervals, 95 % */
-    unsigned swings;                     /* half swings used */
+    wh_real place_rad[WH_RIG_SENSORS]; /* position of each sensor, if found */
+    wh_real half_rad[WH_RIG_SENSORS];  /* half-widths of the intervals, 95 % */
+    unsigned swings;                   /* half swings used */
 } wh_swung;
 
 typedef struct wh_swing {
@@ -178,7 +171,7 @@ typedef struct wh_swing {
     unsigned fits;   /* pulses used in this pass */
     unsigned strays; /* impossible pulses in this pass */
     /* Number of used pulses of each sensor. Pulses of sensor 1 alone would also fit the mirror image of the swing. */
-    unsigned fits_of[WH_SWING_SENSORS];
+    unsigned fits_of[WH_RIG_SENSORS];
     uint32_t ticks;                     /* time of the motion in `way` */
     wh_real soft_rad2;                  /* variance that is added to each pulse's own variance */
     wh_free_rotor way;                  /* the rotor's motion during a pass */

@@ -98,7 +98,7 @@ WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard
     if (guard->quiet) { /* the times of old pulses may have wrapped */
         *off = (wh_off){.released = off->released};
     }
-    if (sensor >= WH_SPEED_SENSORS) {
+    if (sensor >= WH_RIG_SENSORS) {
         return;
     }
     struct wh_off_turns *of = &off->of[sensor];
@@ -133,8 +133,7 @@ WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard
 WH_TRIP_ROWS(FITS)
 
 const char *wh_trip_text(wh_trip reason) {
-    static const char words[] WH_WORD_LIST = WH_TRIP_ROWS(ITEM) "unknown reason"
-                                                                "\0";
+    static const char words[] WH_WORD_LIST = WH_TRIP_ROWS(ITEM) WH_WORDS("unknown reason");
     static const uint8_t numbers[] = {WH_TRIP_ROWS(NUMBER)};
     unsigned row = 0;
     while (row < sizeof numbers && numbers[row] != (unsigned)reason) {

@@ -101,7 +101,7 @@ typedef struct wh_off {
         uint8_t faster;       /* number of successive turns that were faster than the one before */
         uint8_t longer;       /* number of successive turns that were clearly slower */
         bool seen;
-    } of[WH_SPEED_SENSORS];
+    } of[WH_RIG_SENSORS];
 } wh_off;
 
 typedef struct wh_guard {

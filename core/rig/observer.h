@@ -19,8 +19,6 @@
 
 WH_C_BEGIN
 
-#define WH_OBSERVER_SENSORS 2U
-
 typedef struct wh_observer_config {
     /* a scene with one angle, its rate, and one input: motor voltage / rated voltage */
     const wh_scene *scene;
@@ -32,12 +30,12 @@ typedef struct wh_observer_config {
     wh_real per_radps;
     /* True if the motor stage cannot brake: a voltage below the back-EMF then makes no torque. */
     bool freewheels;
-    wh_real pulse_rad[WH_OBSERVER_SENSORS]; /* angle of the arms at a pulse of each sensor, rad */
+    wh_real pulse_rad[WH_RIG_SENSORS]; /* angle of the arms at a pulse of each sensor, rad */
     /* Corrections at a pulse of each sensor. e is the innovation (rad), n the speed in turns per second: */
-    wh_real angle_gain[WH_OBSERVER_SENSORS];       /* angle += gain e */
-    wh_real speed_gain[WH_OBSERVER_SENSORS];       /* speed += gain e n */
-    wh_real torque_gain_kgm2[WH_OBSERVER_SENSORS]; /* torque += gain e n^2, N m */
-    wh_real torque_most_Nm;                        /* largest magnitude of the torque */
+    wh_real angle_gain[WH_RIG_SENSORS];       /* angle += gain e */
+    wh_real speed_gain[WH_RIG_SENSORS];       /* speed += gain e n */
+    wh_real torque_gain_kgm2[WH_RIG_SENSORS]; /* torque += gain e n^2, N m */
+    wh_real torque_most_Nm;                   /* largest magnitude of the torque */
     /* The observer becomes valid after trusted_pulses successive innovations of at most trusted_rad. */
     wh_real trusted_rad;
     uint32_t trusted_pulses; /* one innovation above trusted_rad makes the observer invalid */

@@ -64,7 +64,7 @@ typedef struct wh_run {
     /* Motor on: upper bound, at the last pulse, on the speed. The rotor may be faster than a lowered set-point, because
      * a motor stage that cannot brake slows it less quickly than the set-point falls. */
     wh_real left_radps;
-    uint32_t tare_pulses[WH_SPEED_SENSORS];
+    uint32_t tare_pulses[WH_RIG_SENSORS];
     /* Number of turns counted while the run settles and records. */
     uint32_t turns;
     /* number of accepted pulses when the last of these turns ended */
@@ -125,6 +125,20 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 /* Returns the phase in words, for consoles, by wh_text_add(). The number WH_PHASES stands for a motor that is off and
  * brakes (wh_rig_shown_stage()). */
 const char *wh_phase_text(wh_rig_phase phase);
+
+/* === bounds on the speed and time of the next slot pulse, from the drive's set-point ========= */
+
+/* Call this, with the motor on or off, before wh_pulses_take() for the pulse captured at `ticks`. It sets the pulse's
+ * bounds and window, and the upper bound on the speed that remains from an earlier set-point. `open` is true if the
+ * motor neither drives nor brakes: the bound then allows for a lighter rotor, whose speed gravity changes more. */
+void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
+                         wh_pulses *pulses, bool open, uint32_t ticks);
+
+/* Call this, with the motor off, before wh_pulses_take(). Since the last two pulses, only gravity can have made the
+ * rotor faster. If a sensor fires twice in succession, the rotor swings in the slot or a pulse was missed: the speed is
+ * then unknown. `brakes` is true if the motor brakes: only then pulses->slow is set. */
+void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
+                         uint32_t ticks);
 
 WH_C_END
 

@@ -3,7 +3,7 @@
 
 #define PI WH_R(3.141592653589793)
 
-WH_INLINE wh_real begin(wh_real x, wh_real y) {
+wh_real wh_polar_begin(wh_real x, wh_real y) {
     if (WH_ABS(y) > WH_ABS(x)) {
         return y < WH_R(0.0) ? WH_R(-0.5) * PI : WH_R(0.5) * PI;
     }
@@ -13,8 +13,7 @@ WH_INLINE wh_real begin(wh_real x, wh_real y) {
     return WH_R(0.0);
 }
 
-WH_INLINE void go_round(wh_real x, wh_real y, unsigned rounds, wh_real *radius,
-                        wh_real *angle_rad) {
+void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad) {
     wh_real angle = *angle_rad;
     wh_real along = WH_R(0.0);
     for (unsigned round = 0; round < rounds; round++) {
@@ -27,17 +26,5 @@ WH_INLINE void go_round(wh_real x, wh_real y, unsigned rounds, wh_real *radius,
         angle += t * (WH_R(1.0) - t * t * (WH_R(1.0) / WH_R(3.0)));
     }
     *radius = along;
-    *angle_rad = angle;
-}
-
-wh_real wh_polar_begin(wh_real x, wh_real y) { return begin(x, y); }
-
-void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad) {
-    go_round(x, y, rounds, radius, angle_rad);
-}
-
-void wh_polar(wh_real x, wh_real y, wh_real *radius, wh_real *angle_rad) {
-    wh_real angle = begin(x, y);
-    go_round(x, y, WH_POLAR_ROUNDS, radius, &angle);
     *angle_rad = angle;
 }

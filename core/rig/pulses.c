@@ -168,7 +168,7 @@ static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
 
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     const wh_pulse pulse = {.ticks = ticks, .sensor = sensor};
-    if (sensor >= WH_SPEED_SENSORS) {
+    if (sensor >= WH_RIG_SENSORS) {
         reject(pulses, 0);
         return;
     }

@@ -257,10 +257,10 @@ WH_INLINE void phase_half(const wh_result_config *config, const wh_merge *merge,
         square_of(floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD)));
 }
 
-#if WH_RIG_SMALL_PIECES
-void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
-                         const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
-                         wh_measured *measured, unsigned piece) {
+/* Does a small piece of wh_merge_mean(). */
+static void small_piece(const wh_result_config *config, const wh_rotor_config *rotor,
+                        const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                        wh_measured *measured, unsigned piece) {
     if (piece == 0) {
         begin_mean(merge, angle, tare_N, measured);
         measured->phase_rad = wh_polar_begin(merge->in_phase_N, -merge->quadrature_N);
@@ -293,32 +293,20 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
         phase_half(config, merge, angle, size2, t2_of(merge), &by, measured);
     }
 }
-#else
+
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece) {
-    if (piece == 0) {
-        begin_mean(merge, angle, tare_N, measured);
+    unsigned first = piece;
+    unsigned behind = piece + 1U;
+    if (!WH_RIG_SMALL_PIECES) { /* there are two pieces: the means and the scatter, the half-widths */
+        first = piece == 0 ? 0U : 4U;
+        behind = piece == 0 ? 4U : 6U;
     }
-    const wh_real size2 = size2_of(merge);
-    if (piece == 0 && merge->turns > 0) {
-        wh_polar(merge->in_phase_N, -merge->quadrature_N, &measured->amplitude_N,
-                 &measured->phase_rad);
-        jitter_of_pulses(merge, measured);
+    for (unsigned i = first; i < behind; i++) {
+        small_piece(config, rotor, merge, angle, tare_N, measured, i);
     }
-    if (!has_halves(merge, size2)) {
-        return;
-    }
-    const wh_real t2 = t2_of(merge);
-    if (piece == 0) {
-        scatter_of_mean(merge, size2, t2, measured);
-        return;
-    }
-    const parts_off by = off_of(rotor, merge, angle);
-    amplitude_half(config, rotor, merge, angle, size2, &by, measured);
-    phase_half(config, merge, angle, size2, t2, &by, measured);
 }
-#endif
 
 void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
@@ -465,16 +453,15 @@ void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor
     measured->quality = (wh_quality)qualities[measured->why];
 }
 
-#define ITEM(words) words "\0"
-#define WHY_ITEM(name, quality, words) ITEM(words)
+#define ITEM(name, quality, words) WH_WORDS(words)
 
 const char *wh_why_text(wh_why why) {
-    static const char words[] WH_WORD_LIST = WH_WHY_ROWS(WHY_ITEM) ITEM("unknown reason");
+    static const char words[] WH_WORD_LIST = WH_WHY_ROWS(ITEM) WH_WORDS("unknown reason");
     return wh_words_item(words, why);
 }
 
 const char *wh_quality_text(wh_quality quality) {
     static const char words[] WH_WORD_LIST =
-        ITEM("good") ITEM("doubtful") ITEM("refused") ITEM("unknown quality");
+        WH_WORDS("good") WH_WORDS("doubtful") WH_WORDS("refused") WH_WORDS("unknown quality");
     return wh_words_item(words, quality);
 }

@@ -5,7 +5,6 @@
 
 #include "core/frame.h"
 #include "datasheet.h"
-#include "pulse_window.h"
 
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad) {
     config->measure.rotor.pulse_rad[0] = -lead_rad;
@@ -64,7 +63,7 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
         wh_pulse_window_off(&rig->run, &rig->pulses, !open, sensor, ticks);
     }
     wh_pulse_window_set(&config->guard, &config->run, &rig->run, &rig->pulses, open, ticks);
-    if (sensor < WH_SPEED_SENSORS) {
+    if (sensor < WH_RIG_SENSORS) {
         rig->heard_ticks[sensor][1] = rig->heard_ticks[sensor][0];
         rig->heard_ticks[sensor][0] = ticks;
         if (rig->run.phase == WH_PHASE_TARE) {

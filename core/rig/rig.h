@@ -135,7 +135,7 @@ typedef struct wh_rig {
     uint32_t result_s;      /* age of the result at the time result_ticks, in whole seconds */
     uint32_t result_ticks;  /* time at which the age was result_s */
     /* Times of each sensor's last two pulses, accepted or not. */
-    uint32_t heard_ticks[WH_SPEED_SENSORS][2];
+    uint32_t heard_ticks[WH_RIG_SENSORS][2];
     wh_compensation compensation;
     wh_rig_command command; /* command of the last step */
     wh_pulses pulses;

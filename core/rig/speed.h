@@ -10,23 +10,21 @@
 
 WH_C_BEGIN
 
-#define WH_SPEED_SENSORS 2U
-
 typedef struct wh_speed {
-    bool known;                  /* a whole turn has been measured */
-    bool running;                /* at least one pulse has been taken since the last gap */
-    bool seen[WH_SPEED_SENSORS]; /* seen_ticks and seen_quarter of the sensor are valid */
-    wh_real impossible_radps;    /* a pulse that would need a higher speed is rejected */
-    wh_real turn_radps;          /* mean over the last whole turn; valid if `known` */
-    wh_real interval_radps;      /* mean over the last interval, 0 after a gap; valid if `known` */
-    uint32_t ticks;              /* time of the last pulse taken */
-    uint32_t quarter;            /* rotor's position at the last pulse, quarter turns, wrapping */
-    uint32_t taken;              /* number of pulses taken */
-    uint32_t lost;               /* number of missing pulses */
-    uint32_t restarts;           /* number of gaps after which `quarter` restarted */
-    uint32_t rejected;           /* number of impossible pulses */
-    uint32_t seen_ticks[WH_SPEED_SENSORS];
-    uint32_t seen_quarter[WH_SPEED_SENSORS];
+    bool known;                /* a whole turn has been measured */
+    bool running;              /* at least one pulse has been taken since the last gap */
+    bool seen[WH_RIG_SENSORS]; /* seen_ticks and seen_quarter of the sensor are valid */
+    wh_real impossible_radps;  /* a pulse that would need a higher speed is rejected */
+    wh_real turn_radps;        /* mean over the last whole turn; valid if `known` */
+    wh_real interval_radps;    /* mean over the last interval, 0 after a gap; valid if `known` */
+    uint32_t ticks;            /* time of the last pulse taken */
+    uint32_t quarter;          /* rotor's position at the last pulse, quarter turns, wrapping */
+    uint32_t taken;            /* number of pulses taken */
+    uint32_t lost;             /* number of missing pulses */
+    uint32_t restarts;         /* number of gaps after which `quarter` restarted */
+    uint32_t rejected;         /* number of impossible pulses */
+    uint32_t seen_ticks[WH_RIG_SENSORS];
+    uint32_t seen_quarter[WH_RIG_SENSORS];
 } wh_speed;
 
 /* Begin with an unknown speed. impossible_radps > 0: a pulse that would need a higher speed is rejected. */

@@ -39,25 +39,22 @@ wh_rig_transition wh_rig_transition_of(wh_rig_state state, wh_rig_event event) {
 _Static_assert(0 WH_REFUSAL_ROWS(ONE) == (int)WH_REFUSALS, "all numbers are used");
 
 const char *wh_rig_state_text(wh_rig_state state) {
-    static const char words[] WH_WORD_LIST = WH_RIG_STATE_ROWS(ITEM) "unknown state"
-                                                                     "\0";
+    static const char words[] WH_WORD_LIST = WH_RIG_STATE_ROWS(ITEM) WH_WORDS("unknown state");
     return wh_words_item(words, state);
 }
 
 const char *wh_rig_event_text(wh_rig_event event) {
-    static const char words[] WH_WORD_LIST = WH_EVENT_ROWS(ITEM) "unknown event"
-                                                                 "\0";
+    static const char words[] WH_WORD_LIST = WH_EVENT_ROWS(ITEM) WH_WORDS("unknown event");
     return wh_words_item(words, event);
 }
 
 const char *wh_refusal_text(wh_refusal refusal) {
-    static const char words[] WH_WORD_LIST = WH_REFUSAL_ROWS(NUMBERED_ITEM) "unknown refusal"
-                                                                            "\0";
+    static const char words[] WH_WORD_LIST =
+        WH_REFUSAL_ROWS(NUMBERED_ITEM) WH_WORDS("unknown refusal");
     return wh_words_item(words, refusal);
 }
 
 const char *wh_rig_end_text(wh_rig_end end) {
-    static const char words[] WH_WORD_LIST = WH_END_ROWS(ITEM) "unknown end"
-                                                               "\0";
+    static const char words[] WH_WORD_LIST = WH_END_ROWS(ITEM) WH_WORDS("unknown end");
     return wh_words_item(words, end);
 }

@@ -95,17 +95,17 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
         x[i] = WH_R(0.0);
         swing->within[i] = WH_R(0.5) * config->most_rad;
     }
-    x[WH_SWING_RATE] = WH_R(-2.0) * root * sine;
-    x[WH_SWING_GRAVITY] = gravity;
+    x[WH_FREE_RATE] = WH_R(-2.0) * root * sine;
+    x[WH_FREE_GRAVITY] = gravity;
     /* Each of the 2 passed + 1 quarter swings reduces the amplitude A by f/g. A is about 2.3 sin(A/2). */
-    x[WH_SWING_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
-    x[WH_SWING_DRAG] = WH_R(0.003) * gravity;
-    swing->within[WH_SWING_Q] =
-        WH_SQRT(square_of(config->jitter_s * x[WH_SWING_RATE]) + square_of(config->rough_rad));
-    swing->within[WH_SWING_RATE] = WH_R(-0.3) * x[WH_SWING_RATE];
-    swing->within[WH_SWING_GRAVITY] = WH_R(0.3) * gravity;
-    swing->within[WH_SWING_FRICTION] = x[WH_SWING_FRICTION] + WH_R(0.01) * gravity;
-    swing->within[WH_SWING_DRAG] = WH_R(0.005) * gravity;
+    x[WH_FREE_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
+    x[WH_FREE_DRAG] = WH_R(0.003) * gravity;
+    swing->within[WH_FREE_Q] =
+        WH_SQRT(square_of(config->jitter_s * x[WH_FREE_RATE]) + square_of(config->rough_rad));
+    swing->within[WH_FREE_RATE] = WH_R(-0.3) * x[WH_FREE_RATE];
+    swing->within[WH_FREE_GRAVITY] = WH_R(0.3) * gravity;
+    swing->within[WH_FREE_FRICTION] = x[WH_FREE_FRICTION] + WH_R(0.01) * gravity;
+    swing->within[WH_FREE_DRAG] = WH_R(0.005) * gravity;
     for (unsigned i = 0; i < WH_NORMAL_UNKNOWNS; i++) {
         swing->x[i] = x[i];
     }

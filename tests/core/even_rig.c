@@ -99,7 +99,7 @@ static void give_pulses(even_rig *even) {
         }
         wh_rig_pulse(&even->config, &even->rig, even->fails.swapped ? 1U - due : due, ticks);
     }
-    for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
+    for (unsigned sensor = 0; sensor < WH_RIG_SENSORS; sensor++) {
         if (even->failing && even->fails.adds[sensor]) {
             even->fails.adds[sensor] = false;
             wh_rig_pulse(&even->config, &even->rig, sensor, even->inputs.now_ticks);

@@ -24,15 +24,15 @@
 typedef struct even_failure {
     wh_rig_phase in; /* EVEN_NEVER: no failure */
     uint32_t after_ticks;
-    unsigned lose[WH_SPEED_SENSORS]; /* number of pulses that each sensor loses */
+    unsigned lose[WH_RIG_SENSORS]; /* number of pulses that each sensor loses */
     unsigned lose_samples;
     bool swapped; /* the sensors are swapped from the start of the run */
     bool jams;    /* the rotor jams, permanently */
     /* Amplitude, in counts, of a square wave that the cell shows instead of the load; 0: none. */
     int shows;
-    int creeps;                  /* drift of the cell, counts per second */
-    wh_load_status status;       /* status of all samples */
-    bool adds[WH_SPEED_SENSORS]; /* each of these sensors gives one false pulse */
+    int creeps;                /* drift of the cell, counts per second */
+    wh_load_status status;     /* status of all samples */
+    bool adds[WH_RIG_SENSORS]; /* each of these sensors gives one false pulse */
     /* From the start to the end of the run: pulses are late by up to jitter_ticks (uniform). The speed oscillates by
      * hunts_rpm at hunts_Hz, and drifts. */
     uint32_t jitter_ticks;

@@ -151,7 +151,7 @@ TEST(rig_observed, a_sensor_that_is_none) {
         uint32_t given = 0;
         for (unsigned i = 0; i < 400U; i++) {
             if (draw_one_in(&seed, 20)) {
-                const unsigned sensor = WH_SPEED_SENSORS + draw_one_of(&seed, 40);
+                const unsigned sensor = WH_RIG_SENSORS + draw_one_of(&seed, 40);
                 wh_rig_pulse(&even.config, &even.rig, sensor, even.inputs.now_ticks + 500U);
                 given++;
             }

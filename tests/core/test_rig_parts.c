@@ -3,8 +3,8 @@
 #include "core/angle.h"
 #include "core/rig/datasheet.h"
 #include "core/rig/free_swing.h"
+#include "core/rig/phases.h"
 #include "core/rig/polar.h"
-#include "core/rig/pulse_window.h"
 #include "core/rig/rig.h"
 #include "core/root.h"
 #include "draw.h"
@@ -345,7 +345,7 @@ TEST(rig_parts, verdict_of_a_swing) {
                                                                              : WH_SWING_FOUND;
         TEST_ASSERT_TRUE(swing.result.why == wanted);
         TEST_ASSERT_EQUAL_UINT(swing.fits_of[0], swing.result.swings);
-        for (unsigned k = 0; k < WH_SWING_SENSORS;
+        for (unsigned k = 0; k < WH_RIG_SENSORS;
              k++) { /* without misfit, the factor of the normal distribution */
             const wh_real deviation = WH_R(1.96) * swing.within[WH_SWING_PLACE + k];
             const wh_real half =

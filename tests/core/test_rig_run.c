@@ -47,7 +47,7 @@ TEST(rig_run, a_faultless_run_finds_the_load) {
  * succession. If the begin or end of a turn is unknown, the turn is not used. */
 TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
-        for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
+        for (unsigned sensor = 0; sensor < WH_RIG_SENSORS; sensor++) {
             even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U};
             failing.lose[sensor] = lost;
             run(WH_R(330.0), failing);
@@ -109,7 +109,7 @@ TEST(rig_run, sensors_in_the_wrong_order_trip) {
 }
 
 TEST(rig_run, a_dead_sensor_trips) {
-    for (unsigned sensor = 0; sensor < WH_SPEED_SENSORS; sensor++) {
+    for (unsigned sensor = 0; sensor < WH_RIG_SENSORS; sensor++) {
         for (wh_rig_phase in = WH_PHASE_SPIN_UP; in <= WH_PHASE_RECORD; in++) {
             even_failure failing = {.in = in};
             failing.lose[sensor] = EVEN_ALWAYS;

@@ -68,7 +68,7 @@ static void give(const story *of, unsigned lost) {
             wh_swing_pulse(&swing, of->sensor[i], of->ticks[i]);
         }
         if (draw_one_in(&seed, 8)) { /* a pulse of a sensor that does not exist */
-            wh_swing_pulse(&swing, WH_SWING_SENSORS + draw_one_of(&seed, 5), of->ticks[i] + 500U);
+            wh_swing_pulse(&swing, WH_RIG_SENSORS + draw_one_of(&seed, 5), of->ticks[i] + 500U);
         }
     }
 }
@@ -166,15 +166,15 @@ TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
         const wh_real friction = kind.friction_Nm / kind.inertia_kgm2;
         const wh_real truth[] = {first_radps, gravity, friction};
         for (unsigned k = 0; k < 3U; k++) {
-            const unsigned at = WH_SWING_RATE + k;
+            const unsigned at = WH_FREE_RATE + k;
             TEST_ASSERT_TRUE(WH_ABS(swing.guess[at] - truth[k]) <= swing.within[at]);
             TEST_ASSERT_TRUE(swing.x[at] == swing.guess[at]);
         }
         TEST_ASSERT_FLOAT_WITHIN(0.2f * (float)gravity, (float)gravity,
-                                 (float)swing.guess[WH_SWING_GRAVITY]);
-        near_it += near(swing.guess[WH_SWING_GRAVITY], gravity, WH_R(0.1) * gravity) ? 1U : 0U;
+                                 (float)swing.guess[WH_FREE_GRAVITY]);
+        near_it += near(swing.guess[WH_FREE_GRAVITY], gravity, WH_R(0.1) * gravity) ? 1U : 0U;
         TEST_ASSERT_FLOAT_WITHIN(-0.08f * (float)first_radps, (float)first_radps,
-                                 (float)swing.guess[WH_SWING_RATE]);
+                                 (float)swing.guess[WH_FREE_RATE]);
     }
     TEST_ASSERT_TRUE(told * 2U > draw_cases(60) && near_it * 10U > told * 7U);
 }
@@ -219,7 +219,7 @@ TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
         wh_swing_guess(&wh_rig_standard.swing, &swing);
         const wh_real wanted_radps = WH_R(-2.0) * root * sine;
         TEST_ASSERT_FLOAT_WITHIN((float)(-part * wanted_radps), (float)wanted_radps,
-                                 (float)swing.guess[WH_SWING_RATE]);
+                                 (float)swing.guess[WH_FREE_RATE]);
     }
 }
 
