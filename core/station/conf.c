@@ -14,17 +14,10 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 #undef UNIT
 #define DEG per_unit[WH_CONF_DEG]
 
-/* If constant strings stay in flash, so do these tables. */
-#if defined(WH_WORDS_FROM)
-#define ROWS_KEPT WH_FLASH
-#else
-#define ROWS_KEPT
-#endif
-
 #define ROW(name, number, kind, unit, least, most, goes, member, words) \
     {WH_R(least),    WH_R(most),    offsetof(wh_rig_config, member), number, kind, \
      WH_CONF_##unit, WH_CONF_##goes},
-static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
+static const wh_conf_row rows[] WH_FLASH = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
 /* Least damping, as a share of the slope of the motor's torque line. It is below 1, because a measured damping may be
@@ -34,18 +27,13 @@ static const wh_conf_row rows[] ROWS_KEPT = {WH_CONF_ROWS(ROW)};
 #define ENTRY_BYTES 5U /* a setting's number, and its value */
 _Static_assert(WH_CONF_COUNT *ENTRY_BYTES <= WH_STORE_PAYLOAD_MOST, "all settings fit into a slot");
 
-#if defined(WH_WORDS_FROM)
-static const wh_conf_row *row_in(wh_conf_row *room, unsigned id) {
-    wh_flash_copy(room, &rows[id], sizeof *room);
-    return room;
+static inline wh_conf_row row_of(unsigned id) {
+    wh_conf_row row;
+    wh_flash_copy(&row, &rows[id], sizeof row);
+    return row;
 }
-#define ROW_IN(room, id) row_in(room, id)
-#else
-#define ROW_IN(room, id) ((void)(room), &rows[id])
-#endif
-#define ROW(id) ROW_IN(&(wh_conf_row){.number = 0}, id)
 
-const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room) { return ROW_IN(room, id); }
+wh_conf_row wh_conf_row_of(wh_conf_id id) { return row_of(id); }
 
 #define NAME(name, ...) "|" #name
 static const char *names(void) { return WH_CONF_ROWS(NAME); }
@@ -63,7 +51,7 @@ static const char *words_of(wh_conf_id id) {
 
 static const char *unit_of(wh_conf_id id) {
 #define WORD(unit, word, number) "|" word
-    return wh_list_item(WH_CONF_UNIT_ROWS(WORD), ROW(id)->unit);
+    return wh_list_item(WH_CONF_UNIT_ROWS(WORD), row_of(id).unit);
 #undef WORD
 }
 
@@ -72,7 +60,7 @@ static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
 #undef WORDS
-    return wh_words_item(words, ROW(id)->kind);
+    return wh_words_item(words, row_of(id).kind);
 }
 
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
@@ -84,28 +72,28 @@ static wh_real units(const wh_conf_row *row) {
 
 /* The setting's kind determines the type of its member in the configuration: a real, or a kind of whole number. */
 static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
-    const wh_conf_row *row = ROW(id);
-    const void *member = (const uint8_t *)c + row->place;
-    switch ((wh_conf_kind)row->kind) {
+    const wh_conf_row row = row_of(id);
+    const void *member = (const uint8_t *)c + row.place;
+    switch ((wh_conf_kind)row.kind) {
     case WH_CONF_WHOLE: return (wh_real) * (const uint32_t *)member;
     case WH_CONF_SWITCH: return (wh_real) * (const uint8_t *)member;
     case WH_CONF_FEEDS: return (wh_real) * (const wh_compensation_when *)member;
     case WH_CONF_REAL:
     case WH_CONF_KINDS: break;
     }
-    return *(const wh_real *)member * units(row);
+    return *(const wh_real *)member * units(&row);
 }
 
 static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
-    const wh_conf_row *row = ROW(id);
-    void *member = (uint8_t *)c + row->place;
-    switch ((wh_conf_kind)row->kind) {
+    const wh_conf_row row = row_of(id);
+    void *member = (uint8_t *)c + row.place;
+    switch ((wh_conf_kind)row.kind) {
     case WH_CONF_WHOLE: *(uint32_t *)member = (uint32_t)value; break;
     case WH_CONF_SWITCH: *(uint8_t *)member = (uint8_t)(uint32_t)value; break;
     case WH_CONF_FEEDS:
         *(wh_compensation_when *)member = (wh_compensation_when)(uint32_t)value;
         break;
-    case WH_CONF_REAL: *(wh_real *)member = value / units(row); break;
+    case WH_CONF_REAL: *(wh_real *)member = value / units(&row); break;
     case WH_CONF_KINDS: break;
     }
 }
@@ -121,10 +109,10 @@ static bool is_absent(wh_conf_id id, wh_real value) {
 
 /* Returns the error of this value for this setting, or 0. */
 static wh_station_error fits(wh_conf_id id, wh_real value) {
-    const wh_conf_row *row = ROW(id);
+    const wh_conf_row row = row_of(id);
     const wh_real kept = as_kept(value);
-    if (!(kept >= as_kept(row->least)) || !(kept <= as_kept(row->most)) ||
-        ((wh_conf_kind)row->kind != WH_CONF_REAL && value != (wh_real)(int32_t)value)) {
+    if (!(kept >= as_kept(row.least)) || !(kept <= as_kept(row.most)) ||
+        ((wh_conf_kind)row.kind != WH_CONF_REAL && value != (wh_real)(int32_t)value)) {
         return WH_STATION_CONF_RANGE;
     }
     return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
@@ -220,7 +208,7 @@ static uint32_t hash(const wh_conf *conf) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         uint8_t bytes[ENTRY_BYTES];
         wh_bytes entry = {.to = bytes, .room = sizeof bytes};
-        wh_bytes_put(&entry, ROW(id)->number, 1);
+        wh_bytes_put(&entry, row_of(id).number, 1);
         wh_bytes_put_float(&entry, (float)conf->value[id]);
         crc = wh_frame_crc(crc, bytes, sizeof bytes);
     }
@@ -246,7 +234,7 @@ static bool renew(wh_conf *conf) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (conf->given[id]) {
             put(c, (wh_conf_id)id, conf->value[id]);
-            goes[ROW(id)->goes] = true;
+            goes[row_of(id).goes] = true;
         }
     }
     if (goes[WH_CONF_ROTOR]) {
@@ -286,7 +274,7 @@ wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
 
 /* --- settings as words -------------------------------------------------------------------------------------------- */
 
-static bool is_choice(wh_conf_id id) { return ROW(id)->kind >= WH_CONF_SWITCH; }
+static bool is_choice(wh_conf_id id) { return row_of(id).kind >= WH_CONF_SWITCH; }
 
 /* Returns the word for a value of a choice, as an item of a list. Returns NULL for a setting that is a number. */
 static const char *text_of(wh_conf_id id, wh_real value) {
@@ -298,7 +286,7 @@ wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed) {
     bool known;
     if (is_choice(id)) {
         value = (wh_real)wh_list_find(choices(id), typed);
-        known = value <= ROW(id)->most;
+        known = value <= row_of(id).most;
     } else {
         known = wh_line_number(typed, &value);
     }
@@ -315,7 +303,7 @@ void wh_conf_default(wh_conf *conf) {
 
 static void take(wh_conf *conf, unsigned number, wh_real value) {
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        if (ROW(id)->number == number && fits((wh_conf_id)id, value) == WH_STATION_FINE) {
+        if (row_of(id).number == number && fits((wh_conf_id)id, value) == WH_STATION_FINE) {
             conf->value[id] = value;
             conf->given[id] = true;
         }
@@ -365,7 +353,7 @@ wh_station_error wh_conf_save(wh_conf *conf) {
     wh_bytes bytes = {.to = kept + WH_STORE_HEAD_BYTES, .room = WH_STORE_PAYLOAD_MOST};
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
         if (conf->given[id]) {
-            wh_bytes_put(&bytes, ROW(id)->number, 1);
+            wh_bytes_put(&bytes, row_of(id).number, 1);
             wh_bytes_put_float(&bytes, (float)conf->value[id]);
         }
     }
@@ -426,12 +414,11 @@ static wh_station_error list(const wh_conf *conf, const wh_words *words, wh_text
 }
 
 static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
-    wh_conf_row room;
-    const wh_conf_row *row = wh_conf_row_of(id, &room);
+    const wh_conf_row row = row_of(id);
     const wh_value value[] = {{.word = choices(id) + 1},
                               {.word = unit_of(id)},
-                              {.number = row->least},
-                              {.number = row->most}};
+                              {.number = row.least},
+                              {.number = row.most}};
     const wh_value words[] = {{.word = words_of(id)}};
     add_setting(answer, conf, id);
     wh_answer(answer,

@@ -58,8 +58,7 @@ typedef struct wh_conf {
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config);
 
-/* Returns the row of a setting. If constants stay in flash (core/number/flash.h), the row is copied to *room. */
-const wh_conf_row *wh_conf_row_of(wh_conf_id id, wh_conf_row *room);
+wh_conf_row wh_conf_row_of(wh_conf_id id);
 
 wh_conf_id wh_conf_find(const char *name);
 

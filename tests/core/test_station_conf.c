@@ -109,11 +109,11 @@ static wh_real where(const wh_rig_config *c, const char *name) {
     return places[i].value;
 }
 
-static bool is_whole(const wh_conf_row *row) { return (wh_conf_kind)row->kind != WH_CONF_REAL; }
+static bool is_whole(wh_conf_row row) { return (wh_conf_kind)row.kind != WH_CONF_REAL; }
 
-static wh_real draw_value(const wh_conf_row *row) {
+static wh_real draw_value(wh_conf_row row) {
     const wh_real part = draw_whole(&seed, 0, 1000) / 1000;
-    const wh_real value = row->least + part * (row->most - row->least);
+    const wh_real value = row.least + part * (row.most - row.least);
     return is_whole(row) ? (wh_real)(int32_t)(value + WH_R(0.5)) : (wh_real)(float)value;
 }
 
@@ -138,16 +138,14 @@ static const char *name_of(wh_conf_id id) {
 TEST(station_conf, rows) {
     begin();
     for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-        wh_conf_row room;
-        const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i, &room);
-        TEST_ASSERT_TRUE(row->least < row->most && row->number > 0);
+        const wh_conf_row row = wh_conf_row_of((wh_conf_id)i);
+        TEST_ASSERT_TRUE(row.least < row.most && row.number > 0);
         const char *name = name_of((wh_conf_id)i);
         TEST_ASSERT_TRUE(strchr(name, ' ') == NULL && strlen(name) > 0);
-        TEST_ASSERT_TRUE(conf.value[i] >= row->least && conf.value[i] <= row->most);
+        TEST_ASSERT_TRUE(conf.value[i] >= row.least && conf.value[i] <= row.most);
         for (unsigned k = 0; k < i; k++) {
-            wh_conf_row next;
-            const wh_conf_row *other = wh_conf_row_of((wh_conf_id)k, &next);
-            TEST_ASSERT_TRUE(other->number != row->number);
+            const wh_conf_row other = wh_conf_row_of((wh_conf_id)k);
+            TEST_ASSERT_TRUE(other.number != row.number);
         }
         TEST_ASSERT_EQUAL_UINT(i, wh_conf_find(name)); /* no earlier setting has this name */
     }
@@ -169,8 +167,7 @@ TEST(station_conf, values_have_their_places) {
         memcpy(wanted, conf.value, sizeof wanted);
         for (unsigned k = draw_one_of(&seed, 6); k > 0; k--) {
             const wh_conf_id id = (wh_conf_id)draw_one_of(&seed, WH_CONF_COUNT);
-            wh_conf_row place;
-            const wh_real value = draw_value(wh_conf_row_of(id, &place));
+            const wh_real value = draw_value(wh_conf_row_of(id));
             const wh_station_error status = wh_conf_set(&conf, id, value);
             TEST_ASSERT_TRUE(status == WH_STATION_FINE || status == WH_STATION_CONF_AGAINST);
             set[id] = set[id] || status == WH_STATION_FINE;

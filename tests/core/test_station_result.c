@@ -211,11 +211,10 @@ TEST(station_result, any_other_setting_has_another_hash) {
     begin();
     const uint32_t plain = even.config.settings;
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
-        wh_conf_row room;
-        const wh_conf_row *row = wh_conf_row_of((wh_conf_id)id, &room);
+        const wh_conf_row row = wh_conf_row_of((wh_conf_id)id);
         const wh_real before = conf.value[id];
-        const bool is_least = before < row->least + (row->most - row->least) / 2;
-        const wh_real other = (wh_conf_kind)row->kind == WH_CONF_REAL
+        const bool is_least = before < row.least + (row.most - row.least) / 2;
+        const wh_real other = (wh_conf_kind)row.kind == WH_CONF_REAL
                                   ? before * WH_R(1.01) + WH_R(1e-3)
                               : is_least ? before + 1
                                          : before - 1;

@@ -66,9 +66,8 @@ static void look(const bench *b, const wh_rig_command *command) {
     must(command->way == WH_MOTOR_DRIVES || command->volts <= 0.0f);
     must(wh_ring_waiting(&b->station.out) <= WH_STATION_OUT_BYTES);
     for (unsigned i = 0; i < WH_CONF_COUNT; i++) {
-        wh_conf_row room;
-        const wh_conf_row *row = wh_conf_row_of((wh_conf_id)i, &room);
-        must(b->conf.value[i] >= row->least && b->conf.value[i] <= row->most);
+        const wh_conf_row row = wh_conf_row_of((wh_conf_id)i);
+        must(b->conf.value[i] >= row.least && b->conf.value[i] <= row.most);
     }
     must(b->config.guard.target_max_radps < b->config.guard.limit_radps);
 }
