@@ -470,31 +470,6 @@ static void write_scene(FILE *out, const image *im) {
             im->outputs > 0 ? "observe" : "NULL");
 }
 
-static void write_names(FILE *out, const image *im) {
-    fprintf(out, " * Components of the state, SI units, angles in turns (2^32 steps each):\n");
-    for (int i = 0; i < im->angles; i++) {
-        fprintf(out, " *   angle[%d]  %s\n", i, im->unknown[im->angle[i].unknown].name);
-    }
-    for (int i = 0; i < im->reals; i++) {
-        fprintf(out, " *   real[%d]   %s", i, im->unknown[im->real[i].unknown].name);
-        for (int k = 0; k < im->real[i].primes; k++) {
-            fputc('\'', out);
-        }
-        fputc('\n', out);
-    }
-    for (int i = 0; i < im->inputs; i++) {
-        fprintf(out, " *   input[%d]  %s\n", i, im->input[i].name);
-    }
-    for (int i = 0; i < im->own_outputs; i++) {
-        fprintf(out, " *   output[%d] %s\n", i, im->output[i].name);
-    }
-    for (int i = im->own_outputs; i < im->outputs; i++) {
-        const int k = i - im->own_outputs;
-        fprintf(out, " *   output[%d] %s%s, from its momentum\n", i,
-                im->unknown[im->from_momentum[k / 2]].name, k % 2 == 0 ? "" : "'");
-    }
-}
-
 /* The list that a step computes: the matrix, or the right-hand side of each stage. */
 static const op_list *moving(const image *im) {
     return im->list[im->list[IMAGE_MATRIX] != NULL ? IMAGE_MATRIX : IMAGE_STEP];
@@ -520,7 +495,7 @@ static void write_banner(FILE *out, const image *im, const char *file) {
         fprintf(out, ", %d looked up in tables", cost.look_ups);
     }
     fprintf(out, "\n *\n");
-    write_names(out, im);
+    c_header_names(out, im);
     fprintf(out, " */\n");
 }
 

@@ -86,6 +86,21 @@ static item item_of(const image *im, list of, int i) {
     return of_quantity(of == LIST_INPUTS ? &im->input[i] : &im->output[i]);
 }
 
+static const char primes[] = "''''''''''";
+
+void c_header_names(FILE *out, const image *im) {
+    static const char *const array[LISTS] = {"angle", "real", "input", "output"};
+    fprintf(out, " * Components of the state, SI units, angles in turns (2^32 steps each):\n");
+    for (int of = 0; of < LISTS; of++) {
+        for (int i = 0; i < count_of(im, (list)of); i++) {
+            const item it = item_of(im, (list)of, i);
+            fprintf(out, " *   %s[%d]%*s%s%.*s%s\n", array[of], i, 7 - (int)strlen(array[of]), "",
+                    it.name, it.primes, primes,
+                    of == LIST_OUTPUTS && i >= im->own_outputs ? ", from its momentum" : "");
+        }
+    }
+}
+
 static void write_items(FILE *out, const image *im, list of, const char *where) {
     const char *prefix = im->name;
     fprintf(out, "    /* %s */\n", where);
@@ -114,11 +129,7 @@ static void write_strings(FILE *out, const image *im, list of) {
     fprintf(out, "#define %s_NAMES_OF_%s {", im->name, lists[of].counted);
     for (int i = 0; i < count_of(im, of); i++) {
         const item it = item_of(im, of, i);
-        fprintf(out, "%s\"%s", i > 0 ? ", " : "", it.name);
-        for (int k = 0; k < it.primes; k++) {
-            fputc('\'', out);
-        }
-        fputc('"', out);
+        fprintf(out, "%s\"%s%.*s\"", i > 0 ? ", " : "", it.name, it.primes, primes);
     }
     fprintf(out, "}\n#define %s_UNITS_OF_%s {", im->name, lists[of].counted);
     for (int i = 0; i < count_of(im, of); i++) {

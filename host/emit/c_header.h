@@ -9,6 +9,9 @@
 /* Writes `text` as part of a comment, on one line. The text cannot end the comment, and causes no compiler warnings. */
 void c_comment(FILE *out, const char *text);
 
+/* Writes the names of components, inputs and outputs as lines of a comment. */
+void c_header_names(FILE *out, const image *im);
+
 /* Enumerators of components, inputs and outputs of a scene in fixed point, one a line. */
 void c_header_fixed_state(FILE *out, const image *im);
 

@@ -10,15 +10,9 @@
 /* The index k of y(k), from 1: first the values, then the rates, and so on. */
 static int y_number(const image *im, component of) {
     int number = 1;
-    for (int level = 0; level <= of.primes; level++) {
-        for (int i = 0; i < im->count; i++) {
-            if (im->unknown[i].order > level) {
-                if (level == of.primes && i == of.unknown) {
-                    return number;
-                }
-                number++;
-            }
-        }
+    for (int i = 0; i < im->count; i++) {
+        const int before = of.primes + (i < of.unknown);
+        number += before < im->unknown[i].order ? before : im->unknown[i].order;
     }
     return number;
 }
@@ -107,16 +101,10 @@ static void write_start(FILE *out, const image *im) {
 
 static void write_highest(FILE *out, const image *im, int i) {
     const op_list *t = im->list[IMAGE_STEP];
-    int c = 0;
-    if (im->form == WH_SECOND_ORDER) {
-        write_operand(out, t, t->result[im->place[i]]);
-        return;
-    }
-    while (image_component(im, c).unknown != i ||
-           image_component(im, c).primes != im->unknown[i].order - 1) {
-        c++;
-    }
-    write_operand(out, t, t->result[c]);
+    const int result = im->form == WH_SECOND_ORDER
+                           ? im->place[i]
+                           : image_find_component(im, i, im->unknown[i].order - 1);
+    write_operand(out, t, t->result[result]);
 }
 
 void emit_octave_head(FILE *out, const image *im, const char *file, const char *contacts) {
@@ -126,10 +114,8 @@ void emit_octave_head(FILE *out, const image *im, const char *file, const char *
     for (int level = 0, number = 1; number <= components; level++) {
         for (int i = 0; i < im->count; i++) {
             if (im->unknown[i].order > level) {
-                fprintf(out, "%s%s", number > 1 ? ", " : "", im->unknown[i].name);
-                for (int k = 0; k < level; k++) {
-                    fputc('\'', out);
-                }
+                fprintf(out, "%s%s%.*s", number > 1 ? ", " : "", im->unknown[i].name, level,
+                        "''''''''''");
                 number++;
             }
         }

@@ -638,15 +638,9 @@ static const char *free_letter(const mechanism *m, const char *const *letters) {
 /* y(1) ... y(N): values first, then rates, and so on, numbered as in the dissertation. */
 static int show_y_number(const equations *e, int unknown_index, int primes) {
     int number = 1;
-    for (int level = 0; level <= primes; level++) {
-        for (int i = 0; i < e->count; i++) {
-            if (e->unknowns[i].order > level) {
-                if (level == primes && i == unknown_index) {
-                    return number;
-                }
-                number++;
-            }
-        }
+    for (int i = 0; i < e->count; i++) {
+        const int before = primes + (i < unknown_index);
+        number += before < e->unknowns[i].order ? before : e->unknowns[i].order;
     }
     return number;
 }
