@@ -294,21 +294,18 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
     const whirl_model *m = s->model;
     *in = NULL;
     *of = NULL;
+    const bool named = s->name[0] != '\0';
+    const int scenes = prefer_scene ? m->scene_count : 0;
     for (int i = 0; i < m->scene_count; i++) {
-        if (strcmp(m->scenes[i]->name, s->name) == 0) {
+        if (named ? strcmp(m->scenes[i]->name, s->name) == 0 : scenes == 1) {
             *in = m->scenes[i];
         }
     }
     for (int i = 0; i < m->mechanism_count && *in == NULL; i++) {
-        if (strcmp(m->mechanisms[i]->name, s->name) == 0) {
+        if (named ? strcmp(m->mechanisms[i]->name, s->name) == 0
+                  : m->mechanism_count == 1 && scenes == 0) {
             *of = m->mechanisms[i];
         }
-    }
-    if (s->name[0] == '\0' && prefer_scene && m->scene_count == 1) {
-        *in = m->scenes[0];
-    } else if (s->name[0] == '\0' && m->mechanism_count == 1 &&
-               !(prefer_scene && m->scene_count > 1)) {
-        *of = m->mechanisms[0];
     }
     if (*in != NULL) {
         *of = (*in)->mechanism;
@@ -316,9 +313,9 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
     if (*of != NULL) {
         return EXIT_DONE;
     }
-    if (s->name[0] == '\0') {
+    if (!named) {
         fprintf(stderr, "%s: error: the file has more than one %s\n", s->file,
-                prefer_scene && m->scene_count > 1 ? "scene" : "mechanism");
+                scenes > 1 ? "scene" : "mechanism");
     } else {
         fprintf(stderr, "%s: error: the file has no scene or mechanism '%s'\n", s->file, s->name);
     }

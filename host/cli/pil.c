@@ -193,15 +193,13 @@ static lockstep_request wish_of(const pil_options *o) {
 }
 
 static int code_of(const lockstep_report *r) {
-    switch (r->end) {
-    case LOCKSTEP_DONE: return r->status.status == 0 ? EXIT_DONE : EXIT_RUN_FAILED;
-    case LOCKSTEP_LET_GO: return EXIT_DONE;
-    case LOCKSTEP_BAD: return EXIT_BAD_INPUT;
-    case LOCKSTEP_STOPPED: return EXIT_INTERRUPTED;
-    case LOCKSTEP_FAILED:
-    case LOCKSTEP_DIFFERENT: break;
-    }
-    return EXIT_RUN_FAILED;
+    static const int codes[] = {[LOCKSTEP_DONE] = EXIT_DONE,
+                                [LOCKSTEP_LET_GO] = EXIT_DONE,
+                                [LOCKSTEP_BAD] = EXIT_BAD_INPUT,
+                                [LOCKSTEP_FAILED] = EXIT_RUN_FAILED,
+                                [LOCKSTEP_DIFFERENT] = EXIT_RUN_FAILED,
+                                [LOCKSTEP_STOPPED] = EXIT_INTERRUPTED};
+    return r->end == LOCKSTEP_DONE && r->status.status != 0 ? EXIT_RUN_FAILED : codes[r->end];
 }
 
 static int tell(const pil_options *o, const lockstep_request *request, const image *im,

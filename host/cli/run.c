@@ -1,5 +1,4 @@
 /* run.c: `whirl run`: simulation, records, and the energy balance. */
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -143,9 +142,6 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
-/* This many steps take a minute or more. Without a progress display, a message reports that. */
-#define STEPS_MANY 100000000U
-
 static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
                      rating_request *rated) {
     if (!start_has_method(im, im->settings.method, from->errors) ||
@@ -157,12 +153,6 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     interrupts_catch();
     o->settings.progress = shows_progress(&o->settings);
     o->settings.plain = plain;
-    if (im->steps >= STEPS_MANY && !o->settings.quiet && !o->settings.progress) {
-        fprintf(stderr,
-                "whirl run: note: --step and --until give %" PRIu64 " steps, which may "
-                "take long\n",
-                im->steps);
-    }
     simulation_trust trust;
     const simulation_result result = simulate(im, &o->settings, &trust);
     if (result == SIMULATION_DONE && !o->settings.quiet && !o->settings.json) {

@@ -12,6 +12,7 @@
 #include "host/cli/load.h"
 #include "host/engine/start.h"
 #include "host/io/plot.h"
+#include "host/number/decimal.h"
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 #include "host/os/jobs.h"
@@ -109,24 +110,17 @@ typedef struct sweep_options {
     bool maps, fresh, quiet, json;
 } sweep_options;
 
-/* A whole number from 1 to `limit`, up to the end of the text or `end`. */
-static bool read_whole(const char *text, char end, unsigned long long limit,
-                       unsigned long long *value, const char **rest) {
-    const size_t digits = strspn(text, "0123456789");
-    *value = digits > 0 && digits < 10 ? strtoull(text, NULL, 10) : 0;
-    *rest = text + digits + (text[digits] == '\0' ? 0 : 1);
-    return *value >= 1 && *value <= limit && text[digits] == end;
-}
-
+/* "K/N", a part of the sweep. */
 static bool read_shard(const char *text, sweep_options *o) {
-    unsigned long long number;
-    unsigned long long of;
-    const char *rest;
-    if (!read_whole(text, '/', 1000000, &number, &rest) ||
-        !read_whole(rest, '\0', 1000000, &of, &rest) || number > of) {
+    const char *slash;
+    const char *end;
+    const double number = decimal_read(text, &slash);
+    const double of = *slash == '/' ? decimal_read(slash + 1, &end) : 0.0;
+    if (!(number >= 1.0 && number <= of && of <= 1e6) || *end != '\0' ||
+        number_floor(number) < number || number_floor(of) < of) {
         return options_fail("sweep", "--shard takes K/N with 1 <= K <= N <= 1000000");
     }
-    o->part = (shard){number, of};
+    o->part = (shard){(uint64_t)number, (uint64_t)of};
     return true;
 }
 

@@ -140,10 +140,7 @@ bool schema_take(schema *s, const char *line) {
 
 /* Reads a field's value from bytes[field->size]. Returns false for the number that means "no value". */
 static bool schema_value(const schema_field *field, const uint8_t *bytes, double *value) {
-    uint32_t raw = 0;
-    for (unsigned i = 0; i < field->size; i++) {
-        raw |= (uint32_t)bytes[i] << 8 * i;
-    }
+    const uint32_t raw = wire_number(bytes, field->size);
     const uint32_t top = field->size > 0 ? 1U << (8U * field->size - 1U) : 0;
     const bool below = field->is_signed && (raw & top) != 0;
     const double number = below ? (double)raw - 2.0 * (double)top : (double)raw;
@@ -371,7 +368,7 @@ static void take_ring(recording *r, const schema_channel *c, const wire_frame *f
     uint32_t ticks = frame->ticks;
     for (const uint8_t *at = frame->payload; at < frame->payload + frame->length;) {
         /* the payload has only the low 16 bits */
-        ticks += (uint16_t)((unsigned)at[0] + ((unsigned)at[1] << 8) - ticks);
+        ticks += (uint16_t)(wire_number(at, 2) - ticks);
         fprintf(r->ring, "%.6f", (double)time_of(r, ticks) / TICKS_PER_S);
         at += 2;
         for (int i = 1; i < c->eaches; i++) {

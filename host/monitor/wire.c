@@ -23,7 +23,7 @@ static wire_event add_text(wire *w, char byte) {
     return WIRE_NOTHING;
 }
 
-static uint32_t number(const uint8_t *bytes, unsigned size) {
+uint32_t wire_number(const uint8_t *bytes, unsigned size) {
     uint32_t value = 0;
     for (unsigned i = 0; i < size; i++) {
         value |= (uint32_t)bytes[i] << 8 * i;
@@ -34,14 +34,14 @@ static uint32_t number(const uint8_t *bytes, unsigned size) {
 static wire_event end_chunk(wire *w) {
     const unsigned length = w->too_long ? 0 : wh_cobs_decode(w->chunk, w->length);
     if (length < WIRE_HEAD + 2 || w->chunk[0] < 0x80U ||
-        wh_crc16(WH_CRC16_START, w->chunk, length - 2U) != number(w->chunk + length - 2U, 2)) {
+        wh_crc16(WH_CRC16_START, w->chunk, length - 2U) != wire_number(w->chunk + length - 2U, 2)) {
         w->damaged++;
         return WIRE_NOTHING;
     }
     w->frame = (wire_frame){.channel = w->chunk[0] - 0x80U,
-                            .sequence = (uint16_t)number(w->chunk + 1, 2),
-                            .dropped = (uint16_t)number(w->chunk + 3, 2),
-                            .ticks = number(w->chunk + 5, 4),
+                            .sequence = (uint16_t)wire_number(w->chunk + 1, 2),
+                            .dropped = (uint16_t)wire_number(w->chunk + 3, 2),
+                            .ticks = wire_number(w->chunk + 5, 4),
                             .payload = w->chunk + WIRE_HEAD,
                             .length = length - WIRE_HEAD - 2U};
     return WIRE_FRAME;

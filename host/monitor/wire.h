@@ -37,6 +37,9 @@ typedef struct wire {
 /* Take the next byte. A line of text ends with a line feed, which is not stored. */
 wire_event wire_take(wire *w, uint8_t byte);
 
+/* The number in bytes[size], the least significant first; size is at most 4. */
+uint32_t wire_number(const uint8_t *bytes, unsigned size);
+
 /* Discard an incomplete line or frame: the line was interrupted. */
 void wire_forget(wire *w);
 

@@ -530,31 +530,27 @@ tap fault_tap(fault_plan *plan) {
 const fault_row fault_rows[FAULT_KINDS] = {FAULT_ROWS(FAULT_ROW)};
 #undef FAULT_ROW
 
-/* The reading position in a fault's words; `at` advances up to `end`. */
+/* The reading position in the words of one fault. */
 typedef struct words_of_fault {
     const char *begin;
     const char *at;
-    const char *end;
 } words_of_fault;
 
 static bool wrong(const words_of_fault *w, const char *what, const char *hint) {
-    fprintf(stderr, "whirl pil: error: --fault %.*s: %s\nhint: %s\n", (int)(w->end - w->begin),
-            w->begin, what, hint);
+    fprintf(stderr, "whirl pil: error: --fault %s: %s\nhint: %s\n", w->begin, what, hint);
     return false;
 }
 
 static bool takes(words_of_fault *w, char mark) {
-    const bool is = w->at < w->end && *w->at == mark;
+    const bool is = *w->at == mark;
     w->at += is;
     return is;
 }
 
 static bool read_number(words_of_fault *w, double *number) {
-    const char *end = w->at;
-    *number = decimal_read(w->at, &end);
-    const bool good = end > w->at && end <= w->end && isfinite(*number);
-    w->at = good ? end : w->at;
-    return good;
+    const char *begin = w->at;
+    *number = decimal_read(begin, &w->at);
+    return w->at > begin && isfinite(*number);
 }
 
 /* Reads a time, such as 20us, 1.5ms, 0.2s, or 0.2 for seconds. */
@@ -568,7 +564,7 @@ static bool read_time(words_of_fault *w, double *time_s) {
     }
     for (size_t i = 0; i < sizeof units / sizeof units[0]; i++) {
         const size_t length = strlen(units[i].word);
-        if ((size_t)(w->end - w->at) >= length && strncmp(w->at, units[i].word, length) == 0) {
+        if (strncmp(w->at, units[i].word, length) == 0) {
             *time_s *= units[i].s;
             w->at += length;
             break;
@@ -578,7 +574,7 @@ static bool read_time(words_of_fault *w, double *time_s) {
 }
 
 static bool read_kind(words_of_fault *w, fault_case *f) {
-    const size_t length = strcspn(w->begin, ":=@+,");
+    const size_t length = strcspn(w->begin, ":=@+");
     nearest search = nearest_start(w->begin, length);
     for (int i = 0; i < FAULT_KINDS; i++) {
         const char *word = fault_rows[i].word;
@@ -641,7 +637,7 @@ static bool read_when(words_of_fault *w, fault_case *f) {
     if (fault_rows[f->kind].place == FAULT_PARAMETER) {
         return wrong(w, "this fault always lasts from the start to the end", "leave @WHEN out");
     }
-    const size_t length = strcspn(w->at, "=,+~");
+    const size_t length = strcspn(w->at, "=+~");
     if (w->at[length] != '=') {
         return read_time(w, &f->after_s) || wrong(w, "not a valid time", hint);
     }
@@ -675,21 +671,20 @@ static bool read_one(fault_plan *plan, words_of_fault *w) {
         return false;
     }
     plan->count++;
-    return w->at == w->end || wrong(w, "unknown text after the fault",
-                                    "write "
-                                    "KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]");
+    return *w->at == '\0' || wrong(w, "unknown text after the fault",
+                                   "write KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]");
 }
 
 bool fault_read(fault_plan *plan, const char *text) {
-    for (const char *at = text; at != NULL;) {
-        const char *end = at + strcspn(at, ",");
-        words_of_fault w = {at, at, end};
-        if (!read_one(plan, &w)) {
-            return false;
-        }
-        at = *end == ',' ? end + 1 : NULL;
+    bool good = true;
+    for (const char *at = text; at != NULL && good;) {
+        const size_t length = strcspn(at, ",");
+        char *one = alloc_copy(at, length);
+        good = read_one(plan, &(words_of_fault){one, one});
+        free(one);
+        at = at[length] == ',' ? at + length + 1 : NULL;
     }
-    return true;
+    return good;
 }
 
 char *fault_parameter(const fault_plan *plan, unsigned i) {

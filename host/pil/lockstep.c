@@ -633,15 +633,9 @@ static void print_notes(FILE *out, const lockstep_report *r) {
 
 /* For a replay: the result of comparing the orders with the tape. */
 static const char *as_on_tape(lockstep_end end) {
-    switch (end) {
-    case LOCKSTEP_DONE:
-    case LOCKSTEP_LET_GO: return ", as on the tape";
-    case LOCKSTEP_DIFFERENT: return ", not as on the tape";
-    case LOCKSTEP_BAD:
-    case LOCKSTEP_FAILED:
-    case LOCKSTEP_STOPPED: break;
-    }
-    return ", as on the tape so far; the remainder was not replayed";
+    return end == LOCKSTEP_DONE || end == LOCKSTEP_LET_GO ? ", as on the tape"
+           : end == LOCKSTEP_DIFFERENT                    ? ", not as on the tape"
+                                       : ", as on the tape so far; the remainder was not replayed";
 }
 
 void pil_print(FILE *out, const lockstep_request *request, const image *im,

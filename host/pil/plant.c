@@ -100,36 +100,24 @@ static void say_unknown(const bound *b, const image *im, const char *name) {
             search.best != NULL ? search.best : "NAME");
 }
 
-/* Do both ends of the signal's range, in counts, fit into the 32 bits of a sample? */
-static bool fits_counts(const wh_signal *s) {
-    return (double)s->low / (double)s->per_count >= (double)INT32_MIN &&
-           (double)s->high / (double)s->per_count <= (double)INT32_MAX;
-}
-
 static bool has_good_range(const bound *b) {
     const wh_signal *s = &b->signal;
-    const bool ordered = isfinite(s->low) && isfinite(s->high) && s->low <= s->high;
-    const bool sampled = s->kind != WH_SIGNAL_SAMPLE ||
-                         (s->period_ticks > 0 && s->per_count > 0.0F && isfinite(s->per_count));
-    if (!ordered || !sampled) {
+    const double count = (double)s->per_count;
+    bool good = isfinite(s->low) && isfinite(s->high) && s->low <= s->high;
+    if (s->kind == WH_SIGNAL_SAMPLE) {
+        good = good && s->period_ticks > 0 && count > 0.0 && isfinite(count) &&
+               (double)s->low / count >= (double)INT32_MIN &&
+               (double)s->high / count <= (double)INT32_MAX;
+    }
+    if (!good) {
         fprintf(stderr,
                 "whirl pil: error: the firmware declares '%s' with the range %g to %g, %g per "
                 "count, every %u ticks\nhint: change the declaration: low <= high, and for a "
-                "sample a period and a value per count above zero\n",
+                "sample a period and a value per count above zero, with counts of 32 bits\n",
                 s->name, (double)s->low, (double)s->high, (double)s->per_count,
                 (unsigned)s->period_ticks);
-        return false;
     }
-    if (s->kind == WH_SIGNAL_SAMPLE && !fits_counts(s)) {
-        fprintf(
-            stderr,
-            "whirl pil: error: the firmware declares '%s' with the range %g to %g, %g per count: "
-            "this range needs more than 32 bits\nhint: use a larger value per count, or a "
-            "narrower range\n",
-            s->name, (double)s->low, (double)s->high, (double)s->per_count);
-        return false;
-    }
-    return true;
+    return good;
 }
 
 static bool bind_one(bound *b, const image *im) {
