@@ -195,6 +195,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     const load_request request = {.settings = taken,
                                   .use = IMAGE_TO_WRITE,
                                   .keep = from_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
+                                  .hints = true,
                                   .conserve = runs || settings->matrix != MATRIX_NONE,
                                   .comment = as == &forms[OCTAVE] ? EMIT_OCTAVE_COMMENT : NULL};
     const place at = in != NULL ? in->at : of->at;
@@ -222,7 +223,6 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
         code = EXIT_BAD_INPUT;
     }
     if (code == EXIT_DONE) {
-        say_hints(&made);
         if (plan != NULL) {
             c_fixed(stdout, plan, from->file);
         } else {

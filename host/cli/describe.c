@@ -143,18 +143,15 @@ static const command_usage check_usage = {
             "a file has an error, or cannot be read"}};
 
 static int derive_all(source_model *from) {
-    const load_request request = {.use = IMAGE_TO_RUN};
     const whirl_model *m = from->model;
     int code = EXIT_DONE;
     for (int i = 0; i < m->mechanism_count + m->scene_count; i++) {
         const scene *in = i < m->mechanism_count ? NULL : m->scenes[i - m->mechanism_count];
         const mechanism *of = in == NULL ? m->mechanisms[i] : in->mechanism;
+        const load_request request = {.use = IMAGE_TO_RUN, .hints = in == NULL};
         loaded made;
         const int one = load(&made, from, of, in, NULL, &request);
         code = one > code ? one : code;
-        if (one == EXIT_DONE && in == NULL) {
-            say_hints(&made);
-        }
         unload(&made);
         if (one != EXIT_DONE && in == NULL) {
             break; /* all scenes of the mechanism have the same error */

@@ -323,15 +323,16 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
     return EXIT_BAD_INPUT;
 }
 
-/* A note on dry friction written by hand, or NULL. */
-static char *hint_for(const instance *inst) {
+/* A note on dry friction written by hand. */
+static void say_hint(const instance *inst) {
     const symbol *on = NULL;
     const term *friction = hint_friction(inst, &on);
     if (friction == NULL) {
-        return NULL;
+        return;
     }
     const char *name = on->name;
-    return alloc_words(
+    fprintf(
+        stderr,
         "%s:%d:%d: note: this force changes its sign with %s', so the body shakes at rest instead "
         "of sticking\nhint: write dry friction as: friction"
         " %s static EXPR kinetic EXPR normal EXPR\n",
@@ -371,7 +372,9 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
     }
     diags_flush(s->errors, stderr);
     if (made->equations != NULL && made->image != NULL) {
-        made->hint = hint_for(made->equations->instance);
+        if (request->hints) {
+            say_hint(made->equations->instance);
+        }
         made->contacts = contacts_of(made->equations, request->comment);
     }
     if (request->keep < KEEP_EQUATIONS) {
@@ -384,8 +387,6 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
     }
     return made->image == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }
-
-void say_hints(const loaded *made) { fputs(made->hint != NULL ? made->hint : "", stderr); }
 
 void say_float_range(const image *im) {
     const double number = image_out_of_float(im);
@@ -404,6 +405,5 @@ void unload(loaded *made) {
     image_free(made->image);
     equations_free(made->equations);
     instance_free(made->instance);
-    free(made->hint);
     free(made->contacts);
 }

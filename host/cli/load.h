@@ -63,6 +63,7 @@ typedef struct load_request {
     image_settings settings;
     image_use use;
     load_keep keep;
+    bool hints;          /* print a hint for a valid model that could be written better */
     bool conserve;       /* recover the coordinates that the scene names from their momentum */
     const char *comment; /* begins each line about contacts in `contacts`; NULL: no such lines */
 } load_request;
@@ -71,7 +72,6 @@ typedef struct loaded {
     image *image;
     instance *instance;   /* NULL unless stored; equations have their own instance */
     equations *equations; /* NULL unless stored */
-    char *hint;           /* for a valid model that could be written better; or NULL */
     char *contacts; /* contacts in words, whole lines; "" without contacts, or if not requested */
 } loaded;
 
@@ -79,8 +79,6 @@ typedef struct loaded {
  * longer needed. Returns an exit status; call unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, const load_request *request);
-/* Print the hint on standard error. */
-void say_hints(const loaded *made);
 /* Warn of values that float cannot represent. */
 void say_float_range(const image *im);
 void unload(loaded *made);

@@ -196,6 +196,7 @@ static int run_target(run_options *o) {
         const load_request request = {.settings = o->common.integration,
                                       .use = IMAGE_TO_RUN,
                                       .keep = trusting_keep(&o->common.integration),
+                                      .hints = !o->settings.quiet,
                                       .conserve = true};
         code = load(&made, &from, of, in, &changes, &request);
         if (code == EXIT_DONE && !count_every(o, of, made.image, &o->settings.every)) {
@@ -204,9 +205,6 @@ static int run_target(run_options *o) {
         image *plain = trusting_plain(&made);
         if (o->settings.quiet) {
             source_forget(&from);
-        }
-        if (code == EXIT_DONE && !o->settings.quiet) {
-            say_hints(&made);
         }
         if (code == EXIT_DONE && o->settings.kind == &engine_float) {
             say_float_range(made.image);

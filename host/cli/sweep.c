@@ -313,9 +313,6 @@ static bool begins(const sweep_options *o, const sweep *s, const loaded *base, d
     if (!o->maps && !ends_fit(s, base)) {
         return false;
     }
-    if (!o->maps && !o->quiet) {
-        say_hints(base);
-    }
     if (s->kind == &engine_float) {
         say_float_range(base->image);
     }
@@ -327,6 +324,7 @@ static int sweep_picked(const sweep_options *o, source_model *from, sweep *s) {
     const load_request request = {.settings = o->common.integration,
                                   .use = IMAGE_TO_RUN,
                                   .keep = KEEP_INSTANCE,
+                                  .hints = !o->maps && !o->quiet,
                                   .conserve = true};
     loaded base;
     int code = load(&base, from, s->mechanism, s->scene, s->changes, &request);
