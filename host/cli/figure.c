@@ -34,7 +34,7 @@ static const command_usage plot_usage = {
         "\n"
         "Crosses at the foot of a panel mark events. The shade begins at the trusted time of the run.\n",
     .tail = "",
-    .why = OPTIONS_WHY_DRAWS};
+    .why = {"", "a run failed", "", ""}};
 
 typedef struct plot_options {
     common_options common; /* unused: each run parses `passed` */
@@ -140,7 +140,7 @@ static const command_usage usage = {
         "  --out FILE           the picture: .svg, .pdf or .png (default: figNUMBER.svg)\n"
         "  --data NAME=FILE     use these records as NAME instead of a run (repeatable)\n",
     .tail = "",
-    .why = OPTIONS_WHY_DRAWS};
+    .why = {"", "a run failed", "", ""}};
 
 typedef struct figure_options {
     common_options common; /* unused: each run parses `passed` */

@@ -320,18 +320,12 @@ static bool open_outputs(monitor *m) {
 }
 
 static bool close_outputs(monitor *m) {
-    bool good = written(m);
+    bool good = true;
     for (int i = 0; i < PLOT; i++) {
-        if (m->file[i] == NULL || m->file[i] == stdout) {
-            continue;
-        }
-        const bool closed = i == CSV || i == RING
-                                ? plot_run_csv_end(m->file[i], m->o->output[i], good, "monitor", "")
-                                : fclose(m->file[i]) == 0;
-        if (!closed || !good) {
-            write_error_say(m->o->output[i]);
-            good = false;
-        }
+        const char *name = m->o->output[i];
+        good = (i == CSV || i == RING ? plot_run_csv_end(m->file[i], name, true, "monitor", "")
+                                      : atomic_file_close(m->file[i], name, true)) &&
+               good;
     }
     return good;
 }

@@ -66,10 +66,6 @@ typedef enum option_group {
     OPTIONS_SCENE = 15  /* all of them, for commands that run scenes with given settings */
 } option_group;
 
-/* The exit statuses of commands that draw a picture of runs. */
-#define OPTIONS_WHY_DRAWS \
-    { "", "a run failed", "", "" }
-
 /* A command's help text. */
 typedef struct command_usage {
     const char *head;

@@ -243,11 +243,6 @@ static void close_line(const pil_options *o, port *line) {
     }
 }
 
-static bool open_tape(const pil_options *o, FILE **file) {
-    *file = o->tape != NULL ? atomic_file_open_in_place(o->tape) : NULL;
-    return o->tape == NULL || *file != NULL;
-}
-
 static int run_image(const pil_options *o, const source_model *from, const image *im,
                      lockstep_request *request, double every_s) {
     lockstep_report report;
@@ -257,7 +252,8 @@ static int run_image(const pil_options *o, const source_model *from, const image
         diags_flush(from->errors, stderr);
         return EXIT_BAD_INPUT;
     }
-    if (!open_tape(o, &request->tape) ||
+    request->tape = o->tape != NULL ? atomic_file_open_in_place(o->tape) : NULL;
+    if ((o->tape != NULL && request->tape == NULL) ||
         !recorded_open(&rows, o->csv, im, o->every != NULL ? every_s : -1.0)) {
         return EXIT_BAD_INPUT;
     }
@@ -273,15 +269,12 @@ static int run_image(const pil_options *o, const source_model *from, const image
         close_line(o, &line);
     }
     const bool written = recorded_close(&rows);
+    const bool taped = atomic_file_close(request->tape, o->tape, true);
     request->plant.rows = NULL;
     if (!open) {
         return EXIT_BAD_INPUT;
     }
-    if (!written) {
-        report.end = LOCKSTEP_FAILED;
-    }
-    if (request->tape != NULL && fclose(request->tape) != 0 && report.end != LOCKSTEP_BAD) {
-        write_error_say(o->tape);
+    if (!written || (!taped && report.end != LOCKSTEP_BAD)) {
         report.end = LOCKSTEP_FAILED;
     }
     return tell(o, request, im, &report);

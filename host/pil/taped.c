@@ -312,12 +312,11 @@ static void print_rows(taped *t, FILE *out) {
 }
 
 bool taped_show(const char *name, const char *csv) {
-    const bool is_standard = csv == NULL || strcmp(csv, "-") == 0;
     taped *t = alloc(1, sizeof *t);
     FILE *out = NULL;
     bool good = taped_open(t, name);
     if (good) {
-        out = atomic_file_open(is_standard ? "-" : csv);
+        out = atomic_file_open(csv != NULL ? csv : "-");
         if (out != NULL) {
             print_rows(t, out);
         }
