@@ -72,6 +72,18 @@ char *arena_copy(struct arena *arena, const char *text, size_t length) {
     return copy;
 }
 
+char *arena_words(struct arena *arena, const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *words = arena_alloc(arena, (size_t)length + 1);
+    va_start(arguments, format);
+    vsnprintf(words, (size_t)length + 1, format, arguments);
+    va_end(arguments);
+    return words;
+}
+
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size) {
     const size_t held = (size_t)count;
     if (held != 0 && (held & (held - 1)) != 0) {

@@ -44,6 +44,10 @@ void *arena_alloc(struct arena *arena, size_t size);
 /* A copy of `length` bytes with a zero byte after them. */
 char *arena_copy(struct arena *arena, const char *text, size_t length);
 
+/* The formatted text, as printf() would print it. */
+char *arena_words(struct arena *arena, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 /* Makes room for one more element after the first `count` of `array`. Returns `array`, or a copy of twice the size.
  * The capacity is always the smallest power of two that is at least `count`. */
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size);

@@ -34,12 +34,11 @@ static bool at_comparison(const parser *in) {
 }
 
 static const expr *missing_comparison(parser *in, const reading *how) {
-    char words[80];
     const bool equal = parser_is_sign(in, SIGN_EQUAL) || parser_is_sign(in, '=');
     parser_fail(in,
                 equal ? "compare with >, <, >= or <=: two numbers are hardly ever equal"
                       : word_row(how->statement)->form,
-                "a comparison is missing before %s", token_words(&in->token, words, sizeof words));
+                "a comparison is missing before %s", token_words(in, &in->token));
     return NULL;
 }
 
@@ -142,9 +141,8 @@ static const char *form(void) { return word_row(WORD_WHEN)->form; }
 
 /* Reads the coordinate or rate to be set. *usable is false if the name is neither (reported). */
 static bool take_target(parser *in, const contact_statement *made, assignment *set, bool *usable) {
-    char words[80];
     const token name = in->token;
-    token_words(&name, words, sizeof words);
+    const char *words = token_words(in, &name);
     if (name.kind != TOKEN_NAME) {
         return parser_fail(in, form(), "set needs a name, not %s", words);
     }
@@ -233,15 +231,13 @@ static bool take_direction(parser *in, contact_statement *made) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;
         parser_next(in);
     } else if (in->token.kind == TOKEN_NAME) {
-        char words[80];
         char hint[80];
         nearest search = nearest_start(in->token.text, in->token.length);
         nearest_offer(&search, word_row(WORD_RISING)->text);
         nearest_offer(&search, word_row(WORD_FALLING)->text);
         snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
         parser_fail(in, search.best != NULL ? hint : form(),
-                    "'rising', 'falling' or '{' is missing before %s",
-                    token_words(&in->token, words, sizeof words));
+                    "'rising', 'falling' or '{' is missing before %s", token_words(in, &in->token));
         parser_next(in);
         return search.best != NULL;
     }
@@ -337,7 +333,6 @@ static const expr *parse_number_between(parser *in, const char *what) {
 
 bool read_stop(parser *in, const statement_word *word) {
     contact_statement made = contact_begun(in, word);
-    char words[80];
     const place at = in->token.at;
     const expr *left = parse_expression(in, CONTEXT_GAP);
     if (left == NULL) {
@@ -350,7 +345,7 @@ bool read_stop(parser *in, const statement_word *word) {
             in, sign.sign == '>' ? "write >=" : "write <=", "a stop needs >= or <=, not > or <");
     } else if (!above && !parser_is_sign(in, SIGN_AT_MOST)) {
         return parser_fail(in, word->form, "'>=' or '<=' is missing before %s",
-                           token_words(&in->token, words, sizeof words));
+                           token_words(in, &in->token));
     }
     parser_next(in);
     const place right_at = in->token.at;
@@ -395,12 +390,11 @@ static const expr *parse_normal(parser *in, const symbol *coordinate) {
 
 bool read_friction(parser *in, const statement_word *word) {
     contact_statement made = contact_begun(in, word);
-    char words[80];
     const token name = in->token;
     if (name.kind != TOKEN_NAME || (token_is_word(&name, WORD_STATIC) &&
                                     names_find(in->names, name.text, name.length) == NULL)) {
         return parser_fail(in, word->form, "friction needs the name of a coordinate, not %s",
-                           token_words(&in->token, words, sizeof words));
+                           token_words(in, &in->token));
     }
     made.coordinate = find_coordinate(in, &name, "friction");
     parser_next(in);

@@ -6,11 +6,10 @@
 
 /* Returns the output of this name, or NULL (reported) if the name is unknown or not an output. */
 static const symbol *find_output(parser *in, const token *name) {
-    char words[80];
     char hint[120] = "";
     const mechanism *inside = in->builder->made;
     const named *found = names_find(in->builder->names, name->text, name->length);
-    token_words(name, words, sizeof words);
+    const char *words = token_words(in, name);
     if (found != NULL && !found->is_placeholder) {
         if (found->symbol.kind == SYM_OUTPUT && name->primes == 0) {
             return &found->symbol;
@@ -37,12 +36,11 @@ static const symbol *find_output(parser *in, const token *name) {
 
 static bool parse_seed(parser *in, uint32_t *seed) {
     const double number = in->token.number;
-    char words[80];
     if (in->token.kind != TOKEN_NUMBER || !(number <= UINT32_MAX) ||
         number != number_floor(number)) {
         return parser_fail(in, word_row(WORD_NOISE)->form,
                            "a seed is a whole number from 0 to %u, not %s", UINT32_MAX,
-                           token_words(&in->token, words, sizeof words));
+                           token_words(in, &in->token));
     }
     *seed = (uint32_t)number;
     parser_next(in);
@@ -77,12 +75,11 @@ static void add_noise(parser *in, const noise *made) {
 }
 
 bool read_noise(parser *in, const statement_word *word) {
-    char words[80];
     noise made = {.seed = 1, .effect = in->effect, .at = in->statement_at};
     const token name = in->token;
     if (name.kind != TOKEN_NAME) {
         return parser_fail(in, word->form, "noise needs the name of an output, not %s",
-                           token_words(&in->token, words, sizeof words));
+                           token_words(in, &in->token));
     }
     made.output = find_output(in, &name);
     made.record = made.output == NULL ? NULL : record_of(in, made.output);
@@ -96,8 +93,7 @@ bool read_noise(parser *in, const statement_word *word) {
         return false;
     }
     if (made.output != NULL) {
-        check_named(in, at, made.deviation, made.output->dim,
-                    token_words(&name, words, sizeof words), "is");
+        check_named(in, at, made.deviation, made.output->dim, token_words(in, &name), "is");
     }
     if (!parser_at_end_of_line(in) && !parser_is_sign(in, '}')) {
         if (!parser_expect_word(in, WORD_SEED, WORD_NOISE) || !parse_seed(in, &made.seed)) {
@@ -178,11 +174,10 @@ static symbol *declare(parser *in, const token *name, symbol_kind kind) {
 }
 
 static bool take_name(parser *in, const char *statement, token *name) {
-    char words[80];
     *name = in->token;
     if (in->token.kind != TOKEN_NAME) {
         return parser_fail(in, NULL, "%s needs a name, not %s", statement,
-                           token_words(&in->token, words, sizeof words));
+                           token_words(in, &in->token));
     }
     parser_next(in);
     return true;
@@ -232,13 +227,12 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
     }
     const expr *value = NULL;
     if (!parser_is_sign(in, '=')) {
-        char words[80];
         const bool is_input = word->kind == SYM_INPUT && made != NULL;
         char hint[NAME_LENGTH_MAX + 80];
         snprintf(hint, sizeof hint, "give the input a start value: input %s = 0",
                  is_input ? made->name : "");
         parser_fail(in, is_input ? hint : word->form, "'=' is missing before %s",
-                    token_words(&in->token, words, sizeof words));
+                    token_words(in, &in->token));
     } else {
         parser_next(in);
         *value_at = in->token.at;

@@ -72,7 +72,6 @@ static bool rate_hint(parser *in, const token *name, char *hint, size_t size) {
 
 static void report_unknown(parser *in, const token *name) {
     char hint[200] = "";
-    char words[80];
     const char *first = first_word_hint(name->text, name->length);
     const int later = in->builder != NULL && !in->all_effects ? name_declared_later(name) : 0;
     if (later == 0 && first != NULL) {
@@ -91,8 +90,7 @@ static void report_unknown(parser *in, const token *name) {
     }
     token plain = *name;
     plain.primes = 0;
-    diag_error(in->diags, name->at, hint, "unknown name %s",
-               token_words(&plain, words, sizeof words));
+    diag_error(in->diags, name->at, hint, "unknown name %s", token_words(in, &plain));
 }
 
 static void report_reserved(parser *in, const token *name) {
@@ -116,8 +114,7 @@ static bool allowed_here(parser *in, const token *name, const symbol *found, con
     const bool by_let = found->kind == SYM_LET && found->value != NULL;
     const int order = is_unknown ? name->primes : by_let ? found->value->order : 0;
     const unsigned uses = by_let ? found->value->uses : 0;
-    char words[80];
-    token_words(written, words, sizeof words);
+    const char *words = token_words(in, written);
     if (found->effect >= 0 && found->effect != in->effect && !in->all_effects) {
         diag_error(in->diags, name->at, "declare it in the mechanism to use it elsewhere",
                    "%s belongs to the effect '%s'", words,
@@ -295,7 +292,6 @@ static const expr *expr_name(parser *in, const token *name) {
 }
 
 void no_such_coordinate(parser *in, const token *name) {
-    char words[80];
     char hint[120];
     nearest search = nearest_start(name->text, name->length);
     const mechanism *inside = in->builder->made;
@@ -303,33 +299,30 @@ void no_such_coordinate(parser *in, const token *name) {
         nearest_offer(&search, inside->coordinates[i]->name);
     }
     diag_error(in->diags, name->at, nearest_hint(&search, hint, sizeof hint),
-               "unknown coordinate %s", token_words(name, words, sizeof words));
+               "unknown coordinate %s", token_words(in, name));
 }
 
 void no_such_symbol(parser *in, const mechanism *of, const token *name) {
-    char words[80];
     char hint[120];
     nearest search = nearest_start(name->text, name->length);
     names_offer(of->names, -2, &search);
     diag_error(in->diags, name->at, nearest_hint(&search, hint, sizeof hint),
-               "%s is unknown in mechanism '%s'", token_words(name, words, sizeof words), of->name);
+               "%s is unknown in mechanism '%s'", token_words(in, name), of->name);
 }
 
 void check_assigned_once(parser *in, const assignment *list, int count, const symbol *of,
                          const token *name, const char *verb) {
-    char words[80];
     for (int i = 0; i < count; i++) {
         if (list[i].symbol == of && list[i].primes == name->primes) {
             diag_error(in->diags, name->at, NULL, "%s was already %s in line %d",
-                       token_words(name, words, sizeof words), verb, list[i].at.line);
+                       token_words(in, name), verb, list[i].at.line);
         }
     }
 }
 
 const symbol *find_coordinate(parser *in, const token *name, const char *whose) {
     const named *found = names_find(in->builder->names, name->text, name->length);
-    char words[80];
-    token_words(name, words, sizeof words);
+    const char *words = token_words(in, name);
     if (found != NULL && !found->is_placeholder &&
         (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE)) {
         if (name->primes > 0) {
@@ -414,8 +407,7 @@ bool parse_close(parser *in, place open) {
         parser_next(in);
         return true;
     }
-    char words[80];
-    token_words(&in->token, words, sizeof words);
+    const char *words = token_words(in, &in->token);
     if (in->token.kind == TOKEN_END || in->token.at.line != open.line) {
         if (in->token.kind != TOKEN_BAD) {
             diag_error(in->diags, open, NULL, "this parenthesis is not closed");
@@ -481,7 +473,6 @@ static const expr *parse_named(parser *in) {
         return NULL;
     }
     if (parser_is_sign(in, '(') && !word_is_reserved(name.text, name.length)) {
-        char words[80];
         char hint[300];
         nearest search = nearest_start(name.text, name.length);
         for (int f = 0; f < FUNCTIONS; f++) {
@@ -501,8 +492,7 @@ static const expr *parse_named(parser *in) {
                                        function_name((function_id)f));
             }
         }
-        diag_error(in->diags, name.at, hint, "there is no function %s",
-                   token_words(&name, words, sizeof words));
+        diag_error(in->diags, name.at, hint, "there is no function %s", token_words(in, &name));
         return NULL;
     }
     return expr_name(in, &name);
@@ -534,8 +524,7 @@ static const expr *parse_primary(parser *in) {
         in->nesting--;
         return inner;
     }
-    char words[80];
-    token_words(&in->token, words, sizeof words);
+    const char *words = token_words(in, &in->token);
     if (in->token.kind == TOKEN_NEWLINE) {
         parser_fail(in, "to continue on the next line, keep a parenthesis or brace open",
                     "a value is missing before the end of the line");
@@ -619,11 +608,8 @@ const expr *parse_expression(parser *in, expr_context context) {
 bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
                     const char *hint, const expr **value) {
     if (!parser_is_sign(in, '=')) {
-        char words[80];
-        char next[80];
-        return parser_fail(in, hint, "'=' is missing after %s, before %s",
-                           token_words(name, words, sizeof words),
-                           token_words(&in->token, next, sizeof next));
+        return parser_fail(in, hint, "'=' is missing after %s, before %s", token_words(in, name),
+                           token_words(in, &in->token));
     }
     parser_next(in);
     const place at = in->token.at;

@@ -192,11 +192,10 @@ bool check_unit(parser *in, place at, const expr *value, const symbol *of, int p
 }
 
 bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name) {
-    char words[80];
     dimension wanted;
     return dim_derivative(of->dim, name->primes, &wanted) &&
            check_unit(in, at, value, of, name->primes) &&
-           check_named(in, at, value, wanted, token_words(name, words, sizeof words), "is");
+           check_named(in, at, value, wanted, token_words(in, name), "is");
 }
 
 bool check_limit(parser *in, place at, const expr *value, const expr *of) {

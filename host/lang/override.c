@@ -70,9 +70,7 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
         return NULL;
     }
     if (in->token.kind != TOKEN_END) {
-        char words[80];
-        parser_fail(in, NULL, "%s is unexpected here",
-                    token_words(&in->token, words, sizeof words));
+        parser_fail(in, NULL, "%s is unexpected here", token_words(in, &in->token));
         return NULL;
     }
     const bool is_bare = made->uses == 0 && dim_is_none(made->dim);
@@ -135,8 +133,7 @@ bool override_parse(const mechanism *of, override_kind kind, const char *text,
     if (!dim_derivative(found->symbol.dim, name.primes, &wanted)) {
         return false;
     }
-    char words[80];
-    token_words(&name, words, sizeof words);
+    const char *words = token_words(&in, &name);
     const place at = in.token.at;
     *made = (assignment){&found->symbol, name.primes, parse_quantity(&in, wanted, words), name.at};
     return made->value != NULL && diags_calls(all) == before &&

@@ -115,23 +115,21 @@ bool parser_at_end_of_line(const parser *in) {
            parser_is_sign(in, ';');
 }
 
-const char *token_words(const token *each, char *buffer, size_t size) {
+const char *token_words(const parser *in, const token *each) {
     switch (each->kind) {
-    case TOKEN_END: snprintf(buffer, size, "the end of the text"); break;
-    case TOKEN_NEWLINE: snprintf(buffer, size, "the end of the line"); break;
-    case TOKEN_STRING: snprintf(buffer, size, "a text in quotes"); break;
-    case TOKEN_UNIT: snprintf(buffer, size, "a unit"); break;
+    case TOKEN_END: return "the end of the text";
+    case TOKEN_NEWLINE: return "the end of the line";
+    case TOKEN_STRING: return "a text in quotes";
+    case TOKEN_UNIT: return "a unit";
     case TOKEN_NAME:
     case TOKEN_NUMBER:
     case TOKEN_SIGN:
-    case TOKEN_BAD:
-        /* Single quotes around primes would be hard to read. */
-        snprintf(buffer, size, each->primes > 0 ? "\"%.*s%.*s\"" : "'%.*s%.*s'",
-                 (int)(each->length > 63 ? 63 : each->length), each->text, each->primes,
-                 "'''''''''");
-        break;
+    case TOKEN_BAD: break;
     }
-    return buffer;
+    /* Single quotes around primes would be hard to read. */
+    return arena_words(in->arena, each->primes > 0 ? "\"%.*s%.*s\"" : "'%.*s%.*s'",
+                       (int)(each->length > 63 ? 63 : each->length), each->text, each->primes,
+                       "''''''''''");
 }
 
 bool parser_fail(parser *in, const char *hint, const char *format, ...) {
@@ -148,9 +146,8 @@ bool parser_fail(parser *in, const char *hint, const char *format, ...) {
 
 bool parser_expect_sign(parser *in, int sign, const char *where) {
     if (!parser_is_sign(in, sign)) {
-        char words[80];
         return parser_fail(in, NULL, "'%c' is missing %s, before %s", sign, where,
-                           token_words(&in->token, words, sizeof words));
+                           token_words(in, &in->token));
     }
     parser_next(in);
     return true;
@@ -162,7 +159,6 @@ bool parser_expect_word(parser *in, word_id word, word_id statement) {
         return true;
     }
     const char *wanted = word_row(word)->text;
-    char words[80];
     char hint[120];
     snprintf(hint, sizeof hint, "%s", word_row(statement)->form);
     if (in->token.kind == TOKEN_NAME) {
@@ -172,8 +168,7 @@ bool parser_expect_word(parser *in, word_id word, word_id statement) {
             snprintf(hint, sizeof hint, "did you mean '%s'?", wanted);
         }
     }
-    return parser_fail(in, hint, "'%s' is missing before %s", wanted,
-                       token_words(&in->token, words, sizeof words));
+    return parser_fail(in, hint, "'%s' is missing before %s", wanted, token_words(in, &in->token));
 }
 
 void parser_skip_lines(parser *in) {
@@ -231,8 +226,7 @@ bool parser_end_statement(parser *in, const char *what) {
     if (parser_at_end_of_line(in) || parser_is_sign(in, '}')) {
         return true;
     }
-    char words[80];
-    token_words(&in->token, words, sizeof words);
+    const char *words = token_words(in, &in->token);
     const char *first = first_word_hint(in->token.text, in->token.length);
     switch (in->token.kind) {
     case TOKEN_UNIT:
@@ -274,9 +268,8 @@ const char *parser_title(parser *in) {
 }
 
 bool statement_unknown(parser *in, unsigned where) {
-    char name[80];
     char hint[200] = "";
-    token_words(&in->token, name, sizeof name);
+    const char *name = token_words(in, &in->token);
     if (in->token.kind != TOKEN_NAME) {
         const bool goes_on = parser_is_sign(in, '+') || parser_is_sign(in, '-') ||
                              parser_is_sign(in, '*') || parser_is_sign(in, '/');

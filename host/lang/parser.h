@@ -120,7 +120,7 @@ bool parser_fail(parser *in, const char *hint, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 bool parser_expect_sign(parser *in, int sign, const char *where);
 /* Writes the name of the token for messages, such as "'x'" or "the end of the line". */
-const char *token_words(const token *each, char *buffer, size_t size);
+const char *token_words(const parser *in, const token *each);
 /* Skips to the end of a failed statement, including the braces that it opened. */
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */

@@ -67,12 +67,11 @@ static bool range_item(parser *in, const statement_word *word) {
     scene *made = into->made;
     token name;
     named *found = NULL;
-    char words[80];
     if (!scene_take_symbol(in, into, word, &name, &found)) {
         return false;
     }
     const bool usable = found != NULL && !found->is_placeholder && has_range(in, &name, found);
-    token_words(&name, words, sizeof words);
+    const char *words = token_words(in, &name);
     if (!parser_expect_sign(in, '=', "after the name")) {
         return false;
     }
@@ -110,12 +109,11 @@ bool read_range(parser *in, const statement_word *word) { return scene_list(in, 
 
 /* Reports "WORD needs a name", and returns false. */
 static bool scene_fail_name(parser *in, const statement_word *word) {
-    char words[80];
-    return parser_fail(
-        in,
-        in->token.kind == TOKEN_NUMBER ? "write NAME = VALUE, and numbers with a decimal point: 0.1"
-                                       : NULL,
-        "%s needs a name, not %s", word->text, token_words(&in->token, words, sizeof words));
+    return parser_fail(in,
+                       in->token.kind == TOKEN_NUMBER
+                           ? "write NAME = VALUE, and numbers with a decimal point: 0.1"
+                           : NULL,
+                       "%s needs a name, not %s", word->text, token_words(in, &in->token));
 }
 
 static bool with_item(parser *in, const statement_word *word) {
@@ -140,9 +138,8 @@ static bool with_item(parser *in, const statement_word *word) {
         }
     }
     char hint[EFFECT_HINT];
-    char words[80];
     diag_error(in->diags, name.at, effect_hint(of, name.text, name.length, hint),
-               "unknown effect %s", token_words(&name, words, sizeof words));
+               "unknown effect %s", token_words(in, &name));
     return true;
 }
 
@@ -317,9 +314,8 @@ bool read_use(parser *in, const statement_word *word) {
         nearest_offer(&search, in->builders[i]->made->name);
     }
     char hint[120];
-    char words[80];
     diag_error(in->diags, name.at, nearest_hint(&search, hint, sizeof hint),
-               "no mechanism %s in this file", token_words(&name, words, sizeof words));
+               "no mechanism %s in this file", token_words(in, &name));
     into->of = NULL;
     return true;
 }

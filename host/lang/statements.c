@@ -13,13 +13,11 @@ static void add_term(parser *in, term made) {
 
 /* Reads `=` in the mechanism, `+=` in an effect. */
 static bool parse_assign_sign(parser *in, const char *what) {
-    char words[80];
     char hint[120];
     const bool assigns = parser_is_sign(in, '=');
     if (!assigns && !parser_is_sign(in, SIGN_PLUS_ASSIGN)) {
         return parser_fail(in, NULL, "'%s' is missing after %s, before %s",
-                           in->effect >= 0 ? "+=" : "=", what,
-                           token_words(&in->token, words, sizeof words));
+                           in->effect >= 0 ? "+=" : "=", what, token_words(in, &in->token));
     }
     if (assigns && in->effect >= 0) {
         snprintf(hint, sizeof hint, "write %s += ...", what);
@@ -136,9 +134,7 @@ bool read_equation(parser *in, const statement_word *word) {
     }
     const place sign_at = in->token.at;
     if (!parser_is_sign(in, '=')) {
-        char words[80];
-        return parser_fail(in, word->form, "'=' is missing before %s",
-                           token_words(&in->token, words, sizeof words));
+        return parser_fail(in, word->form, "'=' is missing before %s", token_words(in, &in->token));
     }
     parser_next(in);
     const expr *right = parse_expression(in, CONTEXT_EQUATION);

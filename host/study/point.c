@@ -242,9 +242,8 @@ static const expr *read_expression(measures *m, const mechanism *of, const char 
     parser_next(&in);
     const expr *made = parse_expression(&in, CONTEXT_OUTPUT);
     if (made != NULL && in.token.kind != TOKEN_END) {
-        char words[80];
         parser_fail(&in, "write max, min, amplitude, mean and period around the whole expression",
-                    "unexpected %s", token_words(&in.token, words, sizeof words));
+                    "unexpected %s", token_words(&in, &in.token));
     }
     bool *let_seen = arena_alloc(m->arena, (size_t)of->let_count * sizeof *let_seen);
     const bool good = made != NULL && diags_calls(errors) == before;
