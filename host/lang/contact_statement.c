@@ -1,6 +1,4 @@
 /* contact_statement.c: the parser of stop, friction, hold and when. */
-#include <stdio.h>
-#include <string.h>
 
 #include "host/lang/expression.h"
 #include "host/lang/parser.h"
@@ -231,12 +229,10 @@ static bool take_direction(parser *in, contact_statement *made) {
         made->direction = parser_is_word(in, WORD_RISING) ? 1 : -1;
         parser_next(in);
     } else if (in->token.kind == TOKEN_NAME) {
-        char hint[80];
         nearest search = nearest_start(in->token.text, in->token.length);
         nearest_offer(&search, word_row(WORD_RISING)->text);
         nearest_offer(&search, word_row(WORD_FALLING)->text);
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-        parser_fail(in, search.best != NULL ? hint : form(),
+        parser_fail(in, parser_nearest(in, &search, form()),
                     "'rising', 'falling' or '{' is missing before %s", token_words(in, &in->token));
         parser_next(in);
         return search.best != NULL;
@@ -373,16 +369,16 @@ static const expr *parse_normal(parser *in, const symbol *coordinate) {
     dimension wanted;
     if (value != NULL && coordinate != NULL && coordinate->kind == SYM_COORDINATE &&
         dim_divide(dim_energy(), coordinate->dim, &wanted)) {
-        char what[NAME_LENGTH_MAX + 100];
         if (coordinate->is_angle) {
-            snprintf(
-                what, sizeof what,
+            const char *rule = arena_words(
+                in->arena,
                 "'%s' is an angle: its normal force times the radius must be a torque [kg*m^2/s^2]",
                 coordinate->name);
-            check_dimension(in, at, value, wanted, what);
+            check_dimension(in, at, value, wanted, rule);
         } else {
-            snprintf(what, sizeof what, "the normal force on '%s'", coordinate->name);
-            check_named(in, at, value, wanted, what, "must be");
+            check_named(in, at, value, wanted,
+                        arena_words(in->arena, "the normal force on '%s'", coordinate->name),
+                        "must be");
         }
     }
     return value;

@@ -1,12 +1,10 @@
 /* declare.c: the parser of coordinate, state, parameter, input, let and output. */
 #include <math.h>
-#include <stdio.h>
 
 #include "host/lang/statements.h"
 
 /* Returns the output of this name, or NULL (reported) if the name is unknown or not an output. */
 static const symbol *find_output(parser *in, const token *name) {
-    char hint[120] = "";
     const mechanism *inside = in->builder->made;
     const named *found = names_find(in->builder->names, name->text, name->length);
     const char *words = token_words(in, name);
@@ -14,9 +12,9 @@ static const symbol *find_output(parser *in, const token *name) {
         if (found->symbol.kind == SYM_OUTPUT && name->primes == 0) {
             return &found->symbol;
         }
-        snprintf(hint, sizeof hint, "declare an output: output %.40s_read = %.40s",
-                 found->symbol.name, found->symbol.name);
-        diag_error(in->diags, name->at, hint,
+        diag_error(in->diags, name->at,
+                   arena_words(in->arena, "declare an output: output %s_read = %s",
+                               found->symbol.name, found->symbol.name),
                    "noise can be added only to an output, and %s is not one", words);
         return NULL;
     }
@@ -25,11 +23,9 @@ static const symbol *find_output(parser *in, const token *name) {
     for (int i = 0; i < inside->output_count; i++) {
         nearest_offer(&search, inside->outputs[i]->name);
     }
-    if (later > 0) {
-        snprintf(hint, sizeof hint, "move the declaration in line %d above this line", later);
-    } else {
-        nearest_hint(&search, hint, sizeof hint);
-    }
+    const char *hint =
+        later > 0 ? arena_words(in->arena, "move the declaration in line %d above this line", later)
+                  : parser_nearest(in, &search, NULL);
     diag_error(in->diags, name->at, hint, "unknown output %s", words);
     return NULL;
 }
@@ -113,10 +109,10 @@ static named *claim_name(parser *in, const token *name) {
     function_id function = FN_SIN;
     const int length = (int)name->length;
     if (word_is_reserved(name->text, name->length)) {
-        char hint[80];
-        snprintf(hint, sizeof hint, "choose another name, such as %.*s_1",
-                 length > 30 ? 30 : length, name->text);
-        diag_error(in->diags, name->at, hint, "'%.*s' is a reserved word", length, name->text);
+        diag_error(
+            in->diags, name->at,
+            arena_words(in->arena, "choose another name, such as %.*s_1", length, name->text),
+            "'%.*s' is a reserved word", length, name->text);
         return NULL;
     }
     if (function_find(name->text, name->length, &function)) {
@@ -228,11 +224,11 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
     const expr *value = NULL;
     if (!parser_is_sign(in, '=')) {
         const bool is_input = word->kind == SYM_INPUT && made != NULL;
-        char hint[NAME_LENGTH_MAX + 80];
-        snprintf(hint, sizeof hint, "give the input a start value: input %s = 0",
-                 is_input ? made->name : "");
-        parser_fail(in, is_input ? hint : word->form, "'=' is missing before %s",
-                    token_words(in, &in->token));
+        parser_fail(in,
+                    is_input ? arena_words(in->arena, "give the input a start value: input %s = 0",
+                                           made->name)
+                             : word->form,
+                    "'=' is missing before %s", token_words(in, &in->token));
     } else {
         parser_next(in);
         *value_at = in->token.at;
@@ -323,9 +319,8 @@ bool read_valued(parser *in, const statement_word *word) {
         made->text = text;
         const expr *number = made->value->op == EXPR_NEG ? made->value->left : made->value;
         if (unit_text != NULL) {
-            char what[NAME_LENGTH_MAX + 16];
-            snprintf(what, sizeof what, "output '%s'", made->name);
-            check_named(in, value_at, made->value, written.dim, what, "is");
+            check_named(in, value_at, made->value, written.dim,
+                        arena_words(in->arena, "output '%s'", made->name), "is");
             made->unit = unit_text;
             made->declared = written;
             made->dim = written.dim;

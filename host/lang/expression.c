@@ -10,7 +10,6 @@
 #include "host/lang/expression.h"
 
 #include <ctype.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "host/lang/parser.h"
@@ -46,9 +45,9 @@ int name_declared_later(const token *name) {
     return 0;
 }
 
-/* Writes a hint such as "write x'" for a derivative in another spelling, such as xdot, if x is a coordinate, state or
- * let. Returns false if there is no such hint. */
-static bool rate_hint(parser *in, const token *name, char *hint, size_t size) {
+/* Returns a hint such as "write x'" for a derivative in another spelling, such as xdot, if x is a coordinate, state or
+ * let; else NULL. */
+static const char *rate_hint(parser *in, const token *name) {
     static const char *const forms[][3] = {
         {"", "dot", "'"}, {"", "_dot", "'"}, {"", "ddot", "''"}, {"", "_ddot", "''"},
         {"d", "", "'"},   {"dd", "", "''"},  {"d", "dt", "'"},   {"d", "_dt", "'"}};
@@ -62,23 +61,19 @@ static bool rate_hint(parser *in, const token *name, char *hint, size_t size) {
             if (found != NULL && !found->is_placeholder &&
                 (found->symbol.kind == SYM_COORDINATE || found->symbol.kind == SYM_STATE ||
                  found->symbol.kind == SYM_LET)) {
-                snprintf(hint, size, "write %s%s", found->symbol.name, forms[i][2]);
-                return true;
+                return arena_words(in->arena, "write %s%s", found->symbol.name, forms[i][2]);
             }
         }
     }
-    return false;
+    return NULL;
 }
 
 static void report_unknown(parser *in, const token *name) {
-    char hint[200] = "";
-    const char *first = first_word_hint(name->text, name->length);
+    const char *hint = first_word_hint(name->text, name->length);
     const int later = in->builder != NULL && !in->all_effects ? name_declared_later(name) : 0;
-    if (later == 0 && first != NULL) {
-        snprintf(hint, sizeof hint, "%s", first);
-    } else if (later > 0) {
-        snprintf(hint, sizeof hint, "move the declaration in line %d above this line", later);
-    } else if (!rate_hint(in, name, hint, sizeof hint)) {
+    if (later > 0) {
+        hint = arena_words(in->arena, "move the declaration in line %d above this line", later);
+    } else if (hint == NULL && (hint = rate_hint(in, name)) == NULL) {
         nearest search = nearest_start(name->text, name->length);
         names_offer(in->names, in->all_effects ? -2 : in->effect, &search);
         for (int f = 0; f < FUNCTIONS; f++) {
@@ -86,7 +81,7 @@ static void report_unknown(parser *in, const token *name) {
                 nearest_offer(&search, function_name((function_id)f));
             }
         }
-        nearest_hint(&search, hint, sizeof hint);
+        hint = parser_nearest(in, &search, NULL);
     }
     token plain = *name;
     plain.primes = 0;
@@ -292,21 +287,19 @@ static const expr *expr_name(parser *in, const token *name) {
 }
 
 void no_such_coordinate(parser *in, const token *name) {
-    char hint[120];
     nearest search = nearest_start(name->text, name->length);
     const mechanism *inside = in->builder->made;
     for (int i = 0; i < inside->coordinate_count; i++) {
         nearest_offer(&search, inside->coordinates[i]->name);
     }
-    diag_error(in->diags, name->at, nearest_hint(&search, hint, sizeof hint),
-               "unknown coordinate %s", token_words(in, name));
+    diag_error(in->diags, name->at, parser_nearest(in, &search, NULL), "unknown coordinate %s",
+               token_words(in, name));
 }
 
 void no_such_symbol(parser *in, const mechanism *of, const token *name) {
-    char hint[120];
     nearest search = nearest_start(name->text, name->length);
     names_offer(of->names, -2, &search);
-    diag_error(in->diags, name->at, nearest_hint(&search, hint, sizeof hint),
+    diag_error(in->diags, name->at, parser_nearest(in, &search, NULL),
                "%s is unknown in mechanism '%s'", token_words(in, name), of->name);
 }
 
@@ -465,31 +458,29 @@ static const expr *parse_named(parser *in) {
         if (parser_is_sign(in, '(')) {
             return parse_call(in, function, name.at);
         }
-        char hint[40];
-        snprintf(hint, sizeof hint, parser_is_sign(in, '^') ? "write %s(x)^2" : "write %s(x)",
-                 function_name(function));
-        diag_error(in->diags, name.at, hint, "%s needs its argument in parentheses",
-                   function_name(function));
+        diag_error(in->diags, name.at,
+                   arena_words(in->arena, parser_is_sign(in, '^') ? "write %s(x)^2" : "write %s(x)",
+                               function_name(function)),
+                   "%s needs its argument in parentheses", function_name(function));
         return NULL;
     }
     if (parser_is_sign(in, '(') && !word_is_reserved(name.text, name.length)) {
-        char hint[300];
+        const char *hint = first_word_hint(name.text, name.length);
         nearest search = nearest_start(name.text, name.length);
         for (int f = 0; f < FUNCTIONS; f++) {
             nearest_offer(&search, function_name((function_id)f));
         }
-        const char *first = first_word_hint(name.text, name.length);
-        if (first != NULL) {
-            snprintf(hint, sizeof hint, "%s", first);
-        } else if (search.best != NULL) {
-            snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
-        } else if (in->names != NULL && names_find(in->names, name.text, name.length) != NULL) {
-            snprintf(hint, sizeof hint, "write products with *; a coordinate has no (t)");
-        } else {
-            size_t at = (size_t)snprintf(hint, sizeof hint, "the functions are");
+        if (hint == NULL) {
+            hint = parser_nearest(in, &search, NULL);
+        }
+        if (hint == NULL && in->names != NULL &&
+            names_find(in->names, name.text, name.length) != NULL) {
+            hint = "write products with *; a coordinate has no (t)";
+        } else if (hint == NULL) {
+            hint = "the functions are";
             for (int f = 0; f < FUNCTIONS; f++) {
-                at += (size_t)snprintf(hint + at, sizeof hint - at, "%s %s", f > 0 ? "," : "",
-                                       function_name((function_id)f));
+                hint = arena_words(in->arena, "%s%s %s", hint, f > 0 ? "," : "",
+                                   function_name((function_id)f));
             }
         }
         diag_error(in->diags, name.at, hint, "there is no function %s", token_words(in, &name));

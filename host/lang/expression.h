@@ -46,6 +46,8 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
                       const expr *right);
 /* *value: the value of an expression that has only numbers and operators. Returns false for other expressions. */
 bool expr_constant(const expr *tree, double *value);
+/* Returns the dimension for messages: dim_text(). */
+const char *dimension_words(const parser *in, dimension dim);
 /* Reports "RULE, but this is ..." at `at`, and returns false, if the dimension of `value` is not `wanted`. */
 bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule);
 /* As check_dimension(), with a rule such as "SUBJECT is mass [kg]"; `verb` is "is" or "must be". */

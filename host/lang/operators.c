@@ -1,5 +1,4 @@
 /* operators.c: expression nodes, with the dimension rules of each operator and function. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -86,34 +85,32 @@ static bool is_bare_number(const expr *tree) {
     return tree->op == EXPR_NUMBER && tree->uses == 0;
 }
 
-static void number_hint(char *hint, size_t size, const expr *number, dimension wanted) {
+const char *dimension_words(const parser *in, dimension dim) {
+    return dim_text(dim, arena_alloc(in->arena, DIM_TEXT_SIZE), DIM_TEXT_SIZE);
+}
+
+static const char *number_hint(parser *in, const expr *number, dimension wanted) {
     char text[DIM_TEXT_SIZE];
     double value = 0.0;
     expr_constant(number, &value);
-    snprintf(hint, size, "a bare number is dimensionless: write %.15g [%s]", value,
-             dim_unit(wanted, text, sizeof text));
+    return arena_words(in->arena, "a bare number is dimensionless: write %.15g [%s]", value,
+                       dim_unit(wanted, text, sizeof text));
 }
 
 bool check_dimension(parser *in, place at, const expr *value, dimension wanted, const char *rule) {
     if (dim_fits(value->dim, wanted)) {
         return true;
     }
-    char hint[200] = "";
-    char is[DIM_TEXT_SIZE];
-    if (is_bare_number(value)) {
-        number_hint(hint, sizeof hint, value, wanted);
-    }
-    diag_error(in->diags, at, hint, "%s, but this is %s", rule,
-               dim_text(value->dim, is, sizeof is));
+    diag_error(in->diags, at, is_bare_number(value) ? number_hint(in, value, wanted) : NULL,
+               "%s, but this is %s", rule, dimension_words(in, value->dim));
     return false;
 }
 
 bool check_named(parser *in, place at, const expr *value, dimension wanted, const char *subject,
                  const char *verb) {
-    char text[DIM_TEXT_SIZE];
-    char rule[300];
-    snprintf(rule, sizeof rule, "%s %s %s", subject, verb, dim_text(wanted, text, sizeof text));
-    return check_dimension(in, at, value, wanted, rule);
+    return check_dimension(
+        in, at, value, wanted,
+        arena_words(in->arena, "%s %s %s", subject, verb, dimension_words(in, wanted)));
 }
 
 static const char is_declared[] = "'%s' is declared in [%s], and this value has no unit";
@@ -122,19 +119,14 @@ static const char is_declared[] = "'%s' is declared in [%s], and this value has 
 static void check_bare(parser *in, const expr *value, const symbol *angle) {
     const symbol *s = value->symbol;
     const expr *is = s != NULL && s->kind == SYM_LET && s->value != NULL ? s->value : value;
-    char text[NAME_LENGTH_MAX + 8];
-    char hint[3 * NAME_LENGTH_MAX + 120];
     double number = 0.0;
     if (angle == NULL || !expr_constant(is, &number) || number == 0.0 || has_pi(is)) {
         return;
     }
-    if (s != NULL) {
-        snprintf(text, sizeof text, "%s*1", s->name);
-    } else {
-        snprintf(text, sizeof text, "%.15g", number);
-    }
-    snprintf(
-        hint, sizeof hint,
+    const char *text = s != NULL ? arena_words(in->arena, "%s*1", s->name)
+                                 : arena_words(in->arena, "%.15g", number);
+    const char *hint = arena_words(
+        in->arena,
         "write %s [%s], or in SI: %s [rad]; in formulas '%s' is in rad, so leave out a factor such as 57.3",
         text, angle->unit, text, angle->name);
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
@@ -168,19 +160,15 @@ static bool has_unit(parser *in, place at, const expr *value, const symbol *of, 
     const char *lead = typed || has_name ? "" : "write ";
     const char *before = in->around != NULL ? in->around[0] : "";
     const char *after = in->around != NULL ? in->around[1] : "";
-    char name[NAME_LENGTH_MAX + 16] = "";
     char *unit = shown_unit_name(of, primes);
     char *si = shown_si_name(of, primes);
-    char number_text[SHOWN_MAX + 8];
-    char hint[400];
-    snprintf(number_text, sizeof number_text, plain ? "%.*s" : "(%.*s)*1",
-             (int)(length > SHOWN_MAX ? SHOWN_MAX : length), text);
-    if (has_name) {
-        snprintf(name, sizeof name, "%s%.*s = ", of->name, primes, "'''''''''");
-    }
-    snprintf(hint, sizeof hint, "%s%s%s%s%s [%s]%s%s, or in SI: %s%s%s%s [%s]%s%s", lead, quote,
-             name, before, number_text, unit, after, quote, quote, name, before, number_text, si,
-             after, quote);
+    const char *number_text = arena_words(in->arena, plain ? "%.*s" : "(%.*s)*1",
+                                          (int)(length > SHOWN_MAX ? SHOWN_MAX : length), text);
+    const char *name =
+        has_name ? arena_words(in->arena, "%s%.*s = ", of->name, primes, "'''''''''") : "";
+    const char *hint = arena_words(in->arena, "%s%s%s%s%s [%s]%s%s, or in SI: %s%s%s%s [%s]%s%s",
+                                   lead, quote, name, before, number_text, unit, after, quote,
+                                   quote, name, before, number_text, si, after, quote);
     diag_error(in->diags, at, hint, is_declared, of->name, of->unit);
     free(si);
     free(unit);
@@ -213,19 +201,16 @@ static dimension common_dimension(parser *in, place at, const expr *left, const 
         check_bare(in, right, angle_of(left));
         return common;
     }
-    char hint[200] = "";
-    char a[DIM_TEXT_SIZE];
-    char b[DIM_TEXT_SIZE];
+    const char *hint = NULL;
     if (is_bare_number(right)) {
-        number_hint(hint, sizeof hint, right, left->dim);
+        hint = number_hint(in, right, left->dim);
     } else if (is_bare_number(left)) {
-        number_hint(hint, sizeof hint, left, right->dim);
+        hint = number_hint(in, left, right->dim);
     }
-    dim_text(left->dim, a, sizeof a);
-    dim_text(right->dim, b, sizeof b);
-    diag_error(in->diags, at, hint, "cannot %s %s %s %s", before,
-               dim_is_none(left->dim) ? "a dimensionless number" : a, between,
-               dim_is_none(right->dim) ? "a dimensionless number" : b);
+    diag_error(
+        in->diags, at, hint, "cannot %s %s %s %s", before,
+        dim_is_none(left->dim) ? "a dimensionless number" : dimension_words(in, left->dim), between,
+        dim_is_none(right->dim) ? "a dimensionless number" : dimension_words(in, right->dim));
     common.unknown = true;
     return common;
 }
@@ -238,11 +223,10 @@ static void range_error(parser *in, place at, dimension *dim) {
 
 static void power_dimension(parser *in, place at, const expr *base, const expr *exponent,
                             dimension *dim) {
-    char text[DIM_TEXT_SIZE];
     *dim = dim_none();
     if (!dim_is_none(exponent->dim)) {
         diag_error(in->diags, at, NULL, "an exponent must be dimensionless, but this is %s",
-                   dim_text(exponent->dim, text, sizeof text));
+                   dimension_words(in, exponent->dim));
         dim->unknown = true;
         return;
     }
@@ -252,15 +236,13 @@ static void power_dimension(parser *in, place at, const expr *base, const expr *
         dim->unknown = true;
     } else if (constant) {
         if (!dim_power(base->dim, value, dim)) {
-            char base_text[DIM_TEXT_SIZE];
             diag_error(in->diags, at, NULL, "%s to the power %g is no dimension",
-                       dim_text(base->dim, base_text, sizeof base_text), value);
+                       dimension_words(in, base->dim), value);
             dim->unknown = true;
         }
     } else if (!dim_is_none(base->dim)) {
         diag_error(in->diags, at, "only a dimensionless base takes any exponent: (x/L)^n",
-                   "%s needs a constant number as its exponent",
-                   dim_text(base->dim, text, sizeof text));
+                   "%s needs a constant number as its exponent", dimension_words(in, base->dim));
         dim->unknown = true;
     }
 }
@@ -345,9 +327,7 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
     made->function = function;
     const char *name = function_name(function);
     made->dim.unknown = left->dim.unknown || (right != NULL && right->dim.unknown);
-    char text[DIM_TEXT_SIZE];
-    char words[40];
-    snprintf(words, sizeof words, "compare in %s:", name);
+    const char *words = arena_words(in->arena, "compare in %s:", name);
     switch (function_takes(function)) {
     case TAKES_RATIO:
         common_dimension(in, at, left, right, words, "and");
@@ -365,21 +345,20 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
     case TAKES_SQUARE:
         if (!dim_power(left->dim, 0.5, &made->dim)) {
             diag_error(in->diags, at, NULL, "the square root of %s is no dimension",
-                       dim_text(left->dim, text, sizeof text));
+                       dimension_words(in, left->dim));
             made->dim.unknown = true;
         }
         break;
     case TAKES_ANGLE:
         if (!dim_is_none(left->dim)) {
             diag_error(in->diags, at, "an angle in radians is dimensionless, such as arc/radius",
-                       "%s takes an angle, but this is %s", name,
-                       dim_text(left->dim, text, sizeof text));
+                       "%s takes an angle, but this is %s", name, dimension_words(in, left->dim));
         }
         break;
     case TAKES_NUMBER:
         if (!dim_is_none(left->dim)) {
             diag_error(in->diags, at, NULL, "%s takes a dimensionless value, but this is %s", name,
-                       dim_text(left->dim, text, sizeof text));
+                       dimension_words(in, left->dim));
         }
         if (function == FN_ASIN || function == FN_ACOS || function == FN_ATAN) {
             made->uses |= USES_UNIT; /* the value is in radians */

@@ -132,6 +132,11 @@ const char *token_words(const parser *in, const token *each) {
                        "''''''''''");
 }
 
+const char *parser_nearest(const parser *in, const nearest *search, const char *otherwise) {
+    return search->best != NULL ? arena_words(in->arena, "did you mean '%s'?", search->best)
+                                : otherwise;
+}
+
 bool parser_fail(parser *in, const char *hint, const char *format, ...) {
     if (in->token.kind != TOKEN_BAD) {
         char message[300];
@@ -159,15 +164,11 @@ bool parser_expect_word(parser *in, word_id word, word_id statement) {
         return true;
     }
     const char *wanted = word_row(word)->text;
-    char hint[120];
-    snprintf(hint, sizeof hint, "%s", word_row(statement)->form);
+    nearest search = nearest_start(in->token.text, in->token.length);
     if (in->token.kind == TOKEN_NAME) {
-        nearest search = nearest_start(in->token.text, in->token.length);
         nearest_offer(&search, wanted);
-        if (search.best != NULL) {
-            snprintf(hint, sizeof hint, "did you mean '%s'?", wanted);
-        }
     }
+    const char *hint = parser_nearest(in, &search, word_row(statement)->form);
     return parser_fail(in, hint, "'%s' is missing before %s", wanted, token_words(in, &in->token));
 }
 
@@ -268,7 +269,7 @@ const char *parser_title(parser *in) {
 }
 
 bool statement_unknown(parser *in, unsigned where) {
-    char hint[200] = "";
+    const char *hint = NULL;
     const char *name = token_words(in, &in->token);
     if (in->token.kind != TOKEN_NAME) {
         const bool goes_on = parser_is_sign(in, '+') || parser_is_sign(in, '-') ||
@@ -293,7 +294,7 @@ bool statement_unknown(parser *in, unsigned where) {
     }
     const statement_word *elsewhere = token_statement(&word);
     if (elsewhere != NULL && elsewhere->stands == IN_SCENE && !parser_is_sign(in, '=')) {
-        snprintf(hint, sizeof hint, "in a scene: %s", elsewhere->form);
+        hint = arena_words(in->arena, "in a scene: %s", elsewhere->form);
         diag_error(in->diags, word.at, hint, "'%s' belongs into a scene", elsewhere->text);
         return false;
     }
@@ -309,18 +310,18 @@ bool statement_unknown(parser *in, unsigned where) {
     const char *energy =
         sums || parser_is_sign(in, '=') ? energy_hint(word.text, word.length) : NULL;
     if (energy != NULL && sums) {
-        snprintf(hint, sizeof hint, "%s", energy);
+        hint = energy;
     } else if (first != NULL && !parser_is_sign(in, '=')) {
-        snprintf(hint, sizeof hint, "%s", first);
+        hint = first;
     } else if (search.best != NULL && !parser_is_sign(in, '=')) {
-        snprintf(hint, sizeof hint, "did you mean '%s'?", search.best);
+        hint = parser_nearest(in, &search, NULL);
     } else if (parser_is_sign(in, '=') && in->all_effects) {
-        snprintf(hint, sizeof hint, "begin with set or start, or end the line before with a comma");
+        hint = "begin with set or start, or end the line before with a comma";
     } else if (parser_is_sign(in, '=')) {
         const int length = word.length > 30 ? 30 : (int)word.length;
-        snprintf(hint, sizeof hint, "%s%sdeclare it: parameter %.*s = ..., or let %.*s = ...",
-                 energy != NULL ? energy : "", energy != NULL ? "; or " : "", length, word.text,
-                 length, word.text);
+        hint = arena_words(in->arena, "%s%sdeclare it: parameter %.*s = ..., or let %.*s = ...",
+                           energy != NULL ? energy : "", energy != NULL ? "; or " : "", length,
+                           word.text, length, word.text);
     }
     diag_error(in->diags, word.at, hint, "unknown statement %s", name);
     return false;

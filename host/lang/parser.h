@@ -121,6 +121,8 @@ bool parser_fail(parser *in, const char *hint, const char *format, ...)
 bool parser_expect_sign(parser *in, int sign, const char *where);
 /* Writes the name of the token for messages, such as "'x'" or "the end of the line". */
 const char *token_words(const parser *in, const token *each);
+/* Returns the hint "did you mean 'NAME'?", or `otherwise` if no name is similar. */
+const char *parser_nearest(const parser *in, const nearest *search, const char *otherwise);
 /* Skips to the end of a failed statement, including the braces that it opened. */
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */

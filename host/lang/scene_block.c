@@ -1,5 +1,4 @@
 /* scene_block.c: the parser of scene blocks. */
-#include <stdio.h>
 #include <string.h>
 
 #include "host/lang/override.h"
@@ -199,9 +198,8 @@ static void scene_check_sets(parser *in, const draft *read) {
         const int of = each->symbol->effect;
         if (of >= 0 && !read->with[of]) {
             const char *name = made->mechanism->effects[of].name;
-            char hint[120];
-            snprintf(hint, sizeof hint, "add to the scene: with %.80s", name);
-            diag_error(in->diags, each->at, hint,
+            diag_error(in->diags, each->at,
+                       arena_words(in->arena, "add to the scene: with %s", name),
                        "'%s' belongs to the effect '%s', which this scene does not select",
                        each->symbol->name, name);
         }
@@ -313,8 +311,7 @@ bool read_use(parser *in, const statement_word *word) {
         }
         nearest_offer(&search, in->builders[i]->made->name);
     }
-    char hint[120];
-    diag_error(in->diags, name.at, nearest_hint(&search, hint, sizeof hint),
+    diag_error(in->diags, name.at, parser_nearest(in, &search, NULL),
                "no mechanism %s in this file", token_words(in, &name));
     into->of = NULL;
     return true;

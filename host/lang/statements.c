@@ -1,7 +1,6 @@
 /* statements.c: dispatch of statements to their readers; mechanisms and effects. */
 #include "host/lang/statements.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "host/lang/model.h"
@@ -13,18 +12,18 @@ static void add_term(parser *in, term made) {
 
 /* Reads `=` in the mechanism, `+=` in an effect. */
 static bool parse_assign_sign(parser *in, const char *what) {
-    char hint[120];
     const bool assigns = parser_is_sign(in, '=');
     if (!assigns && !parser_is_sign(in, SIGN_PLUS_ASSIGN)) {
         return parser_fail(in, NULL, "'%s' is missing after %s, before %s",
                            in->effect >= 0 ? "+=" : "=", what, token_words(in, &in->token));
     }
     if (assigns && in->effect >= 0) {
-        snprintf(hint, sizeof hint, "write %s += ...", what);
-        parser_fail(in, hint, "'=' is not possible in an effect, which only adds");
+        parser_fail(in, arena_words(in->arena, "write %s += ...", what),
+                    "'=' is not possible in an effect, which only adds");
     } else if (!assigns && in->effect < 0) {
-        snprintf(hint, sizeof hint, "write %s = ... here, or put the line into an effect", what);
-        parser_fail(in, hint, "'+=' is possible only in an effect");
+        parser_fail(
+            in, arena_words(in->arena, "write %s = ... here, or put the line into an effect", what),
+            "'+=' is possible only in an effect");
     }
     parser_next(in);
     return true;
@@ -65,14 +64,13 @@ bool read_energy(parser *in, const statement_word *word) {
         check_dimension(in, value_at, value, wanted, term_rule(kind));
     } else if (!dim_fits(value->dim, wanted)) {
         const bool needs_rate = kind != TERM_V && value->order == 0;
-        char is[DIM_TEXT_SIZE];
         diag_error(in->diags, value_at,
                    needs_rate
                        ? (kind == TERM_T
                               ? "the expression contains no speed; write: T = m*l^2*theta'^2/2"
                               : "the expression contains no speed; write: F = b*theta'^2/2")
                        : "check the unit of each parameter; a number without one is dimensionless",
-                   "%s, but this is %s", term_rule(kind), dim_text(value->dim, is, sizeof is));
+                   "%s, but this is %s", term_rule(kind), dimension_words(in, value->dim));
     }
     add_term(in, (term){kind, NULL, value, NULL, in->effect, at});
     return true;
@@ -82,9 +80,8 @@ bool read_force(parser *in, const statement_word *word) {
     (void)word;
     const place at = in->statement_at;
     const mechanism *of = in->builder->made;
-    char form[NAME_LENGTH_MAX + 40];
-    snprintf(form, sizeof form, "write Q(%s) = ...",
-             of->coordinate_count > 0 ? of->coordinates[0]->name : "x");
+    const char *form = arena_words(in->arena, "write Q(%s) = ...",
+                                   of->coordinate_count > 0 ? of->coordinates[0]->name : "x");
     if (!parser_is_sign(in, '(')) {
         return parser_fail(in, form, "Q needs a coordinate in parentheses");
     }
@@ -98,8 +95,7 @@ bool read_force(parser *in, const statement_word *word) {
     if (!parser_expect_sign(in, ')', "after the coordinate")) {
         return false;
     }
-    char what[NAME_LENGTH_MAX + 8];
-    snprintf(what, sizeof what, "Q(%.*s)", (int)name.length, name.text);
+    const char *what = arena_words(in->arena, "Q(%.*s)", (int)name.length, name.text);
     if (coordinate != NULL && parser_is_sign(in, '=')) {
         check_once(in, &in->builder->force_at[coordinate->index], at, what);
     }
@@ -114,9 +110,8 @@ bool read_force(parser *in, const statement_word *word) {
     if (coordinate != NULL) {
         dimension wanted;
         if (dim_is_none(coordinate->dim)) {
-            char rule[sizeof what + 40];
-            snprintf(rule, sizeof rule, "%s must be a torque [kg*m^2/s^2]", what);
-            check_dimension(in, value_at, value, dim_energy(), rule);
+            check_dimension(in, value_at, value, dim_energy(),
+                            arena_words(in->arena, "%s must be a torque [kg*m^2/s^2]", what));
         } else if (dim_divide(dim_energy(), coordinate->dim, &wanted)) {
             check_named(in, value_at, value, wanted, what, "must be");
         }
@@ -142,10 +137,8 @@ bool read_equation(parser *in, const statement_word *word) {
         return false;
     }
     if (!dim_fits(left->dim, right->dim)) {
-        char a[DIM_TEXT_SIZE];
-        char b[DIM_TEXT_SIZE];
         diag_error(in->diags, sign_at, NULL, "the left side is %s, but the right side is %s",
-                   dim_text(left->dim, a, sizeof a), dim_text(right->dim, b, sizeof b));
+                   dimension_words(in, left->dim), dimension_words(in, right->dim));
     }
     add_term(in, (term){TERM_EQUATION, NULL, left, right, -1, at});
     return parser_end_statement(in, "the equation");
@@ -268,9 +261,8 @@ static bool parse_name(parser *in, effect *made) {
     }
     for (size_t i = 0; i < sizeof meant / sizeof meant[0]; i++) {
         if (token_is_word(&in->token, meant[i].word)) {
-            char hint[120];
-            snprintf(hint, sizeof hint, "%s: choose another name", meant[i].as);
-            parser_fail(in, hint, "'%s' is a reserved word", word_row(meant[i].word)->text);
+            parser_fail(in, arena_words(in->arena, "%s: choose another name", meant[i].as),
+                        "'%s' is a reserved word", word_row(meant[i].word)->text);
         }
     }
     parser_next(in);
