@@ -61,18 +61,18 @@ TEST(noise, moments) {
  * count, sqrt(p (1 - p)/(16 DRAWS)). A sum of twelve uniform numbers would fail: 0.0020 instead of 0.0027 are beyond
  * three. */
 TEST(noise, tails) {
-    enum { SEEDS = 16 };
+    const uint32_t seeds = 16; /* 16 * DRAWS does not fit an AVR's int */
     static const double part[] = {0.31731, 0.045500, 0.0026998, 6.33e-5};
     static const double root[] = {0.46543, 0.20840, 0.051889, 0.0079585}; /* sqrt(p (1 - p)) */
     unsigned beyond[4] = {0};
-    for (unsigned i = 0; i < SEEDS * DRAWS; i++) {
-        const int32_t x = wh_noise_raw(2026 + i % SEEDS, i / SEEDS);
+    for (uint32_t i = 0; i < seeds * DRAWS; i++) {
+        const int32_t x = wh_noise_raw(2026 + i % seeds, i / seeds);
         for (int k = 0; k < 4; k++) {
             beyond[k] += x > (k + 1) * ONE || x < -(k + 1) * ONE;
         }
     }
     for (int k = 0; k < 4; k++) {
-        const double found = (double)beyond[k] / (SEEDS * DRAWS);
+        const double found = (double)beyond[k] / (seeds * DRAWS);
         TEST_ASSERT_TRUE(found > part[k] - root[k] * (FOUR_SIGMA / 4));
         TEST_ASSERT_TRUE(found < part[k] + root[k] * (FOUR_SIGMA / 4));
     }
