@@ -617,23 +617,11 @@ void lower_done(lowering *l) {
 
 /* --- factoring -----------------------------------------------------------------------------------*/
 
-#define FACTORS_MAX 24
 /* Whole exponents above this are not expanded to products, here or in op_list_power(). The test compares doubles,
  * because an int would truncate large exponents. */
 #define EXPONENT_MAX 64.0
 
-typedef struct power {
-    int node;
-    int exponent; /* positive */
-} power;
-
-typedef struct product {
-    double coefficient;
-    int count;
-    power powers[FACTORS_MAX];
-} product;
-
-static void product_multiply(lowering *l, product *p, int node, int exponent) {
+void lower_multiply(lowering *l, node_product *p, int node, int exponent) {
     double value;
     if (op_list_is_constant(l->list, node, &value)) {
         p->coefficient = folding_product(p->coefficient, folding_power(value, exponent));
@@ -653,7 +641,7 @@ static void product_multiply(lowering *l, product *p, int node, int exponent) {
         p->powers[last].exponent = 1;
         return;
     }
-    p->powers[p->count++] = (power){node, exponent};
+    p->powers[p->count++] = (node_power){node, exponent};
 }
 
 static int atom_node(lowering *l, const atom *x) {
@@ -676,7 +664,7 @@ static int atom_node(lowering *l, const atom *x) {
     return first;
 }
 
-static void product_factor(lowering *l, product *p, const mono_factor *f) {
+static void product_factor(lowering *l, node_product *p, const mono_factor *f) {
     int node = atom_node(l, f->atom);
     double size = fabs(f->exponent);
     if (size != number_floor(size)) {
@@ -695,12 +683,12 @@ static void product_factor(lowering *l, product *p, const mono_factor *f) {
     if (f->exponent < 0.0) {
         node = op_list_div(l->list, op_list_constant(l->list, 1.0), node);
     }
-    product_multiply(l, p, node, (int)size);
+    lower_multiply(l, p, node, (int)size);
 }
 
 /* Returns the sum of the products' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
-static int sum_of_like(lowering *l, const product *products, const int *nodes, const bool *member,
-                       int count, double size) {
+static int sum_of_like(lowering *l, const node_product *products, const int *nodes,
+                       const bool *member, int count, double size) {
     op_list *t = l->list;
     int sum = op_list_constant(t, 0.0);
     for (int sign = 0; sign < 2; sign++) {
@@ -714,7 +702,7 @@ static int sum_of_like(lowering *l, const product *products, const int *nodes, c
 }
 
 /* Adds products without a common factor. Terms with coefficients of the same size are added first. */
-static int sum_flat(lowering *l, const product *products, int count) {
+static int sum_flat(lowering *l, const node_product *products, int count) {
     op_list *t = l->list;
     int *nodes = alloc(count, sizeof *nodes);
     bool *done = alloc(count, sizeof *done);
@@ -722,7 +710,7 @@ static int sum_flat(lowering *l, const product *products, int count) {
     for (int i = 0; i < count; i++) {
         nodes[i] = op_list_constant(t, 1.0);
         for (int k = 0; k < products[i].count; k++) {
-            const power *p = &products[i].powers[k];
+            const node_power *p = &products[i].powers[k];
             nodes[i] = op_list_mul(t, nodes[i], op_list_power(t, p->node, p->exponent));
         }
     }
@@ -752,7 +740,7 @@ static int sum_flat(lowering *l, const product *products, int count) {
 
 /* Returns the node that the largest number of products share, or -1. Rates are preferred, so that sums of sines are
  * not split. */
-static int most_shared(lowering *l, const product *products, int count) {
+static int most_shared(lowering *l, const node_product *products, int count) {
     int best = -1;
     int best_uses = 1;
     if (l->uses_room < l->list->count) {
@@ -785,8 +773,7 @@ static int most_shared(lowering *l, const product *products, int count) {
     return best;
 }
 
-/* Returns the operation for the sum of the products, which are overwritten. */
-static int sum_of(lowering *l, product *products, int count) {
+int lower_sum(lowering *l, node_product *products, int count) {
     op_list *t = l->list;
     if (count <= 0) {
         return op_list_constant(t, 0.0);
@@ -803,11 +790,11 @@ static int sum_of(lowering *l, product *products, int count) {
             }
         }
     }
-    product *with = alloc_more(NULL, count, sizeof *with); /* large, so not cleared */
+    node_product *with = alloc_more(NULL, count, sizeof *with); /* large, so not cleared */
     int in = 0;
     int out = 0; /* products without the node are moved to the front */
     for (int i = 0; i < count; i++) {
-        product *p = &products[i];
+        node_product *p = &products[i];
         int k = 0;
         while (k < p->count && p->powers[k].node != shared) {
             k++;
@@ -832,9 +819,9 @@ static int sum_of(lowering *l, product *products, int count) {
     for (int i = 0; i < in && negative; i++) {
         with[i].coefficient = -with[i].coefficient;
     }
-    const int inside = sum_of(l, with, in);
+    const int inside = lower_sum(l, with, in);
     free(with);
-    const int outside = sum_of(l, products, out);
+    const int outside = lower_sum(l, products, out);
     const int part = op_list_mul(t, inside, op_list_power(t, shared, lowest));
     return negative ? op_list_sub(t, outside, part) : op_list_add(t, outside, part);
 }
@@ -842,20 +829,20 @@ static int sum_of(lowering *l, product *products, int count) {
 int lower(lowering *l, const poly *p) {
     piece *pieces = alloc(p->count, sizeof *pieces);
     const int count = pieces_of(l->algebra, p, pieces);
-    product *products = alloc(count, sizeof *products);
+    node_product *products = alloc(count, sizeof *products);
     for (int i = 0; i < count; i++) {
         products[i].coefficient = pieces[i].coefficient;
         for (int k = 0; k < pieces[i].mono->count; k++) {
             product_factor(l, &products[i], &pieces[i].mono->factors[k]);
         }
         if (pieces[i].sines > 0) {
-            product_multiply(l, &products[i], waves_sine(l, pieces[i].angle), pieces[i].sines);
+            lower_multiply(l, &products[i], waves_sine(l, pieces[i].angle), pieces[i].sines);
         }
         if (pieces[i].cosines > 0) {
-            product_multiply(l, &products[i], waves_cosine(l, pieces[i].angle), pieces[i].cosines);
+            lower_multiply(l, &products[i], waves_cosine(l, pieces[i].angle), pieces[i].cosines);
         }
     }
-    const int result = sum_of(l, products, count);
+    const int result = lower_sum(l, products, count);
     free(products);
     free(pieces);
     return result;

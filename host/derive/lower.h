@@ -49,6 +49,27 @@ int lower(lowering *l, const poly *p);
 
 void lower_done(lowering *l);
 
+/* === sums of products of operations =========================================================== */
+
+#define FACTORS_MAX 24
+
+typedef struct node_power {
+    int node;
+    int exponent; /* positive */
+} node_power;
+
+typedef struct node_product {
+    double coefficient;
+    int count;
+    node_power powers[FACTORS_MAX];
+} node_product;
+
+/* Multiplies the product by node^exponent. */
+void lower_multiply(lowering *l, node_product *p, int node, int exponent);
+
+/* Returns the operation for the sum of the products, which are overwritten. Shared factors are taken out. */
+int lower_sum(lowering *l, node_product *products, int count);
+
 /* Is x a tangent? No other atom can be computed from a turn angle's sine and cosine. */
 static inline bool lower_is_tangent(const atom *x) {
     return x->kind == ATOM_CALL && x->function == FN_TAN;

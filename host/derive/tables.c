@@ -7,6 +7,7 @@
 
 #include "core/step/table.h"
 #include "host/base/alloc.h"
+#include "host/derive/lower.h"
 #include "host/number/ratio.h"
 
 /* === functions of one angle, at any part of its turn, with their slopes ======================= */
@@ -205,8 +206,8 @@ static void set_errors(const table_functions *f, op_list_tables *of) {
         for (int k = 0; k < of->count; k++) {
             const double *number = &of->number[(cell * of->count + k) * of->terms];
             double value = 0.0;
-            for (int term = of->terms - 1; term >= 0; term--) {
-                value = number[term] + y * value;
+            for (int power = of->terms - 1; power >= 0; power--) {
+                value = number[power] + y * value;
             }
             const double exact = all[f->function[k]].value;
             of->size[k] = number_most(of->size[k], fabs(exact));
@@ -238,8 +239,9 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
             } else {
                 write_cubic(&value[k * n], &slope[k * n], n, i, number);
             }
-            for (int term = 0; term < into->terms; term++) {
-                number[term] = number[term] == 0.0 ? 0.0 : number[term]; /* never a negative zero */
+            for (int power = 0; power < into->terms; power++) {
+                number[power] =
+                    number[power] == 0.0 ? 0.0 : number[power]; /* never a negative zero */
             }
         }
     }
@@ -702,128 +704,52 @@ static void sort_out(tabling *t) {
     free(first);
 }
 
-/* A product in a remaining sum. */
-typedef struct part {
-    int coefficient; /* operation of the new list */
-    unsigned char *power;
-} part;
-
-typedef struct writing {
-    const products *from;
-    const op_list *list;
-    op_list *made;
-    bool nested;
-} writing;
-
-static int symbol_of(const writing *w, int symbol) {
-    const op *o = &w->list->ops[w->from->symbol[symbol]];
-    return op_list_leaf(w->made, o->code, o->a);
-}
-
-static int product_of(const writing *w, const part *p) {
-    int made = op_list_constant(w->made, 1.0);
-    for (int s = 0; s < w->from->symbols; s++) {
-        if (p->power[s] > 0) {
-            made = op_list_mul(w->made, made, op_list_power(w->made, symbol_of(w, s), p->power[s]));
-        }
-    }
-    return op_list_mul(w->made, p->coefficient, made);
-}
-
-/* Returns the symbol that occurs in the largest number of parts, if in more than one; otherwise -1. */
-static int commonest(const writing *w, const part *parts, int count) {
-    int best = -1;
-    int most = 1;
-    for (int s = 0; s < w->from->symbols; s++) {
-        int have = 0;
-        for (int i = 0; i < count; i++) {
-            have += parts[i].power[s] > 0;
-        }
-        if (have > most) {
-            most = have;
-            best = s;
-        }
-    }
-    return best;
-}
-
-/* Returns the sum of parts[count], which are overwritten. Common symbols are factored out, recursively. */
-static int sum_up(const writing *w, part *parts, int count) {
-    const int common = w->nested ? commonest(w, parts, count) : -1;
-    int with = 0;
-    int sum = op_list_constant(w->made, 0.0);
-    for (int i = 0; i < count && common >= 0; i++) {
-        if (parts[i].power[common] > 0) {
-            const part first = parts[with];
-            parts[with] = parts[i];
-            parts[i] = first;
-            parts[with++].power[common]--;
-        }
-    }
-    if (with > 0) {
-        /* the powers in these parts are already lower by one */
-        const int inner = sum_up(w, parts, with);
-        sum = op_list_mul(w->made, symbol_of(w, common), inner);
-        return op_list_add(w->made, sum, sum_up(w, parts + with, count - with));
-    }
-    for (int i = 0; i < count; i++) {
-        sum = op_list_add(w->made, sum, product_of(w, &parts[i]));
-    }
-    return sum;
-}
-
-static int write_result(const tabling *t, const writing *w, int cell, int result, int at) {
+/* Returns the operation for a result. Its coefficients begin with number `at`. */
+static int write_result(const tabling *t, const op_list *list, lowering *l, int cell, int result,
+                        int at) {
     const product_sum *sum = &t->from->result[result];
-    const size_t powers = (size_t)t->from->symbols + 1U;
-    part *parts = alloc(sum->count, sizeof *parts);
-    unsigned char *power = alloc((int64_t)sum->count, powers);
+    node_product *all = alloc(sum->count, sizeof *all);
     int count = 0;
     for (int i = 0; i < sum->count; i++) {
         const coefficient *c = &t->coefficient[at + i];
-        if (c->kind != IS_NOTHING) {
-            const int factor = op_list_constant(w->made, c->factor);
-            part *p = &parts[count];
-            p->power = power + (size_t)count++ * powers;
-            memcpy(p->power, sum->product[i].power, (size_t)t->from->symbols);
-            p->coefficient =
-                c->kind == IS_CONSTANT
-                    ? factor
-                    : op_list_mul(w->made, factor, op_list_look_up(w->made, cell, c->table));
+        if (c->kind == IS_NOTHING) {
+            continue;
+        }
+        node_product *p = &all[count++];
+        p->coefficient = c->factor;
+        if (c->kind == IS_TABLE) {
+            lower_multiply(l, p, op_list_look_up(l->list, cell, c->table), 1);
+        }
+        for (int s = 0; s < t->from->symbols; s++) {
+            const op *o = &list->ops[t->from->symbol[s]];
+            if (sum->product[i].power[s] > 0) {
+                lower_multiply(l, p, op_list_leaf(l->list, o->code, o->a),
+                               sum->product[i].power[s]);
+            }
         }
     }
-    const int made = sum_up(w, parts, count);
-    free(parts);
-    free(power);
+    const int made = lower_sum(l, all, count);
+    free(all);
     return made;
 }
 
-static op_list *write_list(const tabling *t, const op_list *list, image_tables form, int bits,
-                           bool nested) {
+static op_list *write_list(const tabling *t, const op_list *list, image_tables form, int bits) {
     op_list *made = op_list_new(list->angles, list->results);
-    const writing w = {t->from, list, made, nested};
+    lowering l = {.list = made};
+    const table_functions functions = {t->from->coefficients, t->multiple, t->table};
     op_list_tables_new(made, t->tables, bits,
                        (int)(form == TABLES_CUBIC ? WH_TABLE_CUBIC : WH_TABLE_LINEAR));
     const int cell = op_list_cell(made, t->turns);
     int at = 0;
     for (int i = 0; i < list->results; i++) {
-        made->result[i] = write_result(t, &w, cell, i, at);
+        made->result[i] = write_result(t, list, &l, cell, i, at);
         at += t->from->result[i].count;
     }
+    lower_done(&l);
     op_list_prune(made);
+    table_numbers(&functions, &made->tables);
+    op_list_order(made);
     return made;
-}
-
-static op_list *cheaper(const tabling *t, const op_list *list, image_tables form, int bits) {
-    op_list *made[2];
-    for (int k = 0; k < 2; k++) {
-        made[k] = write_list(t, list, form, bits, k > 0);
-    }
-    const int taken = op_list_weight(made[1]) < op_list_weight(made[0]);
-    op_list_free(made[1 - taken]);
-    const table_functions functions = {t->from->coefficients, t->multiple, t->table};
-    table_numbers(&functions, &made[taken]->tables);
-    op_list_order(made[taken]);
-    return made[taken];
 }
 
 /* Turns the coefficients' list into the list that computes the tables' functions exactly. */
@@ -870,7 +796,7 @@ static op_list *make(tabling *t, const op_list *list, image_tables form, int bit
                -1);
         return NULL;
     }
-    op_list *made = cheaper(t, list, form, bits);
+    op_list *made = write_list(t, list, form, bits);
     *exact = take_exact(t);
     return made;
 }
