@@ -29,88 +29,21 @@ void noise_on_outputs(const equations *e, lowering *l, int *result) {
     }
 }
 
-/* Has the output of this record an active noise? */
-static bool is_noisy(const equations *e, const symbol *record) {
-    const mechanism *m = e->instance->mechanism;
+const poly *layout_recorded(const layout *map, const symbol *record) {
+    return layout_ready(map, poly_from_expr(map->equations->algebra, record->value));
+}
+
+/* Returns the operation for a recorded output: the output with its active noises. */
+static int record_leaf(const layout *map, const symbol *record) {
+    const mechanism *m = map->equations->instance->mechanism;
+    int node = lower(map->recording, layout_recorded(map, record));
     for (int k = 0; k < m->noise_count; k++) {
-        if (m->noises[k].record == record && instance_has(e->instance, m->noises[k].effect)) {
-            return true;
+        if (m->noises[k].record == record &&
+            instance_has(map->equations->instance, m->noises[k].effect)) {
+            node = with_noise(map->equations, map->recording, &m->noises[k], node);
         }
     }
-    return false;
-}
-
-typedef struct recording {
-    const equations *equations;
-    const conservation *conserved;
-} recording;
-
-/* Returns the output of a record, ready for a list. */
-static const poly *exact_output(const recording *r, const symbol *record) {
-    const equations *e = r->equations;
-    const poly *output = poly_from_expr(e->algebra, record->value);
-    return conservation_settle(e, r->conserved, equations_fold(e, output));
-}
-
-static const poly *quiet_record(void *context, algebra *a, const symbol *s, int primes) {
-    const recording *r = context;
-    (void)a;
-    (void)primes;
-    return s->kind == SYM_RECORD && !is_noisy(r->equations, s) ? exact_output(r, s) : NULL;
-}
-
-noise_records noise_records_find(const equations *e, const conservation *conserved,
-                                 const poly **wanted, int count) {
-    const mechanism *m = e->instance->mechanism;
-    recording of = {e, conserved};
-    noise_records r = {alloc(m->noise_count, sizeof(const poly *)),
-                       alloc(m->noise_count, sizeof(int)), 0};
-    for (int k = 0; k < m->noise_count; k++) {
-        const symbol *record = m->noises[k].record;
-        bool named = false;
-        for (int i = 0; i < count; i++) {
-            named = named || poly_contains(wanted[i], record, 0);
-        }
-        if (named && is_noisy(e, record)) {
-            r.exact[k] = exact_output(&of, record);
-            r.count++;
-        } else if (named) {
-            for (int i = 0; i < count; i++) {
-                wanted[i] = poly_substitute(e->algebra, wanted[i], quiet_record, &of);
-            }
-        }
-    }
-    return r;
-}
-
-void noise_records_lower(const equations *e, lowering *l, noise_records *r) {
-    const mechanism *m = e->instance->mechanism;
-    for (int k = 0; k < m->noise_count; k++) {
-        if (r->exact[k] == NULL) {
-            continue;
-        }
-        r->node[k] = lower(l, r->exact[k]);
-        for (int i = 0; i < m->noise_count; i++) {
-            if (m->noises[i].record == m->noises[k].record &&
-                instance_has(e->instance, m->noises[i].effect)) {
-                r->node[k] = with_noise(e, l, &m->noises[i], r->node[k]);
-            }
-        }
-    }
-}
-
-static int noise_record_node(const equations *e, const int *node, const symbol *record) {
-    const mechanism *m = e->instance->mechanism;
-    int k = 0;
-    while (m->noises[k].record != record) {
-        k++; /* every record belongs to a noise */
-    }
-    return node[k];
-}
-
-void noise_records_free(noise_records *r) {
-    free(r->exact);
-    free(r->node);
+    return node;
 }
 
 /* === the state ================================================================================ */
@@ -142,7 +75,7 @@ static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
         return input_leaf(map, t, s);
     }
     if (s->kind == SYM_RECORD) {
-        return noise_record_node(map->equations, map->record, s);
+        return record_leaf(map, s);
     }
     if (primes == map->equations->unknowns[s->index].order && map->highest != NULL) {
         return map->highest[s->index];

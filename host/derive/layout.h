@@ -14,21 +14,6 @@
  * take the place of outputs; measures get no noise. */
 void noise_on_outputs(const equations *e, lowering *l, int *result);
 
-/* Recorded outputs (SYM_RECORD), the inputs of measures. */
-typedef struct noise_records {
-    const poly **exact; /* [noise_count] the output without noise; NULL if no measure names it */
-    int *node;          /* [noise_count] operation of the output with its noise */
-    int count;          /* number of entries of exact[] that are not NULL */
-} noise_records;
-
-/* Replaces recorded outputs without active noise by their exact outputs in wanted[count], and finds the noisy ones.
- * Free with noise_records_free(). */
-noise_records noise_records_find(const equations *e, const conservation *conserved,
-                                 const poly **wanted, int count);
-/* Enters the recorded outputs. Call this before lowering the polys that contain them. */
-void noise_records_lower(const equations *e, lowering *l, noise_records *r);
-void noise_records_free(noise_records *r);
-
 typedef struct layout {
     const equations *equations;
     const conservation *conserved;
@@ -47,8 +32,8 @@ typedef struct layout {
     int order_room;
     /* while a list is entered: operations of the highest derivatives by unknown; else NULL */
     const int *highest;
-    /* while a list is entered: operations of recorded outputs; else NULL */
-    const int *record;
+    /* while a list with recorded outputs (SYM_RECORD, the inputs of measures) is entered; else NULL */
+    lowering *recording;
 } layout;
 
 /* Arranges the state. An angle that dynamics[count] contain only inside sines and cosines becomes a turn angle.
@@ -59,6 +44,9 @@ void layout_free(layout *map);
 
 /* Returns p ready for a list: folded, and without conserved coordinates. */
 const poly *layout_ready(const layout *map, const poly *p);
+
+/* Returns the output of a record without its noise, ready for a list. */
+const poly *layout_recorded(const layout *map, const symbol *record);
 
 /* Returns a lowering onto `t` that finds its leaves and turn angles by this layout. */
 lowering layout_lowering(layout *map, op_list *t);

@@ -559,16 +559,19 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     for (int i = 0; i < count; i++) {
         folded[i] = layout_ready(map, wanted[i]);
     }
-    noise_records recorded = noise_records_find(e, map->conserved, folded, count);
     int planned = count;
     for (int k = 0; k < e->instance->mechanism->noise_count; k++) {
-        if (recorded.exact[k] != NULL) {
-            folded[planned++] = recorded.exact[k];
+        const symbol *record = e->instance->mechanism->noises[k].record;
+        bool named = false;
+        for (int i = 0; i < count; i++) {
+            named = named || poly_contains(folded[i], record, 0);
+        }
+        if (named) {
+            folded[planned++] = layout_recorded(map, record);
         }
     }
     lower_plan(&l, folded, planned);
-    noise_records_lower(e, &l, &recorded);
-    map->record = recorded.node;
+    map->recording = &l;
     for (int i = 0; i < count; i++) {
         t->result[first + i] = lower(&l, folded[i]);
     }
@@ -577,8 +580,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     }
     lower_done(&l);
     map->highest = NULL;
-    map->record = NULL;
-    noise_records_free(&recorded);
+    map->recording = NULL;
     free(highest);
     free(folded);
     op_list_prune(t);
