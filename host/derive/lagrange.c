@@ -253,7 +253,7 @@ static const term *negative_part(const equations *e, int *most) {
 }
 
 static void report_singular(const equations *e, diags *errors) {
-    char hint[HINT_SIZE] = "give it a mass or an inertia, or remove the coordinate";
+    char hint[HINT_SIZE];
     const int n = e->count;
     if (e->instance->mechanism->is_system) {
         report_singular_system(e, errors);
@@ -267,37 +267,32 @@ static void report_singular(const equations *e, diags *errors) {
                    e->instance->mechanism->name);
         return;
     }
-    for (int i = 0; i < n; i++) {
-        if (row_is_empty(e, i)) {
-            const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
-            if (giver != NULL) {
-                snprintf(
-                    hint, sizeof hint,
-                    "the effect '%.60s' adds an inertia: write `with %.60s` in the scene, or add "
-                    "--with %.60s",
-                    giver, giver, giver);
-            }
-            diag_error(errors, e->unknowns[i].symbol->at, hint,
-                       "singular mass matrix: the kinetic energy does not contain %s'",
-                       e->unknowns[i].symbol->name);
-            return;
-        }
+    int empty = 0;
+    while (empty < n && !row_is_empty(e, empty)) {
+        empty++;
     }
-    snprintf(hint, sizeof hint,
-             "two coordinates may describe the same motion, or a mass may be zero");
-    for (int i = 0; i < n; i++) {
-        const char *giver = effect_with_inertia(e, e->unknowns[i].symbol);
-        if (giver != NULL) {
-            snprintf(
-                hint, sizeof hint,
-                "the effect '%.60s' adds kinetic energy, but is not selected: write `with %.60s` "
-                "in the scene, or add --with %.60s",
-                giver, giver, giver);
-            break;
-        }
+    const symbol *without = empty < n ? e->unknowns[empty].symbol : NULL;
+    const char *giver = NULL;
+    for (int i = 0; i < n && giver == NULL; i++) {
+        giver =
+            without == NULL || i == empty ? effect_with_inertia(e, e->unknowns[i].symbol) : NULL;
+    }
+    if (giver != NULL) {
+        snprintf(hint, sizeof hint,
+                 "the effect '%.60s' adds an inertia: write `with %.60s` in the scene, or add "
+                 "--with %.60s",
+                 giver, giver, giver);
+    }
+    if (without != NULL) {
+        diag_error(errors, without->at,
+                   giver != NULL ? hint : "give it a mass or an inertia, or remove the coordinate",
+                   "singular mass matrix: the kinetic energy does not contain %s'", without->name);
+        return;
     }
     diag_error(
-        errors, e->instance->mechanism->at, hint,
+        errors, e->instance->mechanism->at,
+        giver != NULL ? hint
+                      : "two coordinates may describe the same motion, or a mass may be zero",
         "singular mass matrix: '%s' cannot be solved for its accelerations at any state tried",
         e->instance->mechanism->name);
 }
