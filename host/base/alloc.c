@@ -115,9 +115,7 @@ static size_t bytes_of(int64_t count, size_t size) {
 }
 
 void *alloc(int64_t count, size_t size) {
-    /* calloc() checks the product for overflow */
-    void *made = count > 0 && (uint64_t)count <= SIZE_MAX ? calloc((size_t)count, size)
-                                                          : calloc(bytes_of(count, size), 1);
+    void *made = calloc(bytes_of(count, size), 1);
     if (made == NULL) {
         alloc_none();
     }

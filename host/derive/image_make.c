@@ -158,42 +158,36 @@ static const char *primed_name(image_draft *d, const char *name, int primes) {
     return image_text(d, text);
 }
 
+/* Returns the range of a symbol's derivative, or one that is not declared. */
+static image_range range_of(image_draft *d, const instance *inst, const char *name, place at,
+                            const symbol *s, int primes) {
+    image_range made = {.name = name, .at = at};
+    for (int k = 0; k < inst->range_count; k++) {
+        const range_value *r = &inst->range[k];
+        if (r->symbol == s && r->primes == primes) {
+            made = (image_range){name, image_place(d, r->at), true, r->low, r->high};
+        }
+    }
+    return made;
+}
+
 /* Copies the declared ranges of components and inputs, which fixed point uses. */
 static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
     image *im = d->made;
     const instance *inst = e->instance;
     im->range = image_room(d, im->reals + im->inputs, sizeof *im->range);
-    for (int i = 0; i < im->reals; i++) {
-        const component c = im->real[i];
+    im->angle_range = image_room(d, im->angles, sizeof *im->angle_range);
+    for (int i = 0; i < im->reals + im->angles; i++) {
+        const bool real = i < im->reals;
+        const component c = real ? im->real[i] : im->angle[i - im->reals];
         const image_unknown *u = &im->unknown[c.unknown];
-        im->range[i].name = primed_name(d, u->name, c.primes);
-        im->range[i].at = u->at;
+        *(real ? &im->range[i] : &im->angle_range[i - im->reals]) =
+            range_of(d, inst, primed_name(d, u->name, c.primes), u->at,
+                     e->unknowns[c.unknown].symbol, c.primes);
     }
     for (int i = 0; i < im->inputs; i++) {
-        im->range[im->reals + i].name = im->input[i].name;
-        im->range[im->reals + i].at = im->input[i].at;
-    }
-    im->angle_range = image_room(d, im->angles, sizeof *im->angle_range);
-    for (int i = 0; i < im->angles; i++) {
-        im->angle_range[i].name = im->unknown[im->angle[i].unknown].name;
-    }
-    for (int k = 0; k < inst->range_count; k++) {
-        const range_value *r = &inst->range[k];
-        for (int i = 0; i < im->angles; i++) {
-            if (e->unknowns[im->angle[i].unknown].symbol == r->symbol && r->primes == 0) {
-                im->angle_range[i] = (image_range){im->angle_range[i].name, image_place(d, r->at),
-                                                   true, r->low, r->high};
-            }
-        }
-        for (int i = 0; i < im->reals + im->inputs; i++) {
-            const bool real = i < im->reals;
-            const symbol *s = real ? e->unknowns[im->real[i].unknown].symbol
-                                   : inst->mechanism->inputs[map->input[i - im->reals]];
-            if (s == r->symbol && r->primes == (real ? im->real[i].primes : 0)) {
-                im->range[i] =
-                    (image_range){im->range[i].name, image_place(d, r->at), true, r->low, r->high};
-            }
-        }
+        im->range[im->reals + i] = range_of(d, inst, im->input[i].name, im->input[i].at,
+                                            inst->mechanism->inputs[map->input[i]], 0);
     }
 }
 

@@ -592,11 +592,6 @@ static void find_phase(tabling *t) {
         }
     }
     const int k = leading(t->turns, c->angles);
-    if (!found) {
-        refuse(t->why, "depend on no turn angle: there is nothing to look up", "leave out --tables",
-               -1);
-        return;
-    }
     for (int i = 0; i < c->count; i++) {
         t->multiple[i] = op_list_is_wave(&c->ops[i]) ? c->ops[i].turns[k] / t->turns[k] : 0;
     }
