@@ -369,16 +369,11 @@ static bool may_be_part(const lowering *l, int part, const poly *angle) {
 
 /* Finds a rule that computes `angle` from two known angles. Returns false if there is none. */
 static bool rule_for(lowering *l, const poly *angle, wave *w) {
-    int longest = 0;
-    for (int i = 0; i < l->wave_count; i++) {
-        longest = l->waves[i].angle->count > longest ? l->waves[i].angle->count : longest;
-    }
     for (int i = 0; i < l->wave_count && i < PARTS_MAX; i++) {
         bool flipped;
         const poly *rest = poly_sub(l->algebra, angle, l->waves[i].angle);
         double number;
-        if (poly_is_number(rest, &number) || rest->count > longest) {
-            /* no help: the angles differ only by a constant, or the rest is longer than any known angle */
+        if (poly_is_number(rest, &number)) { /* no help: the angles differ only by a constant */
             continue;
         }
         rest = upright(l, rest, &flipped);

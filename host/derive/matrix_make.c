@@ -313,7 +313,7 @@ static void drop_least(twofold *step, int states, int columns) {
 /* On entry, step[states * columns] has the rates A | B | c times the step. On return, it has exp([A B c; 0 0 0] h) -
  * 1 without its lower rows: the change of the states in one step. The method is scaling and squaring of the
  * exponential minus one, which keeps the digits of small changes (Moler & Van Loan, Nineteen Dubious Ways to Compute
- * the Exponential of a Matrix, method 3). The matrix is balanced first. Returns false if a number overflows, or if
+ * the Exponential of a Matrix, method 3). The matrix is balanced first. Returns false if
  * the scaled steps are so small that digits would be lost; step[] is then invalid. */
 static bool exponential_exact(twofold *step, int states, int columns) {
     const int count = states * columns;
@@ -339,9 +339,6 @@ static bool exponential_exact(twofold *step, int states, int columns) {
     drop_least(step, states, columns);
     for (int i = 0; i < states; i++) {
         in_units(step, i, 1.0 / unit[i], states, columns);
-    }
-    for (int i = 0; i < count; i++) {
-        good = good && double_double_is_finite(step[i]);
     }
     free(unit);
     free(square);
