@@ -11,21 +11,18 @@
 #include "host/number/gauss.h"
 
 /* === the null space =========================================================================== */
-/* The null space of many linear conditions is found by Gauss elimination of their triangular factor. */
+/* The null space of many linear conditions is found by Gauss elimination. */
 
-/* The triangular factor of all conditions so far. */
+/* Conditions row . v = 0, with rows of length 1. Without any, `row` is NULL. The owner frees it. */
 typedef struct conditions {
     int columns;
-    double *r; /* [columns * columns] */
+    int count;
+    double *row; /* [count * columns] */
 } conditions;
 
-/* Entries of a symmetry below this are round-off. So is the rest of one that depends on others. */
+/* Entries of a symmetry differ from whole numbers by less than this only by round-off. So does one that depends on
+ * others from their sum. */
 #define NULL_SPACE_ROUNDING 1e-8
-
-/* Returns an empty set of conditions. The caller frees r. */
-static conditions conditions_none(int columns) {
-    return (conditions){columns, alloc((int64_t)columns * columns, sizeof(double))};
-}
 
 static double vector_length(const double *row, int columns) {
     double most = 0.0;
@@ -39,43 +36,22 @@ static double vector_length(const double *row, int columns) {
     return most * number_root(sum);
 }
 
-/* Adds a row to the factor by Givens rotations. The row is destroyed. */
-static void rotate_in(conditions *c, double *row) {
-    const int n = c->columns;
-    for (int k = 0; k < n; k++) {
-        double *above = &c->r[k * n];
-        const double size = number_root(above[k] * above[k] + row[k] * row[k]);
-        if (size > 0.0) {
-            const double cosine = above[k] / size;
-            const double sine = row[k] / size;
-            for (int j = k; j < n; j++) {
-                const double old = above[j];
-                above[j] = cosine * old + sine * row[j];
-                row[j] = cosine * row[j] - sine * old;
-            }
-        }
-    }
-}
-
-/* Adds the condition row . v = 0, scaled to length 1. The row is destroyed. */
-static void conditions_take(conditions *c, double *row) {
+/* Adds a condition, with its row scaled to length 1. */
+static void conditions_take(conditions *c, const double *row) {
     const double length = vector_length(row, c->columns);
-    for (int k = 0; k < c->columns && length > 0.0; k++) {
-        row[k] /= length;
+    if (length > 0.0) {
+        const int64_t before = (int64_t)c->count++ * c->columns;
+        c->row = alloc_more(c->row, before + c->columns, sizeof *c->row);
+        for (int k = 0; k < c->columns; k++) {
+            c->row[before + k] = row[k] / length;
+        }
     }
-    rotate_in(c, row);
 }
 
-/* Adds all conditions of `more` without scaling, because small rows are only round-off. */
 static void conditions_add(conditions *c, const conditions *more) {
-    double *row = alloc(c->columns, sizeof *row);
-    for (int i = 0; i < c->columns; i++) {
-        for (int k = 0; k < c->columns; k++) {
-            row[k] = more->r[i * c->columns + k];
-        }
-        rotate_in(c, row);
+    for (int i = 0; i < more->count; i++) {
+        conditions_take(c, &more->row[(ptrdiff_t)i * c->columns]);
     }
-    free(row);
 }
 
 /* Finds independent vectors that meet all conditions, as rows of basis[columns * columns], and returns their number.
@@ -83,15 +59,16 @@ static void conditions_add(conditions *c, const conditions *more) {
  * below `zero` times the largest entry. */
 static int null_space(const conditions *c, double zero, double *basis) {
     const int n = c->columns;
-    double *m = alloc((int64_t)n * n, sizeof *m);
+    const int64_t entries = (int64_t)c->count * n;
+    double *m = alloc(entries, sizeof *m);
     int *lead = alloc(n, sizeof *lead);
     double most = 0.0;
     int count = 0;
-    for (int i = 0; i < n * n; i++) {
-        m[i] = c->r[i];
+    for (int64_t i = 0; i < entries; i++) {
+        m[i] = c->row[i];
         most = number_most(most, fabs(m[i]));
     }
-    int pivots = gauss_reduce(m, n, n, n, false, zero * most, lead);
+    int pivots = gauss_reduce(m, c->count, n, n, false, zero * most, lead);
     for (int k = n - 1; k >= 0; k--) {
         if (pivots > 0 && lead[pivots - 1] == k) {
             pivots--;
@@ -103,7 +80,8 @@ static int null_space(const conditions *c, double zero, double *basis) {
         }
         for (int i = 0; i < pivots; i++) { /* the pivots before column k */
             const double entry = -m[i * n + k] / m[i * n + lead[i]];
-            v[lead[i]] = fabs(entry) > NULL_SPACE_ROUNDING ? entry : 0.0;
+            const double whole = number_nearest(entry);
+            v[lead[i]] = fabs(entry - whole) > NULL_SPACE_ROUNDING ? entry : whole;
         }
     }
     free(lead);
@@ -273,7 +251,7 @@ static double drawn_value(void *context, const symbol *s, int primes) {
  * state has a finite value. */
 static int count_by_values(const equations *e, const poly *const *change) {
     const int columns = columns_of(e);
-    conditions of_values = conditions_none(columns);
+    conditions of_values = {.columns = columns};
     double *row = alloc(columns, sizeof *row);
     double *basis = alloc((int64_t)columns * columns, sizeof *basis);
     uint64_t seed = 1;
@@ -294,7 +272,7 @@ static int count_by_values(const equations *e, const poly *const *change) {
     const int count = good ? null_space(&of_values, ZERO_OF_VALUES, basis) : -1;
     free(basis);
     free(row);
-    free(of_values.r);
+    free(of_values.row);
     return count;
 }
 
@@ -403,8 +381,8 @@ symmetries *symmetries_find(const equations *e) {
     const int64_t square = (int64_t)columns * columns;
     const poly **change = alloc(columns, sizeof *change);
     const poly *const energy[] = {equations_fold(e, e->kinetic), equations_fold(e, e->stored)};
-    conditions of[] = {conditions_none(columns), conditions_none(columns)}; /* of T, of V */
-    conditions of_forces = conditions_none(columns);
+    conditions of[] = {{.columns = columns}, {.columns = columns}}; /* of T, of V */
+    conditions of_forces = {.columns = columns};
     symmetries *found = alloc(1, sizeof *found);
     *found = (symmetries){
         .each = alloc(columns, sizeof *found->each), .complete = true, .flat = is_flat(e)};
@@ -430,9 +408,9 @@ symmetries *symmetries_find(const equations *e) {
     found->broken = of_kinetic - f.count;
     free(f.basis);
     free(f.known);
-    free(of_forces.r);
-    free(of[1].r);
-    free(of[0].r);
+    free(of_forces.row);
+    free(of[1].row);
+    free(of[0].row);
     free(change);
     if (algebra_overflow(a)) {
         symmetries_free(found);
