@@ -212,7 +212,7 @@ static operator_step run(const wh_rig_config *config) {
     uint32_t due = started;
     operator_step operator_at =
         hal_reset_cause() == HAL_RESET_POWER_ON ? WAITS_FOR_REST : WAS_RESET;
-    trip_memory_start(&memory, config, &rig, started);
+    trip_memory_start(&kept_trip, config, &rig, started);
     unsigned shown = wh_rig_shown_stage(&rig);
     put_state(started);
     tell();

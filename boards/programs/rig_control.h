@@ -35,6 +35,16 @@
 #include "hal/frames/rig_frames.h"
 #endif
 
+/* The begin and the end of a step's work, after its readings and before its outputs. A program that counts this work
+ * defines both. */
+#if HAL_FRAMES
+#define STEP_BEGINS() hal_frames_step_begins()
+#define STEP_ENDS() hal_frames_step_ends()
+#elif !defined(STEP_BEGINS)
+#define STEP_BEGINS() ((void)0)
+#define STEP_ENDS() ((void)0)
+#endif
+
 _Static_assert(HAL_TICKS_PER_S == WH_RIG_TICKS_PER_S, "one clock");
 _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
                    (int)HAL_LOAD_DISCONNECTED == (int)WH_LOAD_DISCONNECTED &&
@@ -57,9 +67,9 @@ _Static_assert(RIG_SAMPLES_MOST <= WH_STEP_SAMPLES, "all are seen");
 
 /* Static and not on the stack, because it contains the samples of a turn. */
 static wh_rig rig;
-static trip_memory memory;
-static wh_step_inputs seen; /* the inputs of the last control step */
-static bool drives;         /* true if the last command drove the motor (obey.h) */
+static wh_trip_record kept_trip; /* trip_memory.h */
+static wh_step_inputs seen;      /* the inputs of the last control step */
+static bool drives;              /* true if the last command drove the motor (obey.h) */
 
 /* Reads new edges and samples into `seen`, as many as one step may process. */
 static void look(void) {
@@ -100,9 +110,7 @@ static void look(void) {
 /* Does a control step. It is a separate function, so that its stack is free again when the console runs. */
 WH_CALLED static void control(const wh_rig_config *config) {
     look();
-#if HAL_FRAMES
-    hal_frames_step_begins();
-#endif
+    STEP_BEGINS();
     if (seen.pulsed) {
         wh_rig_pulse(config, &rig, seen.sensor, seen.pulse_ticks);
     }
@@ -111,11 +119,9 @@ WH_CALLED static void control(const wh_rig_config *config) {
         wh_rig_load(config, &rig, sample->ticks, sample->raw, sample->status);
     }
     const wh_rig_command command = wh_rig_step(config, &rig, &seen.inputs);
-#if HAL_FRAMES
-    hal_frames_step_ends();
-#endif
+    STEP_ENDS();
     obey(&command, &drives);
-    trip_memory_keep(&memory, &rig);
+    trip_memory_keep(&kept_trip, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
     /* Also kicked after a trip: a watchdog that resets would restart everything. */
     hal_watchdog_kick();

@@ -85,7 +85,7 @@ int main(void) {
 #if HAL_VIRTUAL
     uint32_t paced = board_ticks();
 #endif
-    trip_memory_start(&memory, &config, &rig, due);
+    trip_memory_start(&kept_trip, &config, &rig, due);
     tell_reset();
     wh_station_start(&station, "rig", board_name, HAL_TICKS_PER_S / CONTROL_TICKS);
     station.conf = &conf;

@@ -10,25 +10,21 @@
 
 _Static_assert(WH_TRIP_RECORD_BYTES <= HAL_REMEMBER_BYTES, "it is remembered whole");
 
-/* The copy of the record that a reset would find. */
-typedef struct trip_memory {
-    wh_trip_record record;
-} trip_memory;
-
-/* Does what wh_rig_start() does, with the remembered record: the rig starts idle, or tripped as before the reset. */
-static inline void trip_memory_start(trip_memory *memory, const wh_rig_config *config, wh_rig *rig,
+/* Does what wh_rig_start() does, with the remembered record: the rig starts idle, or tripped as before the reset. *kept
+ * is a copy of the record that a reset would find. */
+static inline void trip_memory_start(wh_trip_record *kept, const wh_rig_config *config, wh_rig *rig,
                                      uint32_t now_ticks) {
     uint8_t bytes[HAL_REMEMBER_BYTES];
-    const bool tripped = wh_trip_record_get(&memory->record, bytes, hal_recall(bytes));
-    wh_rig_start(config, rig, now_ticks, tripped ? &memory->record : NULL);
+    const bool tripped = wh_trip_record_get(kept, bytes, hal_recall(bytes));
+    wh_rig_start(config, rig, now_ticks, tripped ? kept : NULL);
 }
 
 /* Call this after each control step. */
-static inline void trip_memory_keep(trip_memory *memory, const wh_rig *rig) {
+static inline void trip_memory_keep(wh_trip_record *kept, const wh_rig *rig) {
     const wh_trip_record *record = &rig->record;
-    if (record->trip != memory->record.trip || record->ticks != memory->record.ticks) {
+    if (record->trip != kept->trip || record->ticks != kept->ticks) {
         uint8_t bytes[WH_TRIP_RECORD_BYTES];
-        memory->record = *record;
+        *kept = *record;
         wh_trip_record_put(record, bytes);
         hal_remember(bytes, record->trip != WH_TRIP_NONE ? (unsigned)sizeof bytes : 0U);
     }

@@ -63,7 +63,7 @@ void plant_reset(on_plant *on, hal_reset cause) {
     on->rig = (wh_rig){.state = WH_RIG_ARMED,
                        /* any phase, because real memory is not zeroed either */
                        .run.phase = WH_PHASE_RECORD};
-    on->memory = (trip_memory){.record.trip = WH_TRIP_NONE};
+    on->memory = (wh_trip_record){.trip = WH_TRIP_NONE};
     begin_control(on);
 }
 
@@ -78,7 +78,7 @@ void plant_start(on_plant *on) {
     scattered_state = UINT64_C(0x5eed0041);
     on->fastest_radps = 0.0f;
     on->noise_N = 0.0f;
-    on->memory = (trip_memory){.record.trip = WH_TRIP_NONE};
+    on->memory = (wh_trip_record){.trip = WH_TRIP_NONE};
     begin_control(on);
     for (unsigned i = 0; i < 1000U && !on->rig.guard.quiet; i++) {
         plant_control(on);

@@ -25,7 +25,7 @@ typedef struct on_plant {
     wh_rig_config config;
     wh_rig_command command;
     bool drives; /* the last command drove the motor (obey.h) */
-    trip_memory memory;
+    wh_trip_record memory;
     float fastest_radps; /* the largest true speed of the rotor, not the measured one */
     float noise_N;       /* standard deviation of the noise added to each sample */
 } on_plant;
