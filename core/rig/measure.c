@@ -70,26 +70,37 @@ static void repeats_piece(wh_measure *measure) {
     measure->due--;
 }
 
-static WH_CALLED void merge_piece(const wh_measure_config *config, wh_measure *measure) {
-    if (measure->due > MERGE_PIECES) {
-        repeats_piece(measure);
-        return;
-    }
+/* The means and the scatter are one piece, the half-widths another, unless pieces must be small. */
+#define HALF_WIDTHS 4U
+
+static void mean_pieces(const wh_measure_config *config, wh_measure *measure) {
     wh_measured *force = &measure->result.force;
-    const wh_turn_angle *angle = &measure->lockin.angle;
-    const bool begins = measure->due == MERGE_PIECES;
-    if (measure->due == 1U) {
-        wh_merge_judge(&config->result, &config->rotor, &measure->merge, angle, force);
-    } else if (measure->due == 2U) {
-        wh_merge_compare(&config->rotor, &measure->merge, angle, force);
-    } else {
-        wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge, angle,
-                            measure->tare.mean_N, force, MERGE_PIECES - measure->due);
-        if (begins) {
+    unsigned piece = MERGE_PIECES - measure->due;
+    do {
+        wh_merge_mean_piece(&config->result, &config->rotor, &measure->merge,
+                            &measure->lockin.angle, measure->tare.mean_N, force, piece);
+        if (piece == 0) {
             force->left_out += measure->lockin.skipped - measure->skipped_before;
         }
+        piece++;
+    } while (!WH_RIG_SMALL_PIECES && piece != HALF_WIDTHS && piece != WH_MERGE_MEAN_PIECES);
+    measure->due = (uint8_t)(MERGE_PIECES - piece);
+}
+
+static WH_CALLED void merge_piece(const wh_measure_config *config, wh_measure *measure) {
+    wh_measured *force = &measure->result.force;
+    const wh_turn_angle *angle = &measure->lockin.angle;
+    if (measure->due > MERGE_PIECES) {
+        repeats_piece(measure);
+    } else if (measure->due > 2U) {
+        mean_pieces(config, measure);
+    } else if (measure->due == 2U) {
+        wh_merge_compare(&config->rotor, &measure->merge, angle, force);
+        measure->due--;
+    } else {
+        wh_merge_judge(&config->result, &config->rotor, &measure->merge, angle, force);
+        measure->due--;
     }
-    measure->due--;
 }
 
 static WH_CALLED void add_turn(const wh_measure_config *config, wh_measure *measure) {

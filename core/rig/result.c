@@ -188,7 +188,7 @@ WH_INLINE bool has_halves(const wh_merge *merge, wh_real size2) {
     return merge->turns >= 2U && size2 > WH_R(0.0);
 }
 
-WH_INLINE wh_real t2_of(const wh_merge *merge) {
+static wh_real t2_of(const wh_merge *merge) {
     const wh_real student = wh_student(merge->turns - 1U);
     return student * student;
 }
@@ -257,10 +257,9 @@ WH_INLINE void phase_half(const wh_result_config *config, const wh_merge *merge,
         square_of(floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD)));
 }
 
-/* Does a small piece of wh_merge_mean(). */
-static void small_piece(const wh_result_config *config, const wh_rotor_config *rotor,
-                        const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
-                        wh_measured *measured, unsigned piece) {
+void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
+                         const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
+                         wh_measured *measured, unsigned piece) {
     if (piece == 0) {
         begin_mean(merge, angle, tare_N, measured);
         measured->phase_rad = wh_polar_begin(merge->in_phase_N, -merge->quadrature_N);
@@ -291,20 +290,6 @@ static void small_piece(const wh_result_config *config, const wh_rotor_config *r
         amplitude_half(config, rotor, merge, angle, size2, &by, measured);
     } else {
         phase_half(config, merge, angle, size2, t2_of(merge), &by, measured);
-    }
-}
-
-void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
-                         const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
-                         wh_measured *measured, unsigned piece) {
-    unsigned first = piece;
-    unsigned behind = piece + 1U;
-    if (!WH_RIG_SMALL_PIECES) { /* there are two pieces: the means and the scatter, the half-widths */
-        first = piece == 0 ? 0U : 4U;
-        behind = piece == 0 ? 4U : 6U;
-    }
-    for (unsigned i = first; i < behind; i++) {
-        small_piece(config, rotor, merge, angle, tare_N, measured, i);
     }
 }
 

@@ -153,7 +153,7 @@ void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
                    const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                    wh_measured *measured);
 
-#define WH_MERGE_MEAN_PIECES (WH_RIG_SMALL_PIECES ? 6U : 2U)
+#define WH_MERGE_MEAN_PIECES 6U
 /* wh_merge_mean() in pieces. Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete
  * until the last piece. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
