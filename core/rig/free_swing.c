@@ -32,7 +32,7 @@ static void keep(wh_swing *swing, unsigned sensor, uint32_t ticks) {
 }
 
 WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) {
-    if (swing->result.why != WH_SWING_SWINGS || sensor >= WH_RIG_SENSORS) {
+    if (swing->result.why != WH_SWING_SWINGS) {
         return;
     }
     /* If a sensor fires twice in succession, the rotor passes it the second time in the opposite direction. */

@@ -98,9 +98,6 @@ WH_CALLED void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard
     if (guard->quiet) { /* the times of old pulses may have wrapped */
         *off = (wh_off){.released = off->released};
     }
-    if (sensor >= WH_RIG_SENSORS) {
-        return;
-    }
     struct wh_off_turns *of = &off->of[sensor];
     const uint32_t turn_ticks = ticks - of->ticks;
     if (of->seen && turn_ticks < BOUNCE_TICKS) {

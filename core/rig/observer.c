@@ -162,7 +162,7 @@ static void correct(const wh_observer_config *config, wh_observer *observer, uns
 
 WH_CALLED void wh_observer_pulse(const wh_observer_config *config, wh_observer *observer,
                                  unsigned sensor, uint32_t ticks) {
-    if (observer->status != WH_OK || sensor >= WH_RIG_SENSORS) {
+    if (observer->status != WH_OK) {
         return;
     }
     if (observer->runs) {

@@ -255,7 +255,7 @@ void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *runn
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks) {
     static const wh_real moved_rad[] = {WH_R(0.75) * WH_RIG_TWO_PI, WH_R(0.25) * WH_RIG_TWO_PI};
-    if (!pulses->speed.running || sensor >= WH_RIG_SENSORS) {
+    if (!pulses->speed.running) {
         return;
     }
     /* This is also true if a suspect came between the last pulse and this one. */

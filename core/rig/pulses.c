@@ -168,10 +168,6 @@ static void compare(wh_pulses *pulses, const wh_pulse *pulse, wh_real turn) {
 
 void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     const wh_pulse pulse = {.ticks = ticks, .sensor = sensor};
-    if (sensor >= WH_RIG_SENSORS) {
-        reject(pulses, 0);
-        return;
-    }
     if (pulses->suspects) {
         decide(pulses, &pulse);
         return;

@@ -54,6 +54,10 @@ static bool brakes(const wh_rig *rig) {
 }
 
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks) {
+    if (sensor >= WH_RIG_SENSORS) {
+        rig->pulses.rejected++;
+        return;
+    }
     rig->pulses_ever++;
     rig->busy = true;
     rig->decides = rig->decides || rig->pulses.suspects;
@@ -63,12 +67,10 @@ void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uin
         wh_pulse_window_off(&rig->run, &rig->pulses, !open, sensor, ticks);
     }
     wh_pulse_window_set(&config->guard, &config->run, &rig->run, &rig->pulses, open, ticks);
-    if (sensor < WH_RIG_SENSORS) {
-        rig->heard_ticks[sensor][1] = rig->heard_ticks[sensor][0];
-        rig->heard_ticks[sensor][0] = ticks;
-        if (rig->run.phase == WH_PHASE_TARE) {
-            rig->run.tare_pulses[sensor]++;
-        }
+    rig->heard_ticks[sensor][1] = rig->heard_ticks[sensor][0];
+    rig->heard_ticks[sensor][0] = ticks;
+    if (rig->run.phase == WH_PHASE_TARE) {
+        rig->run.tare_pulses[sensor]++;
     }
     wh_pulses_take(&rig->pulses, sensor, ticks);
     if (WH_RIG_SWINGS && !wh_run_drives(&rig->run)) {

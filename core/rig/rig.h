@@ -203,7 +203,7 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
  * rig->answer is the answer. */
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value);
 
-/* Take a slot pulse of sensor 0 or 1, captured at `ticks`. */
+/* Take a slot pulse of sensor 0 or 1, captured at `ticks`. A pulse of another sensor only counts as rejected. */
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks);
 
 /* Take a load sample from the hardware: its counts, their time stamp `ticks`, and their status. */

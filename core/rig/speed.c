@@ -60,7 +60,7 @@ static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
 }
 
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks) {
-    if (sensor >= WH_RIG_SENSORS || (speed->running && !go_on(speed, sensor, ticks))) {
+    if (speed->running && !go_on(speed, sensor, ticks)) {
         speed->rejected++;
         return false;
     }

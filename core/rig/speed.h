@@ -31,7 +31,7 @@ typedef struct wh_speed {
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
 
 /* Process a pulse of `sensor` (0 or 1) captured at `ticks`, in the order of time. Returns false if the pulse is
- * rejected: it would need a speed above impossible_radps, or there is no such sensor.
+ * rejected, because it would need a speed above impossible_radps.
  *
  * One lost pulse is bridged. A pulse that is more than a quarter turn later than the speed predicts comes after a gap.
  * Two lost pulses are counted, and the measurement restarts. The last speed stays valid until another whole turn is

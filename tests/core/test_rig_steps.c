@@ -118,6 +118,17 @@ TEST(rig_steps, every_state_and_reason_has_words_of_its_own) {
     check_words(trip_text, (int)WH_TRIP_UNBRAKED);
 }
 
+TEST(rig_steps, a_pulse_of_no_sensor_is_only_rejected) {
+    stand_in(WH_PHASE_SETTLE);
+    const wh_rig before = rig;
+    for (unsigned sensor = WH_RIG_SENSORS; sensor < 260U; sensor++) {
+        wh_rig_pulse(&config, &rig, sensor, inputs.now_ticks);
+    }
+    TEST_ASSERT_EQUAL_UINT32(before.pulses.rejected + 258U, rig.pulses.rejected);
+    rig.pulses.rejected = before.pulses.rejected;
+    TEST_ASSERT_EQUAL_MEMORY(&before, &rig, sizeof rig);
+}
+
 TEST(rig_steps, the_tare_takes_its_samples) {
     begin();
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */

@@ -67,9 +67,6 @@ static void give(const story *of, unsigned lost) {
         if (i != lost) {
             wh_swing_pulse(&swing, of->sensor[i], of->ticks[i]);
         }
-        if (draw_one_in(&seed, 8)) { /* a pulse of a sensor that does not exist */
-            wh_swing_pulse(&swing, WH_RIG_SENSORS + draw_one_of(&seed, 5), of->ticks[i] + 500U);
-        }
     }
 }
 
