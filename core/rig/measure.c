@@ -70,8 +70,8 @@ static void repeats_piece(wh_measure *measure) {
     measure->due--;
 }
 
-/* The means and the scatter are one piece, the half-widths another, unless pieces must be small. */
-#define HALF_WIDTHS 4U
+/* The means are one piece, the scatter and the half-widths another, unless pieces must be small. */
+#define SCATTER 3U
 
 static void mean_pieces(const wh_measure_config *config, wh_measure *measure) {
     wh_measured *force = &measure->result.force;
@@ -83,7 +83,7 @@ static void mean_pieces(const wh_measure_config *config, wh_measure *measure) {
             force->left_out += measure->lockin.skipped - measure->skipped_before;
         }
         piece++;
-    } while (!WH_RIG_SMALL_PIECES && piece != HALF_WIDTHS && piece != WH_MERGE_MEAN_PIECES);
+    } while (!WH_RIG_SMALL_PIECES && piece != SCATTER && piece != WH_MERGE_MEAN_PIECES);
     measure->due = (uint8_t)(MERGE_PIECES - piece);
 }
 
