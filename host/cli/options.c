@@ -95,21 +95,14 @@ void options_usage(FILE *out, const command_usage *usage) {
     }
 }
 
-bool options_wants_help(int count, char **words) {
+bool options_help(int count, char **words, const command_usage *usage) {
     for (int i = 0; i < count; i++) {
         if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0) {
+            options_usage(stdout, usage);
             return true;
         }
     }
     return false;
-}
-
-bool options_help(int count, char **words, const command_usage *usage) {
-    const bool wanted = options_wants_help(count, words);
-    if (wanted) {
-        options_usage(stdout, usage);
-    }
-    return wanted;
 }
 
 bool options_is(const char *word, const char *name) {

@@ -82,9 +82,6 @@ void options_usage(FILE *out, const command_usage *usage);
 /* A row of a help text: an option, its value ("" without one) and its description. */
 void options_describe(FILE *out, const char *word, const char *value, const char *text);
 
-/* Is --help or -h among the words? */
-bool options_wants_help(int count, char **words);
-
 /* If --help or -h is among the words, print `usage` and return true. */
 bool options_help(int count, char **words, const command_usage *usage);
 

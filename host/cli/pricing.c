@@ -28,7 +28,7 @@ typedef struct pricing_command {
     unsigned bit;       /* PRICING_PRICE or PRICING_CHOOSE */
     const char *head;   /* head of the help text */
     const char *failed; /* why the command's exit status may be 1 */
-    int (*run)(pricing *p);
+    int (*work)(void *options);
 } pricing_command;
 
 typedef struct pricing_row {
@@ -49,62 +49,37 @@ pricing pricing_defaults(const char *command, int word_count) {
                      .vary = alloc(word_count, sizeof(const char *))};
 }
 
-static void print_help(FILE *out, const pricing_command *c) {
-    const command_usage common = {.head = "", .groups = PRICING_GROUPS, .tail = ""};
-    const command_usage end = {.head = "", .tail = "", .why = {"", c->failed, "", ""}};
+static int run_command(const pricing_command *c, int count, char **words) {
+    pricing p = pricing_defaults(c->name, count);
+    own_option own[PRICING_OPTIONS + 1] = {{.word = NULL}};
+    int all = 0;
+    char *head;
+    size_t length;
+    FILE *out = alloc_text(&head, &length);
     fputs(c->head, out);
     for (int i = 0; i < PRICING_OPTIONS; i++) {
-        if ((option_rows[i].commands & c->bit) != 0) {
-            const char *value = option_rows[i].value != NULL ? option_rows[i].value : "";
-            options_describe(out, option_rows[i].word, value, option_rows[i].text);
+        const pricing_row *row = &option_rows[i];
+        if ((row->commands & c->bit) != 0) {
+            own[all++] = (own_option){.word = row->word,
+                                      .text = i == PRICING_VARY ? p.vary : &p.value[i],
+                                      .file = i == PRICING_CSV ? FILE_WRITTEN_LATE : FILE_NONE,
+                                      .count = i == PRICING_VARY ? &p.vary_count : NULL,
+                                      .is_bare = row->value == NULL};
+            options_describe(out, row->word, row->value != NULL ? row->value : "", row->text);
         }
     }
     fputc('\n', out);
-    options_usage(out, &common);
-    options_usage(out, &end);
-}
-
-static bool read_words(const pricing_command *c, int count, char **words, pricing *p) {
-    own_option own[PRICING_OPTIONS + 1] = {{.word = NULL}};
-    int all = 0;
-    for (int i = 0; i < PRICING_OPTIONS; i++) {
-        if ((option_rows[i].commands & c->bit) != 0) {
-            own[all++] = (own_option){.word = option_rows[i].word,
-                                      .text = i == PRICING_VARY ? p->vary : &p->value[i],
-                                      .file = i == PRICING_CSV ? FILE_WRITTEN_LATE : FILE_NONE,
-                                      .count = i == PRICING_VARY ? &p->vary_count : NULL,
-                                      .is_bare = option_rows[i].value == NULL};
-        }
-    }
-    const command_usage accepted = {.groups = PRICING_GROUPS};
-    const target_reader reader = {.command = p->command, .usage = &accepted, .table = own};
-    if (!target_read(&reader, count, words, &p->common, &p->typed)) {
-        return false;
-    }
-    if (p->typed == NULL) {
-        fprintf(stderr,
-                "whirl %s: error: a scene is missing\nhint: whirl %s SCENE, FILE or FILE:SCENE "
-                "(`whirl list` shows the built-in scenes)\n",
-                p->command, p->command);
-    }
-    return p->typed != NULL;
-}
-
-static int run_command(const pricing_command *c, int count, char **words) {
-    if (options_wants_help(count, words)) {
-        print_help(stdout, c);
-        return EXIT_DONE;
-    }
-    pricing p = pricing_defaults(c->name, count);
-    int code = read_words(c, count, words, &p) ? pricing_open(&p) : EXIT_BAD_INPUT;
-    if (code == EXIT_DONE) {
-        code = c->run(&p);
-    }
+    alloc_text_end(out);
+    const command_usage usage = {
+        .head = head, .groups = PRICING_GROUPS, .tail = "", .why = {"", c->failed, "", ""}};
+    const target_reader reader = {
+        .command = c->name, .usage = &usage, .table = own, .work = c->work};
+    const int code = target_command(&reader, count, words, &p.common, &p, &p.typed);
     if (code == EXIT_INTERRUPTED) {
         fprintf(stderr, "whirl %s: interrupted\n", c->name);
     }
-    options_forget(&p.common);
     pricing_close(&p);
+    free(head);
     return code;
 }
 
@@ -428,7 +403,12 @@ static bool can_measure(const pricing *p) {
     return missing == NULL;
 }
 
-static int price_scene(pricing *p) {
+static int price_scene(void *options) {
+    pricing *p = options;
+    const int opened = pricing_open(p);
+    if (opened != EXIT_DONE) {
+        return opened;
+    }
     const char *csv = p->value[PRICING_CSV];
     const bool measure = p->value[PRICING_MEASURE] != NULL;
     const table_request request = wish_of(p);
@@ -662,7 +642,12 @@ static int choose_begun(pricing *p, choice_request *w) {
     return done;
 }
 
-static int choose_scene(pricing *p) {
+static int choose_scene(void *options) {
+    pricing *p = options;
+    const int opened = pricing_open(p);
+    if (opened != EXIT_DONE) {
+        return opened;
+    }
     choice_request w = {.table = wish_of(p)};
     whole_ratio spacing;
     if (!fits(p) || !read_limits(p, &w) || !space_records(p, &w, &spacing) ||

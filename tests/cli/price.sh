@@ -359,7 +359,7 @@ verdict $? "$named runs name a command, $still do not move" "$scratch/run"
 s=$scratch/spring.whirl
 for command in price choose; do
     e='--error=1e-3'
-    exits 2 'a scene is missing' $command $e
+    exits 2 'usage: whirl' $command $e
     exits 2 'takes only one scene' $command "$s" other $e
     exits 2 "there is no board 'nix'" $command "$s" $e --board nix
     exits 2 'hint: --board mps2-an386 has the processor' $command "$s" $e --board stm32-h405
