@@ -58,19 +58,6 @@ typedef struct prove_options {
     bool quiet;
 } prove_options;
 
-/* The cost of two runs: one for the range, one to compare with. The tube has its own limit. */
-static bool is_affordable(const image *im, double effort) {
-    const double wanted = step_doubling_operations(im, im);
-    if (wanted > effort) {
-        fprintf(
-            stderr,
-            "whirl prove: error: the run alone, of %.3g steps, would take about %s\nhint: use an earlier --until, or a longer --step",
-            (double)im->steps, effort_time(wanted));
-        effort_say(wanted);
-    }
-    return wanted <= effort;
-}
-
 /* Fills within[states], SI; 0 for a state without --within. False: reported. */
 static bool read_within(const prove_options *o, const mechanism *of, const exact_motion *m,
                         double *within, diags *errors) {
@@ -197,7 +184,11 @@ static int prove_loaded(const prove_options *o, const loaded *made, const mechan
                         diags *errors) {
     const image *im = made->image;
     exact_motion *m = NULL;
-    if (is_affordable(im, o->effort) && start_has_method(im, im->settings.method, errors) &&
+    /* two runs: one for the range, one to compare with; the tube has its own limit */
+    if (effort_suffices("prove", o->effort, step_doubling_operations(im, im),
+                        "use an earlier --until, or a longer --step",
+                        "two runs of %.3g steps, before the proof", (double)im->steps) &&
+        start_has_method(im, im->settings.method, errors) &&
         start_is_possible(im, o->common.number, errors)) {
         m = exact_motion_make(made->instance, errors);
     }

@@ -269,15 +269,9 @@ static bool is_affordable(const sweep_options *o, const grid *g, const image *ba
             "map", "%llu pairs exceed the limit of %d\nhint: use a smaller COUNT in each --over",
             (unsigned long long)g->points, PAIRS_MOST);
     }
-    const double wanted = operations_of(g, base);
-    if (wanted > o->effort) {
-        fprintf(
-            stderr,
-            "whirl map: error: this would take about %s: %llu pairs with two runs each\nhint: use fewer pairs, longer steps or an earlier --until",
-            effort_time(wanted), (unsigned long long)g->points);
-        effort_say(wanted);
-    }
-    return wanted <= o->effort;
+    return effort_suffices("map", o->effort, operations_of(g, base),
+                           "use fewer pairs, longer steps or an earlier --until",
+                           "%llu pairs with two runs each", (unsigned long long)g->points);
 }
 
 static int map_loaded(const sweep_options *o, const sweep *s, const image *base) {

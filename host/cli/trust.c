@@ -144,16 +144,12 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
 
 static int trust_loaded(const trust_options *o, image *im, const image *plain, diags *errors) {
     fixed_plan *plan = NULL;
-    const double wanted = step_doubling_operations(im, plain);
-    if (wanted > o->effort) {
-        fprintf(
-            stderr,
-            "whirl trust: error: this would take about %s: two runs of %.3g and %.3g steps\n"
-            "hint: use an earlier --until, or a longer --step: a chaotic motion loses its accuracy early anyway",
-            effort_time(wanted), (double)im->steps, 2.0 * (double)im->steps);
-        effort_say(wanted);
-    }
-    if (wanted > o->effort || !can_start(im, o->common.number, errors)) {
+    if (!effort_suffices("trust", o->effort, step_doubling_operations(im, plain),
+                         "use an earlier --until, or a longer --step: a chaotic motion loses its "
+                         "accuracy early anyway",
+                         "two runs of %.3g and %.3g steps", (double)im->steps,
+                         2.0 * (double)im->steps) ||
+        !can_start(im, o->common.number, errors)) {
         return EXIT_BAD_INPUT;
     }
     apart_say(stderr, "whirl trust", im);

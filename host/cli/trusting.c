@@ -1,5 +1,7 @@
 #include "trusting.h"
 
+#include <stdarg.h>
+
 #include "host/check/step_doubling.h"
 #include "host/number/functions.h"
 #include "host/os/system.h"
@@ -38,18 +40,24 @@ int trusting_plan(const char *command, image *im, bool progress, diags *errors, 
     return *plan != NULL ? EXIT_DONE : interrupted ? EXIT_INTERRUPTED : EXIT_BAD_INPUT;
 }
 
-const char *effort_time(double operations) {
-    static char text[24];
+bool effort_suffices(const char *command, double effort, double operations, const char *hint,
+                     const char *what, ...) {
+    if (operations <= effort) {
+        return true;
+    }
     const double time_ms = 1e3 * operations / BUDGET_LEAST;
     const double unit_ms = time_ms < 1e3 ? 1.0 : time_ms < 6e4 ? 1e3 : 6e4;
     const char *unit = time_ms < 1e3 ? "ms" : time_ms < 6e4 ? "s" : "min";
-    snprintf(text, sizeof text, "%.0f %s", number_ceiling(time_ms / unit_ms), unit);
-    return text;
-}
-
-void effort_say(double operations) {
+    va_list arguments;
+    va_start(arguments, what);
+    fprintf(stderr, "whirl %s: error: this would take about %.0f %s: ", command,
+            number_ceiling(time_ms / unit_ms), unit);
+    vfprintf(stderr, what, arguments);
+    va_end(arguments);
+    fprintf(stderr, "\nhint: %s", hint);
     if (operations <= EFFORT_MOST) {
         fprintf(stderr, "; or --effort %.2g", 1.1 * operations);
     }
     fputc('\n', stderr);
+    return false;
 }

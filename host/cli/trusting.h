@@ -15,9 +15,9 @@ image *trusting_plain(const loaded *made);
  * *plan is to be freed. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 
-/* For an effort above the limit: effort_time() estimates its time, such as "21 ms", until the next call. effort_say()
- * prints the end of the hint, with an --effort that suffices. */
-const char *effort_time(double operations);
-void effort_say(double operations);
+/* Is this number of operations within --effort? If not, reports the estimated time, what takes it, and a hint, which ends
+ * with an --effort that suffices. */
+bool effort_suffices(const char *command, double effort, double operations, const char *hint,
+                     const char *what, ...) __attribute__((format(printf, 5, 6)));
 
 #endif

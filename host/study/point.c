@@ -16,6 +16,7 @@
 #include "host/derive/image_make.h"
 #include "host/derive/lagrange.h"
 #include "host/engine/start.h"
+#include "host/io/records.h"
 #include "host/lang/expression.h"
 #include "host/lang/parser.h"
 #include "host/lang/value.h"
@@ -257,20 +258,14 @@ static void add(measures *m, measure_kind kind, const char *name, const expr *of
 }
 
 static void add_symbol(measures *m, const mechanism *of, const symbol *s, int primes) {
-    const size_t length = strlen(s->name);
-    const size_t depth = (size_t)primes;
-    char *name = arena_alloc(m->arena, length + 5 * depth + 1);
-    for (size_t k = 0; k < depth; k++) {
-        snprintf(name + 4 * k, 5, "der(");
-    }
-    snprintf(name + 4 * depth, length + 1, "%s", s->name);
-    memset(name + 4 * depth + length, ')', depth);
+    char *name = records_name(&(record_column){.name = s->name, .primes = primes});
     expr *made = arena_alloc(m->arena, sizeof *made);
     *made = (expr){.op = EXPR_SYMBOL, .symbol = s, .primes = primes, .dim = s->dim, .height = 1};
     for (int k = 0; k < primes; k++) {
         (void)dim_divide(made->dim, dim_of(0, 0, 1, 0, 0), &made->dim);
     }
-    add(m, MEASURE_FINAL, name, as_recorded(m, of, made));
+    add(m, MEASURE_FINAL, arena_copy(m->arena, name, strlen(name)), as_recorded(m, of, made));
+    free(name);
 }
 
 /* Adds the columns of `whirl run --csv`, without the time. */

@@ -160,7 +160,7 @@ exits 2 "'X' is given twice" epicyclic_from_rest --within X=1mm --within X=2mm
 exits 2 '--within needs a value' epicyclic_from_rest --within
 exits 2 "there is no number 'fixed'" epicyclic_from_rest --number fixed
 exits 2 '--csv is given twice' epicyclic_from_rest --csv a --csv b
-exits 2 'error: the run alone, of .* steps, would take about' thomson_a --until 1e6s
+exits 2 'error: this would take about .*: two runs of .* steps, before the proof' thomson_a --until 1e6s
 exits 2 'or --effort [0-9.e+]*$' thomson_a --until 1e6s
 exits 2 'takes only one scene' thomson_a thomson_b
 exits 2 "unknown option '--plot'" thomson_a --plot x.svg
