@@ -664,38 +664,23 @@ static int line_from(const char *command, const char *with, char *line, int size
 
 /* --- can it be counted? --------------------------------------------------------------------------------*/
 
-#define NO_COMMAND 127 /* exit status of a shell for a missing command */
-
 static bool is_host(const cost_board *board) { return strcmp(board->name, "host") == 0; }
 
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]) {
-    static const char missing[] = " is missing";
     if (t != NULL && t->image[0]->contacts > 0 && is_host(board)) {
         return "runs with contacts are counted only in emulators";
     }
     if (access(COUNTS, R_OK) != 0) {
         return "whirl can count in an emulator only in the root of its source tree";
     }
-    char line[MEASURED_TEXT] = "";
-    char *target = is_host(board) ? alloc_words("price-ready-host")
-                                  : alloc_words("BOARD=%s price-ready-board", board->name);
-    char *command = alloc_words("make -s %s 2>&1", target);
-    const int status = line_from(command, missing, line, sizeof line);
-    const char *quoted = strchr(line, '\'');
-    char *end = strstr(line, missing);
-    if (status == 0) {
-        text = NULL;
-    } else if (status == NO_COMMAND) {
-        snprintf(text, MEASURED_TEXT, "'make'%s", missing);
-    } else if (quoted != NULL && end != NULL && quoted < end) {
-        end[sizeof missing - 1] = '\0';
-        snprintf(text, MEASURED_TEXT, "%s", quoted);
-    } else {
-        snprintf(text, MEASURED_TEXT, "make %.80s fails", target);
-    }
+    char *command = is_host(board)
+                        ? alloc_words("make -s price-ready-host 2>&1")
+                        : alloc_words("make -s BOARD=%s price-ready-board 2>&1", board->name);
+    snprintf(text, MEASURED_TEXT, "make fails");
+    const int status = line_from(command, " is missing", text, MEASURED_TEXT);
+    const char *quoted = strchr(text, '\''); /* the name of a missing tool */
     free(command);
-    free(target);
-    return text;
+    return status == 0 ? NULL : quoted != NULL ? quoted : text;
 }
 
 /* --- counting --------------------------------------------------------------------------------------------*/
