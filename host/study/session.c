@@ -294,10 +294,16 @@ static void put_column(json *j, const char *name, const symbol *of, int primes, 
     free(unit);
 }
 
+char *sweep_axis_unit(const axis *a) {
+    return a->symbol == NULL                 ? alloc_words("s")
+           : unit_is_si(a->symbol->declared) ? shown_unit_name(a->symbol, a->primes)
+                                             : shown_si_name(a->symbol, a->primes);
+}
+
 void sweep_json_axes(json *j, const grid *g) {
     for (int i = 0; i < g->count; i++) {
         const axis *a = &g->axes[i];
-        char *unit = a->symbol == NULL ? alloc_words("s") : shown_si_name(a->symbol, a->primes);
+        char *unit = sweep_axis_unit(a);
         put_column(j, a->column, NULL, 0, unit);
         free(unit);
     }

@@ -49,6 +49,8 @@ bool resumable_csv_has_note(const resumable_csv *sh, const char *word);
 bool resumable_csv_close(resumable_csv *sh);
 
 /* === a sweep from its first missing row to its last =========================================== */
+/* The SI unit of an axis, as declared if that is SI. The caller frees it. */
+char *sweep_axis_unit(const axis *a);
 /* Writes name and unit of each axis as JSON (docs/warnings.md has the schema). */
 void sweep_json_axes(json *j, const grid *g);
 

@@ -19,8 +19,11 @@ const map_verdict_row map_verdicts[MAP_VERDICTS] = {MAP_VERDICT_ROWS(MAP_VERDICT
 
 /* --- values ----------------------------------------------------------------------------------------------*/
 
+static const axis *along_of(const stability_map *m) { return &m->grid->axes[m->along]; }
+static const axis *rows_of(const stability_map *m) { return &m->grid->axes[1 - m->along]; }
+
 uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at) {
-    const axis *along = &m->grid->axes[m->along];
+    const axis *along = along_of(m);
     const uint64_t i = along->from <= along->to ? at : along->count - 1 - at;
     const uint64_t second = m->grid->axes[1].count;
     return m->along == 1 ? row * second + i : i * second + row;
@@ -143,7 +146,7 @@ static void try_point(row_runs *p, uint64_t point) {
 
 static void try_row(const map_request *w, stability_map *m, uint64_t row) {
     row_runs p = {.request = w, .map = m};
-    for (uint64_t i = 0; i < w->of.grid->axes[m->along].count && !interrupted; i++) {
+    for (uint64_t i = 0; i < along_of(m)->count && !interrupted; i++) {
         const uint64_t point = map_point(m, row, i);
         if (!m->by_step) { /* the next point is another scene, so its ranges differ */
             free(p.range);
@@ -189,9 +192,6 @@ uint64_t map_count(const stability_map *m, map_verdict verdict) {
 }
 
 /* === text, CSV and JSON ======================================================================= */
-
-static const axis *along_of(const stability_map *m) { return &m->grid->axes[m->along]; }
-static const axis *rows_of(const stability_map *m) { return &m->grid->axes[1 - m->along]; }
 
 static map_verdict verdict_at(const stability_map *m, uint64_t row, uint64_t at) {
     return m->cell[map_point(m, row, at)].verdict;
@@ -307,9 +307,6 @@ void map_json(FILE *out, const stability_map *m, const image *of, const map_requ
 
 enum { HEIGHT = 620 };
 
-/* A gnuplot axis is logarithmic only if its values are positive; others are linear. */
-static bool is_log(const axis *a) { return a->is_log && a->from > 0.0; }
-
 /* The value half a cell further along the axis, down or up. */
 static double edge(const axis *a, double value, bool up) {
     const double cells = a->count > 1 ? (double)(a->count - 1) : 1.0;
@@ -323,16 +320,14 @@ static double edge(const axis *a, double value, bool up) {
 }
 
 static void set_axis(FILE *to, const axis *a, char letter) {
-    char *unit = a->symbol == NULL                 ? alloc_words("s")
-                 : unit_is_si(a->symbol->declared) ? shown_unit_name(a->symbol, a->primes)
-                                                   : shown_si_name(a->symbol, a->primes);
+    char *unit = sweep_axis_unit(a);
     const double least = number_least(a->from, a->to);
     const double most = number_most(a->from, a->to);
     fprintf(to, "set %clabel ", letter);
     gnuplot_quote(to, a->column);
     fprintf(to, ".' [%s]' noenhanced\n", unit);
     free(unit);
-    if (is_log(a)) {
+    if (a->is_log && a->from > 0.0) { /* gnuplot takes only values above zero */
         fprintf(to, "set logscale %c\n", letter);
     }
     fprintf(to, "set %crange [%.17g:%.17g]\n", letter, edge(a, least, false), edge(a, most, true));
@@ -340,14 +335,14 @@ static void set_axis(FILE *to, const axis *a, char letter) {
 
 /* Writes x, y and the edges of each run of adjacent cells of a row with this verdict. */
 static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
-    const axis *along = &m->grid->axes[m->along];
-    const axis *rows = &m->grid->axes[1 - m->along];
+    const axis *along = along_of(m);
+    const axis *rows = rows_of(m);
     fprintf(to, "$%s << EOD\n", map_verdicts[verdict].word);
     for (uint64_t row = 0; row < rows->count; row++) {
         const double y = map_row(m, row);
         for (uint64_t at = 0; at < along->count; at++) {
             const uint64_t from = at;
-            while (at < along->count && m->cell[map_point(m, row, at)].verdict == verdict) {
+            while (at < along->count && verdict_at(m, row, at) == verdict) {
                 at++;
             }
             if (at > from) {
@@ -361,10 +356,6 @@ static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
     fputs("EOD\n", to);
 }
 
-static bool is_drawn(const stability_map *m, int verdict) {
-    return verdict < PALETTE_AREAS && map_count(m, (map_verdict)verdict) > 0;
-}
-
 static bool draw(const char *file, const stability_map *m, const char *words, const char *text) {
     gnuplot g;
     if (!gnuplot_open(&g, file, HEIGHT, words, text)) {
@@ -373,48 +364,39 @@ static bool draw(const char *file, const stability_map *m, const char *words, co
     fputs("set title ", g.to);
     gnuplot_quote(g.to, words);
     fputs(" noenhanced\n", g.to);
-    set_axis(g.to, &m->grid->axes[m->along], 'x');
-    set_axis(g.to, &m->grid->axes[1 - m->along], 'y');
+    set_axis(g.to, along_of(m), 'x');
+    set_axis(g.to, rows_of(m), 'y');
     fputs(
         "set key below left Left reverse maxcols 1 samplen 2\nset tics out\nset style fill solid noborder\n",
         g.to);
-    for (int i = 0; i < MAP_VERDICTS; i++) {
-        if (is_drawn(m, i)) {
+    char *plot = alloc_words("%s", "");
+    for (int i = 0; i < PALETTE_AREAS; i++) {
+        if (map_count(m, (map_verdict)i) > 0) {
+            const map_verdict_row *v = &map_verdicts[i];
             write_cells(g.to, m, (map_verdict)i);
+            char *longer = alloc_words("%s%s$%s with boxxyerror lc rgb '%s' title '%s: %s'", plot,
+                                       plot[0] != '\0' ? ", " : "plot ", v->word, palette_area(i),
+                                       v->word, v->words);
+            free(plot);
+            plot = longer;
         }
     }
-    const char *comma = "plot ";
-    for (int i = 0; i < MAP_VERDICTS; i++) {
-        if (is_drawn(m, i)) {
-            fprintf(g.to, "%s$%s with boxxyerror lc rgb '%s' title '%s: %s'", comma,
-                    map_verdicts[i].word, palette_area(i), map_verdicts[i].word,
-                    map_verdicts[i].words);
-            comma = ", ";
-        }
-    }
-    if (*comma == 'p') {
-        fputs("plot NaN notitle", g.to);
-    }
+    fputs(plot[0] != '\0' ? plot : "plot NaN notitle", g.to);
+    free(plot);
     fputc('\n', g.to);
     return gnuplot_close(&g);
 }
 
-/* A description of the picture for readers who cannot see it; to be freed. */
-static char *alternative_text(const stability_map *m) {
-    char *text = alloc_words("A map of %s and %s.", m->grid->axes[m->along].column,
-                             m->grid->axes[1 - m->along].column);
-    for (int i = 0; i < PALETTE_AREAS; i++) {
-        char *longer =
-            alloc_words("%s %llu %s: %s.", text, (unsigned long long)map_count(m, (map_verdict)i),
-                        map_verdicts[i].word, map_verdicts[i].words);
-        free(text);
-        text = longer;
-    }
-    return text;
-}
-
 bool map_plot(const char *file, const stability_map *m, const char *words) {
-    char *text = alternative_text(m);
+    char *text; /* a description of the picture for readers who cannot see it */
+    size_t length;
+    FILE *out = alloc_text(&text, &length);
+    fprintf(out, "A map of %s and %s.", along_of(m)->column, rows_of(m)->column);
+    for (int i = 0; i < PALETTE_AREAS; i++) {
+        fprintf(out, " %llu %s: %s.", (unsigned long long)map_count(m, (map_verdict)i),
+                map_verdicts[i].word, map_verdicts[i].words);
+    }
+    alloc_text_end(out);
     const bool drawn = draw(file, m, words, text);
     free(text);
     return drawn;
