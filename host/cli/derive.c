@@ -185,7 +185,6 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     const form_row *as = o->as;
     const common_options *options = &o->common;
     const bool runs = (as->is & RUNS) != 0;
-    const bool from_equations = (as->is & SHOWS) != 0 || ((as->is & FOLDS) != 0 && !o->folded);
     const image_settings *settings = &options->integration;
     image_settings taken = *settings;
     if (!runs) { /* equations, and code for other programs, have no tables */
@@ -194,16 +193,12 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     }
     const load_request request = {.settings = taken,
                                   .use = IMAGE_TO_WRITE,
-                                  .keep = from_equations ? KEEP_EQUATIONS : KEEP_IMAGE,
                                   .hints = true,
                                   .conserve = runs || settings->matrix != MATRIX_NONE,
                                   .comment = as == &forms[OCTAVE] ? EMIT_OCTAVE_COMMENT : NULL};
     const place at = in != NULL ? in->at : of->at;
     loaded made;
     int code = load(&made, from, of, in, changes, &request);
-    if (!from_equations) {
-        source_forget(from);
-    }
     bool good = true;
     fixed_plan *plan = NULL;
     if (code == EXIT_DONE && o->steps && of->is_system) {

@@ -115,7 +115,6 @@ static int accel_work(void *all) {
         loaded made;
         const load_request request = {.settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_RUN};
         code = load(&made, &from, of, in, &changes, &request);
-        source_forget(&from);
         if (code == EXIT_DONE) {
             code = print_image(made.image, from.file);
         }
@@ -219,7 +218,6 @@ static int describe_source(source_model *from, void *options) {
     loaded made;
     const int code = target_load(&made, from, &o->common,
                                  (load_request){.use = IMAGE_TO_WRITE, .conserve = true});
-    source_forget(from);
     if (code == EXIT_DONE && o->as_json) {
         describe_json(stdout, made.image, from->file);
     } else if (code == EXIT_DONE) {

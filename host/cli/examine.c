@@ -295,8 +295,7 @@ static int examine_source(source_model *from, void *options) {
         return EXIT_BAD_INPUT;
     }
     loaded made;
-    int code = target_load(&made, from, &o->common,
-                           (load_request){.use = IMAGE_TO_RUN, .keep = KEEP_EQUATIONS});
+    int code = target_load(&made, from, &o->common, (load_request){.use = IMAGE_TO_RUN});
     if (code == EXIT_DONE && made.equations->kinetic == NULL) {
         const mechanism *of = made.equations->instance->mechanism;
         fprintf(stderr,

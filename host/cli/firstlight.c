@@ -50,10 +50,8 @@ static int light_field(const char *name, const char *more) {
 
 /* Runs the scene in float, because the boards must compute the same bits. */
 static int run_scene(const char *name, light_expected *e) {
-    static const load_request request = {.settings = IMAGE_SETTINGS_DEFAULT,
-                                         .use = IMAGE_TO_WRITE,
-                                         .keep = KEEP_IMAGE,
-                                         .conserve = true};
+    static const load_request request = {
+        .settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_WRITE, .conserve = true};
     source_model from;
     const mechanism *of = NULL;
     const scene *in = NULL;

@@ -263,15 +263,9 @@ int source_open(source_model *s, const char *target) {
     return s->model == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }
 
-void source_forget(source_model *s) {
+void source_close(source_model *s) {
     model_free(s->model);
     free(s->text);
-    s->model = NULL;
-    s->text = NULL;
-}
-
-void source_close(source_model *s) {
-    source_forget(s);
     diags_free(s->errors);
     free(s->path);
     free(s->name);
@@ -376,14 +370,6 @@ int load(loaded *made, source_model *s, const mechanism *of, const scene *in,
             say_hint(made->equations->instance);
         }
         made->contacts = contacts_of(made->equations, request->comment);
-    }
-    if (request->keep < KEEP_EQUATIONS) {
-        equations_free(made->equations);
-        made->equations = NULL;
-    }
-    if (request->keep < KEEP_INSTANCE) {
-        instance_free(made->instance);
-        made->instance = NULL;
     }
     return made->image == NULL ? EXIT_BAD_INPUT : EXIT_DONE;
 }

@@ -45,8 +45,6 @@ int source_find(source_model *source, const struct builtin_model *models, size_t
 /* Opens a built-in model without a name. False: reported. */
 bool source_builtin(source_model *source, const struct builtin_model *model);
 void source_close(source_model *source);
-/* Free the model and its text when they are no longer needed; names and errors stay until source_close(). */
-void source_forget(source_model *source);
 
 /* The existing file of a target FILE or FILE:NAME, "/dev/stdin" for "-"; NULL if there is none. The caller frees it. */
 char *source_file(const char *target);
@@ -55,14 +53,9 @@ char *source_file(const char *target);
  * scene, else its only mechanism. Returns an exit status. */
 int source_pick(source_model *source, bool prefer_scene, const mechanism **of, const scene **in);
 
-/* Data kept together with an image. Text and LaTeX are printed from the equations, and a sweep makes more instances
- * like the first. */
-typedef enum load_keep { KEEP_IMAGE, KEEP_INSTANCE, KEEP_EQUATIONS } load_keep;
-
 typedef struct load_request {
     image_settings settings;
     image_use use;
-    load_keep keep;
     bool hints;          /* print a hint for a valid model that could be written better */
     bool conserve;       /* recover the coordinates that the scene names from their momentum */
     const char *comment; /* begins each line about contacts in `contacts`; NULL: no such lines */
@@ -70,13 +63,12 @@ typedef struct load_request {
 
 typedef struct loaded {
     image *image;
-    instance *instance;   /* NULL unless stored; equations have their own instance */
-    equations *equations; /* NULL unless stored */
+    instance *instance; /* equations have their own instance */
+    equations *equations;
     char *contacts; /* contacts in words, whole lines; "" without contacts, or if not requested */
 } loaded;
 
-/* Derive one instance to its image; errors are printed. Other data is freed; call source_forget() when the model is no
- * longer needed. Returns an exit status; call unload() in any case. */
+/* Derive one instance to its image; errors are printed. Returns an exit status; call unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, const load_request *request);
 /* Warn of values that float cannot represent. */

@@ -315,7 +315,6 @@ static int run_source(pil_options *o, source_model *from) {
     request.taps = &faults;
     request.tap_count = 1;
     code = load_plant(o, from, of, in, &made);
-    source_forget(from);
     if (code == EXIT_DONE) {
         code = run_image(o, from, made.image, &request, every_s);
     }

@@ -209,10 +209,8 @@ static int prove_source(source_model *from, void *options) {
     if (code != EXIT_DONE) {
         return code;
     }
-    const load_request request = {.settings = o->common.integration,
-                                  .use = IMAGE_TO_RUN,
-                                  .keep = KEEP_INSTANCE,
-                                  .conserve = true};
+    const load_request request = {
+        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
     loaded made;
     code = load(&made, from, of, in, &o->common.changes, &request);
     code = code == EXIT_DONE ? prove_loaded(o, &made, of, from->errors) : code;

@@ -195,7 +195,6 @@ static int run_target(run_options *o) {
         changes.balance = true;
         const load_request request = {.settings = o->common.integration,
                                       .use = IMAGE_TO_RUN,
-                                      .keep = trusting_keep(&o->common.integration),
                                       .hints = !o->settings.quiet,
                                       .conserve = true};
         code = load(&made, &from, of, in, &changes, &request);
@@ -203,9 +202,6 @@ static int run_target(run_options *o) {
             code = EXIT_BAD_INPUT;
         }
         image *plain = trusting_plain(&made);
-        if (o->settings.quiet) {
-            source_forget(&from);
-        }
         if (code == EXIT_DONE && o->settings.kind == &engine_float) {
             say_float_range(made.image);
         }

@@ -20,7 +20,6 @@ typedef int scene_visitor(void *context, const char *file, const loaded *made);
 static int each_scene_of(source_model *from, scene_visitor *visit, void *context) {
     static const load_request request = {.settings = IMAGE_SETTINGS_DEFAULT,
                                          .use = IMAGE_TO_WRITE,
-                                         .keep = KEEP_EQUATIONS,
                                          .conserve = true,
                                          .comment = EMIT_OCTAVE_COMMENT};
     int code = EXIT_DONE;

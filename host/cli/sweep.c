@@ -317,7 +317,6 @@ static bool begins(const sweep_options *o, const sweep *s, const loaded *base, d
 static int sweep_picked(const sweep_options *o, source_model *from, sweep *s) {
     const load_request request = {.settings = o->common.integration,
                                   .use = IMAGE_TO_RUN,
-                                  .keep = KEEP_INSTANCE,
                                   .hints = !o->maps && !o->quiet,
                                   .conserve = true};
     loaded base;

@@ -180,14 +180,11 @@ static int trust_source(source_model *from, void *options) {
     }
     overrides changes = o->common.changes;
     changes.balance = true;
-    const load_request request = {.settings = o->common.integration,
-                                  .use = IMAGE_TO_RUN,
-                                  .keep = trusting_keep(&o->common.integration),
-                                  .conserve = true};
+    const load_request request = {
+        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
     loaded made;
     code = load(&made, from, of, in, &changes, &request);
     image *plain = code == EXIT_DONE ? trusting_plain(&made) : NULL;
-    source_forget(from);
     if (code == EXIT_DONE && o->common.number == &engine_float) {
         say_float_range(made.image);
     }

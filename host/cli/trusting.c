@@ -7,15 +7,10 @@
 #include "host/os/system.h"
 #include "options.h"
 
-load_keep trusting_keep(const image_settings *settings) {
-    image_settings plain;
-    return step_doubling_plain(settings, &plain) ? KEEP_EQUATIONS : KEEP_IMAGE;
-}
-
 image *trusting_plain(const loaded *made) {
     const image *im = made->image;
     image_settings plain;
-    if (im == NULL || made->equations == NULL || !step_doubling_plain(&im->settings, &plain)) {
+    if (im == NULL || !step_doubling_plain(&im->settings, &plain)) {
         return NULL;
     }
     diags *unsaid = diags_new(); /* discarded: the run's image had the same messages */

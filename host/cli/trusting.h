@@ -7,8 +7,6 @@
 #include "host/cli/load.h"
 #include "host/fixed/fixed_plan.h"
 
-/* The data that load() must store for trusting_plain(). */
-load_keep trusting_keep(const image_settings *settings);
 /* The finer run's image (step_doubling_plain()), to be freed. NULL: the finer run uses the run's image. */
 image *trusting_plain(const loaded *made);
 /* Adds the scene's step in fixed point to the image. Takes as long as a run if ranges are undeclared. Returns an exit status;
