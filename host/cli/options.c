@@ -133,11 +133,15 @@ static bool is_new(int count, char **words, int at, const char *name) {
 }
 
 /* If words[*at] is `name` or `name=VALUE`, returns its value and advances *at past it. Returns NULL for another word. A
- * missing value is reported and sets *bad. So is a second value, unless the option `repeats`. */
-static const char *value_of(int count, char **words, int *at, const char *name, bool repeats,
-                            bool *bad) {
+ * missing value is reported and sets *bad. So is a second value, unless the option `repeats`. An option that `is_bare` has
+ * no value: its word is returned. */
+static const char *value_of(int count, char **words, int *at, const char *name, bool is_bare,
+                            bool repeats, bool *bad) {
     const size_t length = strlen(name);
     const char *word = words[*at];
+    if (is_bare) {
+        return strcmp(word, name) == 0 ? words[(*at)++] : NULL;
+    }
     if (!options_is(word, name)) {
         return NULL;
     }
@@ -220,20 +224,6 @@ static bool push_names(common_options *to, const char *const **list, int *count,
             return true;
         }
     }
-}
-
-/* The value of the option `which` at words[*at], "" for an option without a value; NULL for another word. The options up
- * to --without may be repeated. */
-static const char *common_value(common_option which, int count, char **words, int *at, bool *bad) {
-    const option_row *row = &option_rows[which];
-    if (row->value[0] != '\0') {
-        return value_of(count, words, at, row->word, which <= OPTION_WITHOUT, bad);
-    }
-    if (strcmp(words[*at], row->word) != 0) {
-        return NULL;
-    }
-    ++*at;
-    return "";
 }
 
 common_options options_defaults(void) {
@@ -425,9 +415,12 @@ static bool take(common_option which, const char *command, const char *value, co
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad) {
     for (int i = 0; i < OPTIONS && !*bad; i++) {
-        const char *value = (option_rows[i].group & groups) != 0
-                                ? common_value((common_option)i, count, words, at, bad)
-                                : NULL;
+        const option_row *row = &option_rows[i];
+        const bool repeats = i <= OPTION_WITHOUT;
+        const char *value =
+            (row->group & groups) != 0
+                ? value_of(count, words, at, row->word, row->value[0] == '\0', repeats, bad)
+                : NULL;
         if (value != NULL) {
             *bad = *bad || !take((common_option)i, command, value, to);
             return true;
@@ -494,10 +487,9 @@ static bool take_own(const target_reader *r, int count, char **words, int *at, b
             if (take_strict(r->command, count, words, at, o->strict, bad)) {
                 return true;
             }
-        } else if (o->flag == NULL && !o->is_bare) {
-            value = value_of(count, words, at, o->word, o->count != NULL, bad);
-        } else if (strcmp(words[*at], o->word) == 0) {
-            value = words[(*at)++];
+        } else {
+            value = value_of(count, words, at, o->word, o->flag != NULL || o->is_bare,
+                             o->count != NULL, bad);
         }
         if (value != NULL && o->flag != NULL) {
             *o->flag = true;

@@ -79,7 +79,7 @@ bool gnuplot_is_there(void);
 
 /* Begin a picture of 900 by `height` pixels in `file`, in the common look (gnuplot.h). An SVG gets `title` and the
  * alternative `text`; both must live until gnuplot_close(). Returns false, and reports the reason, if the file cannot
- * be written or gnuplot is missing. */
+ * be written. Whether gnuplot is there shows at the end. */
 bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, const char *text);
 /* Finish the picture. False, reported, after a failure. */
 bool gnuplot_close(gnuplot *g);
