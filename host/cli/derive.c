@@ -1,6 +1,7 @@
 /* derive.c: `whirl derive`: the equations of motion, the first-order form, the code. */
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "commands.h"
 #include "host/cli/load.h"
@@ -234,7 +235,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
 
 static bool options_fit(derive_options *o) {
     /* Matlab runs the same function file as Octave */
-    const char *form = options_same("matlab", o->form) ? "octave" : o->form;
+    const char *form = strcasecmp("matlab", o->form) == 0 ? "octave" : o->form;
     const int chosen = options_choose("derive", "form", form, forms, sizeof forms[0], FORMS);
     const char *name = o->common.changes.name; /* a name as in a .whirl file */
     if (chosen < 0 || (name != NULL && !options_is_name("derive", name, NAME_LENGTH_MAX))) {

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include "host/base/alloc.h"
@@ -48,7 +49,7 @@ typedef struct plot_options {
 
 static bool is_csv(const char *name) {
     const size_t length = strlen(name);
-    return length > 4 && options_same(name + length - 4, ".csv");
+    return length > 4 && strcasecmp(name + length - 4, ".csv") == 0;
 }
 
 /* Are the options complete and consistent? */

@@ -86,19 +86,22 @@ static bool is_mechanism(const sought *w, const mechanism *m) {
                                     strncmp(m->name, w->mechanism, w->mechanism_length) == 0);
 }
 
-/* The mechanism in one model that the target names, as source_pick() will find it; or NULL. */
-static const mechanism *find_in(const sought *w, const whirl_model *m) {
-    for (int i = 0; i < m->scene_count; i++) {
+/* Finds the scene of that name, else the mechanism (*in is NULL). Returns false without one. */
+static bool find(const sought *w, const whirl_model *m, const mechanism **of, const scene **in) {
+    *of = NULL;
+    *in = NULL;
+    for (int i = 0; i < m->scene_count && *in == NULL; i++) {
         if (is_mechanism(w, m->scenes[i]->mechanism) && strcmp(m->scenes[i]->name, w->name) == 0) {
-            return m->scenes[i]->mechanism;
+            *in = m->scenes[i];
+            *of = m->scenes[i]->mechanism;
         }
     }
-    for (int i = 0; i < m->mechanism_count; i++) {
+    for (int i = 0; i < m->mechanism_count && *of == NULL; i++) {
         if (is_mechanism(w, m->mechanisms[i]) && strcmp(m->mechanisms[i]->name, w->name) == 0) {
-            return m->mechanisms[i];
+            *of = m->mechanisms[i];
         }
     }
-    return NULL;
+    return *of != NULL;
 }
 
 static void say_ambiguous(const sought *w, const source_model *each, size_t count) {
@@ -107,8 +110,9 @@ static void say_ambiguous(const sought *w, const source_model *each, size_t coun
             "choose one of:",
             w->name);
     for (size_t i = 0; i < count; i++) {
-        const mechanism *of = find_in(w, each[i].model);
-        if (of != NULL) {
+        const mechanism *of;
+        const scene *in;
+        if (find(w, each[i].model, &of, &in)) {
             fprintf(stderr, " %s:%s (%s)", of->name, w->name, each[i].file);
         }
     }
@@ -155,7 +159,9 @@ int source_find(source_model *s, const struct builtin_model *models, size_t coun
     bool good = true;
     for (size_t i = 0; i < count; i++) {
         good = source_builtin(&each[i], &models[i]) && good;
-        if (each[i].model != NULL && find_in(&w, each[i].model) != NULL) {
+        const mechanism *of;
+        const scene *in;
+        if (each[i].model != NULL && find(&w, each[i].model, &of, &in)) {
             hit = i;
             hits++;
         }
@@ -286,25 +292,14 @@ static void say_choices(const source_model *s, bool scenes) {
 
 int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const scene **in) {
     const whirl_model *m = s->model;
-    *in = NULL;
-    *of = NULL;
     const bool named = s->name[0] != '\0';
     const int scenes = prefer_scene ? m->scene_count : 0;
-    for (int i = 0; i < m->scene_count; i++) {
-        if (named ? strcmp(m->scenes[i]->name, s->name) == 0 : scenes == 1) {
-            *in = m->scenes[i];
-        }
+    if (find(&(sought){.name = s->name}, m, of, in)) {
+        return EXIT_DONE;
     }
-    for (int i = 0; i < m->mechanism_count && *in == NULL; i++) {
-        if (named ? strcmp(m->mechanisms[i]->name, s->name) == 0
-                  : m->mechanism_count == 1 && scenes == 0) {
-            *of = m->mechanisms[i];
-        }
-    }
-    if (*in != NULL) {
-        *of = (*in)->mechanism;
-    }
-    if (*of != NULL) {
+    if (!named && (scenes == 1 || (scenes == 0 && m->mechanism_count == 1))) {
+        *in = scenes == 1 ? m->scenes[0] : NULL;
+        *of = scenes == 1 ? m->scenes[0]->mechanism : m->mechanisms[0];
         return EXIT_DONE;
     }
     if (!named) {

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "host/base/alloc.h"
 #include "host/base/spelling.h"
@@ -254,20 +255,12 @@ bool options_fail(const char *command, const char *format, ...) {
 
 bool options_is_standard(const char *file) { return file != NULL && strcmp(file, "-") == 0; }
 
-bool options_same(const char *a, const char *b) {
-    while (*a != '\0' && tolower((unsigned char)*a) == tolower((unsigned char)*b)) {
-        a++;
-        b++;
-    }
-    return *a == '\0' && *b == '\0';
-}
-
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count) {
     const char *row = rows;
     for (int i = 0; i < count; i++) {
         const char *const *word = (const void *)(row + (size_t)i * size);
-        if (options_same(value, *word)) {
+        if (strcasecmp(value, *word) == 0) {
             return i;
         }
     }

@@ -138,9 +138,6 @@ bool options_fail(const char *command, const char *format, ...)
 /* Is this output, which may be NULL, standard output? */
 bool options_is_standard(const char *file);
 
-/* Equal words, ignoring case? */
-bool options_same(const char *a, const char *b);
-
 /* The index of the row whose word equals `value`, ignoring case. Each of rows[count] has `size` bytes and begins with
  * its word. If there is no such row, reports the possible words and returns -1. */
 int options_choose(const char *command, const char *what, const char *value, const void *rows,

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include "commands.h"
@@ -116,7 +117,7 @@ const cost_board *pricing_board(const char *command, const char *value) {
                                       cost_board_count);
     static const char *const f405[] = {"netduinoplus2", "stm32-h405", "feather-f405"};
     for (size_t i = 0; chosen < 0 && i < sizeof f405 / sizeof f405[0]; i++) {
-        if (options_same(value, f405[i])) {
+        if (strcasecmp(value, f405[i]) == 0) {
             fputs("hint: --board mps2-an386 has the processor of an STM32F405\n", stderr);
         }
     }

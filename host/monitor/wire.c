@@ -67,6 +67,14 @@ static wire_event add(wire *w, uint8_t byte) {
     return WIRE_NOTHING;
 }
 
+static void begin_chunk(wire *w) {
+    w->length = 0;
+    w->is_text = false;
+    w->is_frame = false;
+    w->too_long = false;
+    w->torn = true;
+}
+
 wire_event wire_take(wire *w, uint8_t byte) {
     if (byte != 0) {
         return w->is_text ? add_text(w, (char)byte) : add(w, byte);
@@ -77,21 +85,13 @@ wire_event wire_take(wire *w, uint8_t byte) {
     } else if (w->length == 1U) { /* one byte of text between two frames, such as an echo */
         event = add_text(w, (char)w->chunk[0]);
     }
-    w->length = 0;
-    w->is_text = false;
-    w->is_frame = false;
-    w->too_long = false;
-    w->torn = true;
+    begin_chunk(w);
     return event;
 }
 
 void wire_forget(wire *w) {
-    w->length = 0;
+    begin_chunk(w);
     w->columns = 0;
-    w->is_text = false;
-    w->is_frame = false;
-    w->too_long = false;
-    w->torn = true;
 }
 
 /* === questions before a recording ============================================================= */
