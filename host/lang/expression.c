@@ -348,27 +348,32 @@ static bool go_deeper(parser *in) {
     return true;
 }
 
-bool parse_unit(parser *in, unit_scale *result, const char **text) {
+void parse_unit(parser *in, unit_scale *result, const char **text) {
     unit_error error;
-    const token bracket = in->token;
-    const bool good = unit_parse(bracket.text, bracket.length, result, &error);
+    token unit = in->token;
+    const bool bare = unit.kind == TOKEN_NAME;
+    if (bare) {
+        unit.length = unit.at.source->length - unit.at.offset;
+    }
+    const bool good = unit_parse(unit.text, unit.length, result, &error);
     if (!good) {
-        diag_error(in->diags, place_after(bracket.at, 1 + error.offset), error.hint, "%s",
+        diag_error(in->diags, place_after(unit.at, (bare ? 0 : 1) + error.offset), error.hint, "%s",
                    error.message);
         *result = (unit_scale){1.0, 1.0, dim_none(), enclosure_of(1.0)};
         result->dim.unknown = true;
     }
-    char *bare = parser_copy_text(in, &bracket);
+    char *dense = parser_copy_text(in, &unit);
     size_t length = 0;
-    for (const char *from = bare; *from != '\0'; from++) {
+    for (const char *from = dense; *from != '\0'; from++) {
         if (strchr(" \t\r\n", *from) == NULL) {
-            bare[length++] = *from;
+            dense[length++] = *from;
         }
     }
-    bare[length] = '\0';
-    *text = bare;
-    parser_next(in);
-    return good;
+    dense[length] = '\0';
+    *text = dense;
+    do {
+        parser_next(in);
+    } while (bare && in->token.kind != TOKEN_END);
 }
 
 static const expr *parse_number(parser *in) {
@@ -377,7 +382,7 @@ static const expr *parse_number(parser *in) {
     made->exact = in->token.exact;
     made->dim.any = made->number == 0.0;
     parser_next(in);
-    if (in->token.kind == TOKEN_UNIT) {
+    if (in->token.kind == TOKEN_UNIT || (in->bare_units && in->token.kind == TOKEN_NAME)) {
         const place bracket = in->token.at;
         unit_scale written;
         parse_unit(in, &written, &in->number_unit_text);

@@ -12,8 +12,8 @@
 const expr *parse_expression(parser *in, expr_context context); /* NULL after an error */
 /* reads the ')' that closes `open` */
 bool parse_close(parser *in, place open);
-/* Reads the current unit token. *text is its text without blanks. */
-bool parse_unit(parser *in, unit_scale *result, const char **text);
+/* Reads the current unit token, or a unit without brackets up to the end of the text. *text is its text without blanks. */
+void parse_unit(parser *in, unit_scale *result, const char **text);
 
 /* Returns the line of a later statement of the mechanism that declares the name, or 0. */
 int name_declared_later(const token *name);

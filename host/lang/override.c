@@ -12,57 +12,18 @@ static parser begin(const mechanism *of, const char *text, struct arena *arena, 
     typed->file = "<command line>";
     typed->length = strlen(text);
     typed->text = arena_copy(arena, text, typed->length);
-    parser in = {.diags = all, .arena = arena, .effect = -1, .all_effects = true};
+    parser in = {
+        .diags = all, .arena = arena, .effect = -1, .all_effects = true, .bare_units = true};
     in.names = of->names;
     in.lexer = lexer_start(typed, all);
     parser_next(&in);
     return in;
 }
 
-/* Reads [+|-] NUMBER UNIT up to the end of the text, with the unit without brackets: "1ms", "-8.5 rad/s". Returns NULL
- * for any other text, and `in` is then unchanged. */
-static const expr *parse_plain_quantity(parser *in) {
-    const parser before = *in;
-    const token first = in->token;
-    if (parser_is_sign(in, '-') || parser_is_sign(in, '+')) {
-        parser_next(in);
-    }
-    const token number = in->token;
-    if (number.kind == TOKEN_NUMBER) {
-        parser_next(in);
-    }
-    if (number.kind != TOKEN_NUMBER || in->token.kind != TOKEN_NAME) {
-        *in = before;
-        return NULL;
-    }
-    const source *typed = first.at.source;
-    const size_t offset = in->token.at.offset;
-    unit_scale written;
-    unit_error error;
-    expr *made = expr_new(in, EXPR_NUMBER, number.at);
-    made->uses = USES_UNIT;
-    if (unit_parse(typed->text + offset, typed->length - offset, &written, &error)) {
-        made->number = number.number * written.scale / written.divisor;
-        made->exact = enclosure_mul(number.exact, written.exact);
-        made->dim = written.dim;
-    } else {
-        diag_error(in->diags, place_after(in->token.at, error.offset), error.hint, "%s",
-                   error.message);
-        made->dim.unknown = true;
-    }
-    while (in->token.kind != TOKEN_END) {
-        parser_next(in);
-    }
-    return first.sign == '-' && first.kind == TOKEN_SIGN ? expr_negate(in, first.at, made) : made;
-}
-
 /* Reads the remaining text. If the value contains no unit, it is SI in the wanted dimension. */
 static const expr *parse_quantity(parser *in, dimension wanted, const char *what) {
     const place at = in->token.at;
-    const expr *made = parse_plain_quantity(in);
-    if (made == NULL) {
-        made = parse_expression(in, CONTEXT_CONSTANT);
-    }
+    const expr *made = parse_expression(in, CONTEXT_CONSTANT);
     if (made == NULL) {
         return NULL;
     }

@@ -91,6 +91,7 @@ typedef struct parser {
     const expr *ready;         /* first operand of the next expression, if already read */
     int effect;                /* index of the current effect, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */
+    bool bare_units; /* a unit without brackets may follow a number, up to the end of the text */
     const struct names *names; /* NULL: no names allowed */
     builder *builder;          /* the current mechanism, or NULL */
     draft *draft;              /* the current scene, or NULL */
