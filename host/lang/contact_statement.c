@@ -8,131 +8,6 @@ static contact_statement contact_begun(const parser *in, const statement_word *w
 
 static bool add_contact(parser *in, const contact_statement *made);
 
-/* === the condition of a hold ================================================================== */
-/* The condition of `hold ... while`:
- *
- *   condition  := both { or both }
- *   both       := comparison { and comparison }
- *   comparison := sum (> | >= | < | <=) sum | ( condition )
- *
- * A condition becomes one expression, which is above zero if the condition is true: a > b is a - b, `and` is min, `or`
- * is max. The same functions read conditions and sums, because only the text after a closing parenthesis shows whether
- * it enclosed a condition or the beginning of a sum. NESTING_MAX bounds the recursion. */
-
-typedef struct reading {
-    word_id statement; /* the statement, for hints */
-    int depth;         /* depth of parentheses */
-} reading;
-
-static const expr *parse_any(parser *in, reading *how, bool *is_condition);
-
-static bool at_comparison(const parser *in) {
-    return parser_is_sign(in, '>') || parser_is_sign(in, '<') ||
-           parser_is_sign(in, SIGN_AT_LEAST) || parser_is_sign(in, SIGN_AT_MOST);
-}
-
-static const expr *missing_comparison(parser *in, const reading *how) {
-    const bool equal = parser_is_sign(in, SIGN_EQUAL) || parser_is_sign(in, '=');
-    parser_fail(in,
-                equal ? "compare with >, <, >= or <=: two numbers are hardly ever equal"
-                      : word_row(how->statement)->form,
-                "a comparison is missing before %s", token_words(in, &in->token));
-    return NULL;
-}
-
-/* Reads a condition in parentheses, or a sum that begins with parentheses. */
-static const expr *parse_group(parser *in, reading *how, bool *is_condition) {
-    const place open = in->token.at;
-    if (how->depth == NESTING_MAX) {
-        parser_fail(in, "name parts of the expression with let",
-                    "this expression is nested more than %d deep", NESTING_MAX);
-        return NULL;
-    }
-    how->depth++;
-    in->parentheses++;
-    parser_next(in);
-    const expr *inner = parse_any(in, how, is_condition);
-    how->depth--;
-    if (inner == NULL || !parse_close(in, open)) {
-        return NULL;
-    }
-    if (*is_condition) {
-        return inner;
-    }
-    in->ready = inner;
-    return parse_expression(in, CONTEXT_EVENT);
-}
-
-static const expr *parse_comparison(parser *in, reading *how, bool *is_condition) {
-    *is_condition = false;
-    const expr *left = parser_is_sign(in, '(') ? parse_group(in, how, is_condition)
-                                               : parse_expression(in, CONTEXT_EVENT);
-    if (left == NULL || *is_condition || !at_comparison(in)) {
-        return left;
-    }
-    const token sign = in->token;
-    const bool above = sign.sign == '>' || sign.sign == SIGN_AT_LEAST;
-    parser_next(in);
-    const expr *right = parse_expression(in, CONTEXT_EVENT);
-    if (right == NULL) {
-        return NULL;
-    }
-    if (at_comparison(in)) {
-        parser_fail(in, "join two comparisons with and: x > a and x < b",
-                    "a condition compares two expressions, not three");
-        return NULL;
-    }
-    const expr *by = expr_difference(in, sign.at, above ? left : right, above ? right : left);
-    if (by == NULL) {
-        return NULL;
-    }
-    /* only the sign matters, and `and` may join conditions on a length and on a speed, so the dimension is dropped */
-    expr *made = expr_new(in, by->op, by->at);
-    *made = *by;
-    made->dim = dim_none();
-    *is_condition = true;
-    return made;
-}
-
-/* Reads PART { word PART }. If there are several parts, each must be a condition. */
-static const expr *parse_joined(parser *in, reading *how, word_id word, function_id function,
-                                const expr *(*part)(parser *, reading *, bool *),
-                                bool *is_condition) {
-    const expr *left = part(in, how, is_condition);
-    while (left != NULL && parser_is_word(in, word)) {
-        const place at = in->token.at;
-        if (!*is_condition) {
-            return missing_comparison(in, how);
-        }
-        parser_next(in);
-        const expr *right = part(in, how, is_condition);
-        if (right == NULL) {
-            return NULL;
-        }
-        if (!*is_condition) {
-            return missing_comparison(in, how);
-        }
-        left = expr_call(in, function, at, left, right);
-    }
-    return left;
-}
-
-static const expr *parse_both(parser *in, reading *how, bool *is_condition) {
-    return parse_joined(in, how, WORD_AND, FN_MIN, parse_comparison, is_condition);
-}
-
-static const expr *parse_any(parser *in, reading *how, bool *is_condition) {
-    return parse_joined(in, how, WORD_OR, FN_MAX, parse_both, is_condition);
-}
-
-/* Reads a condition as one expression, which is above zero if the condition is true. Hints quote the statement. */
-static const expr *parse_condition(parser *in, word_id statement) {
-    reading how = {statement, 0};
-    bool is_condition = false;
-    const expr *made = parse_any(in, &how, &is_condition);
-    return made == NULL || is_condition ? made : missing_comparison(in, &how);
-}
-
 /* === `when EXPR crosses EXPR [rising|falling] { set NAME = EXPR, ... }` ======================= */
 
 static const char *form(void) { return word_row(WORD_WHEN)->form; }
@@ -427,7 +302,7 @@ bool read_hold(parser *in, const statement_word *word) {
     if (!parser_expect_word(in, WORD_WHILE, WORD_HOLD)) {
         return false;
     }
-    made.condition = parse_condition(in, WORD_HOLD);
+    made.condition = parse_condition(in);
     return made.condition != NULL && parser_end_statement(in, "the condition") &&
            add_contact(in, &made);
 }

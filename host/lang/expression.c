@@ -494,12 +494,9 @@ static const expr *parse_named(parser *in) {
     return expr_name(in, &name);
 }
 
+static const expr *parse_any(parser *in);
+
 static const expr *parse_primary(parser *in) {
-    if (in->ready != NULL) {
-        const expr *taken = in->ready;
-        in->ready = NULL;
-        return taken;
-    }
     if (in->token.kind == TOKEN_NUMBER) {
         return parse_number(in);
     }
@@ -508,12 +505,13 @@ static const expr *parse_primary(parser *in) {
     }
     if (parser_is_sign(in, '(')) {
         const place open = in->token.at;
+        const bool may_compare = in->token.text == in->condition_at;
         if (!go_deeper(in)) {
             return NULL;
         }
         in->parentheses++;
         parser_next(in);
-        const expr *inner = parse_sum(in);
+        const expr *inner = may_compare ? parse_any(in) : parse_sum(in);
         if (inner == NULL || !parse_close(in, open)) {
             return NULL;
         }
@@ -535,7 +533,7 @@ static const expr *parse_primary(parser *in) {
 
 static const expr *parse_power(parser *in) {
     const expr *base = parse_primary(in);
-    if (base == NULL || !parser_is_sign(in, '^')) {
+    if (base == NULL || base->is_condition || !parser_is_sign(in, '^')) {
         return base;
     }
     const place at = in->token.at;
@@ -549,7 +547,7 @@ static const expr *parse_power(parser *in) {
 }
 
 static const expr *parse_signed(parser *in) {
-    if (in->ready != NULL || (!parser_is_sign(in, '-') && !parser_is_sign(in, '+'))) {
+    if (!parser_is_sign(in, '-') && !parser_is_sign(in, '+')) {
         return parse_power(in);
     }
     const token sign = in->token;
@@ -569,7 +567,8 @@ static const expr *parse_signed(parser *in) {
 static const expr *parse_level(parser *in, const expr *(*part)(parser *), const char *signs,
                                expr_op first, expr_op second) {
     const expr *left = part(in);
-    while (left != NULL && (parser_is_sign(in, signs[0]) || parser_is_sign(in, signs[1]))) {
+    while (left != NULL && !left->is_condition &&
+           (parser_is_sign(in, signs[0]) || parser_is_sign(in, signs[1]))) {
         const token sign = in->token;
         parser_next(in);
         if (sign.sign == '*' && parser_is_sign(in, '*')) {
@@ -592,13 +591,102 @@ static const expr *parse_sum(parser *in) {
     return parse_level(in, parse_product, "+-", EXPR_ADD, EXPR_SUB);
 }
 
-const expr *parse_expression(parser *in, expr_context context) {
+/* === the condition of a hold ================================================================== */
+/* The condition of `hold ... while`:
+ *
+ *   condition  := both { or both }
+ *   both       := comparison { and comparison }
+ *   comparison := sum (> | >= | < | <=) sum | ( condition )
+ *
+ * A condition becomes one expression, which is above zero if the condition is true: a > b is a - b, `and` is min, `or`
+ * is max. A parenthesis at the beginning of a comparison may enclose a condition or the beginning of a sum. */
+
+static bool at_comparison(const parser *in) {
+    return parser_is_sign(in, '>') || parser_is_sign(in, '<') ||
+           parser_is_sign(in, SIGN_AT_LEAST) || parser_is_sign(in, SIGN_AT_MOST);
+}
+
+static const expr *missing_comparison(parser *in) {
+    const bool equal = parser_is_sign(in, SIGN_EQUAL) || parser_is_sign(in, '=');
+    parser_fail(in,
+                equal ? "compare with >, <, >= or <=: two numbers are hardly ever equal"
+                      : word_row(WORD_HOLD)->form,
+                "a comparison is missing before %s", token_words(in, &in->token));
+    return NULL;
+}
+
+static const expr *parse_comparison(parser *in) {
+    in->condition_at = in->token.text;
+    const expr *left = parse_sum(in);
+    if (left == NULL || left->is_condition || !at_comparison(in)) {
+        return left;
+    }
+    const token sign = in->token;
+    const bool above = sign.sign == '>' || sign.sign == SIGN_AT_LEAST;
+    parser_next(in);
+    const expr *right = parse_sum(in);
+    if (right == NULL) {
+        return NULL;
+    }
+    if (at_comparison(in)) {
+        parser_fail(in, "join two comparisons with and: x > a and x < b",
+                    "a condition compares two expressions, not three");
+        return NULL;
+    }
+    const expr *by = expr_difference(in, sign.at, above ? left : right, above ? right : left);
+    if (by == NULL) {
+        return NULL;
+    }
+    /* only the sign matters, and `and` may join conditions on a length and on a speed, so the dimension is dropped */
+    expr *made = expr_new(in, by->op, by->at);
+    *made = *by;
+    made->dim = dim_none();
+    made->is_condition = true;
+    return made;
+}
+
+/* Reads PART { word PART }. If there are several parts, each must be a condition. */
+static const expr *parse_joined(parser *in, word_id word, function_id function,
+                                const expr *(*part)(parser *)) {
+    const expr *left = part(in);
+    while (left != NULL && parser_is_word(in, word)) {
+        const place at = in->token.at;
+        if (!left->is_condition) {
+            return missing_comparison(in);
+        }
+        parser_next(in);
+        const expr *right = part(in);
+        if (right == NULL || !right->is_condition) {
+            return right == NULL ? NULL : missing_comparison(in);
+        }
+        left = expr_call(in, function, at, left, right);
+    }
+    return left;
+}
+
+static const expr *parse_both(parser *in) {
+    return parse_joined(in, WORD_AND, FN_MIN, parse_comparison);
+}
+
+static const expr *parse_any(parser *in) { return parse_joined(in, WORD_OR, FN_MAX, parse_both); }
+
+/* Reads an expression by `rule`. */
+static const expr *parse_by(parser *in, expr_context context, const expr *(*rule)(parser *)) {
     const expr_context outer = in->context;
     in->context = context;
     in->nesting = 0;
-    const expr *made = parse_sum(in);
+    const expr *made = rule(in);
     in->context = outer;
     return made;
+}
+
+const expr *parse_condition(parser *in) {
+    const expr *made = parse_by(in, CONTEXT_EVENT, parse_any);
+    return made == NULL || made->is_condition ? made : missing_comparison(in);
+}
+
+const expr *parse_expression(parser *in, expr_context context) {
+    return parse_by(in, context, parse_sum);
 }
 
 bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,

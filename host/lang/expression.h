@@ -1,5 +1,4 @@
-/* expression.h: the parser of expressions: grammar and names (expression.c), conditions (contact_statement.c),
- * dimensions of operators (operators.c). NESTING_MAX and EXPR_HEIGHT_MAX bound the recursion. */
+/* expression.h: the parser of expressions: grammar, conditions and names (expression.c), dimensions of operators (operators.c). NESTING_MAX and EXPR_HEIGHT_MAX bound the recursion. */
 #ifndef LANG_EXPRESSION_H
 #define LANG_EXPRESSION_H
 
@@ -8,8 +7,10 @@
 
 #define PI 3.14159265358979323846
 
-/* --- grammar (expression.c, contact_statement.c) --- */
+/* --- grammar (expression.c) --- */
 const expr *parse_expression(parser *in, expr_context context); /* NULL after an error */
+/* Reads the condition of a hold as one expression, which is above zero if the condition is true. NULL after an error. */
+const expr *parse_condition(parser *in);
 /* reads the ')' that closes `open` */
 bool parse_close(parser *in, place open);
 /* Reads the current unit token, or a unit without brackets up to the end of the text. *text is its text without blanks. */

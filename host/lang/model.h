@@ -80,8 +80,9 @@ struct expr {
     dimension dim;
     /* 1 for a leaf; for a let or an output, one more than its expression's height */
     int height;
-    int order;     /* most primes on any coordinate or state, also within lets */
-    unsigned uses; /* USES_ bits of its dependencies, through lets too */
+    int order;         /* most primes on any coordinate or state, also within lets */
+    unsigned uses;     /* USES_ bits of its dependencies, through lets too */
+    bool is_condition; /* above zero if true; no operand of arithmetic */
     /* a symbol in the expression that is an angle not declared in SI, or NULL */
     const symbol *angle;
 };

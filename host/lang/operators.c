@@ -55,6 +55,7 @@ static expr *join(parser *in, expr_op op, place at, const expr *left, const expr
     made->height = left->height + 1;
     made->order = left->order;
     made->uses = left->uses;
+    made->is_condition = left->is_condition;
     made->angle = angle_in(op, left, right);
     if (right != NULL) {
         made->height = right->height >= left->height ? right->height + 1 : made->height;

@@ -88,7 +88,7 @@ typedef struct parser {
     unit_scale number_unit; /* the unit after the last number, and its text */
     const char *number_unit_text;
     const char *const *around; /* of override_parse() */
-    const expr *ready;         /* first operand of the next expression, if already read */
+    const char *condition_at;  /* a parenthesis at this place of the text may enclose a condition */
     int effect;                /* index of the current effect, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */
     bool bare_units; /* a unit without brackets may follow a number, up to the end of the text */
