@@ -119,15 +119,10 @@ static void break_edges(const fault_plan *plan, fault_case *f, double time_s, wh
 
 static void set_value(const fault_plan *plan, wh_sample *s, double value, bool added) {
     const wh_signal *of = hello_signal(plan->hello, WH_SIGNAL_SAMPLE, s->channel);
-    const double count = (double)of->per_count;
-    const double counts = value / count + (added ? (double)s->raw : 0.0);
-    const double low = (double)of->low / count;
-    const double high = (double)of->high / count;
-    const double held = counts < low ? low : counts > high ? high : counts;
-    s->raw = (int32_t)number_floor(held + 0.5);
-    if (s->status != WH_SAMPLE_DISCONNECTED) {
-        s->status = counts <= low || counts >= high ? WH_SAMPLE_SATURATED : WH_SAMPLE_GOOD;
-    }
+    uint8_t status;
+    s->raw =
+        hello_count(of, value + (added ? (double)s->raw * (double)of->per_count : 0.0), &status);
+    s->status = s->status != WH_SAMPLE_DISCONNECTED ? status : s->status;
 }
 
 static void change_value(const fault_plan *plan, fault_case *f, double time_s, wh_sample *s) {

@@ -509,20 +509,13 @@ static void see_edges(plant *p) {
     }
 }
 
-static plant_event convert(const bound *b, double value) {
-    plant_event e = {.channel = (uint8_t)b->channel, .status = WH_SAMPLE_GOOD};
-    const double low = (double)b->signal.low;
-    const double high = (double)b->signal.high;
-    if (!(value < high)) {
-        value = high;
-        e.status = WH_SAMPLE_SATURATED;
-    } else if (value <= low) {
-        value = low;
-        e.status = WH_SAMPLE_SATURATED;
-    }
-    e.raw =
-        (int32_t)number_floor(value / (double)b->signal.per_count + 0.5); /* in range: plant.c */
-    return e;
+int32_t hello_count(const wh_signal *s, double value, uint8_t *status) {
+    const double low = (double)s->low;
+    const double high = (double)s->high;
+    const bool good = value > low && value < high;
+    *status = good ? WH_SAMPLE_GOOD : WH_SAMPLE_SATURATED;
+    value = good ? value : value <= low ? low : high;                 /* high for NaN */
+    return (int32_t)number_floor(value / (double)s->per_count + 0.5); /* has_good_range() */
 }
 
 static void take_samples(plant *p) {
@@ -537,8 +530,9 @@ static void take_samples(plant *p) {
             engine_double.outputs(p->run, p->output_after);
             observed = true;
         }
-        plant_event e =
-            convert(b, b->place == BOUND_OUTPUT ? p->output_after[b->index] : p->after[b->index]);
+        const double *of = b->place == BOUND_OUTPUT ? p->output_after : p->after;
+        plant_event e = {.channel = (uint8_t)b->channel};
+        e.raw = hello_count(&b->signal, of[b->index], &e.status);
         e.at_ticks = plant_now(p) + p->request.delay_s;
         e.ticks = shown(p, e.at_ticks);
         enqueue(&p->samples, e);

@@ -34,6 +34,8 @@ typedef struct binding {
 /* The number of the hello's signals of this kind, and the signal of a channel; NULL if there is none. */
 unsigned hello_channels(const wh_hello *hello, wh_signal_kind kind);
 const wh_signal *hello_signal(const wh_hello *hello, wh_signal_kind kind, unsigned channel);
+/* A sample's count of the value, within the signal's range, and its status. */
+int32_t hello_count(const wh_signal *s, double value, uint8_t *status);
 
 /* The index of the input of that name, or -1. */
 int bind_input(const image *im, const char *name);
