@@ -105,11 +105,8 @@ static void print(const derive_options *o, const loaded *made, const char *file)
 static bool goes_with(bool given, const char *option, const char *value, unsigned of,
                       const char *with, const form_row *as) {
     const bool goes = !given || (as->is & of) != 0;
-    if (!goes) {
-        fprintf(stderr, "whirl derive: error: %s needs --as %s\nhint: --as %.*s %s%s\n", option,
-                with, (int)strcspn(with, " "), with, option, value);
-    }
-    return goes;
+    return goes || options_fail("derive", "%s needs --as %s\nhint: --as %.*s %s%s", option, with,
+                                (int)strcspn(with, " "), with, option, value);
 }
 
 /* --header must be another file than standard output, which gets the code. */

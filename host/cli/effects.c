@@ -75,15 +75,11 @@ static bool read_limit(subsets *s, const char *text) {
     const int column = column_of(s, name);
     bool good = column > 0;
     if (good && text[length] == '\0') {
-        fprintf(stderr,
-                "whirl effects: error: --error %s has no value\nhint: --error \"%s=1e-3 [%s]\"\n",
-                text, name, s->columns->column[column].unit->shown);
-        good = false;
+        good = options_fail("effects", "--error %s has no value\nhint: --error \"%s=1e-3 [%s]\"",
+                            text, name, s->columns->column[column].unit->shown);
     }
     if (good && isfinite(s->limit[column])) {
-        fprintf(stderr, "whirl effects: error: --error: '%s' is given twice\nhint: leave one out\n",
-                name);
-        good = false;
+        good = options_fail("effects", "--error: '%s' is given twice\nhint: leave one out", name);
     }
     good = good && pricing_quantity("effects", s->of, name, "--error", text, dim_none(), &si);
     if (good) {

@@ -279,13 +279,10 @@ bool options_is_name(const char *command, const char *name, int most) {
     const size_t length = strlen(name);
     const bool good = length > 0 && length <= (size_t)most && strspn(name, letters) == length &&
                       !(name[0] >= '0' && name[0] <= '9');
-    if (!good) {
-        fprintf(stderr,
-                "whirl %s: error: '%.70s' is not a valid name\nhint: use letters, digits and _, "
-                "at most %d characters, no digit at the beginning\n",
-                command, name, most);
-    }
-    return good;
+    return good || options_fail(command,
+                                "'%.70s' is not a valid name\nhint: use letters, digits and _, "
+                                "at most %d characters, no digit at the beginning",
+                                name, most);
 }
 
 bool options_number(const char *command, const char *option, const char *text, double least,
@@ -293,11 +290,8 @@ bool options_number(const char *command, const char *option, const char *text, d
     const char *end = text;
     *number = decimal_read(text, &end);
     const bool good = end != text && *end == '\0' && *number >= least && *number <= most;
-    if (!good) {
-        fprintf(stderr, "whirl %s: error: %s takes a number from %g to %g, not '%.40s'\nhint: %s\n",
-                command, option, least, most, text, hint);
-    }
-    return good;
+    return good || options_fail(command, "%s takes a number from %g to %g, not '%.40s'\nhint: %s",
+                                option, least, most, text, hint);
 }
 
 bool options_time(const char *command, const char *option, const char *text, const mechanism *of,
@@ -308,13 +302,9 @@ bool options_time(const char *command, const char *option, const char *text, con
         text == NULL ||
         (instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= most_s);
     diags_free(errors); /* a general message is clearer than the parser's */
-    if (!good) {
-        fprintf(
-            stderr,
-            "whirl %s: error: --%s '%s' is not a time%s\nhint: write a time such as 20us or 1ms\n",
-            command, option, text, isfinite(most_s) ? " from 0 to one hour" : "");
-    }
-    return good;
+    return good || options_fail(command,
+                                "--%s '%s' is not a time%s\nhint: write a time such as 20us or 1ms",
+                                option, text, isfinite(most_s) ? " from 0 to one hour" : "");
 }
 
 /* Reads --strict, --strict=off or --strict=LIMIT, for run_checks_fails(). Returns false for another word. */

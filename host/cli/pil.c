@@ -136,19 +136,13 @@ static bool go_together(const pil_options *o) {
     if (o->port == NULL && o->baud > 0.0) {
         return options_fail("pil", "--baud needs --port");
     }
-    if (o->port != NULL &&
-        (o->firmware != NULL || o->board != NULL || !port_has_speed(baud_of(o)))) {
-        fprintf(
-            stderr,
-            o->firmware != NULL || o->board != NULL
-                ? "whirl pil: error: --port excludes %s, because the firmware already runs on the "
-                  "board\n"
-                : "whirl pil: error: no %s supports the speed of --baud\nhint: --baud 115200, "
-                  "57600 or 9600\n",
-            o->firmware != NULL ? "--firmware"
-            : o->board != NULL  ? "--board"
-                                : "serial line");
-        return false;
+    if (o->port != NULL && (o->firmware != NULL || o->board != NULL)) {
+        return options_fail("pil",
+                            "--port excludes %s, because the firmware already runs on the board",
+                            o->firmware != NULL ? "--firmware" : "--board");
+    }
+    if (o->port != NULL && !port_has_speed(baud_of(o))) {
+        return options_fail("pil", "--baud: this speed is not supported\nhint: " PORT_SPEEDS);
     }
     if (o->firmware == NULL && o->port == NULL) {
         return options_fail(

@@ -134,12 +134,9 @@ static bool is_whole_sweep(sweep_options *o) {
                                      "hint: leave one of them out");
     }
     o->csv = o->json ? "/dev/null" : o->csv != NULL ? o->csv : "-";
-    if (o->over_count == 0) {
-        fprintf(stderr, "whirl sweep: error: --over is missing: whirl sweep needs a range of "
-                        "values\nhint: write a range such as --over"
-                        " \"r=10..60 [mm]:11\"\n");
-    }
-    return o->over_count > 0;
+    return o->over_count > 0 ||
+           options_fail("sweep", "--over is missing: whirl sweep needs a range of values\n"
+                                 "hint: write a range such as --over \"r=10..60 [mm]:11\"");
 }
 
 static bool is_whole_map(sweep_options *o) {

@@ -55,7 +55,7 @@ unplug
 # --- errors on the line --------------------------------------------------------------------------------------------------
 exits 2 'excludes --firmware' "$plant" --port "$scratch/tty" --firmware "$build/pil_rig"
 exits 2 'excludes --board' "$plant" --port "$scratch/tty" --board mps2-an386
-exits 2 'supports the speed of --baud' "$plant" --port "$scratch/tty" --baud 12345
+exits 2 'this speed is not supported' "$plant" --port "$scratch/tty" --baud 12345
 exits 2 'cannot be opened' "$plant" --port "$scratch/none"
 exits 2 "^'': error: cannot be opened" "$plant" --port ''
 exits 2 'Is a directory' "$plant" --port "$scratch"
