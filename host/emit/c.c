@@ -341,13 +341,12 @@ static void c_ledger_write(FILE *out, const image *im) {
         c_list_function(out, im->list[IMAGE_POWERS], C_PHASES, "ledger_powers", true, true);
     }
     write_of_angles(out, im, im->list[IMAGE_LEVELS], "ledger_levels", "level");
-    if (l->smooth > 0) {
-        fprintf(out, "static const uint8_t ledger_accounts[%d] = {", l->smooth);
-        for (int i = 0; i < l->smooth; i++) {
-            fprintf(out, "%s%d", i > 0 ? ", " : "", l->entry[i].account);
-        }
-        fprintf(out, "};\n");
+    int *account = alloc(l->smooth, sizeof *account);
+    for (int i = 0; i < l->smooth; i++) {
+        account[i] = l->entry[i].account;
     }
+    write_bytes(out, "ledger_accounts", account, l->smooth);
+    free(account);
     write_bytes(out, "ledger_inputs", l->input, l->inputs);
     fprintf(out,
             "static const wh_ledger_form ledger = {\n    .%s = ledger_powers,\n"

@@ -222,14 +222,7 @@ static void write_operation(FILE *out, const op_list *t, int i) {
     }
 }
 
-bool c_list_uses_phase(const op_list *t) {
-    for (int i = 0; i < t->count; i++) {
-        if (op_list_is_wave(&t->ops[i]) || t->ops[i].code == OP_CELL) {
-            return true;
-        }
-    }
-    return false;
-}
+bool c_list_uses_phase(const op_list *t) { return op_list_waves(t) > 0 || op_list_has(t, OP_CELL); }
 
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result) {
     char text[48];

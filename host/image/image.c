@@ -92,20 +92,12 @@ double image_start(const image *im, int i) {
     return i < im->angles ? im->start_rad[i] : im->start_real[i - im->angles];
 }
 
-static bool list_calls(const op_list *t) {
-    for (int i = 0; t != NULL && i < t->count; i++) {
-        if (op_rows[t->ops[i].code].cost == OP_COSTS_CALL) {
-            return true;
-        }
-    }
-    return false;
-}
-
 bool image_calls(const image *im) {
     bool calls = false;
     for (int role = 0; role < IMAGE_ROLES; role++) {
-        calls = calls || (role != IMAGE_BOOKS && list_calls(im->list[role])); /* the balance runs on
-                                                                               * the host only */
+        const op_list *t = im->list[role];
+        /* the balance runs on the host only */
+        calls = calls || (role != IMAGE_BOOKS && t != NULL && op_list_count(t).calls > 0);
     }
     return calls;
 }

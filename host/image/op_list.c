@@ -153,6 +153,10 @@ static int enter_op(op_list *t, op_code code, int a, int b) {
     return enter(t, (op){.code = code, .function = FUNCTION_NONE, .a = a, .b = b});
 }
 
+static int enter_value(op_list *t, op_code code, int a, double value) {
+    return enter(t, (op){.code = code, .function = FUNCTION_NONE, .a = a, .b = -1, .value = value});
+}
+
 bool op_list_is_constant(const op_list *t, int a, double *value) {
     if (t->ops[a].code != OP_CONSTANT) {
         return false;
@@ -166,19 +170,12 @@ static bool is_value(const op_list *t, int a, double value) {
 }
 
 int op_list_constant(op_list *t, double value) {
-    return enter(t, (op){.code = OP_CONSTANT,
-                         .function = FUNCTION_NONE,
-                         .a = -1,
-                         .b = -1,
-                         .value = value == 0.0 ? 0.0 : value}); /* no negative zero */
+    return enter_value(t, OP_CONSTANT, -1, value == 0.0 ? 0.0 : value); /* no negative zero */
 }
 
 int op_list_leaf(op_list *t, op_code code, int which) { return enter_op(t, code, which, -1); }
 
-int op_list_noise(op_list *t, uint32_t seed) {
-    return enter(
-        t, (op){.code = OP_NOISE, .function = FUNCTION_NONE, .a = -1, .b = -1, .value = seed});
-}
+int op_list_noise(op_list *t, uint32_t seed) { return enter_value(t, OP_NOISE, -1, seed); }
 
 bool op_list_is_whole(double multiple) {
     return multiple == number_floor(multiple) && fabs(multiple) <= 2147483647.0;
@@ -233,11 +230,8 @@ int op_list_cell(op_list *t, const int *turns) {
 }
 
 int op_list_look_up(op_list *t, int cell, int which) {
-    return enter(t, (op){.code = t->tables.terms == WH_TABLE_LINEAR ? OP_LINE : OP_CUBIC,
-                         .function = FUNCTION_NONE,
-                         .a = cell,
-                         .b = -1,
-                         .value = which * t->tables.terms});
+    return enter_value(t, t->tables.terms == WH_TABLE_LINEAR ? OP_LINE : OP_CUBIC, cell,
+                       which * t->tables.terms);
 }
 
 static int negate(op_list *t, int a) {

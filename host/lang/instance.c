@@ -119,9 +119,7 @@ static void check_inputs(const instance *made, const expr *tree, diags *all) {
          (named->kind == SYM_LET && named->value != NULL && (named->value->uses & USES_INPUT)));
     if (changes && named->effect >= 0 && !made->with[named->effect]) {
         const char *owner = made->mechanism->effects[named->effect].name;
-        char hint[120];
-        snprintf(hint, sizeof hint, "add it to the scene: with %s", owner);
-        diag_error(all, tree->at, hint,
+        diag_error(all, tree->at, arena_words(made->arena, "add it to the scene: with %s", owner),
                    "'%s' belongs to the effect '%s', which is not selected here", named->name,
                    owner);
     }
@@ -245,15 +243,12 @@ static void apply_scene(plan *into, const scene *from, instance *made) {
 static bool takes_part(const instance *made, override_kind kind, const assignment *change,
                        diags *all) {
     const effect *missing = instance_lacks(made, change->symbol);
-    char hint[WORDS_SIZE];
     if (missing == NULL) {
         return true;
     }
-    if (kind == OVERRIDE_SET) {
-        snprintf(hint, sizeof hint, "add --with %.80s", missing->name);
-    } else {
-        snprintf(hint, sizeof hint, "name a scene that selects %.60s", missing->name);
-    }
+    const char *hint = arena_words(
+        made->arena, kind == OVERRIDE_SET ? "add --with %s" : "name a scene that selects %s",
+        missing->name);
     diag_error(all, change->at, hint, "'%s' belongs to the effect '%s', which is not selected here",
                change->symbol->name, missing->name);
     return false;
@@ -287,35 +282,30 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
     }
 }
 
+static bool is_word(const char *text, word_id word) { return word_is(word, text, strlen(text)); }
+
 /* Applies "all", which must come before the names of single effects. */
 static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
-    bool found = false;
-    for (int i = 0; i < count && !found; i++) {
-        found = strcmp(texts[i], word_row(WORD_ALL)->text) == 0;
-    }
-    for (int i = 0; i < made->mechanism->effect_count && found; i++) {
-        made->with[i] = wanted;
+    for (int i = 0; i < count; i++) {
+        for (int k = 0; is_word(texts[i], WORD_ALL) && k < made->mechanism->effect_count; k++) {
+            made->with[k] = wanted;
+        }
     }
 }
 
 static void apply_effects(plan *into, instance *made, const char *const *texts, int count,
                           bool wanted) {
     for (int i = 0; i < count; i++) {
-        if (strcmp(texts[i], word_row(WORD_ALL)->text) == 0) {
-            continue;
-        }
-        if (strcmp(texts[i], word_row(WORD_LEDGER)->text) == 0) {
+        if (is_word(texts[i], WORD_LEDGER)) {
             made->ledger = wanted;
-            continue;
-        }
-        if (strcmp(texts[i], word_row(WORD_CONSERVE)->text) == 0 && !wanted) {
+        } else if (is_word(texts[i], WORD_CONSERVE) && !wanted) {
             made->conserve = NULL;
-            continue;
-        }
-        const int index =
-            override_effect(made->mechanism, texts[i], made->arena, into->values.diags);
-        if (index >= 0) {
-            made->with[index] = wanted;
+        } else if (!is_word(texts[i], WORD_ALL)) {
+            const int index =
+                override_effect(made->mechanism, texts[i], made->arena, into->values.diags);
+            if (index >= 0) {
+                made->with[index] = wanted;
+            }
         }
     }
 }
@@ -382,12 +372,11 @@ static void evaluate_durations(plan *from, instance *made) {
 
 static void evaluate_ranges(plan *from, instance *made) {
     const int count = made->scene != NULL ? made->scene->range_count : 0;
-    char what[WORDS_SIZE];
     made->range = arena_alloc(made->arena, (size_t)count * sizeof *made->range);
     for (int i = 0; i < count; i++) {
         const range_statement *each = &made->scene->ranges[i];
-        snprintf(what, sizeof what, "the range of '%s%.*s'", each->symbol->name, each->primes,
-                 "'''''''''");
+        const char *what = arena_words(made->arena, "the range of '%s%.*s'", each->symbol->name,
+                                       each->primes, "'''''''''");
         const double low = finite_value(each->low, &from->values, each->at, what);
         const double high = finite_value(each->high, &from->values, each->at, what);
         if (!(low < high)) {

@@ -175,8 +175,7 @@ static bool show_as_fraction(double value, double *top, double *bottom) {
 
 void show_number(const show *s, double value) {
     char text[NUMBER_SIZE];
-    number_shortest(value, text);
-    char *e = strchr(text, 'e');
+    char *e = strchr(number_shortest(value, text), 'e');
     if (e != NULL && s->style == SHOW_LATEX) {
         *e = '\0';
         fprintf(s->out, "%s \\cdot 10^{%d}", text, (int)strtol(e + 1, NULL, 10));
@@ -492,17 +491,25 @@ static void show_named(const show *s, const symbol *let, double ratio, bool lead
     show_symbol(s, let, 0);
 }
 
-/* Prints the terms of p, without the common factor `without`. */
-static void show_sum(const show *s, const poly *p, wave without, bool leading) {
+/* Prints a part of *p that has a name, and takes it from *p; nothing if no part has one. */
+static bool show_let_part(const show *s, const poly **p, bool *leading) {
     double ratio;
     const poly *rest;
-    const symbol *let = without.angle == NULL ? show_let(s, p, false, &rest, &ratio) : NULL;
+    const symbol *let = show_let(s, *p, false, &rest, &ratio);
     if (let != NULL) {
-        show_named(s, let, ratio, leading);
-        if (!poly_is_zero(rest)) {
-            show_sum(s, rest, without, false);
+        show_named(s, let, ratio, *leading);
+        *leading = false;
+        *p = rest;
+    }
+    return let != NULL;
+}
+
+/* Prints the terms of p, without the common factor `without`. */
+static void show_sum(const show *s, const poly *p, wave without, bool leading) {
+    while (without.angle == NULL && show_let_part(s, &p, &leading)) {
+        if (poly_is_zero(p)) {
+            return;
         }
-        return;
     }
     piece *pieces = alloc(p->count, sizeof *pieces);
     const int count = pieces_of(s->algebra, p, pieces);
@@ -617,15 +624,10 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
 
 /* Prints a sum without rates and without a common factor, such as K1*(X - L1) + K2*(...). */
 static void show_parted(const show *s, const poly *p, bool leading) {
-    double ratio;
-    const poly *rest;
-    const symbol *let = show_let(s, p, false, &rest, &ratio);
-    if (let != NULL) {
-        show_named(s, let, ratio, leading);
-        if (!poly_is_zero(rest)) {
-            show_parted(s, rest, false);
+    while (show_let_part(s, &p, &leading)) {
+        if (poly_is_zero(p)) {
+            return;
         }
-        return;
     }
     const atom *shared = shared_parameter(p);
     algebra *a = s->algebra;
