@@ -14,20 +14,8 @@ enclosure enclosure_div(enclosure a, enclosure b) {
     if (!(b.low > 0.0 || b.high < 0.0) || !enclosure_is_finite(b)) {
         return none();
     }
-    const double p = a.low / b.low;
-    const double q = a.low / b.high;
-    const double r = a.high / b.low;
-    const double s = a.high / b.high;
-    const double bad = (p + q) + (r + s);
-    if (!(bad - bad == 0.0)) {
-        return none();
-    }
-    if (enclosure_is_zero(a)) {
-        return a;
-    }
-    return (enclosure){
-        enclosure_below(enclosure_lesser(enclosure_lesser(p, q), enclosure_lesser(r, s))),
-        enclosure_above(enclosure_larger(enclosure_larger(p, q), enclosure_larger(r, s)))};
+    return enclosure_of_four(a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high,
+                             enclosure_is_zero(a));
 }
 
 enclosure enclosure_square(enclosure a) {
@@ -160,6 +148,14 @@ enclosure enclosure_root(enclosure a) {
                        is_whole_root(high, a.high) ? high : enclosure_above(high)};
 }
 
+/* Encloses the values of a rising function, which `at` encloses at one number. */
+static enclosure rising(enclosure (*at)(double x), enclosure a) {
+    const enclosure low = at(a.low);
+    const enclosure high = enclosure_is_point(a) ? low : at(a.high);
+    return enclosure_is_finite(low) && enclosure_is_finite(high) ? (enclosure){low.low, high.high}
+                                                                 : none();
+}
+
 /* Encloses e^x: the series at x / 2^n, squared n times. */
 static enclosure exponential(double x) {
     const double size = x < 0.0 ? -x : x;
@@ -188,10 +184,7 @@ enclosure enclosure_exp(enclosure a) {
     if (enclosure_is_zero(a)) {
         return enclosure_of(1.0);
     }
-    const enclosure low = exponential(a.low);
-    const enclosure high = enclosure_is_point(a) ? low : exponential(a.high);
-    return enclosure_is_finite(low) && enclosure_is_finite(high) ? (enclosure){low.low, high.high}
-                                                                 : none();
+    return rising(exponential, a);
 }
 
 /* log x = y + log(1 + z) with z = x e^-y - 1, for any approximation y of log x, and z / (1 + z) <= log(1 + z) <= z. */
@@ -211,10 +204,7 @@ enclosure enclosure_log(enclosure a) {
     if (!(a.low > 0.0) || !enclosure_is_finite(a)) {
         return none();
     }
-    const enclosure low = logarithm(a.low);
-    const enclosure high = enclosure_is_point(a) ? low : logarithm(a.high);
-    return enclosure_is_finite(low) && enclosure_is_finite(high) ? (enclosure){low.low, high.high}
-                                                                 : none();
+    return rising(logarithm, a);
 }
 
 enclosure enclosure_whole_power(enclosure a, int n) {

@@ -65,21 +65,23 @@ static inline enclosure enclosure_widened(enclosure a, double by) {
 static inline double enclosure_lesser(double a, double b) { return a < b ? a : b; }
 static inline double enclosure_larger(double a, double b) { return a > b ? a : b; }
 
-static inline enclosure enclosure_mul(enclosure a, enclosure b) {
-    const double p = a.low * b.low;
-    const double q = a.low * b.high;
-    const double r = a.high * b.low;
-    const double s = a.high * b.high;
+/* Encloses four rounded products or quotients. `zero`: all are exactly zero, unless one of them is not finite. */
+static inline enclosure enclosure_of_four(double p, double q, double r, double s, bool zero) {
     const double bad = (p + q) + (r + s); /* not finite if one of the four is not */
     if (!(bad - bad == 0.0)) {
         return (enclosure){bad - bad, bad - bad};
     }
-    if (enclosure_is_zero(a) || enclosure_is_zero(b)) {
+    if (zero) {
         return enclosure_of(0.0);
     }
     return (enclosure){
         enclosure_below(enclosure_lesser(enclosure_lesser(p, q), enclosure_lesser(r, s))),
         enclosure_above(enclosure_larger(enclosure_larger(p, q), enclosure_larger(r, s)))};
+}
+
+static inline enclosure enclosure_mul(enclosure a, enclosure b) {
+    return enclosure_of_four(a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high,
+                             enclosure_is_zero(a) || enclosure_is_zero(b));
 }
 
 static inline enclosure enclosure_times(enclosure a, double x) {
