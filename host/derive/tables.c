@@ -564,16 +564,6 @@ static bool shares(int *turns, const int *other, int angles) {
     return true;
 }
 
-/* Returns the index of an angle that only the other phase has; if there is none, the first angle of the other phase. */
-static int angle_of_other(const int *turns, const int *other, int angles) {
-    for (int k = 0; k < angles; k++) {
-        if (other[k] != 0 && turns[k] == 0) {
-            return k;
-        }
-    }
-    return leading(other, angles);
-}
-
 static void find_phase(tabling *t) {
     const op_list *c = t->from->coefficients;
     bool found = false;
@@ -588,7 +578,7 @@ static void find_phase(tabling *t) {
         } else if (!shares(t->turns, turns, c->angles)) {
             refuse(t->why, "depend on the sines of more than one turn angle",
                    "leave out --tables: a table depends on one angle, or on one sum of angles",
-                   angle_of_other(t->turns, turns, c->angles));
+                   leading(turns, c->angles));
         }
     }
     const int k = leading(t->turns, c->angles);
