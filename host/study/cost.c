@@ -9,6 +9,7 @@
 #include "host/fixed/fixed_plan.h"
 #include "host/image/core_rows.h"
 #include "host/image/image.h"
+#include "host/number/decimal.h"
 
 #include "host/study/cost_rows.inc"
 
@@ -440,29 +441,27 @@ bool cost_cut(char *row, char **column, int columns) {
     return count == columns;
 }
 
-static cost_figure measured(const char *text, cost_basis basis) {
-    return text[0] == '\0' ? (cost_figure){0} : cost_known(strtod(text, NULL), basis);
+const cost_layout cost_step_layout = {COST_COLUMNS, 3, 7, 8, 9, 10};
+
+static void grow(cost_figure *f, cost_basis basis, const char *text) {
+    const double value = decimal_read(text, NULL);
+    if (text[0] != '\0' && (f->basis == COST_NOT_KNOWN || value > f->value)) {
+        *f = cost_known(value, basis);
+    }
 }
 
-bool cost_measured(const char *row, const cost_board *board, cost *c) {
-    char copy[1024];
-    char *column[COST_COLUMNS];
-    if (strlen(row) >= sizeof copy) {
+bool cost_enter(char *row, const cost_layout *at, char **column, const cost_board *board, cost *c) {
+    if (!cost_cut(row, column, at->columns) || strcmp(column[at->board], board->name) != 0) {
         return false;
     }
-    memcpy(copy, row, strlen(row) + 1);
-    if (!cost_cut(copy, column, COST_COLUMNS) || strcmp(column[3], board->name) != 0) {
-        return false;
-    }
-    c->why = "";
-    c->instructions = measured(column[7], COST_MEASURED);
-    c->instructions_worst = measured(column[8], COST_MEASURED);
+    grow(&c->instructions, COST_MEASURED, column[at->instructions]);
+    grow(&c->instructions_worst, COST_MEASURED, column[at->instructions_most]);
     if (!cost_ranges(board, c)) {
-        c->cycles = measured(column[9], board->cycles);
-        c->cycles_worst = measured(column[10], board->cycles);
+        grow(&c->cycles, board->cycles, column[at->cycles]);
+        grow(&c->cycles_worst, board->cycles, column[at->cycles_most]);
     }
-    c->flash_bytes = measured(column[12], COST_MEASURED);
-    c->ram_bytes = measured(column[13], COST_MEASURED);
-    c->stack_bytes = measured(column[14], COST_MEASURED);
+    grow(&c->flash_bytes, COST_MEASURED, column[at->columns - 3]);
+    grow(&c->ram_bytes, COST_MEASURED, column[at->columns - 2]);
+    grow(&c->stack_bytes, COST_MEASURED, column[at->columns - 1]);
     return c->instructions.basis == COST_MEASURED;
 }

@@ -10,7 +10,7 @@
  *
  *     sh mk/price/measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]
  *
- * It prints COST_HEADER and one row, which cost_measured() reads. Exit status 2: wrong words, or a tool is missing. 1:
+ * It prints COST_HEADER and one row, which cost_enter() reads. Exit status 2: wrong words, or a tool is missing. 1:
  * the scene cannot be derived, does not fit or does not run.
  *
  * Neither price includes wait states of flash, caches or interrupts. Other compilers and flags have other prices. */
@@ -169,14 +169,21 @@ cost_figure cost_known(double value, cost_basis basis);
 /* On a board without counted cycles (COST_RANGE), fills in the ranges of cycles, and returns true. */
 bool cost_ranges(const cost_board *board, cost *c);
 
-/* The header of measure_one.sh's rows. cost_measured() reads a row; it does not change state_bytes, which a row does not have.
- * Returns false if the text is no row, or a row of another board. */
+/* The header of measure_one.sh's rows. */
 #define COST_HEADER \
     "commit,compiler,flags,board,scene,number,setting,instructions,instructions_most,cycles,cycles_most," \
     "cycles_obtained,flash_bytes,ram_bytes,stack_bytes"
 enum { COST_COLUMNS = 15 };
 /* Cuts a row at its commas outside quotes. Returns false unless it has this number of columns. */
 bool cost_cut(char *row, char **column, int columns);
-bool cost_measured(const char *row, const cost_board *board, cost *c);
+
+/* The columns of a row of counts; the last three are the bytes. */
+typedef struct cost_layout {
+    int columns, board, instructions, instructions_most, cycles, cycles_most;
+} cost_layout;
+extern const cost_layout cost_step_layout; /* of COST_HEADER */
+/* Cuts a row into column[at->columns], and raises the figures in `c` to its counts, if these are larger. state_bytes do not
+ * change. Returns false if the text is no row, or a row of another board. */
+bool cost_enter(char *row, const cost_layout *at, char **column, const cost_board *board, cost *c);
 
 #endif

@@ -685,54 +685,12 @@ const char *measured_missing(const trials *t, const cost_board *board, char text
 
 /* --- counting --------------------------------------------------------------------------------------------*/
 
-/* Columns of count_run.sh's row. */
-enum {
-    RUN_STEPS = 2,
-    RUN_INSTRUCTIONS,
-    RUN_MOST,
-    RUN_BOUND,
-    RUN_CYCLES,
-    RUN_CYCLES_MOST,
-    RUN_CYCLES_BOUND,
-    RUN_OBTAINED,
-    RUN_FLASH,
-    RUN_RAM,
-    RUN_STACK,
-    RUN_COLUMNS
-};
+/* The columns of count_run.sh's row. */
+enum { RUN_STEPS = 2, RUN_BOUND = 5, RUN_CYCLES_BOUND = 8, RUN_COLUMNS = 13 };
+static const cost_layout run_layout = {RUN_COLUMNS, 0, 3, 4, 6, 7};
 
-static double value_of(const char *text) { return decimal_read(text, NULL); }
-
-/* Raises a figure to the count at one more point, if that is larger. */
-static void grow(cost_figure *f, cost_basis basis, const char *text) {
-    const double value = value_of(text);
-    if (f->basis == COST_NOT_KNOWN || value > f->value) {
-        *f = cost_known(value, basis);
-    }
-}
-
-/* Adds the whole run of one point to a row. Returns false if the line is not valid. */
-static bool enter_run(const cost_board *board, char *line, table_row *to) {
-    char *column[RUN_COLUMNS];
-    if (!cost_cut(line, column, RUN_COLUMNS) || strcmp(column[0], board->name) != 0) {
-        return false;
-    }
-    cost *c = &to->cost;
-    grow(&c->instructions, COST_MEASURED, column[RUN_INSTRUCTIONS]);
-    grow(&c->instructions_worst, COST_MEASURED, column[RUN_MOST]);
-    if (!cost_ranges(board, c)) {
-        grow(&c->cycles, board->cycles, column[RUN_CYCLES]);
-        grow(&c->cycles_worst, board->cycles, column[RUN_CYCLES_MOST]);
-    }
-    grow(&c->flash_bytes, COST_MEASURED, column[RUN_FLASH]);
-    grow(&c->ram_bytes, COST_MEASURED, column[RUN_RAM]);
-    grow(&c->stack_bytes, COST_MEASURED, column[RUN_STACK]);
-    to->run.steps += value_of(column[RUN_STEPS]);
-    to->run.instructions_bound =
-        number_most(to->run.instructions_bound, value_of(column[RUN_BOUND]));
-    to->run.cycles_bound = number_most(to->run.cycles_bound, value_of(column[RUN_CYCLES_BOUND]));
-    return true;
-}
+/* The larger of the bounds at two points; 0, unknown, if one of them is. */
+static double bound_of(double a, double b) { return a > 0.0 && b > 0.0 ? number_most(a, b) : 0.0; }
 
 /* Runs a command line. Returns its exit status; `row` gets the last line of its output. */
 static int count_line(char *line, char *row, int size) {
@@ -744,31 +702,35 @@ static int count_line(char *line, char *row, int size) {
     return status;
 }
 
-/* Counts whole runs at all points; the result is unknown if one of them failed. */
-static int count_runs(const trials *t, table_row *row) {
-    bool bounded = true;
-    int status = 0;
-    row->cost = (cost){.why = ""};
-    for (int p = 0; p < t->points && status == 0; p++) {
-        char line[1024];
-        const double before = row->run.instructions_bound;
-        row->run.instructions_bound = 0.0;
-        status = count_line(table_measure_line(t, &row->setting, row->pace, p), line, sizeof line);
-        status = status == 0 && !enter_run(t->request.board, line, row) ? 1 : status;
-        bounded = bounded && row->run.instructions_bound > 0.0;
-        row->run.instructions_bound = number_most(before, row->run.instructions_bound);
-    }
-    if (!bounded) {
-        row->run.instructions_bound = row->run.cycles_bound = 0.0;
-    }
-    return status;
+/* Enters a row of count_run.sh: the whole run at one point, the first one or another. */
+static void enter_run(char *const *column, bool first, counted_run *run) {
+    const double instructions = decimal_read(column[RUN_BOUND], NULL);
+    const double cycles = decimal_read(column[RUN_CYCLES_BOUND], NULL);
+    run->steps += decimal_read(column[RUN_STEPS], NULL);
+    run->instructions_bound =
+        first ? instructions : bound_of(run->instructions_bound, instructions);
+    run->cycles_bound = first ? cycles : bound_of(run->cycles_bound, cycles);
 }
 
-static int count_step(const trials *t, table_row *row) {
+/* Counts the step at the worst point, or with contacts the whole run at each point. Returns an exit status. */
+static int count(const trials *t, table_row *row) {
+    const bool runs = t->image[0]->contacts > 0;
+    const cost_layout *layout = runs ? &run_layout : &cost_step_layout;
+    char *column[COST_COLUMNS];
     char line[1024];
-    const int status = count_line(
-        table_measure_line(t, &row->setting, row->pace, row->result.point), line, sizeof line);
-    return status == 0 && !cost_measured(line, t->request.board, &row->cost) ? 1 : status;
+    int status = 0;
+    row->cost = (cost){.why = "", .state_bytes = runs ? (cost_figure){0} : row->cost.state_bytes};
+    for (int p = 0; p < (runs ? t->points : 1) && status == 0; p++) {
+        const int point = runs ? p : row->result.point;
+        status =
+            count_line(table_measure_line(t, &row->setting, row->pace, point), line, sizeof line);
+        if (status == 0 && !cost_enter(line, layout, column, t->request.board, &row->cost)) {
+            status = 1;
+        } else if (status == 0 && runs) {
+            enter_run(column, p == 0, &row->run);
+        }
+    }
+    return status;
 }
 
 /* Do the counted figures of one row also apply to the other? `by_pace`: only if their steps have the same length. */
@@ -780,7 +742,7 @@ static bool is_alike(const table_row *a, const table_row *b, bool by_pace) {
 measured_end measured_count(const trials *t, table *made, int row) {
     const bool runs = t->image[0]->contacts > 0;
     table_row counted = made->row[row];
-    const int status = runs ? count_runs(t, &counted) : count_step(t, &counted);
+    const int status = count(t, &counted);
     if (status == STATUS_MISSING) {
         return MEASURED_MISSING;
     }

@@ -168,11 +168,19 @@ TEST(cost, every_board_has_a_row) {
     TEST_ASSERT_NULL(cost_board_named("mps2"));
 }
 
+static bool measured(const char *row, const cost_board *board, cost *c) {
+    char copy[300];
+    char *column[COST_COLUMNS];
+    *c = (cost){0};
+    snprintf(copy, sizeof copy, "%s", row);
+    return cost_enter(copy, &cost_step_layout, column, board, c);
+}
+
 TEST(cost, measured_rows_are_read) {
     const cost_board *m4 = cost_board_named("mps2-an386");
     const cost_board *m7 = cost_board_named("mps2-an500");
-    cost c = {0};
-    TEST_ASSERT_TRUE(cost_measured(
+    cost c;
+    TEST_ASSERT_TRUE(measured(
         "abc1234,arm-none-eabi-gcc 12.2.1,\"-mcpu=cortex-m4, -O2\",mps2-an386,thomson_a,float,rk4,"
         "555,560,708.5,712,estimated,7120,124,268\n",
         m4, &c));
@@ -183,18 +191,17 @@ TEST(cost, measured_rows_are_read) {
                      c.stack_bytes.value == 268.0);
     /* the cycles of a Cortex-M7 are not counted: they have a range instead of a number */
     TEST_ASSERT_TRUE(
-        cost_measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m7, &c));
+        measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m7, &c));
     TEST_ASSERT_TRUE(c.cycles.basis == COST_RANGE && c.cycles.value == 0.0 &&
                      c.cycles.least < c.cycles.most);
     /* refused: the row of another board, a column too few or too many, the header, an empty line */
     TEST_ASSERT_FALSE(
-        cost_measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m4, &c));
+        measured("a,gcc,\"-O2\",mps2-an500,s,float,rk4,100,100,,,,7120,124,268", m4, &c));
+    TEST_ASSERT_FALSE(measured("a,gcc,\"-O2\",mps2-an386,s,float,rk4,100,100,,,,7120,124", m4, &c));
     TEST_ASSERT_FALSE(
-        cost_measured("a,gcc,\"-O2\",mps2-an386,s,float,rk4,100,100,,,,7120,124", m4, &c));
-    TEST_ASSERT_FALSE(
-        cost_measured("a,gcc,\"-O2\",mps2-an386,s,float,rk4,100,100,,,,7120,124,268,9", m4, &c));
-    TEST_ASSERT_FALSE(cost_measured(COST_HEADER, m4, &c));
-    TEST_ASSERT_FALSE(cost_measured("", m4, &c));
+        measured("a,gcc,\"-O2\",mps2-an386,s,float,rk4,100,100,,,,7120,124,268,9", m4, &c));
+    TEST_ASSERT_FALSE(measured(COST_HEADER, m4, &c));
+    TEST_ASSERT_FALSE(measured("", m4, &c));
 }
 
 /* The text of a column in a row of docs/figures/price.csv. The file has no quotes. */
