@@ -58,9 +58,8 @@ static bool count_row(row *r, char *const column[COST_COLUMNS]) {
     if (!bad && source_open(&from, column[4]) == EXIT_DONE) {
         const load_request request = {
             .settings = options.integration, .use = IMAGE_TO_WRITE, .conserve = true};
-        const overrides changes = options_overrides(&options.change);
         if (source_pick(&from, true, &of, &in) == EXIT_DONE &&
-            load(&made, &from, of, in, &changes, &request) == EXIT_DONE) {
+            load(&made, &from, of, in, &options.changes, &request) == EXIT_DONE) {
             image *im = made.image;
             fixed_plan *plan =
                 r->number == COST_FIXED ? fixed_plan_make(im, false, from.errors) : NULL;
