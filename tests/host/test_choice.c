@@ -224,6 +224,53 @@ TEST(choice, what_would_fit_does) {
     close_request(&q);
 }
 
+/* Each answer must have the least of its figure among the made-up rows that keep the limits it must keep. */
+TEST(choice, answers_are_the_least_of_the_rows_that_may_be) {
+    enum { ROWS = 12 };
+    static const struct {
+        bool error, load, memory; /* limits that must be kept */
+        int figure;               /* 0: cycles, 1: flash, 2: error */
+    } kinds[CHOICES] = {{true, true, true, 0},  {true, true, true, 1},  {false, true, true, 2},
+                        {true, false, true, 0}, {true, true, false, 1}, {true, false, false, 0}};
+    dice d = dice_of("choice answers", 502);
+    request q;
+    open_request(&q, texts[0], "atmega328p", 100.0); /* a step of 10 ms */
+    const choice_request w = {
+        .table = {.error = 1e-2}, .clock_Hz = 5e6, .flash_bytes = 5000.0, .ram_bytes = 500.0};
+    int none[CHOICES] = {0};
+    for (unsigned n = 0; n < dice_cases(300); n++) {
+        table_row row[ROWS];
+        for (int i = 0; i < ROWS; i++) {
+            row[i] = (table_row){.setting = setting_at(0), .pace = {1, 1}};
+            row[i].result.error = pow(10.0, dice_between(&d, -3.0, 0.0));
+            row[i].cost.cycles_worst = cost_known(dice_between(&d, 3e4, 2e5), COST_SIMULATED);
+            row[i].cost.flash_bytes = cost_known(dice_between(&d, 3e3, 9e3), COST_MEASURED);
+            row[i].cost.ram_bytes = cost_known(dice_between(&d, 100.0, 500.0), COST_MEASURED);
+            row[i].cost.stack_bytes = cost_known(dice_between(&d, 100.0, 500.0), COST_MEASURED);
+        }
+        const table made = {.row = row, .count = ROWS, .why = ""};
+        const choice c = choice_make(&q.trial, &made, &w);
+        for (int k = 0; k < CHOICES; k++) {
+            double least = (double)INFINITY;
+            double is = (double)INFINITY;
+            for (int i = 0; i < ROWS; i++) {
+                const double of[] = {row[i].cost.cycles_worst.value, row[i].cost.flash_bytes.value,
+                                     row[i].result.error};
+                const double ram = row[i].cost.ram_bytes.value + row[i].cost.stack_bytes.value;
+                if ((!kinds[k].error || 2.0 * of[2] <= 1e-2) && (!kinds[k].load || of[0] <= 5e4) &&
+                    (!kinds[k].memory || (of[1] <= 5000.0 && ram <= 500.0))) {
+                    least = fmin(least, of[kinds[k].figure]);
+                }
+                is = c.of[k].row == i ? of[kinds[k].figure] : is;
+            }
+            TEST_ASSERT_TRUE(is == least);
+            none[k] += isinf(least) ? 1 : 0;
+        }
+    }
+    TEST_ASSERT_TRUE(none[CHOICE_FASTEST] > 30 && none[CHOICE_FASTEST] < 300);
+    close_request(&q);
+}
+
 /* The C code of the scene with this setting; NULL if the setting is not possible for the scene. The caller frees the
  * text. */
 static char *code_of(const request *q, const setting *s, bool *own) {
