@@ -172,9 +172,7 @@ static fixed_plan *plan_of(const image *im, const source_model *from, const engi
 static bool has_c_form(const image *im, source_model *from) {
     const bool has = start_angles_are_held(im, from->errors) &&
                      start_has_method(im, im->settings.method, from->errors);
-    if (!has) {
-        diags_flush(from->errors, stderr);
-    }
+    diags_flush(from->errors, stderr);
     return has;
 }
 

@@ -336,11 +336,6 @@ static void show(const light *l, const light_expected *e, const light_verdict *f
     }
 }
 
-/* An emulator counts no cycles. */
-static bool is_emulated(const light *l) {
-    return light_is_none(l->value[light_field("period_cycles", "")]);
-}
-
 static bool keep(const char *name, const light *l) {
     FILE *out = atomic_file_open(name);
     if (out != NULL) {
@@ -378,7 +373,7 @@ static int compare(void *options) {
     printf("none: %s\n", names[0] != '\0' ? names : "-");
     list_of(found, LIGHT_DIFFERS, names, sizeof names);
     printf("differs: %s\n", names[0] != '\0' ? names : "-");
-    if (o->page == NULL && is_emulated(&l)) {
+    if (o->page == NULL && light_is_none(l.value[light_field("period_cycles", "")])) {
         puts("row: not added, because an emulator counts no cycles; --page FILE adds a row anyway");
     } else {
         char *row = light_row(&l, equal, names);

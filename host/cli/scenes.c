@@ -60,12 +60,6 @@ static FILE *scenes_open(const char *folder, const char *name, const char *endin
     return out;
 }
 
-static void scenes_close(FILE *out, const char *folder) {
-    if (out != NULL) {
-        (void)atomic_file_close(out, folder, true);
-    }
-}
-
 typedef struct emission {
     const char *folder;
     FILE *declarations;
@@ -104,7 +98,7 @@ static int emit_scene(void *context, const char *file, const loaded *made) {
             scenes_write_hash(out, "scene", &engine_float, im);
             scenes_write_hash(out, "double", &engine_double, im);
         }
-        scenes_close(out, to->folder);
+        (void)atomic_file_close(out, to->folder, true);
     }
     fprintf(to->declarations, "extern const wh_scene %s;\n", im->name);
     fprintf(to->index, "    &%s,\n", im->name);
@@ -135,8 +129,8 @@ int command_emit_scenes(int count, char **words) {
         fputs("};\n\nconst unsigned wh_scene_count = sizeof wh_scenes / sizeof wh_scenes[0];\n",
               to.index);
     }
-    scenes_close(to.declarations, to.folder);
-    scenes_close(to.index, to.folder);
+    (void)atomic_file_close(to.declarations, to.folder, true);
+    (void)atomic_file_close(to.index, to.folder, true);
     return code;
 }
 

@@ -89,15 +89,14 @@ static bool taped_open(taped *t, const char *name) {
         t->failed = true;
         return false;
     }
-    if (!read_frame(t, &frame) || frame.version != WH_FRAME_VERSION ||
-        frame.kind != WH_FRAME_HELLO || frame.length > sizeof t->words) {
-        return is_no_tape(t, "this is not a tape of this version");
+    bool good = read_frame(t, &frame) && frame.version == WH_FRAME_VERSION &&
+                frame.kind == WH_FRAME_HELLO && frame.length <= sizeof t->words;
+    if (good) {
+        memcpy(t->words, frame.payload, frame.length);
+        good =
+            wh_hello_get(&t->hello, t->signal, t->words, frame.length) && t->hello.ticks_per_s > 0;
     }
-    memcpy(t->words, frame.payload, frame.length);
-    if (!wh_hello_get(&t->hello, t->signal, t->words, frame.length) || t->hello.ticks_per_s == 0) {
-        return is_no_tape(t, "this is not a tape of this version");
-    }
-    return true;
+    return good || is_no_tape(t, "this is not a tape of this version");
 }
 
 static void taped_close(taped *t) {
