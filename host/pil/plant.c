@@ -228,13 +228,6 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
     return true;
 }
 
-static void recorded_enter(recorded *r, void *run, uint64_t steps) {
-    if (r->rows != NULL && steps % r->every == 0) {
-        records_read(r->rows, run, ratio_times(steps, r->rows->image->step));
-        (void)records_write(r->rows);
-    }
-}
-
 bool recorded_close(recorded *r) {
     const char *scene = r->rows != NULL ? r->rows->image->name : "";
     records_close(r->rows);
@@ -272,8 +265,10 @@ bool plant_read_places(const char *text, plant_request *to) {
 }
 
 static void record(const plant *p) {
-    if (p->request.rows != NULL) {
-        recorded_enter(p->request.rows, p->run, p->steps);
+    const recorded *r = p->request.rows;
+    if (r != NULL && r->rows != NULL && p->steps % r->every == 0) {
+        records_read(r->rows, p->run, ratio_times(p->steps, p->image->step));
+        (void)records_write(r->rows);
     }
 }
 
