@@ -7,14 +7,9 @@
 
 /* === turned or looked up ====================================================================== */
 
-#define IMAGE_ANGLES_WORD(id, word) word,
-const char *const image_angles_words[IMAGE_ANGLES] = {IMAGE_ANGLES_ROWS(IMAGE_ANGLES_WORD)};
-
-#define IMAGE_MATRIX_WORD(id, word) word,
-const char *const image_matrix_words[IMAGE_MATRICES] = {IMAGE_MATRIX_ROWS(IMAGE_MATRIX_WORD)};
-
-#define IMAGE_TABLES_WORD(id, word) word,
-const char *const image_tables_words[IMAGE_TABLES_FORMS] = {IMAGE_TABLES_ROWS(IMAGE_TABLES_WORD)};
+const char *const image_angles_words[IMAGE_ANGLES] = {IMAGE_ANGLES_ROWS(IMAGE_ROW_WORD)};
+const char *const image_matrix_words[IMAGE_MATRICES] = {IMAGE_MATRIX_ROWS(IMAGE_ROW_WORD)};
+const char *const image_tables_words[IMAGE_TABLES_FORMS] = {IMAGE_TABLES_ROWS(IMAGE_ROW_WORD)};
 
 _Static_assert(IMAGE_CELLS_LEAST == 1U << WH_TABLE_BITS_LEAST &&
                    IMAGE_CELLS_MOST == 1U << WH_TABLE_BITS_MOST,

@@ -22,18 +22,18 @@ enum { IMAGE_WAYS = 6 };
 /* Largest number of coordinates of a mechanism, or of first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
+/* The columns of the settings below, and their number: X(id, word in options and descriptions). */
+#define IMAGE_ROW_ID(id, word) id,
+#define IMAGE_ROW_WORD(id, word) word,
+#define IMAGE_ROW_ONE(id, word) +1
+
 /* How the stages of a step get the sines of turn angles. ANGLES_TURNED: looked up once per step and then rotated, if
  * possible (core/step/stage_turn.h). ANGLES_LOOKUP: looked up at each stage (core/step.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
     X(ANGLES_LOOKUP, "lookup")
-#define IMAGE_ANGLES_NAME(id, word) id,
-typedef enum image_angles { IMAGE_ANGLES_ROWS(IMAGE_ANGLES_NAME) } image_angles;
-#undef IMAGE_ANGLES_NAME
-#define IMAGE_ANGLES_ONE(id, word) +1
-enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ANGLES_ONE) };
-#undef IMAGE_ANGLES_ONE
-/* The words in options and descriptions. */
+typedef enum image_angles { IMAGE_ANGLES_ROWS(IMAGE_ROW_ID) } image_angles;
+enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ROW_ONE) };
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
 /* A whole step of a linear mechanism as one constant matrix (core/step/matrix_step.h): none, the exact motion with constant
@@ -42,12 +42,8 @@ extern const char *const image_angles_words[IMAGE_ANGLES];
     X(MATRIX_NONE, "none") \
     X(MATRIX_EXACT, "exact") \
     X(MATRIX_RK4, "rk4")
-#define IMAGE_MATRIX_NAME(id, word) id,
-typedef enum image_matrix_of { IMAGE_MATRIX_ROWS(IMAGE_MATRIX_NAME) } image_matrix_of;
-#undef IMAGE_MATRIX_NAME
-#define IMAGE_MATRIX_ONE(id, word) +1
-enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_MATRIX_ONE) };
-#undef IMAGE_MATRIX_ONE
+typedef enum image_matrix_of { IMAGE_MATRIX_ROWS(IMAGE_ROW_ID) } image_matrix_of;
+enum { IMAGE_MATRICES = IMAGE_MATRIX_ROWS(IMAGE_ROW_ONE) };
 extern const char *const image_matrix_words[IMAGE_MATRICES];
 
 /* How functions of a single turn angle in the accelerations are obtained: computed, or interpolated linearly or
@@ -56,12 +52,8 @@ extern const char *const image_matrix_words[IMAGE_MATRICES];
     X(TABLES_NONE, "none") \
     X(TABLES_LINEAR, "linear") \
     X(TABLES_CUBIC, "cubic")
-#define IMAGE_TABLES_NAME(id, word) id,
-typedef enum image_tables { IMAGE_TABLES_ROWS(IMAGE_TABLES_NAME) } image_tables;
-#undef IMAGE_TABLES_NAME
-#define IMAGE_TABLES_ONE(id, word) +1
-enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_TABLES_ONE) };
-#undef IMAGE_TABLES_ONE
+typedef enum image_tables { IMAGE_TABLES_ROWS(IMAGE_ROW_ID) } image_tables;
+enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_ROW_ONE) };
 extern const char *const image_tables_words[IMAGE_TABLES_FORMS];
 
 /* Smallest and largest number of cells of a table for one turn; both are powers of two. */

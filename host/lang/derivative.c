@@ -19,24 +19,16 @@ static const expr *number(parser *in, place at, double value) {
     return made;
 }
 
-static const expr *binary(parser *in, expr_op op, place at, const expr *a, const expr *b) {
-    return a == NULL || b == NULL ? NULL : expr_binary(in, op, at, a, b);
-}
-
 static const expr *call(parser *in, function_id f, place at, const expr *a) {
-    return a == NULL ? NULL : expr_call(in, f, at, a, NULL);
+    return expr_call(in, f, at, a, NULL);
 }
 
 /* Builds a^n; NULL if the nesting is too deep (reported). Slopes have negative powers in place of quotients. */
 static const expr *power(parser *in, const expr *a, double n) {
-    return a == NULL ? NULL : binary(in, EXPR_POW, a->at, a, number(in, a->at, n));
+    return a == NULL ? NULL : expr_binary(in, EXPR_POW, a->at, a, number(in, a->at, n));
 }
 
 static const expr *square(parser *in, const expr *a) { return power(in, a, 2.0); }
-
-static const expr *negative(parser *in, const expr *a) {
-    return a == NULL ? NULL : expr_negate(in, a->at, a);
-}
 
 /* Builds a + b or a - b. NULL stands for 0. */
 static const expr *sum(parser *in, expr_op op, place at, const expr *a, const expr *b) {
@@ -55,17 +47,17 @@ static const expr *slope(parser *in, const expr *of) {
     const place at = of->at;
     switch (of->function) {
     case FN_SIN: return call(in, FN_COS, at, u);
-    case FN_COS: return negative(in, call(in, FN_SIN, at, u));
-    case FN_TAN: return binary(in, EXPR_ADD, at, number(in, at, 1.0), square(in, of));
+    case FN_COS: return expr_negate(in, at, call(in, FN_SIN, at, u));
+    case FN_TAN: return expr_binary(in, EXPR_ADD, at, number(in, at, 1.0), square(in, of));
     case FN_ASIN:
     case FN_ACOS: {
-        const expr *rest = binary(in, EXPR_SUB, at, number(in, at, 1.0), square(in, u));
+        const expr *rest = expr_binary(in, EXPR_SUB, at, number(in, at, 1.0), square(in, u));
         const expr *up = power(in, rest, -0.5);
-        return of->function == FN_ASIN ? up : negative(in, up);
+        return of->function == FN_ASIN ? up : expr_negate(in, at, up);
     }
     case FN_ATAN:
-        return power(in, binary(in, EXPR_ADD, at, number(in, at, 1.0), square(in, u)), -1.0);
-    case FN_SQRT: return binary(in, EXPR_MUL, at, number(in, at, 0.5), power(in, u, -0.5));
+        return power(in, expr_binary(in, EXPR_ADD, at, number(in, at, 1.0), square(in, u)), -1.0);
+    case FN_SQRT: return expr_binary(in, EXPR_MUL, at, number(in, at, 0.5), power(in, u, -0.5));
     case FN_EXP: return of;
     case FN_LOG: return power(in, u, -1.0);
     case FN_ABS: return call(in, FN_SIGN, at, u);
@@ -85,21 +77,22 @@ static const expr *of_call(parser *in, const expr *of, const expr *du, const exp
     const expr *v = of->right;
     const place at = of->at;
     if (of->function == FN_ATAN2) {
-        const expr *top =
-            sum(in, EXPR_SUB, at, binary(in, EXPR_MUL, at, du, v), binary(in, EXPR_MUL, at, u, dv));
-        const expr *size = binary(in, EXPR_ADD, at, square(in, u), square(in, v));
-        return binary(in, EXPR_MUL, at, top, power(in, size, -1.0));
+        const expr *top = sum(in, EXPR_SUB, at, expr_binary(in, EXPR_MUL, at, du, v),
+                              expr_binary(in, EXPR_MUL, at, u, dv));
+        const expr *size = expr_binary(in, EXPR_ADD, at, square(in, u), square(in, v));
+        return expr_binary(in, EXPR_MUL, at, top, power(in, size, -1.0));
     }
     /* if both arguments are equal, half the slope of each */
     if (of->function == FN_MIN || of->function == FN_MAX) {
-        const expr *lead = call(in, FN_SIGN, at, binary(in, EXPR_SUB, at, u, v));
+        const expr *lead = call(in, FN_SIGN, at, expr_binary(in, EXPR_SUB, at, u, v));
         const expr *half = number(in, at, of->function == FN_MIN ? -0.5 : 0.5);
-        return sum(in, EXPR_ADD, at,
-                   binary(in, EXPR_MUL, at, number(in, at, 0.5), sum(in, EXPR_ADD, at, du, dv)),
-                   binary(in, EXPR_MUL, at, binary(in, EXPR_MUL, at, half, lead),
-                          sum(in, EXPR_SUB, at, du, dv)));
+        return sum(
+            in, EXPR_ADD, at,
+            expr_binary(in, EXPR_MUL, at, number(in, at, 0.5), sum(in, EXPR_ADD, at, du, dv)),
+            expr_binary(in, EXPR_MUL, at, expr_binary(in, EXPR_MUL, at, half, lead),
+                        sum(in, EXPR_SUB, at, du, dv)));
     }
-    return binary(in, EXPR_MUL, at, slope(in, of), du);
+    return expr_binary(in, EXPR_MUL, at, slope(in, of), du);
 }
 
 /* (u^v)' = v u^(v-1) u' + u^v log(u) v' */
@@ -109,15 +102,17 @@ static const expr *of_power(parser *in, const expr *of, const expr *du, const ex
     const place at = of->at;
     double n = 0.0;
     const expr *less = expr_constant(v, &n) ? number(in, at, n - 1.0)
-                                            : binary(in, EXPR_SUB, at, v, number(in, at, 1.0));
+                                            : expr_binary(in, EXPR_SUB, at, v, number(in, at, 1.0));
     const expr *by_base =
-        du == NULL ? NULL
-                   : binary(in, EXPR_MUL, at,
-                            binary(in, EXPR_MUL, at, v, binary(in, EXPR_POW, at, u, less)), du);
-    const expr *by_exponent =
-        dv == NULL
+        du == NULL
             ? NULL
-            : binary(in, EXPR_MUL, at, binary(in, EXPR_MUL, at, of, call(in, FN_LOG, at, u)), dv);
+            : expr_binary(in, EXPR_MUL, at,
+                          expr_binary(in, EXPR_MUL, at, v, expr_binary(in, EXPR_POW, at, u, less)),
+                          du);
+    const expr *by_exponent =
+        dv == NULL ? NULL
+                   : expr_binary(in, EXPR_MUL, at,
+                                 expr_binary(in, EXPR_MUL, at, of, call(in, FN_LOG, at, u)), dv);
     return sum(in, EXPR_ADD, at, by_base, by_exponent);
 }
 
@@ -127,9 +122,6 @@ static bool of_symbol(parser *in, const expr *of, const token *name, const expr 
     if (of->symbol->kind == SYM_INPUT) {
         made->symbol = of->symbol->rate;
         made->uses |= USES_UNIT;
-        if (!dim_divide(of->dim, dim_of(0, 0, 1, 0, 0), &made->dim)) {
-            made->dim.unknown = true;
-        }
     } else if (of->symbol->kind == SYM_LET) {
         const symbol *rate = let_rate(in, of->symbol, name);
         if (rate == NULL || (rate->value->op == EXPR_NUMBER && rate->value->number == 0.0)) {
@@ -143,9 +135,9 @@ static bool of_symbol(parser *in, const expr *of, const token *name, const expr 
     } else {
         made->primes++;
         made->order++;
-        if (!dim_divide(of->dim, dim_of(0, 0, 1, 0, 0), &made->dim)) {
-            made->dim.unknown = true;
-        }
+    }
+    if (of->symbol->kind != SYM_LET && !dim_derivative(of->dim, 1, &made->dim)) {
+        made->dim.unknown = true;
     }
     *d = made;
     return true;
@@ -182,14 +174,15 @@ static bool derive(parser *in, const expr *of, const token *name, const expr **d
     case EXPR_ADD:
     case EXPR_SUB: *d = sum(in, of->op, of->at, du, dv); break;
     case EXPR_MUL:
-        *d = sum(in, EXPR_ADD, of->at, binary(in, EXPR_MUL, of->at, du, v),
-                 binary(in, EXPR_MUL, of->at, u, dv));
+        *d = sum(in, EXPR_ADD, of->at, expr_binary(in, EXPR_MUL, of->at, du, v),
+                 expr_binary(in, EXPR_MUL, of->at, u, dv));
         break;
     case EXPR_DIV:
-        *d = sum(in, EXPR_SUB, of->at, binary(in, EXPR_DIV, of->at, du, v),
-                 dv == NULL ? NULL
-                            : binary(in, EXPR_MUL, of->at, binary(in, EXPR_MUL, of->at, u, dv),
-                                     power(in, v, -2.0)));
+        *d = sum(in, EXPR_SUB, of->at, expr_binary(in, EXPR_DIV, of->at, du, v),
+                 dv == NULL
+                     ? NULL
+                     : expr_binary(in, EXPR_MUL, of->at, expr_binary(in, EXPR_MUL, of->at, u, dv),
+                                   power(in, v, -2.0)));
         break;
     case EXPR_POW: *d = of_power(in, of, du, dv); break;
     case EXPR_NEG: *d = expr_negate(in, of->at, du); break;
@@ -248,7 +241,7 @@ char *input_rate_hint(const symbol *input, char *buffer) {
     dimension dim = input->dim;
     const char *rest = input->at.source->text + input->at.offset + strlen(input->name);
     const int length = (int)strcspn(rest, "#\";\r\n");
-    (void)dim_divide(input->dim, dim_of(0, 0, 1, 0, 0), &dim);
+    (void)dim_derivative(input->dim, 1, &dim);
     dimension_unit(dim, false, unit, sizeof unit);
     snprintf(buffer, RATE_HINT_SIZE,
              "input %.40s rate %.40s_rate%.*s; input %.40s_rate = 0 [%.40s]", input->name,
@@ -263,8 +256,7 @@ static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
     char unit[DIM_TEXT_SIZE];
     char hint[RATE_HINT_SIZE];
     dimension wanted;
-    if (s->dim.unknown || rate->symbol.dim.unknown ||
-        !dim_divide(s->dim, dim_of(0, 0, 1, 0, 0), &wanted)) {
+    if (s->dim.unknown || rate->symbol.dim.unknown || !dim_derivative(s->dim, 1, &wanted)) {
         return false;
     }
     dimension_unit(wanted, false, unit, sizeof unit);

@@ -543,7 +543,7 @@ static const expr *parse_power(parser *in) {
     }
     const expr *exponent = parse_signed(in);
     in->nesting--;
-    return exponent == NULL ? NULL : expr_binary(in, EXPR_POW, at, base, exponent);
+    return expr_binary(in, EXPR_POW, at, base, exponent);
 }
 
 static const expr *parse_signed(parser *in) {
@@ -557,10 +557,7 @@ static const expr *parse_signed(parser *in) {
     parser_next(in);
     const expr *operand = parse_signed(in);
     in->nesting--;
-    if (operand == NULL || sign.sign == '+') {
-        return operand;
-    }
-    return expr_negate(in, sign.at, operand);
+    return sign.sign == '+' ? operand : expr_negate(in, sign.at, operand);
 }
 
 /* Parses PART { sign PART } with the two signs of one level, from left to right. */
@@ -575,10 +572,7 @@ static const expr *parse_level(parser *in, const expr *(*part)(parser *), const 
             parser_fail(in, "write powers with ^: r^2", "'**' is no operator");
             return NULL;
         }
-        const expr *right = part(in);
-        left = right == NULL
-                   ? NULL
-                   : expr_binary(in, sign.sign == signs[0] ? first : second, sign.at, left, right);
+        left = expr_binary(in, sign.sign == signs[0] ? first : second, sign.at, left, part(in));
     }
     return left;
 }

@@ -39,6 +39,7 @@ const symbol *let_rate(parser *in, const symbol *let, const token *name);
 
 /* --- operators (operators.c) --- */
 expr *expr_new(parser *in, expr_op op, place at);
+/* If an operand is NULL, after an error, so is the result. */
 const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right);
 /* Returns left - right of a comparison. Both sides must have the same dimension. */
 const expr *expr_difference(parser *in, place at, const expr *left, const expr *right);

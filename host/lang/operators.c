@@ -49,6 +49,9 @@ static const symbol *angle_in(expr_op op, const expr *left, const expr *right) {
 }
 
 static expr *join(parser *in, expr_op op, place at, const expr *left, const expr *right) {
+    if (left == NULL) {
+        return NULL;
+    }
     expr *made = expr_new(in, op, at);
     made->left = left;
     made->right = right;
@@ -249,7 +252,7 @@ static void power_dimension(parser *in, place at, const expr *base, const expr *
 }
 
 const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, const expr *right) {
-    expr *made = join(in, op, at, left, right);
+    expr *made = right == NULL ? NULL : join(in, op, at, left, right);
     if (made == NULL) {
         return NULL;
     }
