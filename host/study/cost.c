@@ -333,7 +333,8 @@ bool cost_has_cycles(const cost *c) {
     return c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
 }
 
-bool cost_ranges(const cost_board *board, cost *c) {
+/* On a board without counted cycles (COST_RANGE), fills in the ranges of cycles, and returns true. */
+static bool take_ranges(const cost_board *board, cost *c) {
     if (board->cycles == COST_RANGE) {
         c->cycles = ranged(board, &c->instructions);
         c->cycles_worst = ranged(board, &c->instructions_worst);
@@ -411,7 +412,7 @@ cost cost_of(const image *im, const cost_board *board, cost_number number) {
     cost_figure none;
 #define COST_SUM(of, worst) sum_of(row_of(board, number, COST_OF_##of), &counts, worst, &c.why)
     c.instructions = COST_SUM(INSTRUCTIONS, &c.instructions_worst);
-    if (!cost_ranges(board, &c)) {
+    if (!take_ranges(board, &c)) {
         c.cycles = COST_SUM(CYCLES, &c.cycles_worst);
     }
     c.flash_bytes = COST_SUM(FLASH, &none);
@@ -456,7 +457,7 @@ bool cost_enter(char *row, const cost_layout *at, char **column, const cost_boar
     }
     grow(&c->instructions, COST_MEASURED, column[at->instructions]);
     grow(&c->instructions_worst, COST_MEASURED, column[at->instructions_most]);
-    if (!cost_ranges(board, c)) {
+    if (!take_ranges(board, c)) {
         grow(&c->cycles, board->cycles, column[at->cycles]);
         grow(&c->cycles_worst, board->cycles, column[at->cycles_most]);
     }

@@ -166,8 +166,6 @@ bool cost_has_cycles(const cost *c);
 /* Can the scene take the steps of the image's method? */
 bool cost_takes_method(const image *im);
 cost_figure cost_known(double value, cost_basis basis);
-/* On a board without counted cycles (COST_RANGE), fills in the ranges of cycles, and returns true. */
-bool cost_ranges(const cost_board *board, cost *c);
 
 /* The header of measure_one.sh's rows. */
 #define COST_HEADER \

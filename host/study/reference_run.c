@@ -32,28 +32,22 @@ static bool enter(const reference *r, const records *now, int record, deviation_
     return d->error <= what.give_up;
 }
 
-/* Evaluations in the steps so far. With contacts, reading a record is also an evaluation, which does not count. */
-typedef struct counted {
-    double in_steps;
-    double most; /* most evaluations in one step */
-} counted;
-
-/* Makes one step and counts its evaluations. With contacts their number varies; a step by a matrix is one evaluation. */
-static bool take_step(const engine_kind *kind, void *run, const image *im, counted *c) {
+/* Makes one step and counts its evaluations; reading a record with contacts is also one, which does not count. With contacts
+ * their number varies; a step by a matrix is one evaluation. */
+static bool take_step(const engine_kind *kind, void *run, const image *im, deviation *d) {
     uint64_t declared;
-    const bool matrix = im->list[IMAGE_MATRIX] != NULL;
     const uint64_t before = kind->evaluations(run, &declared);
     const bool good = loop_steps(kind, run, 1) == WH_OK;
-    const double taken = matrix ? 1.0 : (double)(kind->evaluations(run, &declared) - before);
-    c->in_steps += taken;
-    c->most = taken > c->most ? taken : c->most;
+    const uint64_t taken =
+        im->list[IMAGE_MATRIX] != NULL ? 1 : kind->evaluations(run, &declared) - before;
+    d->evaluations += (double)taken;
+    d->evaluations_most = number_most(d->evaluations_most, (double)taken);
     return good;
 }
 
 deviation deviation_measure(const reference *r, const image *im, const engine_kind *kind,
                             deviation_pace pace, deviation_of_what what) {
     deviation d = {.column = what.column};
-    counted c = {0.0, 0.0};
     records *now = records_open(NULL, im, kind);
     void *run = kind->start(im);
     records_read(now, run, 0.0);
@@ -61,7 +55,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
     const int each = (int)pace.records;
     for (int i = each; i <= r->records && good && !interrupted; i += each) {
         for (uint64_t k = 0; k < pace.steps && good; k++) {
-            good = take_step(kind, run, im, &c);
+            good = take_step(kind, run, im, &d);
         }
         if (good) {
             records_read(now, run, 0.0);
@@ -69,11 +63,7 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
         }
     }
     const double time_s = ratio_times(kind->steps(run), im->step);
-    d.evaluations = time_s > 0.0 ? c.in_steps / time_s : 0.0;
-    d.evaluations_most = im->contacts > 0 ? c.most
-                         : im->list[IMAGE_MATRIX] != NULL
-                             ? 1.0
-                             : (double)wh_methods[im->settings.method].stages;
+    d.evaluations = time_s > 0.0 ? d.evaluations / time_s : 0.0;
     d.usable = good && (kind->saturated == NULL || kind->saturated(run) == 0);
     kind->stop(run);
     records_close(now);

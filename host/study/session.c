@@ -243,15 +243,16 @@ int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s) {
     return code;
 }
 
-bool resumable_csv_has_note(const resumable_csv *sh, const char *word) {
+static bool has_note(const resumable_csv *sh, const char *word) {
     char *line = alloc_words(NOTED "%s\n", word);
     const bool has = strstr(sh->notes, line) != NULL;
     free(line);
     return has;
 }
 
-bool resumable_csv_note(resumable_csv *sh, const char *word) {
-    if (resumable_csv_has_note(sh, word)) {
+/* Stores this word with the rows. Returns false if it was not written (reported). */
+static bool add_note(resumable_csv *sh, const char *word) {
+    if (has_note(sh, word)) {
         return true;
     }
     char *notes = alloc_words("%s" NOTED "%s\n", sh->notes, word);
@@ -514,7 +515,7 @@ static bool count_notes(sitting *s, uint64_t point, const point_notes *notes) {
             s->found[id]++;
         }
         if (((notes->warned | notes->fails) & FINDING_BIT(id)) != 0) {
-            good = resumable_csv_note(&s->sheet, finding_rows[id].word) && good;
+            good = add_note(&s->sheet, finding_rows[id].word) && good;
         }
     }
     return good;
@@ -524,7 +525,7 @@ static bool count_notes(sitting *s, uint64_t point, const point_notes *notes) {
 static unsigned fails_before(const sitting *s) {
     unsigned fails = 0;
     for (int id = 0; id < FINDINGS && s->sweep->strict >= 0.0; id++) {
-        fails |= resumable_csv_has_note(&s->sheet, finding_rows[id].word) ? FINDING_BIT(id) : 0U;
+        fails |= has_note(&s->sheet, finding_rows[id].word) ? FINDING_BIT(id) : 0U;
     }
     return fails;
 }

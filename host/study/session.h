@@ -42,9 +42,6 @@ typedef struct resumable_csv_settings {
 /* Opens and checks the file; writes a missing header. Returns an exit status: 0 good, 1 the file
  * could not be written, 2 the file belongs to another sweep or is in use (reported on standard error). */
 int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s);
-/* Stores this word with the rows. Returns false if it was not written (reported). */
-bool resumable_csv_note(resumable_csv *sh, const char *word);
-bool resumable_csv_has_note(const resumable_csv *sh, const char *word);
 /* Returns false if something was not written (reported). */
 bool resumable_csv_close(resumable_csv *sh);
 
