@@ -480,27 +480,18 @@ static bool fits(const pricing *p) {
     return p->value[PRICING_ERROR] != NULL;
 }
 
-/* Reads a number of bytes: "32KB", "2048", "1 MiB". */
+/* Reads a number of bytes: "32KB", "2048", "1 MiB", "100 bytes". */
 static bool read_bytes(const char *option, const char *text, double *bytes) {
-    static const struct {
-        const char *word;
-        double bytes;
-    } units[] = {{"", 1.0},         {"B", 1.0},         {"K", 1024.0},   {"k", 1024.0},
-                 {"KB", 1024.0},    {"kB", 1024.0},     {"KiB", 1024.0}, {"M", 1048576.0},
-                 {"MB", 1048576.0}, {"MiB", 1048576.0}, {"bytes", 1.0}};
     const char *rest;
-    const double number = decimal_read(text, &rest);
-    const bool begins = rest != text;
-    rest += strspn(rest, " ");
-    for (size_t i = 0; begins && i < sizeof units / sizeof units[0]; i++) {
-        if (strcmp(rest, units[i].word) == 0) {
-            *bytes = number * units[i].bytes;
-            if (*bytes > 0.0 && isfinite(*bytes)) {
-                return true;
-            }
-        }
+    *bytes = decimal_read(text, &rest);
+    rest += rest != text ? strspn(rest, " ") : 0;
+    if (*rest == 'k' || *rest == 'K' || *rest == 'M') {
+        *bytes *= *rest == 'M' ? 1048576.0 : 1024.0;
+        rest += rest[1] == 'i' ? 2 : 1;
     }
-    return options_fail("choose",
+    const bool ends = rest[0] == '\0' || strcmp(rest, "B") == 0 || strcmp(rest, "bytes") == 0;
+    return (ends && *bytes > 0.0 && isfinite(*bytes)) ||
+           options_fail("choose",
                         "%s takes a number of bytes above zero, not %s\n"
                         "hint: such as 32KB, or 32768",
                         option, text);
@@ -531,14 +522,10 @@ static bool space_records(const pricing *p, choice_request *w, whole_ratio *spac
     }
     const whole_ratio rate =
         w->table.rate_Hz < 1e15 ? ratio_of(w->table.rate_Hz) : (whole_ratio){0, 1};
-    static const uint64_t mantissa[] = {1, 2, 5};
     uint64_t periods = 1;
-    for (int i = 0;
-         p->until_s * w->table.rate_Hz / (double)periods > (2.5 * PRICING_RECORDS) && i < 36; i++) {
-        periods = mantissa[(i + 1) % 3];
-        for (int k = (i + 1) / 3; k > 0; k--) {
-            periods *= 10;
-        }
+    for (int i = 1;
+         p->until_s * w->table.rate_Hz / (double)periods > 2.5 * PRICING_RECORDS && i <= 36; i++) {
+        periods = table_decade(i);
     }
     w->table.periods = periods;
     const uint64_t common = ratio_divisor(periods, rate.numerator);

@@ -25,19 +25,28 @@ const char *const table_unit_words[] = {[PRICE_CYCLES] = "cycles",
                                         [PRICE_INSTRUCTIONS] = "instructions",
                                         [PRICE_EVALUATIONS] = "evaluations"};
 
-bool table_pace(const table_request *w, int rung, deviation_pace *pace) {
-    static const uint64_t tens[] = {12, 15, 20, 25, 30, 40, 50, 60, 80};
+uint64_t table_decade(int i) {
     static const uint64_t mantissa[] = {1, 2, 5};
-    const bool rated = w->rate_Hz > 0.0;
-    const int from = rated ? rung - 10 : rung < COARSEST ? COARSEST - rung : rung - COARSEST;
-    uint64_t many = !rated ? mantissa[from % 3] : from < 0 ? (uint64_t)rung + 1 : tens[from % 9];
-    for (int k = from < 0 ? 0 : from / (rated ? 9 : 3); k > 0; k--) {
+    uint64_t many = mantissa[i % 3];
+    for (; i >= 3; i -= 3) {
         many *= 10;
     }
-    const bool longer = !rated && rung < COARSEST;
-    *pace =
-        longer ? (deviation_pace){1, many} : (deviation_pace){(rated ? w->periods : 1) * many, 1};
-    return rung < (rated ? SUBSTEPS : LADDER);
+    return many;
+}
+
+bool table_pace(const table_request *w, int rung, deviation_pace *pace) {
+    static const uint64_t tens[] = {12, 15, 20, 25, 30, 40, 50, 60, 80};
+    if (w->rate_Hz > 0.0) {
+        uint64_t many = rung < 10 ? (uint64_t)rung + 1 : tens[(rung - 10) % 9];
+        for (int i = rung; i >= 19; i -= 9) {
+            many *= 10;
+        }
+        *pace = (deviation_pace){w->periods * many, 1};
+        return rung < SUBSTEPS;
+    }
+    *pace = rung < COARSEST ? (deviation_pace){1, table_decade(COARSEST - rung)}
+                            : (deviation_pace){table_decade(rung - COARSEST), 1};
+    return rung < LADDER;
 }
 
 uint64_t table_substeps(const table_request *w, const table_row *row) {

@@ -65,6 +65,8 @@ typedef struct table_request {
     bool shows; /* progress on standard error */
 } table_request;
 
+/* 1, 2, 5, 10, 20, 50, ... for i = 0, 1, 2, ... */
+uint64_t table_decade(int i);
 /* *pace: the pace of trial number `rung`, from 0 on. Without a rate, each trial's step is 2 to 2.5 times shorter than the
  * step before. With a rate, the trials have 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
 bool table_pace(const table_request *w, int rung, deviation_pace *pace);
