@@ -104,11 +104,8 @@ static const char hint_domain[] =
 /* Sets the unknowns at the last good state, and their highest derivatives. */
 static void look_here(blamed *v, const nonfinite_at *at) {
     const image *im = at->image;
-    double *result = alloc(im->list[IMAGE_BOOKS]->results, sizeof *result);
-    evaluator *ev = evaluator_new(im->list[IMAGE_BOOKS]);
-    evaluator_run(ev, 0.0, at->angle_rad, at->real, at->real + (im->coordinates - im->angles),
-                  v->input, result);
-    evaluator_free(ev);
+    const state_list books = state_list_open(im, IMAGE_BOOKS);
+    const double *result = state_list_at(&books, 0.0, at->angle_rad, at->real);
     for (int i = 0; i < im->count; i++) {
         const image_unknown *u = &im->unknown[i];
         for (int k = 0; k < u->order && k < u->starts; k++) {
@@ -117,7 +114,7 @@ static void look_here(blamed *v, const nonfinite_at *at) {
         v->state[i][u->order] = isfinite(result[i]) ? result[i] : 0.0;
     }
     blamed_place(v, at->angle_rad, at->real);
-    free(result);
+    state_list_close(&books);
 }
 
 static bool is_sine(const diagnostics_node *n) {

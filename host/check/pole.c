@@ -626,7 +626,7 @@ static int denominators_values(const denominators *d) {
 
 static double denominators_value(const denominators *d, const divisor *of) {
     if (of->derived) {
-        return evaluator_value(d->field->evaluator, of->node);
+        return evaluator_value(d->field->list.evaluator, of->node);
     }
     const double value = d->at.value[of->node];
     return of->of_a_tan ? number_cosine(value) : value;

@@ -81,22 +81,15 @@ static void tell_undefined(const image *im, const char *file) {
 }
 
 static int print_image(const image *im, const char *file) {
-    const op_list *books = im->list[IMAGE_BOOKS];
-    double *result = alloc(books->results, sizeof *result);
-    double *input = alloc(im->inputs, sizeof *input);
-    image_inputs(im, input);
-    evaluator *ev = evaluator_new(books);
-    evaluator_run(ev, 0.0, im->start_rad, im->start_real,
-                  im->start_real + (im->coordinates - im->angles), input, result);
-    evaluator_free(ev);
+    const state_list books = state_list_open(im, IMAGE_BOOKS);
+    const double *result = state_list_at(&books, 0.0, im->start_rad, im->start_real);
     const bool finite = is_finite(im, result);
     if (finite) {
         print(im, result);
     } else {
         tell_undefined(im, file);
     }
-    free(result);
-    free(input);
+    state_list_close(&books);
     return finite ? EXIT_DONE : EXIT_RUN_FAILED;
 }
 

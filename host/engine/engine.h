@@ -95,4 +95,17 @@ double evaluator_value(const evaluator *ev, int operation);
  * units of the number type's unit round-off (rounding.h). */
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);
 
+/* A list of an image, evaluated in double at states of its runs. The inputs keep their start values. */
+typedef struct state_list {
+    const image *image;
+    evaluator *evaluator;
+    double *input;  /* [inputs] */
+    double *result; /* [results of the list] of the last state_list_at() */
+} state_list;
+state_list state_list_open(const image *im, image_role role);
+void state_list_close(const state_list *l);
+/* The state is given as engine_kind's state() does. Returns the results. */
+const double *state_list_at(const state_list *l, double time_s, const double *angle_rad,
+                            const double *real);
+
 #endif

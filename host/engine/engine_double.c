@@ -61,3 +61,24 @@ void evaluator_rounding(const evaluator *ev, const double *angle_rad, double lea
     rounding_of(ev->list, &(rounding_values){r->value, r->sine, r->cosine, phase, angle_rad, least},
                 error);
 }
+
+state_list state_list_open(const image *im, image_role role) {
+    const op_list *t = im->list[role];
+    state_list l = {im, evaluator_new(t), alloc(im->inputs, sizeof *l.input),
+                    alloc(t->results, sizeof *l.result)};
+    image_inputs(im, l.input);
+    return l;
+}
+
+void state_list_close(const state_list *l) {
+    evaluator_free(l->evaluator);
+    free(l->input);
+    free(l->result);
+}
+
+const double *state_list_at(const state_list *l, double time_s, const double *angle_rad,
+                            const double *real) {
+    evaluator_run(l->evaluator, time_s, angle_rad, real,
+                  real + (l->image->coordinates - l->image->angles), l->input, l->result);
+    return l->result;
+}

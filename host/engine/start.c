@@ -97,18 +97,12 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) 
     if (im->contacts == 0 || !good) {
         return good;
     }
-    double *signal = alloc(2 * im->contacts, sizeof *signal);
-    evaluator *ev = evaluator_new(im->list[IMAGE_SIGNALS]);
-    double *input = alloc(im->inputs, sizeof *input);
-    image_inputs(im, input);
-    evaluator_run(ev, 0.0, im->start_rad, im->start_real,
-                  im->start_real + (im->coordinates - im->angles), input, signal);
+    const state_list signals = state_list_open(im, IMAGE_SIGNALS);
+    const double *signal = state_list_at(&signals, 0.0, im->start_rad, im->start_real);
     for (int k = 0; k < im->contacts; k++) {
         good = is_apart(&im->contact[k], signal[2 * k], errors) && good;
     }
-    evaluator_free(ev);
-    free(input);
-    free(signal);
+    state_list_close(&signals);
     return good;
 }
 

@@ -8,16 +8,12 @@
 
 vector_field *vector_field_open(const image *im, const engine_kind *kind) {
     vector_field *f = alloc(1, sizeof *f);
-    f->image = im;
     f->n = im->angles + im->reals;
-    f->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
+    f->list = state_list_open(im, IMAGE_BOOKS);
     if (kind == &engine_float) {
-        evaluator_wrap(f->evaluator);
+        evaluator_wrap(f->list.evaluator);
     }
-    f->value = alloc(im->list[IMAGE_BOOKS]->results, sizeof *f->value);
-    f->input = alloc(im->inputs, sizeof *f->input);
     f->next = alloc(f->n, sizeof *f->next);
-    image_inputs(im, f->input);
     for (int i = 0; i < f->n; i++) {
         const component c = image_component(im, i);
         const bool top = c.primes + 1 >= im->unknown[c.unknown].order;
@@ -28,31 +24,27 @@ vector_field *vector_field_open(const image *im, const engine_kind *kind) {
 
 void vector_field_close(vector_field *f) {
     if (f != NULL) {
-        evaluator_free(f->evaluator);
-        free(f->value);
-        free(f->input);
+        state_list_close(&f->list);
         free(f->next);
         free(f);
     }
 }
 
 void vector_field_slope(vector_field *f, const double *x, double *slope) {
-    const image *im = f->image;
-    const double *real = x + im->angles;
-    evaluator_run(f->evaluator, 0.0, x, real, real + (im->coordinates - im->angles), f->input,
-                  f->value);
+    const double *value = state_list_at(&f->list, 0.0, x, x + f->list.image->angles);
     for (int i = 0; i < f->n; i++) {
-        slope[i] = f->next[i] >= 0 ? x[f->next[i]] : f->value[-1 - f->next[i]];
+        slope[i] = f->next[i] >= 0 ? x[f->next[i]] : value[-1 - f->next[i]];
     }
 }
 
 void vector_field_rounding(vector_field *f, const double *x, double *off) {
-    const image *im = f->image;
+    const image *im = f->list.image;
     double *error = alloc(im->list[IMAGE_BOOKS]->results, sizeof *error);
-    evaluator_rounding(f->evaluator, x, 0.0, error);
+    evaluator_rounding(f->list.evaluator, x, 0.0, error);
     for (int i = 0; i < f->n; i++) {
         const int at = -1 - f->next[i];
-        off[i] = f->next[i] >= 0 ? 0.0 : 0x1p-53 * error[at] + im->mass_blur * fabs(f->value[at]);
+        off[i] =
+            f->next[i] >= 0 ? 0.0 : 0x1p-53 * error[at] + im->mass_blur * fabs(f->list.result[at]);
     }
     free(error);
 }

@@ -10,11 +10,8 @@
 #include "engine.h"
 
 typedef struct vector_field {
-    const image *image;
-    int n; /* components of the state */
-    evaluator *evaluator;
-    double *value; /* results of the list IMAGE_BOOKS at the last state */
-    double *input;
+    int n;           /* components of the state */
+    state_list list; /* IMAGE_BOOKS */
     int *
         /* [n] the component that is the slope of component i. If the slope is the highest derivative of an unknown, it
          * is -1 - unknown. */

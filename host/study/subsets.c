@@ -162,8 +162,8 @@ static bool terms_act(const lane *all, vector_field *less) {
     bool act = full->n != less->n;
     engine->state(all->run, x[0], x[0] + all->image->angles);
     for (int i = 0; i < less->n; i++) {
-        const component c = image_component(less->image, i);
-        at[i] = image_find_component(full->image, c.unknown, c.primes);
+        const component c = image_component(less->list.image, i);
+        at[i] = image_find_component(full->list.image, c.unknown, c.primes);
         act = act || at[i] < 0;
         x[1][i] = act ? 0.0 : x[0][at[i]];
     }
