@@ -246,7 +246,7 @@ void aliasing_find(step_doubling *t, budget *of) {
             end = end_of(t, &finer, of, row + t->columns);
         }
         if (end == LOOP_DONE) {
-            compare(t, &h, whole ? t->finer_end : row + t->columns, row, third.step_s);
+            compare(t, &h, whole ? t->finers->row : row + t->columns, row, third.step_s);
         }
         free(row);
     }
@@ -320,9 +320,8 @@ static void print_column(FILE *out, const horizon *h, int k) {
 
 /* --- quantities that stay correct --------------------------------------------------------------------*/
 
-static void print_momenta(FILE *out, const horizon *h) {
+static void print_momenta(FILE *out, const horizon *h, const books *b) {
     const image *im = image_of(h);
-    const books *b = h->of->books;
     for (int i = 0; i < im->count; i++) {
         if (im->unknown[i].conserved) {
             fprintf(out, "  momentum of %s: drifts by at most %.2e %s\n", im->unknown[i].name,
@@ -332,26 +331,25 @@ static void print_momenta(FILE *out, const horizon *h) {
 }
 
 /* Quantities of the balance that stay correct after the run has left the motion. */
-static void print_invariants(FILE *out, const horizon *h) {
-    books *b = h->of->books;
+static void print_invariants(FILE *out, const horizon *h, const books *b,
+                             const energy_residual *balance) {
     fputs("after that no single coordinate is accurate", out);
     if (b == NULL) {
         fputs("; a system of equations has no energy balance\n", out);
         return;
     }
-    const energy_residual balance = energy_residual_of(b, h->of->shape->kind, h->of->run);
     fputs("; only the balances are meaningful, to t = ", out);
     fprintf(out, "%.9g s:\n", h->of->end_s);
-    if (!balance.known) {
+    if (!balance->known) {
         fputs("  energy: the balance is not known\n", out);
-    } else if (energy_residual_lost(&balance, ENERGY_RESIDUAL_LIMIT)) {
+    } else if (energy_residual_lost(balance, ENERGY_RESIDUAL_LIMIT)) {
         fprintf(out, "  energy: the balance fails too, residual %.2e of its largest entry\n",
-                balance.ratio);
+                balance->ratio);
     } else {
         fprintf(out, "  energy: residual %.2e of the largest entry of the balance\n",
-                balance.ratio);
+                balance->ratio);
     }
-    print_momenta(out, h);
+    print_momenta(out, h, b);
 }
 
 /* The earliest reason why nothing is known after cut_s. */
@@ -392,7 +390,7 @@ static void say_until(FILE *out, const horizon *h, bool end) {
     }
 }
 
-void horizon_print(FILE *out, const horizon *h) {
+void horizon_print(FILE *out, const horizon *h, const books *b, const energy_residual *balance) {
     const step_doubling *t = h->of;
     print_head(out, h);
     if (image_of(h)->contacts > 0) {
@@ -413,10 +411,7 @@ void horizon_print(FILE *out, const horizon *h) {
     if (t->cut_s > h->until_s) {
         fprintf(out, "unknown after t = %.9g s: %s\n", t->cut_s, cut_by(t));
     }
-    if (t->unaliased) {
-        fputs("not checked: [aliased], because this check takes longer than the two runs\n", out);
-    }
-    print_invariants(out, h);
+    print_invariants(out, h, b, balance);
 }
 
 void horizon_print_line(FILE *out, const horizon *h, bool doubted) {

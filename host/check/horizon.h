@@ -6,7 +6,9 @@
 
 #include <stdio.h>
 
+#include "energy_residual.h"
 #include "host/check/step_doubling.h"
+#include "host/engine/loop.h"
 
 #define HORIZON_TOLERANCE 1e-3
 
@@ -52,8 +54,9 @@ void horizon_free(horizon *h);
 void aliasing_find(step_doubling *t, budget *of);
 
 /* === in words ================================================================================= */
-/* Prints each coordinate and rate, the run, and the quantities that stay correct afterwards. */
-void horizon_print(FILE *out, const horizon *h);
+/* Prints each coordinate and rate, the run, and the quantities that stay correct afterwards. `b`: the run's balance, or
+ * NULL for a system without energies. */
+void horizon_print(FILE *out, const horizon *h, const books *b, const energy_residual *balance);
 /* Prints one line for a summary. `doubted`: a finding against the run may affect the finer run, too. */
 void horizon_print_line(FILE *out, const horizon *h, bool doubted);
 extern const char *const horizon_words[];

@@ -9,9 +9,14 @@
 #include "host/number/functions.h"
 #include "slow.h"
 
-run_checks *run_checks_open(const image *im, const image *plain, const engine_kind *kind, void *run,
-                            budget *of) {
+/* Operations that no run takes. */
+#define UNLIMITED ((uint64_t)1 << 62)
+
+static run_checks *open(const image *im, const image *plain, const engine_kind *kind, void *run,
+                        budget *of, bool whole) {
     run_checks *v = alloc(1, sizeof *v);
+    v->whole = whole;
+    v->own.own = whole ? UNLIMITED : 0;
     v->image = im;
     v->kind = kind;
     v->run = run;
@@ -20,16 +25,17 @@ run_checks *run_checks_open(const image *im, const image *plain, const engine_ki
     v->budget = of != NULL ? of : &v->own;
     v->books = books_open(im);
     v->jumped = pole_crossing_open(im);
-    const step_doubling_request request = {.image = im,
-                                           .kind = kind,
-                                           .plain = plain != NULL ? plain : im,
-                                           .watched = true,
-                                           .jumped = v->jumped};
-    if (im->steps > 0 &&
-        step_doubling_finer_operations(im, request.plain) <= budget_left(v->budget)) {
-        v->doubling = step_doubling_open(&request, run);
+    plain = plain != NULL ? plain : im;
+    if (whole ||
+        (im->steps > 0 && step_doubling_finer_operations(im, plain) <= budget_left(v->budget))) {
+        v->doubling = step_doubling_open(im, plain, kind, run, v->jumped);
     }
     return v;
+}
+
+run_checks *run_checks_open(const image *im, const image *plain, const engine_kind *kind, void *run,
+                            budget *of) {
+    return open(im, plain, kind, run, of, false);
 }
 
 void run_checks_close(run_checks *v) {
@@ -37,6 +43,9 @@ void run_checks_close(run_checks *v) {
         step_doubling_free(v->doubling);
         pole_crossing_close(v->jumped);
         books_close(v->books);
+        if (v->whole) {
+            v->kind->stop(v->run);
+        }
         free(v);
     }
 }
@@ -80,8 +89,7 @@ void run_checks_enter(run_checks *v) {
     if (v->image->contacts > 0) {
         watch_events(v);
     }
-    const bool jumps = part_left(v) >= 0.0;
-    if (jumps) {
+    if (part_left(v) >= 0.0) {
         pole_crossing_enter(v->jumped, v->kind, v->run);
     } else {
         pole_crossing_pass(v->jumped);
@@ -91,7 +99,6 @@ void run_checks_enter(run_checks *v) {
         v->doubling = NULL;
     }
     if (v->doubling != NULL) {
-        v->doubling->jumps = jumps;
         step_doubling_enter(v->doubling);
     }
     budget_end(v->budget);
@@ -305,6 +312,34 @@ void run_checks_end(run_checks *v, wh_status status) {
         judge(v);
     }
     budget_end(v->budget);
+}
+
+/* --- a whole run ----------------------------------------------------------------------------------------*/
+
+typedef struct observer {
+    run_checks *checks;
+    void (*progress)(double share, void *context);
+    void *context;
+} observer;
+
+static bool see(void *of, uint64_t step) {
+    const observer *o = of;
+    const uint64_t steps = o->checks->image->steps;
+    run_checks_enter(o->checks);
+    if ((step & 255U) == 0 && o->progress != NULL) {
+        o->progress((double)step / (double)(steps + (steps == 0)), o->context);
+    }
+    return true;
+}
+
+run_checks *run_checks_whole(const image *im, const image *plain, const engine_kind *kind,
+                             void (*progress)(double share, void *context), void *context) {
+    observer o = {open(im, plain, kind, kind->start(im), NULL, true), progress, context};
+    const loop l = {.kind = kind, .run = o.checks->run, .steps = im->steps, .see = see, .of = &o};
+    wh_status status;
+    o.checks->interrupted = loop_run(&l, &status) == LOOP_INTERRUPTED;
+    run_checks_end(o.checks, status);
+    return o.checks;
 }
 
 unsigned run_checks_fails(const run_checks *v, double strict) {

@@ -6,6 +6,7 @@
 
 #include "host/base/alloc.h"
 #include "host/check/nonfinite.h"
+#include "host/engine/loop.h"
 #include "host/number/functions.h"
 
 /* Estimated evaluations per step in the search for events. */
@@ -30,14 +31,10 @@ static void add_shares(const double *off, int ways, int count, double *share) {
 }
 
 static void evaluate_list(const image *im, image_role role, const double *x, double *value) {
-    const int linear = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
-    const double *real = x + im->angles;
-    double *input = alloc(im->inputs, sizeof *input);
-    evaluator *e = evaluator_new(im->list[role]);
-    image_inputs(im, input);
-    evaluator_run(e, 0.0, x, real, real + linear, input, value);
-    evaluator_free(e);
-    free(input);
+    const state_list l = state_list_open(im, role);
+    memcpy(value, state_list_at(&l, 0.0, x, x + im->angles),
+           (size_t)im->list[role]->results * sizeof *value);
+    state_list_close(&l);
 }
 
 static void look_at_list(const image *im, image_role role, const double *x, double *share) {
@@ -149,9 +146,8 @@ static void fold_the_other_way(image *im) {
     }
 }
 
-static void make_finer(step_doubling *t, const step_doubling_request *w) {
-    const image *im = w->image;
-    t->finer = *w->plain;
+static void make_finer(step_doubling *t, const image *im, const image *plain) {
+    t->finer = *plain;
     t->finer.fixed = NULL;
     fold_the_other_way(&t->finer);
     t->finer.settings.compensated = true;
@@ -224,10 +220,7 @@ double passages_until_s(const passages *p, double level) {
 /* --- round-off alone ---------------------------------------------------------------------------------*/
 
 typedef struct rounded {
-    const image *image;
-    evaluator *evaluator;
-    double *input;
-    double *result;
+    state_list list; /* IMAGE_STEP */
     double *off;
     double *most;   /* [results]: largest bound of all samples with a bound */
     uint64_t *lost; /* [results]: number of samples without a bound */
@@ -246,30 +239,25 @@ static bool is_solved_for(const image *im, int i) {
     return c.primes + 1 == im->unknown[c.unknown].order;
 }
 
-static rounded rounded_open(const image *im) {
-    const op_list *list = im->list[IMAGE_STEP];
-    rounded r = {im,
-                 evaluator_new(list),
-                 alloc(im->inputs, sizeof(double)),
-                 alloc(list->results, sizeof(double)),
-                 alloc(list->results, sizeof(double)),
-                 alloc(list->results, sizeof(double)),
-                 alloc(list->results, sizeof(uint64_t)),
-                 0};
-    image_inputs(im, r.input);
+static rounded *rounded_open(const image *im) {
+    const int results = im->list[IMAGE_STEP]->results;
+    rounded *r = alloc(1, sizeof *r);
+    r->list = state_list_open(im, IMAGE_STEP);
+    r->off = alloc(results, sizeof *r->off);
+    r->most = alloc(results, sizeof *r->most);
+    r->lost = alloc(results, sizeof *r->lost);
     return r;
 }
 
 static void rounded_look(rounded *r, const void *run) {
-    const image *im = r->image;
-    const int linear = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
+    const image *im = r->list.image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     engine_double.state(run, angle_rad, real);
-    evaluator_run(r->evaluator, 0.0, angle_rad, real, real + linear, r->input, r->result);
-    evaluator_rounding(r->evaluator, angle_rad, 0.0, r->off);
+    const double *result = state_list_at(&r->list, 0.0, angle_rad, real);
+    evaluator_rounding(r->list.evaluator, angle_rad, 0.0, r->off);
     for (int i = 0; i < im->list[IMAGE_STEP]->results; i++) {
-        r->off[i] += is_solved_for(im, i) ? im->mass_blur / UNIT * fabs(r->result[i]) : 0.0;
+        r->off[i] += is_solved_for(im, i) ? im->mass_blur / UNIT * fabs(result[i]) : 0.0;
         r->most[i] = isfinite(r->off[i]) ? number_most(r->most[i], r->off[i]) : r->most[i];
         r->lost[i] += isfinite(r->off[i]) ? 0U : 1U;
     }
@@ -277,12 +265,11 @@ static void rounded_look(rounded *r, const void *run) {
 }
 
 static void rounded_close(rounded *r) {
-    evaluator_free(r->evaluator);
-    free(r->input);
-    free(r->result);
+    state_list_close(&r->list);
     free(r->off);
     free(r->most);
     free(r->lost);
+    free(r);
 }
 
 /* The index of this derivative in the results of the list, or -1. */
@@ -295,7 +282,8 @@ static int result_of(const image *im, int unknown, int primes) {
 
 /* Bounds the round-off of each column: that of its derivative, times the whole time. The highest derivatives come first,
  * because the round-off of a derivative includes that of the next higher one. */
-static void take_rounding(step_doubling *t, const rounded *r) {
+static void take_rounding(step_doubling *t) {
+    const rounded *r = t->rounded;
     for (int k = t->columns - 1; k > 0; k--) {
         const record_column *c = &t->shape->column[k];
         step_doubling_column *to = &t->column[k];
@@ -306,7 +294,7 @@ static void take_rounding(step_doubling *t, const rounded *r) {
                 slope = t->column[i].rounding * above->unit->scale / above->unit->divisor;
             }
         }
-        const int result = result_of(r->image, c->unknown, c->primes + 1);
+        const int result = result_of(r->list.image, c->unknown, c->primes + 1);
         if (result >= 0) {
             /* A state without a bound is at a pole, or at a root of nearly zero. If most states have a bound, the others do
              * not count. */
@@ -343,77 +331,56 @@ static void take_places(step_doubling *t) {
 
 /* --- side by side ------------------------------------------------------------------------------------*/
 
-typedef struct pair {
-    step_doubling *to;
-    step_doubling_request request;
-    records *finers;
-    void *finer;
-    pole_crossing *our_jumps;
-    pole_crossing *finer_jumps;
-    rounded rounded;
-    uint64_t stride; /* number of steps between two comparisons */
-    double look_s;   /* time of the last comparison */
-    double before_s; /* time of the comparison before the last one */
-    uint64_t looks;
-    bool owns; /* the pair owns the run and its monitors */
-} pair;
-
 /* Compares the two runs. With contacts, a difference in a single comparison does not count, because the other run may
  * have the same event within the step. A run of one step has only one comparison, which counts. */
-static void look(pair *p, double time_s) {
-    step_doubling *t = p->to;
-    const bool events = p->request.image->contacts > 0 && p->request.image->steps > 1U;
+static void look(step_doubling *t, double time_s) {
+    const image *im = t->shape->image;
+    const bool events = im->contacts > 0 && im->steps > 1U;
     records_read(t->shape, t->run, time_s);
-    records_read(p->finers, p->finer, time_s);
+    records_read(t->finers, t->finer_run, time_s);
     for (int k = 1; k < t->columns; k++) {
         step_doubling_column *c = &t->column[k];
-        const double value = p->finers->row[k];
+        const double value = t->finers->row[k];
         const double off = fabs(t->shape->row[k] - value);
         const double now = isfinite(off) ? off : (double)INFINITY;
         const double ranged = t->otherwise ? t->shape->row[k] : value;
-        c->start = p->looks == 0 ? value : c->start;
+        c->start = t->looks == 0 ? value : c->start;
         if (t->cut_s < 0.0) { /* after a jump over a pole the finer run may explode */
-            c->low = p->looks == 0 || ranged < c->low ? ranged : c->low;
-            c->high = p->looks == 0 || ranged > c->high ? ranged : c->high;
+            c->low = t->looks == 0 || ranged < c->low ? ranged : c->low;
+            c->high = t->looks == 0 || ranged > c->high ? ranged : c->high;
         }
         if (events) {
-            passages_enter(&c->off, p->before_s, number_least(now, c->last));
+            passages_enter(&c->off, t->before_s, number_least(now, c->last));
         } else {
-            passages_enter(&c->off, p->look_s, now);
+            passages_enter(&c->off, t->look_s, now);
         }
         c->last = now;
     }
-    if (p->looks % 64U == 0) {
-        rounded_look(&p->rounded, p->finer);
+    if (t->looks % 64U == 0) {
+        rounded_look(t->rounded, t->finer_run);
     }
-    p->looks++;
-    p->before_s = p->look_s;
-    p->look_s = time_s;
+    t->looks++;
+    t->before_s = t->look_s;
+    t->look_s = time_s;
 }
 
-static bool step_finer(pair *p) {
+static bool step_finer(step_doubling *t) {
     bool good = true;
-    for (uint64_t i = 0; i < p->to->each && good; i++) {
+    for (uint64_t i = 0; i < t->each && good; i++) {
         const uint64_t before = engine_operations;
-        good = loop_steps(&engine_double, p->finer, 1) == WH_OK;
-        p->to->operations += engine_operations - before;
-        p->to->looks.own += engine_operations - before;
-        if (good && p->to->jumps) {
-            pole_crossing_enter(p->finer_jumps, &engine_double, p->finer);
-        } else {
-            pole_crossing_pass(p->finer_jumps);
-        }
+        good = loop_steps(&engine_double, t->finer_run, 1) == WH_OK;
+        t->operations += engine_operations - before;
     }
     return good;
 }
 
 /* Is an angle beyond the range of double's sine? The angles of a float run wrap around. */
-static bool is_unwrapped(const pair *p) {
+static bool is_unwrapped(const step_doubling *t) {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     bool found = false;
-    engine_double.state(p->finer, angle_rad, real);
-    for (int i = 0; i < p->to->finer.angles && p->request.kind == &engine_float; i++) {
+    engine_double.state(t->finer_run, angle_rad, real);
+    for (int i = 0; i < t->finer.angles && t->shape->kind == &engine_float; i++) {
         found = found || fabs(angle_rad[i]) > UNWRAPPED * ANGLE_SINE_MOST_RAD;
     }
     return found;
@@ -429,143 +396,82 @@ static void end_passages(step_doubling *t, double time_s) {
 
 /* A step with too many events lets stops rest that would not rest. A step of half the length has the same error, and
  * the two runs agree. */
-static bool has_overrun(const pair *p) {
+static bool has_overrun(const step_doubling *t) {
     uint64_t ours = 0;
     uint64_t finers = 0;
-    p->request.kind->events(p->to->run, &ours);
-    engine_double.events(p->finer, &finers);
+    t->shape->kind->events(t->run, &ours);
+    engine_double.events(t->finer_run, &finers);
     return ours > 0 || finers > 0;
 }
 
-static bool has_jumped(const pair *p) {
-    return pole_crossing_some(p->our_jumps) || pole_crossing_some(p->finer_jumps);
-}
-
 /* Steps the finer run to the end of the step that the run has just made. */
-static void follow(pair *p, uint64_t begin) {
-    step_doubling *t = p->to;
-    const bool failed = t->finer_failed_s < 0.0 && !step_finer(p);
-    const bool overran = t->overrun_s < 0.0 && has_overrun(p);
-    const bool leapt = t->jumped_s < 0.0 && has_jumped(p);
+static void follow(step_doubling *t, uint64_t begin) {
+    const bool failed = t->finer_failed_s < 0.0 && !step_finer(t);
+    const bool overran = t->overrun_s < 0.0 && has_overrun(t);
+    const bool leapt = t->jumped_s < 0.0 && pole_crossing_some(t->jumped);
     if (!failed && !overran && !leapt) {
         return;
     }
-    const double begin_s = ratio_times(begin, p->request.image->step);
-    end_passages(t, p->look_s);
+    const double begin_s = ratio_times(begin, t->shape->image->step);
+    end_passages(t, t->look_s);
     if (failed) {
         t->finer_failed_s = begin_s;
-        t->unwrapped = is_unwrapped(p);
+        t->unwrapped = is_unwrapped(t);
     }
     t->overrun_s = overran ? begin_s : t->overrun_s;
     if (leapt) {
         double ignored_s;
         t->jumped_s = begin_s;
-        t->missed = pole_crossing_through(p->our_jumps, &ignored_s).what >= 0 ||
-                    pole_crossing_through(p->finer_jumps, &ignored_s).what >= 0;
+        t->missed = pole_crossing_through(t->jumped, &ignored_s).what >= 0;
     }
 }
 
 void step_doubling_enter(step_doubling *t) {
-    pair *p = t->pair;
-    const image *im = p->request.image;
-    const uint64_t step = p->request.kind->steps(t->run);
-    if (p->owns) {
-        pole_crossing_enter(p->our_jumps, p->request.kind, t->run);
+    const image *im = t->shape->image;
+    const uint64_t step = t->shape->kind->steps(t->run);
+    if (step > 0) {
+        follow(t, step - 1U);
     }
-    if (t->books != NULL) {
-        books_enter(t->books, p->request.kind, t->run);
-    }
-    if (step == 0) {
-        pole_crossing_enter(p->finer_jumps, &engine_double, p->finer);
-    } else {
-        follow(p, step - 1U);
-    }
-    if (step == 0 || (t->finer_failed_s < 0.0 && (step % p->stride == 0 || step == im->steps))) {
-        look(p, ratio_times(step, im->step));
+    if (step == 0 || (t->finer_failed_s < 0.0 && (step % t->stride == 0 || step == im->steps))) {
+        look(t, ratio_times(step, im->step));
     }
 }
 
-step_doubling *step_doubling_open(const step_doubling_request *w, void *run) {
+step_doubling *step_doubling_open(const image *im, const image *plain, const engine_kind *kind,
+                                  void *run, const pole_crossing *jumped) {
     step_doubling *t = alloc(1, sizeof *t);
-    pair *p = alloc(1, sizeof *p);
-    make_finer(t, w);
-    t->otherwise = w->image->ways > 0;
-    t->shape = records_open(NULL, w->image, w->kind);
-    t->columns = t->shape->columns - w->image->own_outputs;
+    make_finer(t, im, plain);
+    t->otherwise = im->ways > 0;
+    t->shape = records_open(NULL, im, kind);
+    t->columns = t->shape->columns - im->own_outputs;
     t->column = alloc(t->columns, sizeof *t->column);
     t->finer_failed_s = -1.0;
     t->overrun_s = -1.0;
     t->cut_s = -1.0;
     t->jumped_s = -1.0;
-    t->jumps = true;
     t->run = run;
-    t->pair = p;
-    t->books = w->books ? books_open(w->image) : NULL;
-    *p = (pair){.to = t,
-                .request = *w,
-                .finers = records_open(NULL, &t->finer, &engine_double),
-                .finer = engine_double.start(&t->finer),
-                .owns = !w->watched,
-                .our_jumps = w->watched ? w->jumped : pole_crossing_open(w->image),
-                .finer_jumps = pole_crossing_open(&t->finer),
-                .rounded = rounded_open(&t->finer),
-                .stride = 1U + (w->image->steps - (w->image->steps > 0)) / STEP_DOUBLING_LOOKS};
+    t->jumped = jumped;
+    t->finers = records_open(NULL, &t->finer, &engine_double);
+    t->finer_run = engine_double.start(&t->finer);
+    t->rounded = rounded_open(&t->finer);
+    t->stride = 1U + (im->steps - (im->steps > 0)) / STEP_DOUBLING_LOOKS;
     return t;
 }
 
 void step_doubling_end(step_doubling *t, wh_status status) {
-    pair *p = t->pair;
     t->status = status;
-    t->end_s = ratio_times(p->request.kind->steps(t->run), p->request.image->step);
-    take_rounding(t, &p->rounded);
+    t->end_s = ratio_times(t->shape->kind->steps(t->run), t->shape->image->step);
+    take_rounding(t);
     take_places(t);
-    t->finer_end = p->finers->row;
-}
-
-static void pair_free(pair *p) {
-    rounded_close(&p->rounded);
-    pole_crossing_close(p->finer_jumps);
-    if (p->owns) {
-        pole_crossing_close(p->our_jumps);
-    }
-    records_close(p->finers);
-    engine_double.stop(p->finer);
-    free(p);
-}
-
-static bool see(void *of, uint64_t step) {
-    step_doubling *t = of;
-    const step_doubling_request *w = &t->pair->request;
-    step_doubling_enter(t);
-    if ((step & 255U) == 0 && w->progress != NULL) {
-        w->progress((double)step / (double)(w->image->steps + (w->image->steps == 0)), w->context);
-    }
-    return true;
-}
-
-step_doubling *step_doubling_run(const step_doubling_request *w) {
-    step_doubling *t = step_doubling_open(w, w->kind->start(w->image));
-    const loop l = {.kind = w->kind,
-                    .run = t->run,
-                    .steps = w->image->steps,
-                    .own = &t->looks,
-                    .see = see,
-                    .of = t};
-    wh_status status;
-    t->stopped = loop_run(&l, &status) == LOOP_INTERRUPTED;
-    step_doubling_end(t, status);
-    return t;
 }
 
 void step_doubling_free(step_doubling *t) {
     if (t == NULL) {
         return;
     }
-    if (t->pair->owns) {
-        t->shape->kind->stop(t->run);
-    }
-    pair_free(t->pair);
-    books_close(t->books);
+    rounded_close(t->rounded);
+    records_close(t->finers);
+    engine_double.stop(t->finer_run);
     for (int k = 0; k < t->columns; k++) {
         passages_free(&t->column[k].off);
     }

@@ -7,24 +7,11 @@
 #ifndef CHECK_STEP_DOUBLING_H
 #define CHECK_STEP_DOUBLING_H
 
-#include "energy_residual.h"
-#include "host/engine/loop.h"
 #include "host/io/records.h"
 #include "pole.h"
 
 /* Most comparisons of the two runs. They are made at ends of steps, at equal intervals. */
 enum { STEP_DOUBLING_LOOKS = 20000 };
-
-typedef struct step_doubling_request {
-    const image *image;
-    const engine_kind *kind;
-    const image *plain;    /* from step_doubling_plain(); the image itself if that returns false */
-    bool books;            /* keep the run's balance, and report its residual */
-    bool watched;          /* the caller owns the run and its pole search `jumped` */
-    pole_crossing *jumped; /* NULL: the scene needs no search */
-    void (*progress)(double share, void *context); /* called from time to time; or NULL */
-    void *context;
-} step_doubling_request;
 
 /* After `time_s` the difference was `size` or more for the first time. */
 typedef struct passage {
@@ -91,17 +78,19 @@ typedef struct step_doubling {
     /* after this time the finer run has left its bounds; below 0: it has not */
     double finer_failed_s;
     double overrun_s; /* begin of a step of either run with too many events; below 0: none */
-    double jumped_s;  /* begin of a step of either run over a pole (pole.h); below 0: none */
+    double jumped_s;  /* begin of a step of the run over a pole (pole.h); below 0: none */
     bool missed;      /* true: a missed contact or force at jumped_s (missed.h); false: a pole */
     double cut_s;     /* after this time nothing is known (failure, overrun, jump); below 0: none */
-    const double *finer_end;       /* [columns] the finer run's values at the last comparison */
     step_doubling_aliased aliased; /* set by aliasing_find() */
     bool unaliased;                /* the budget was too small for aliasing's third run */
-    budget looks; /* for checks after step_doubling_run(); `own` has the operations of both runs */
-    bool stopped;
-    books *books; /* NULL: no balance */
-    bool jumps;   /* does the finer run search for poles and missed contacts now? */
-    struct pair *pair;
+    const pole_crossing *jumped;   /* the run's search for poles; NULL: the scene needs none */
+    records *finers;               /* like shape, for the finer run */
+    void *finer_run;
+    struct rounded *rounded;
+    uint64_t stride; /* number of steps between two comparisons */
+    double look_s;   /* time of the last comparison */
+    double before_s; /* time of the comparison before the last one */
+    uint64_t looks;
 } step_doubling;
 
 /* *plain: the settings of the finer run's image, without tables, and with compensated sums for a matrix. Returns false
@@ -112,11 +101,11 @@ bool step_doubling_plain(const image_settings *of, image_settings *plain);
 wh_method step_doubling_method(const image *im);
 int step_doubling_order(const image *im);
 
-/* Makes the run and its finer run, to the end or until one fails. The images must outlive the result. */
-step_doubling *step_doubling_run(const step_doubling_request *w);
-/* Like step_doubling_run(), for a run that the caller steps: call step_doubling_enter() at its start and after each
- * step. `w` is copied. */
-step_doubling *step_doubling_open(const step_doubling_request *w, void *run);
+/* Starts the finer run of a run that the caller steps. `plain`: the image from step_doubling_plain(), or the run's own if
+ * that returned false. `jumped`: the run's search for poles; NULL: the scene needs none. All must outlive the result. */
+step_doubling *step_doubling_open(const image *im, const image *plain, const engine_kind *kind,
+                                  void *run, const pole_crossing *jumped);
+/* Call it at the start of the run and after each step. */
 void step_doubling_enter(step_doubling *t);
 /* The run has ended; `status` is that of its last step. */
 void step_doubling_end(step_doubling *t, wh_status status);

@@ -5,8 +5,8 @@
 
 #include "commands.h"
 #include "host/check/apart.h"
-#include "host/check/horizon.h"
 #include "host/check/nonfinite.h"
+#include "host/check/run_checks.h"
 #include "host/check/run_json.h"
 #include "host/cli/load.h"
 #include "host/engine/start.h"
@@ -106,28 +106,24 @@ static int write_rows(const trust_options *o, const horizon *h) {
 
 static int answer(const trust_options *o, const image *im, const image *plain) {
     const engine_kind *kind = o->common.number;
-    const step_doubling_request request = {.image = im,
-                                           .kind = kind,
-                                           .plain = plain,
-                                           .books = true,
-                                           .progress = shows_progress(o) ? show_progress : NULL};
-    step_doubling *t = step_doubling_run(&request);
-    if (request.progress != NULL) {
+    run_checks *v =
+        run_checks_whole(im, plain, kind, shows_progress(o) ? show_progress : NULL, NULL);
+    const step_doubling *t = v->doubling;
+    if (shows_progress(o)) {
         fprintf(stderr, "\r        \r");
     }
     int code = EXIT_INTERRUPTED;
-    if (t->stopped) {
+    if (v->interrupted) {
         fprintf(
             stderr,
             "whirl trust: interrupted at t = %.9g s of %.9g s: no result, because the ranges of "
             "the coordinates need the whole run\n",
             t->end_s, ratio_times(im->steps, im->step));
     } else {
-        aliasing_find(t, &t->looks);
         horizon h = horizon_of(t, o->tolerance);
         code = write_rows(o, &h);
         if (!o->json && (!o->quiet || o->csv == NULL)) {
-            horizon_print(options_is_standard(o->csv) ? stderr : stdout, &h);
+            horizon_print(options_is_standard(o->csv) ? stderr : stdout, &h, v->books, &v->balance);
         }
         if (t->status != WH_OK) {
             say_failure(im, kind, t);
@@ -138,7 +134,7 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
         }
         horizon_free(&h);
     }
-    step_doubling_free(t);
+    run_checks_close(v);
     return code;
 }
 

@@ -4,9 +4,7 @@
 #include <stdlib.h>
 
 #include "host/base/alloc.h"
-#include "host/check/energy_residual.h"
-#include "host/check/finding.h"
-#include "host/check/horizon.h"
+#include "host/check/run_checks.h"
 #include "host/check/run_json.h"
 #include "host/io/gnuplot.h"
 #include "host/lang/value.h"
@@ -82,7 +80,8 @@ static bool is_out_of_bounds(const row_runs *p, const horizon *h) {
     return out;
 }
 
-static map_cell cell_of(row_runs *p, const step_doubling *t) {
+static map_cell cell_of(row_runs *p, const run_checks *v) {
+    const step_doubling *t = v->doubling;
     const map_request *w = p->request;
     horizon h = horizon_of(t, w->tolerance);
     map_cell cell = {
@@ -90,9 +89,8 @@ static map_cell cell_of(row_runs *p, const step_doubling *t) {
     if (p->range == NULL) {
         take_ranges(p, &h);
     }
-    if (t->books != NULL) {
-        const energy_residual b = energy_residual_of(t->books, w->of.kind, t->run);
-        cell.left_over = b.known ? b.ratio : (double)NAN;
+    if (v->balance.known) {
+        cell.left_over = v->balance.ratio;
     }
     if (is_out_of_bounds(p, &h)) {
         cell.verdict = MAP_DIVERGES;
@@ -120,20 +118,13 @@ static void try_point(row_runs *p, uint64_t point) {
     map_cell cell = {.verdict = MAP_NONE, .left_over = (double)NAN};
     bool whole = true;
     if (im != NULL) {
-        const step_doubling_request request = {.image = im,
-                                               .kind = w->of.kind,
-                                               .plain = plain != NULL ? plain : im,
-                                               .books = true,
-                                               .progress = w->progress != NULL ? show_share : NULL,
-                                               .context = p};
-        step_doubling *t = step_doubling_run(&request);
-        whole = !t->stopped;
+        run_checks *v =
+            run_checks_whole(im, plain, w->of.kind, w->progress != NULL ? show_share : NULL, p);
+        whole = !v->interrupted;
         if (whole) {
-            aliasing_find(t, &t->looks);
-            p->map->unlooked += t->unaliased ? 1U : 0U;
-            cell = cell_of(p, t);
+            cell = cell_of(p, v);
         }
-        step_doubling_free(t);
+        run_checks_close(v);
     }
     image_free(im);
     image_free(plain);
@@ -225,12 +216,6 @@ void map_print(FILE *out, const stability_map *m, const char *words) {
                     (unsigned long long)count, map_verdicts[i].words);
         }
     }
-    if (m->unlooked > 0) {
-        fprintf(
-            out,
-            "  not checked: [aliased] in %llu runs, because this check takes longer than the two runs\n",
-            (unsigned long long)m->unlooked);
-    }
 }
 
 /* --- for programs ----------------------------------------------------------------------------------------*/
@@ -298,7 +283,7 @@ void map_json(FILE *out, const stability_map *m, const image *of, const map_requ
         }
     }
     json_close(&j, ']');
-    json_unlooked(&j, m->unlooked > 0 ? FINDING_BIT(FINDING_ALIASED) : 0U);
+    json_unlooked(&j, 0U);
     json_whole(&j, "exit", status);
     json_close(&j, '}');
 }

@@ -52,10 +52,8 @@ typedef struct stability_map {
     const grid *grid;
     map_cell *cell; /* [grid->points] */
     uint64_t done;  /* number of completed cells; fewer than points after an interrupt */
-    uint64_t
-        unlooked; /* number of cells that were not checked for aliasing, because it takes too long */
-    int along;    /* the step's axis, or 1 if no axis is the step */
-    bool by_step; /* one axis is the step */
+    int along;      /* the step's axis, or 1 if no axis is the step */
+    bool by_step;   /* one axis is the step */
 } stability_map;
 
 /* Runs the map row by row, each from its shortest step on. */

@@ -126,8 +126,8 @@ horizons horizons_of(const char *text, const char *name, horizons_setting how, d
     (void)step_doubling_plain(&settings, &plain);
     h.image = image_with(&h.made, &settings);
     h.plain = image_with(&h.made, &plain);
-    const step_doubling_request request = {.image = h.image, .kind = how.kind, .plain = h.plain};
-    h.doubling = step_doubling_run(&request);
+    h.checks = run_checks_whole(h.image, h.plain, how.kind, NULL, NULL);
+    h.doubling = h.checks->doubling;
     h.estimate = horizon_of(h.doubling, tolerance);
     h.true_s = calloc((size_t)h.doubling->columns, sizeof *h.true_s);
     TEST_ASSERT_NOT_NULL(h.true_s);
@@ -146,7 +146,7 @@ horizons horizons_of(const char *text, const char *name, horizons_setting how, d
 
 void horizons_free(horizons *h) {
     horizon_free(&h->estimate);
-    step_doubling_free(h->doubling);
+    run_checks_close(h->checks);
     image_free(h->plain);
     image_free(h->image);
     free(h->true_s);

@@ -8,7 +8,7 @@
 #define TESTS_HORIZONS_H
 
 #include "derived.h"
-#include "host/check/horizon.h"
+#include "host/check/run_checks.h"
 
 typedef struct horizons_setting {
     const engine_kind *kind;
@@ -23,7 +23,8 @@ typedef struct horizons {
     image *image; /* image with the settings of the run */
     /* image with the settings of the finer run (host/check/step_doubling.h); the reference uses it, too */
     image *plain;
-    step_doubling *doubling;
+    run_checks *checks;
+    const step_doubling *doubling;
     horizon estimate;
     /* [columns] time until which the column is accurate; infinite: until the end of the run */
     double *true_s;

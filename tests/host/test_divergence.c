@@ -4,7 +4,7 @@
 
 #include "core/method.h"
 #include "host/check/horizon.h"
-#include "host/check/step_doubling.h"
+#include "host/check/run_checks.h"
 #include "host/cli/commands.h"
 #include "host/os/system.h"
 
@@ -337,7 +337,7 @@ static double factor(int order, double z) {
 
 /* Growth or decay x' = a x. The finer run uses `method` if its order is 4, else RK4. If both runs have order 4, the
  * estimated error is 16/15 of their difference. */
-static void hold_growth(dice *d, wh_method method, int order, bool events) {
+static void hold_growth(dice *d, wh_method method, int order) {
     const double size = dice_between(d, 0.05, 0.3);
     const int steps = (int)(dice_between(d, 3.0, 12.0) / size);
     const double z = dice_one_of(d, 2) == 0 ? size : -size;
@@ -351,9 +351,8 @@ static void hold_growth(dice *d, wh_method method, int order, bool events) {
     derived made = derived_scene(text, "s");
     derived_expect(&made, text);
     made.image->settings.method = method;
-    const step_doubling_request request = {
-        .image = made.image, .kind = &engine_double, .plain = made.image, .books = events};
-    step_doubling *t = step_doubling_run(&request);
+    run_checks *v = run_checks_whole(made.image, NULL, &engine_double, NULL, NULL);
+    const step_doubling *t = v->doubling;
     horizon h = horizon_of(t, tolerance);
     const double rough = factor(order, z);
     const double fine = factor(4, 0.5 * z);
@@ -384,7 +383,7 @@ static void hold_growth(dice *d, wh_method method, int order, bool events) {
         TEST_ASSERT_DOUBLE_WITHIN(1.01 * step_s, until_s, h.until_s);
     }
     horizon_free(&h);
-    step_doubling_free(t);
+    run_checks_close(v);
     derived_free(&made);
 }
 
@@ -393,7 +392,7 @@ TEST(horizon, twins_of_growths_and_decays) {
     for (unsigned k = 0; k < few_or_all(40, 400); k++) {
         static const wh_method methods[] = {WH_RK4, WH_EULER, WH_HEUN, WH_RK38};
         static const int orders[] = {4, 1, 2, 4};
-        hold_growth(&d, methods[k % 4], orders[k % 4], k % 8 < 4);
+        hold_growth(&d, methods[k % 4], orders[k % 4]);
     }
 }
 
@@ -444,11 +443,11 @@ static const char *behind(const char *told, const char *name) {
     return at + strlen(start);
 }
 
-static void expect_words(const horizon *h) {
+static void expect_words(const run_checks *v, const horizon *h) {
     static char told[4000];
     FILE *out = fmemopen(told, sizeof told, "w");
     TEST_ASSERT_NOT_NULL(out);
-    horizon_print(out, h);
+    horizon_print(out, h, v->books, &v->balance);
     fclose(out);
     TEST_ASSERT_NOT_NULL(strstr(told, "step 0.01 s, 400 steps to t = 4 s\n"));
     TEST_ASSERT_NOT_NULL(strstr(told, "compensated, double, step 0.005 s\n"));
@@ -489,17 +488,15 @@ static void expect_words(const horizon *h) {
 TEST(horizon, words_and_rows) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);
-    const step_doubling_request request = {
-        .image = made.image, .kind = &engine_double, .plain = made.image, .books = true};
-    step_doubling *t = step_doubling_run(&request);
+    run_checks *v = run_checks_whole(made.image, NULL, &engine_double, NULL, NULL);
+    const step_doubling *t = v->doubling;
     horizon h = horizon_of(t, 0.01);
     TEST_ASSERT_TRUE(h.first > 0 && t->shape->column[h.first].unknown == 0);
     TEST_ASSERT_TRUE(h.until_s > 0.68 && h.until_s < 0.85);
     expect_csv(&h);
-    expect_words(&h);
+    expect_words(v, &h);
     horizon_free(&h);
-    step_doubling_free(t);
-    step_doubling_free(NULL);
+    run_checks_close(v);
     derived_free(&made);
 }
 
@@ -706,9 +703,8 @@ static void write_spring(char *text, const char *unit, double a, double w, doubl
              unit, w * w, a, step_s, until_s);
 }
 
-static step_doubling *twins_of(const motion *m, const image *im) {
-    const step_doubling_request w = {.image = im, .kind = m->kind, .plain = m->image};
-    return step_doubling_run(&w);
+static run_checks *twins_of(const motion *m, const image *im) {
+    return run_checks_whole(im, m->image, m->kind, NULL, NULL);
 }
 
 /* The finer run must have exactly half the step, whatever fraction the step is. The step of an exact matrix must not
@@ -738,7 +734,8 @@ TEST(doubling, the_finer_run) {
                                          {3, UINT64_C(1) << 58}};
             for (unsigned k = 0; k < sizeof steps / sizeof steps[0]; k++) {
                 im.step = steps[k];
-                step_doubling *t = twins_of(&m, &im);
+                run_checks *checks = twins_of(&m, &im);
+                const step_doubling *t = checks->doubling;
                 const bool halves = matrix != MATRIX_EXACT;
                 const int order = wh_methods[method].order;
                 const bool own = matrix == MATRIX_NONE && order >= 4;
@@ -759,7 +756,7 @@ TEST(doubling, the_finer_run) {
                 }
                 TEST_ASSERT_EQUAL_DOUBLE(halves && own ? 1.0 / (1.0 - pow(2.0, -order)) : 1.0,
                                          t->left_out);
-                step_doubling_free(t);
+                run_checks_close(checks);
             }
             motion_close(&m);
         }
@@ -804,10 +801,11 @@ TEST(doubling, what_is_told) {
         motion_open_text(
             &m, text,
             (stepping){.kind = i % 2U == 0 ? &engine_double : &engine_float, .method = WH_RK4});
-        step_doubling *t = twins_of(&m, m.image);
+        run_checks *checks = twins_of(&m, m.image);
+        const step_doubling *t = checks->doubling;
         TEST_ASSERT_EQUAL(WH_OK, t->status);
         TEST_ASSERT_EQUAL_DOUBLE(1.5, t->end_s);
-        TEST_ASSERT_TRUE(t->finer_failed_s < 0.0 && t->overrun_s < 0.0 && !t->stopped);
+        TEST_ASSERT_TRUE(t->finer_failed_s < 0.0 && t->overrun_s < 0.0 && !checks->interrupted);
         TEST_ASSERT_EQUAL_INT(3, t->columns);
         const step_doubling_column *x = &t->column[1];
         const step_doubling_column *v = &t->column[2];
@@ -827,7 +825,7 @@ TEST(doubling, what_is_told) {
         const double pull = v->rounding - unit * v_size;
         TEST_ASSERT_TRUE(pull > 0.5 * unit * a * w * w * per_m * t->end_s);
         TEST_ASSERT_TRUE(pull < 20.0 * unit * a * w * w * per_m * t->end_s);
-        step_doubling_free(t);
+        run_checks_close(checks);
         motion_close(&m);
     }
 }
@@ -840,10 +838,11 @@ TEST(doubling, an_end_from_outside) {
     motion_open_text(&m, text, IN_DOUBLE);
     for (int i = 0; i < 2; i++) {
         interrupted = i;
-        step_doubling *t = twins_of(&m, m.image);
-        TEST_ASSERT_EQUAL(i == 1, t->stopped);
+        run_checks *checks = twins_of(&m, m.image);
+        const step_doubling *t = checks->doubling;
+        TEST_ASSERT_EQUAL(i == 1, checks->interrupted);
         TEST_ASSERT_EQUAL_DOUBLE(i == 1 ? 0.0 : 1.2, t->end_s);
-        step_doubling_free(t);
+        run_checks_close(checks);
     }
     interrupted = 0;
     motion_close(&m);
@@ -864,10 +863,11 @@ TEST(doubling, runs_that_fail) {
                  "until 9 [s] }\n",
                  s, s * s / sqrt(2.0));
         motion_open_text(&m, text, i % 2U == 0 ? IN_DOUBLE : IN_FLOAT);
-        step_doubling *t = twins_of(&m, m.image);
+        run_checks *checks = twins_of(&m, m.image);
+        const step_doubling *t = checks->doubling;
         TEST_ASSERT_NOT_EQUAL(WH_OK, t->status);
         TEST_ASSERT_TRUE(t->end_s > 0.99 * end_s && t->end_s < 1.05 * end_s + 0.02);
-        step_doubling_free(t);
+        run_checks_close(checks);
         motion_close(&m);
     }
 }
