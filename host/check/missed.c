@@ -487,14 +487,12 @@ struct missed {
     bool smooth;          /* the accelerations have no kink: undecided hills are reported, too */
     bool edges;           /* a gap may have an edge */
     taylor_bounds *laws;  /* bounds of the contacts' laws, if a friction's limits move; or NULL */
-    double *from;         /* [angles + reals] state before the step */
-    double *to;           /* [angles + reals] state after the step */
     int *mode;            /* [contacts] modes before and after the step */
     int *mode_to;
-    double *most;              /* [coordinates] a larger acceleration counts as hidden */
-    const engine_piece *piece; /* the present path */
-    double size;               /* the larger of the margins at the ends of the path */
-    int parts;                 /* number of parts tested so far */
+    double most[IMAGE_COMPONENTS_MAX]; /* a larger acceleration counts as hidden */
+    const engine_piece *piece;         /* the present path */
+    double size;                       /* the larger of the margins at the ends of the path */
+    int parts;                         /* number of parts tested so far */
 };
 
 static bool calls(const op_list *t, function_id function) {
@@ -540,7 +538,6 @@ missed *missed_open(const image *im) {
         return NULL;
     }
     missed *m = alloc(1, sizeof *m);
-    const int64_t all = im->angles + im->reals;
     m->image = im;
     m->signals = signals != NULL ? taylor_bounds_open(im, signals) : NULL;
     m->hills = hills;
@@ -548,9 +545,6 @@ missed *missed_open(const image *im) {
     m->edges = has_edges(im);
     m->accel = hills || laws != NULL ? taylor_bounds_open(im, im->list[IMAGE_STEP]) : NULL;
     m->laws = laws != NULL ? taylor_bounds_open(im, laws) : NULL;
-    m->from = alloc(2 * all + im->coordinates, sizeof *m->from);
-    m->to = m->from + all;
-    m->most = m->to + all;
     m->mode = alloc(2 * im->contacts, sizeof *m->mode);
     m->mode_to = m->mode + im->contacts;
     return m;
@@ -561,7 +555,6 @@ void missed_close(missed *m) {
         taylor_bounds_close(m->signals);
         taylor_bounds_close(m->accel);
         taylor_bounds_close(m->laws);
-        free(m->from);
         free(m->mode);
         free(m);
     }
@@ -848,21 +841,19 @@ static missed_found piece_passed(missed *m, const engine_piece *piece) {
     return found.what < 0 && m->hills ? force_passed(m) : found;
 }
 
-missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful,
-                          bool blind) {
+missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, const double *from,
+                          const double *to, bool eventful) {
     missed_found found = MISSED_NOTHING;
     if (m == NULL) {
         return found;
     }
     const image *im = m->image;
     int count = 0;
-    memcpy(m->from, m->to, (size_t)(im->angles + im->reals) * sizeof *m->to);
     memcpy(m->mode, m->mode_to, (size_t)im->contacts * sizeof *m->mode);
-    kind->state(run, m->to, m->to + im->angles);
     if (im->contacts > 0) {
         kind->modes(run, m->mode_to);
     }
-    if (kind->steps(run) == 0 || blind) {
+    if (from == NULL) {
         return found;
     }
     const engine_piece *pieces =
@@ -872,7 +863,7 @@ missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, b
         found = in.sure || found.what < 0 ? in : found;
     }
     if (count == 0 && !eventful) {
-        const engine_piece all = {im->step_s, m->from, m->to, m->mode};
+        const engine_piece all = {im->step_s, from, to, m->mode};
         found = piece_passed(m, &all);
     }
     return found;

@@ -32,9 +32,9 @@ typedef struct missed_found {
 } missed_found;
 #define MISSED_NOTHING ((missed_found){-1, false, false})
 
-/* Enters the state after each step, the start included. `eventful`: the step had events. `blind`: the state before the
- * step was not entered, so the step is not tested. */
-missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, bool eventful,
-                          bool blind);
+/* Enters the state `to` after each step, the start included. `from`: the state before the step; NULL: it is not known, and
+ * the step is not tested. `eventful`: the step had events. */
+missed_found missed_enter(missed *m, const engine_kind *kind, const void *run, const double *from,
+                          const double *to, bool eventful);
 
 #endif

@@ -822,11 +822,11 @@ void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *
     }
     const uint64_t steps = kind->steps(run);
     bool changed = false;
-    j->leapt = had_events(j, kind, run);
-    j->through = missed_enter(j->contacts, kind, run, j->leapt, j->blind);
-    j->found_s = j->through.what >= 0 ? ratio_times(steps - 1, j->image->step) : 0.0;
+    const bool looks = steps > 0 && !j->blind;
     memcpy(j->from, j->to, (size_t)j->components * sizeof *j->to);
     kind->state(run, j->to, j->to + j->image->angles);
+    j->leapt = had_events(j, kind, run);
+    j->through = missed_enter(j->contacts, kind, run, looks ? j->from : NULL, j->to, j->leapt);
     denominators_see(&j->of, j->to);
     for (int i = 0; i < j->of.count; i++) {
         divisor *d = &j->of.divisor[i];
@@ -834,13 +834,12 @@ void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *
         d->now = denominators_value(&j->of, d);
         changed = changed || (changes_sign(d) && counts(j, d));
     }
-    const bool looks = steps > 0 && !j->blind;
     j->unseen += j->blind ? 1U : 0U;
     j->blind = false;
     if (looks && j->through.what < 0 && (changed || may_touch(j))) {
         j->found = pole_between(j);
-        j->found_s = ratio_times(steps - 1, j->image->step);
     }
+    j->found_s = pole_crossing_some(j) ? ratio_times(steps - 1, j->image->step) : 0.0;
 }
 
 void pole_crossing_pass(pole_crossing *j) {
