@@ -46,17 +46,12 @@ static void say_constants(FILE *out, const run_checks *v) {
 static void say_energy(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const double part = v->found[FINDING_ENERGY].value;
-    if (part > 2.0 * b->ratio) {
-        fprintf(
-            out,
-            "the energy balance fails: its residual reached %.3g J, %.2e of the largest entry of the energy balance",
-            part * b->largest_J, part);
-    } else {
-        fprintf(
-            out,
-            "the energy balance fails: its residual is %.3g J, %.2e of the largest entry of the energy balance",
-            b->left_J, b->ratio);
-    }
+    const bool before = part > 2.0 * b->ratio; /* it was larger before the end */
+    fprintf(
+        out,
+        "the energy balance fails: its residual %s %.3g J, %.2e of the largest entry of the energy balance",
+        before ? "reached" : "is", before ? part * b->largest_J : b->left_J,
+        before ? part : b->ratio);
     if (b->jump_s >= 0.0) {
         fprintf(out, ", most of it lost at about t = %.6g s", b->jump_s);
     }
