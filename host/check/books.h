@@ -39,7 +39,7 @@ typedef struct books {
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change of a momentum since the start */
     double
-        *terms; /* [count] largest sampled sum of the sizes of a momentum's terms and operations */
+        *terms; /* [count] largest sampled sum of the sizes of a momentum's terms, each about three times */
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
