@@ -38,12 +38,13 @@ typedef struct books {
     double *momentum;     /* [count] at the start of the run */
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change of a momentum since the start */
-    double
-        *terms; /* [count] largest sampled sum of the sizes of a momentum's terms, each about three times */
+    double *
+        terms; /* [count] largest sampled sum of the sizes of a momentum's terms, each about three times */
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
-    double moving_J[2];  /* kinetic_J without terms of odd order in the rates */
+    /* kinetic_J; with an energy integral, its part without stored_J, which has no terms linear in the rates */
+    double moving_J[2];
     double stored_J[2];
     double energy_J[2];   /* balanced: kinetic + stored, or the energy integral */
     double input_J;       /* work of the inputs so far */
@@ -51,11 +52,8 @@ typedef struct books {
     double power_W[2][2]; /* input and loss power: [0] after 0, 2, 4, ... steps, [1] a step later */
     spread kinetic;       /* spread over the steps */
     spread stored;
-    spread *rate; /* [count] */
-    spread *push; /* [count] momenta without rateless[] */
-    /* [count] the part of each momentum that stays the same if all rates are reversed; it depends on the origin */
-    double *rateless;
-    bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
+    spread *rate;       /* [count] */
+    spread *push;       /* [count] momenta */
     double *off;        /* bounds on the round-off of value[], in units of the unit round-off */
     double size_J;      /* largest |T| + |V| */
     double rounding_J;  /* largest sampled energy change by the round-off of one step */
