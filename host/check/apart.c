@@ -3,11 +3,9 @@
 #include "apart.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/contact.h"
-#include "host/base/alloc.h"
 #include "host/base/diag.h"
 #include "host/engine/engine.h"
 #include "host/number/functions.h"
@@ -22,27 +20,24 @@ enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
 typedef struct apart {
     const image *im;
-    evaluator *forces;
-    double *input;
-    double *law; /* [forced * (WH_LAW_ROWS + 2 n)] */
+    state_list forces; /* results: [forced * (WH_LAW_ROWS + 2 n)] */
     int n;
     int hold[HOLDS]; /* active holds at the start */
     int holds;
     /* does the expression of this hold change its sign near the start? A distance does not: it is never negative */
     bool vanishes[HOLDS];
-    bool closes; /* the expression of some hold is not zero, but its value is below OFF_MOST */
-    double place[N];
-    double rate[N];
+    bool closes;     /* the expression of some hold is not zero, but its value is below OFF_MOST */
+    double x[2 * N]; /* [2 n] the state: places, then rates */
 } apart;
 
+static const double *rates(const apart *a) { return a->x + a->n; }
+
 static const double *law_of(const apart *a, int h) {
-    return a->law + (ptrdiff_t)a->hold[h] * (WH_LAW_ROWS + 2 * a->n);
+    return a->forces.result + (ptrdiff_t)a->hold[h] * (WH_LAW_ROWS + 2 * a->n);
 }
 static const double *row_of(const apart *a, int h) { return law_of(a, h) + WH_LAW_ROWS; }
 
-static void look(apart *a) {
-    evaluator_run(a->forces, 0.0, a->place, a->place + a->im->angles, a->rate, a->input, a->law);
-}
+static void look(apart *a) { (void)state_list_at(&a->forces, 0.0, a->x, a->x + a->im->angles); }
 
 static double along(const apart *a, int h, const double *x) {
     double sum = 0.0;
@@ -66,17 +61,17 @@ static double terms(const apart *a, int h, const double *x, bool places) {
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
-    const double size = terms(a, h, a->place, true);
+    const double size = terms(a, h, a->x, true);
     const bool is = c->pin < 0 && c->direction <= 0 && a->vanishes[h] &&
                     fabs(value) > APART_LEAST * size &&
                     (a->closes || fabs(value) < OFF_MOST * size);
     return is ? value : 0.0;
 }
 
-/* Moves a->place to from + share * row. Returns the value of the hold's expression there. */
+/* Moves a->x to from + share * row. Returns the value of the hold's expression there. */
 static double value_at(apart *a, int h, const double *from, const double *row, double share) {
     for (int i = 0; i < a->n; i++) {
-        a->place[i] = from[i] + share * row[i];
+        a->x[i] = from[i] + share * row[i];
     }
     look(a);
     return law_of(a, h)[WH_LAW_FIRST];
@@ -84,24 +79,24 @@ static double value_at(apart *a, int h, const double *from, const double *row, d
 
 /* Does this hold's expression change its sign at a zero near the start? The zero is found by Newton's method. */
 static bool has_zero(apart *a, int h) {
-    double start[N];
+    double start[2 * N];
     double row[N] = {0.0};
     double value = law_of(a, h)[WH_LAW_FIRST];
     const double least = 1e-9 * fabs(value);
-    memcpy(start, a->place, sizeof start);
+    memcpy(start, a->x, sizeof start);
     for (int k = 0; k < NEWTON_MOST && fabs(value) > least; k++) {
         double square = 0.0;
         for (int i = 0; i < a->n; i++) {
             row[i] = row_of(a, h)[i];
             square += row[i] * row[i];
         }
-        value = square > 0.0 ? value_at(a, h, a->place, row, -value / square) : (double)NAN;
+        value = square > 0.0 ? value_at(a, h, a->x, row, -value / square) : (double)NAN;
     }
-    double zero[N];
-    memcpy(zero, a->place, sizeof zero);
+    double zero[2 * N];
+    memcpy(zero, a->x, sizeof zero);
     const bool changes = fabs(value) <= least &&
                          value_at(a, h, zero, row, -1e-4) * value_at(a, h, zero, row, 1e-4) < 0.0;
-    memcpy(a->place, start, sizeof start);
+    memcpy(a->x, start, sizeof start);
     look(a);
     return changes;
 }
@@ -160,7 +155,7 @@ static bool fit_places(apart *a, const bool *may) {
             by[h] = curved ? wanted[h] - law_of(a, h)[WH_LAW_FIRST] : 0.0;
             worst = number_most(worst, fabs(by[h]));
         }
-        if (worst > 1e-14 && !move(a, may, by, a->place)) {
+        if (worst > 1e-14 && !move(a, may, by, a->x)) {
             return false;
         }
         look(a);
@@ -171,9 +166,9 @@ static bool fit_places(apart *a, const bool *may) {
 static bool fit_rates(apart *a, const bool *may) {
     double by[HOLDS];
     for (int h = 0; h < a->holds; h++) {
-        by[h] = -along(a, h, a->rate);
+        by[h] = -along(a, h, rates(a));
     }
-    return move(a, may, by, a->rate);
+    return move(a, may, by, a->x + a->n);
 }
 
 /* First changes only coordinates whose start the scene does not set. If that fails, changes all coordinates. */
@@ -188,8 +183,7 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
         if (with(a, may)) {
             return true;
         }
-        memcpy(a->place, before.place, sizeof a->place);
-        memcpy(a->rate, before.rate, sizeof a->rate);
+        memcpy(a->x, before.x, sizeof a->x);
         look(a);
     }
     return false;
@@ -202,29 +196,28 @@ static double lost_J(const apart *a) {
     double sum = 0.0;
     for (int r = 0; r < n; r++) {
         for (int c = 0; c <= n; c++) {
-            matrix[r * (n + 1) + c] = along(a, r, c < n ? row_of(a, c) + a->n : a->rate);
+            matrix[r * (n + 1) + c] = along(a, r, c < n ? row_of(a, c) + a->n : rates(a));
         }
     }
     if (!solve(n, matrix)) {
         return (double)NAN;
     }
     for (int r = 0; r < n; r++) {
-        sum += 0.5 * matrix[r * (n + 1) + n] * along(a, r, a->rate);
+        sum += 0.5 * matrix[r * (n + 1) + n] * along(a, r, rates(a));
     }
     return sum;
 }
 
-static void say_values(FILE *out, const apart *a, const double *was_place, const double *was_rate) {
+static void say_values(FILE *out, const apart *a, const double *was) {
     const char *before = "hint: write: start ";
     for (int i = 0; i < 2 * a->n; i++) {
         const image_unknown *u = &a->im->unknown[image_component(a->im, i % a->n).unknown];
         const int primes = i / a->n;
-        const double value = primes == 0 ? a->place[i] : a->rate[i - a->n];
-        const double was = primes == 0 ? was_place[i] : was_rate[i - a->n];
+        const double value = a->x[i];
         const char *si = u->unit[primes].si;
         const bool has_unit = strcmp(si, "1") != 0;
         /* the text replaces the whole start of the scene, so it includes unchanged values */
-        if (value != was || (u->start_at[primes].source != NULL && !u->driven)) {
+        if (value != was[i] || (u->start_at[primes].source != NULL && !u->driven)) {
             fprintf(out, "%s%s%s = %.17g%s%s%s", before, u->name, primes == 0 ? "" : "'", value,
                     has_unit ? " [" : "", has_unit ? si : "", has_unit ? "]" : "");
             before = ", ";
@@ -235,8 +228,8 @@ static void say_values(FILE *out, const apart *a, const double *was_place, const
 
 /* The rate of a hold, if it exceeds round-off; else 0. */
 static double moving(const apart *a, int h) {
-    const double speed = along(a, h, a->rate);
-    const double least = APART_LEAST * terms(a, h, a->rate, false);
+    const double speed = along(a, h, rates(a));
+    const double least = APART_LEAST * terms(a, h, rates(a), false);
     return fabs(speed) > least ? speed : 0.0;
 }
 
@@ -271,12 +264,10 @@ static void say(FILE *out, const char *who, apart *a) {
                 "of energy\n",
                 who, lost_J(a));
     }
-    double was_place[N];
-    double was_rate[N];
-    memcpy(was_place, a->place, sizeof was_place);
-    memcpy(was_rate, a->rate, sizeof was_rate);
+    double was[2 * N];
+    memcpy(was, a->x, sizeof was);
     if ((!off || fit(a, 0, fit_places)) && fit(a, 1, fit_rates)) {
-        say_values(out, a, was_place, was_rate);
+        say_values(out, a, was);
     } else {
         fputs(
             "hint: choose other start values: Whirl found none near these that satisfy the holds\n",
@@ -288,8 +279,8 @@ static void say(FILE *out, const char *who, apart *a) {
 static double part_of(const apart *a, int h) {
     const double off = fabs(off_zero(a, h));
     const double speed = fabs(moving(a, h));
-    return number_most(off > 0.0 ? off / terms(a, h, a->place, true) : 0.0,
-                       speed > 0.0 ? speed / terms(a, h, a->rate, false) : 0.0);
+    return number_most(off > 0.0 ? off / terms(a, h, a->x, true) : 0.0,
+                       speed > 0.0 ? speed / terms(a, h, rates(a), false) : 0.0);
 }
 
 double apart_say(FILE *out, const char *who, const image *im) {
@@ -297,24 +288,17 @@ double apart_say(FILE *out, const char *who, const image *im) {
     if (im->list[IMAGE_FORCES] == NULL || im->list[IMAGE_SIGNALS] == NULL) {
         return part;
     }
-    apart a = {.im = im,
-               .forces = evaluator_new(im->list[IMAGE_FORCES]),
-               .input = alloc(im->inputs, sizeof *a.input),
-               .law =
-                   alloc(im->forced * (WH_LAW_ROWS + 2 * (int64_t)im->coordinates), sizeof *a.law),
-               .n = im->coordinates};
-    evaluator *signals = evaluator_new(im->list[IMAGE_SIGNALS]);
-    double *signal = alloc(2 * im->contacts, sizeof *signal);
-    image_inputs(im, a.input);
-    for (int i = 0; i < a.n; i++) {
-        a.place[i] = image_start(im, i);
-        a.rate[i] = image_start(im, a.n + i);
+    apart a = {.im = im, .forces = state_list_open(im, IMAGE_FORCES), .n = im->coordinates};
+    const state_list signals = state_list_open(im, IMAGE_SIGNALS);
+    double soon[2 * N]; /* the state at SOON of a step */
+    for (int i = 0; i < 2 * a.n; i++) {
+        a.x[i] = image_start(im, i);
     }
-    double soon[N]; /* the state at SOON of a step */
     for (int i = 0; i < a.n; i++) {
-        soon[i] = a.place[i] + SOON * im->step_s * a.rate[i];
+        soon[i] = a.x[i] + SOON * im->step_s * a.x[a.n + i];
+        soon[a.n + i] = a.x[a.n + i];
     }
-    evaluator_run(signals, 0.0, soon, soon + im->angles, a.rate, a.input, signal);
+    const double *signal = state_list_at(&signals, 0.0, soon, soon + im->angles);
     for (int k = 0; k < im->forced; k++) {
         if (im->contact[k].kind == WH_HOLD && signal[2 * k] > 0.0) {
             a.hold[a.holds++] = k;
@@ -335,10 +319,7 @@ double apart_say(FILE *out, const char *who, const image *im) {
             say(out, who, &a);
         }
     }
-    evaluator_free(signals);
-    evaluator_free(a.forces);
-    free(signal);
-    free(a.input);
-    free(a.law);
+    state_list_close(&signals);
+    state_list_close(&a.forces);
     return part;
 }
