@@ -108,17 +108,6 @@ static bool same_lists(const image_settings *a, const image_settings *b) {
            (!(matrix || a->stabilized) || (a->method == b->method && a->angles == b->angles));
 }
 
-/* Where messages go: into a list that is discarded, if scenes may refuse the setting; else into p->errors. */
-static diags *diags_of(pricing_scene *p, const image_settings *settings) {
-    return setting_may_be_refused(settings) ? diags_new() : p->errors;
-}
-
-static void forget_diags(pricing_scene *p, diags *of) {
-    if (of != p->errors) {
-        diags_free(of);
-    }
-}
-
 /* The image of a point with the lists of these settings, made once, with the scene's step and end. NULL if the scene
  * refuses the settings, or after an error, which is reported. */
 static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
@@ -139,9 +128,10 @@ static const image *base_of(pricing_scene *p, int point, const image_settings *s
         }
     }
     const equations *e = p->equations[point];
-    diags *errors = diags_of(p, settings);
-    image *made = image_make(e, e->instance->conserve, settings, IMAGE_TO_RUN, errors);
-    forget_diags(p, errors);
+    diags *unsaid = setting_may_be_refused(settings) ? diags_new() : NULL;
+    image *made = image_make(e, e->instance->conserve, settings, IMAGE_TO_RUN,
+                             unsaid != NULL ? unsaid : p->errors);
+    diags_free(unsaid);
     if (made != NULL || setting_may_be_refused(settings)) {
         p->made = alloc_more(p->made, p->made_count + 1, sizeof *p->made);
         p->made[p->made_count++] = (pricing_made){point, *settings, made, false};
@@ -159,13 +149,14 @@ static image *make(void *context, int point, const setting *s, const char *step,
     const image *base = base_of(p, point, &s->image);
     instance *inst =
         base == NULL ? NULL : instance_make(p->mechanism, p->scene, &changes, p->errors);
-    diags *errors = diags_of(p, &s->image);
-    image *made = inst == NULL ? NULL : image_again(base, inst, errors);
+    diags *unsaid = setting_may_be_refused(&s->image) ? diags_new() : NULL;
+    image *made =
+        inst == NULL ? NULL : image_again(base, inst, unsaid != NULL ? unsaid : p->errors);
     if (made != NULL) {
         made->settings.method = s->image.method;
         made->settings.angles = s->image.angles;
     }
-    forget_diags(p, errors);
+    diags_free(unsaid);
     instance_free(inst);
     changes.step = own;
     changes_forget(p->changes, &changes);

@@ -38,28 +38,18 @@ static void say_none(FILE *out, const rating_request *w, const char *why, const 
     fputc('\n', out);
 }
 
-/* The reason why a scene has no rows, independent of its run; NULL: it may have rows. */
-static const char *refused(const rating_request *w) {
-    diags *unsaid = diags_new();
-    const bool held = number_of(w) == &engine_double || start_angles_are_held(w->image, unsaid);
-    diags_free(unsaid);
-    return w->settings->stabilized ? "the cost of --stabilized is not known"
-           : !held                 ? "a start angle has more turns than float can represent"
-                                   : NULL;
-}
-
 /* RECORDS_MOST: most records of the run. SPACING: a record's spacing is a multiple of this many steps. */
 enum { ROWS = 3, RECORDS_MOST = 20000, SPACING = 2 };
 /* Computed steps for each step of the run: ROWS_STEPS in the rows, REFERENCE_STEPS in the reference's two runs. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
-static double operations_of(const rating_request *w, const setting *s, uint64_t steps) {
+static double operations_of(const rating_request *w, const setting *s, double steps) {
     const double runs =
         setting_is_fixed(s) ? 2.0 : 1.0; /* in fixed point a first run finds the ranges */
     const double each = ROWS_STEPS * runs * wh_methods[s->image.method].stages +
                         REFERENCE_STEPS * wh_methods[step_doubling_method(w->image)].stages;
-    return (double)steps * each * (double)engine_evaluation(w->image);
+    return steps * each * (double)engine_evaluation(w->image);
 }
 
 enum { NUMBER = 24 };
@@ -133,46 +123,54 @@ static void print_rows(FILE *out, const rating_request *w, const pricing_scene *
     trial_end(&t);
 }
 
-static void say_rows(FILE *out, const rating_request *w, const simulation_trust *trust) {
-    const setting s = {*w->settings, number_of(w)};
-    const double trusted = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
-    const uint64_t steps = (uint64_t)number_least(trusted, (double)w->image->steps);
-    if (steps < 2) {
-        say_none(out, w, "the run is trusted for fewer than two steps", "price");
-    } else if (operations_of(w, &s, steps) > 0.5 * trust->left) {
-        say_none(out, w, "the rows take more than a second", "price");
-    } else {
-        const grid none = {0};
-        pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
-        image_settings plain;
-        step_doubling_plain(w->settings, &plain);
-        pricing_scene_lend(p, w->settings, w->image);
-        pricing_scene_lend(p, &plain, w->plain);
-        print_rows(out, w, p, &s, &plain, steps);
-        pricing_scene_free(p);
+/* Why a run of this many trusted steps has no rows; NULL: it has some. *command: the command that shows them, or NULL. */
+static const char *why_none(const rating_request *w, const setting *s,
+                            const simulation_trust *trust, double steps, const char **command) {
+    const bool on_board = strcmp(w->board->name, "host") != 0;
+    *command = NULL;
+    if (trust->still) {
+        return "nothing moves";
     }
+    if (w->image->contacts > 0) { /* only `whirl choose` counts events, in emulators */
+        *command = on_board ? "choose --error 1e-3" : "price";
+        return "events make the cost of a step depend on the motion";
+    }
+    diags *unsaid = diags_new();
+    const bool held = s->number == &engine_double || start_angles_are_held(w->image, unsaid);
+    diags_free(unsaid);
+    if (w->settings->stabilized || !held) {
+        return w->settings->stabilized ? "the cost of --stabilized is not known"
+                                       : "a start angle has more turns than float can represent";
+    }
+    *command = "price";
+    return trust->over_budget     ? "the rows take more than a second"
+           : trust->until_s < 0.0 ? "the trusted time of the run is unknown"
+           : steps < 2.0          ? "the run is trusted for fewer than two steps"
+           : operations_of(w, s, steps) > 0.5 * trust->left ? "the rows take more than a second"
+                                                            : NULL;
 }
 
 void rating_say(FILE *out, const rating_request *w, const simulation_trust *trust) {
+    const setting s = {*w->settings, number_of(w)};
+    const double trusted = number_floor(trust->until_s / w->image->step_s * (1.0 + 1e-12));
+    const double steps = number_least(trusted, (double)w->image->steps);
+    const char *command;
+    const char *why = why_none(w, &s, trust, steps, &command);
     if (w->image->steps == 0) {
         return;
     }
-    const char *why = refused(w);
-    const bool on_board = strcmp(w->board->name, "host") != 0;
-    if (trust->still) {
-        say_none(out, w, "nothing moves", NULL);
-    } else if (w->image->contacts > 0) { /* only `whirl choose` counts events, in emulators */
-        say_none(out, w, "events make the cost of a step depend on the motion",
-                 on_board ? "choose --error 1e-3" : "price");
-    } else if (why != NULL) {
-        say_none(out, w, why, NULL);
-    } else if (trust->over_budget) {
-        say_none(out, w, "the rows take more than a second", "price");
-    } else if (trust->until_s < 0.0) {
-        say_none(out, w, "the trusted time of the run is unknown", "price");
-    } else {
-        say_rows(out, w, trust);
+    if (why != NULL) {
+        say_none(out, w, why, command);
+        return;
     }
+    const grid none = {0};
+    pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
+    image_settings plain;
+    step_doubling_plain(w->settings, &plain);
+    pricing_scene_lend(p, w->settings, w->image);
+    pricing_scene_lend(p, &plain, w->plain);
+    print_rows(out, w, p, &s, &plain, (uint64_t)steps);
+    pricing_scene_free(p);
 }
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
