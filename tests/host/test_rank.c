@@ -310,6 +310,20 @@ static int check_solution(const derived *d, uint64_t *seed, const char *text) {
     return checked;
 }
 
+/* Without a constant entry, the pivots are chosen by their values: all diagonal entries are zero. */
+TEST(solving, zeros_on_the_diagonal_are_no_pivots) {
+    static const char text[] =
+        "mechanism m\nstate a\nstate b\nstate c\nstate d\n"
+        "equation 1 [s]*((2 + sin(a))*b' + (3 + cos(b))*c' + (1 + a^2)*d') = 1\n"
+        "equation 1 [s]*((2 + sin(c))*a' + (1 + b^2)*c' + (3 + sin(d))*d') = sin(a)\n"
+        "equation 1 [s]*((1 + c^2)*a' + (5 + sin(b))*b' + (2 + cos(a))*d') = cos(b)\n"
+        "equation 1 [s]*((2 + cos(a))*a' + exp(c)*b' + (7 + sin(d))*c') = d\n";
+    uint64_t seed = 43;
+    derived d = derived_surely(derived_text(text), text);
+    TEST_ASSERT_EQUAL_INT(3, check_solution(&d, &seed, text));
+    derived_free(&d);
+}
+
 TEST(solving, any_regular_system_is_solved) {
     uint64_t seed = 41;
     int checked[6] = {0};
