@@ -413,7 +413,8 @@ bool parse_close(parser *in, place open) {
         return false;
     }
     if (in->token.kind == TOKEN_NAME || in->token.kind == TOKEN_NUMBER) {
-        return parser_fail(in, HINT_PRODUCT, "')' or an operator is missing before %s", words);
+        return parser_fail(in, parser_operator_hint(in), "')' or an operator is missing before %s",
+                           words);
     }
     if (in->token.kind == TOKEN_UNIT) {
         return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");

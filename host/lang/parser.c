@@ -223,6 +223,46 @@ static bool is_decimal_comma(const token *sign) {
            isdigit((unsigned char)sign->text[1]);
 }
 
+const char *parser_operator_hint(const parser *in) {
+    const token *next = &in->token;
+    const char *line = next->text - next->at.offset; /* beginning of the text */
+    const char *end = next->text;                    /* end of the operand before the token */
+    while (end > line && (end[-1] == ' ' || end[-1] == '\t')) {
+        end--;
+    }
+    const char *begin = end;
+    while (begin > line &&
+           (isalnum((unsigned char)begin[-1]) || strchr("_.'", begin[-1]) != NULL)) {
+        begin--;
+    }
+    const bool opens = parser_is_sign(in, '(');
+    const char *name = opens ? next->text + 1 : next->text;
+    const size_t length = opens ? strcspn(name, ")\n") : next->length;
+    const size_t rest = opens ? length + 2 : length + (size_t)next->primes;
+    const int before = (int)(end - begin);
+    const bool whole = !opens || (name[length] == ')' && memchr(name, '(', length) == NULL);
+    if (before == 0 || !whole) {
+        return "write products with * and units in brackets: 2*m, 2 [m]";
+    }
+    size_t unit = length; /* length of the longest beginning that may be a unit, such as kg/s */
+    while (!opens && (isalnum((unsigned char)name[unit]) || strchr("*/^", name[unit]) != NULL) &&
+           name[unit] != '\0') {
+        unit++;
+    }
+    unit_scale scale;
+    unit_error unsaid;
+    const char *as_unit = NULL;
+    if (isdigit((unsigned char)*begin) && (unit_parse(name, unit, &scale, &unsaid) ||
+                                           unit_parse(name, unit = length, &scale, &unsaid))) {
+        as_unit = arena_words(in->arena, "%.*s [%.*s]", before, begin, (int)unit, name);
+        if (in->names == NULL || names_find(in->names, name, length) == NULL) {
+            return arena_words(in->arena, "write %s", as_unit);
+        }
+    }
+    return arena_words(in->arena, "write %.*s*%.*s%s%s", before, begin, (int)rest, next->text,
+                       as_unit != NULL ? ", or with a unit " : "", as_unit != NULL ? as_unit : "");
+}
+
 bool parser_end_statement(parser *in, const char *what) {
     if (parser_at_end_of_line(in) || parser_is_sign(in, '}')) {
         return true;
@@ -234,7 +274,7 @@ bool parser_end_statement(parser *in, const char *what) {
         return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");
     case TOKEN_NAME:
     case TOKEN_NUMBER:
-        return parser_fail(in, first != NULL ? first : HINT_PRODUCT,
+        return parser_fail(in, first != NULL ? first : parser_operator_hint(in),
                            "an operator is missing before %s", words);
     case TOKEN_SIGN:
         if (in->token.sign == ')') {
@@ -243,7 +283,7 @@ bool parser_end_statement(parser *in, const char *what) {
         return parser_fail(in,
                            is_decimal_comma(&in->token) ? "write a decimal point: 2.5"
                            : first != NULL              ? first
-                           : parser_is_sign(in, '(')    ? HINT_PRODUCT
+                           : parser_is_sign(in, '(')    ? parser_operator_hint(in)
                                                         : "begin a new line after the statement",
                            "%s is unexpected after %s", words, what);
     case TOKEN_STRING:

@@ -131,8 +131,8 @@ void parser_skip_newlines(parser *in); /* skip empty lines only */
 /* Skips to the next statement of a block that words with `rule` end. Returns false after the last one; *closed: '}' is
  * the current token. */
 bool parser_in_block(parser *in, unsigned rule, bool *closed);
-/* the hint for a missing operator */
-#define HINT_PRODUCT "write products with * and units in brackets: 2*m, 2 [m]"
+/* Returns the hint for a missing operator before the current name, number or '('. */
+const char *parser_operator_hint(const parser *in);
 bool parser_end_statement(parser *in, const char *what);
 char *parser_copy_text(parser *in, const token *each);
 /* Reads an optional text in quotes; returns "" if there is none. */
