@@ -12,6 +12,86 @@
 /* Estimated evaluations per step in the search for events. */
 #define EVALUATIONS_OF_EVENTS 8.0
 
+/* --- other ways of folding constants ------------------------------------------------------------------*/
+/* Sensitivity of a scene's accelerations to the round-off of its folded constants. Compares the scene's lists with
+ * variants whose constants are folded with other roundings (host/number/folding.h). Most scenes need no variants. */
+
+/* Adds the errors off[ways * count] of each variant to share[ways]. Components have different units, so each error is
+ * divided by the largest error of the same component. */
+static void add_shares(const double *off, int ways, int count, double *share) {
+    for (int i = 0; i < count; i++) {
+        double most = 0.0;
+        for (int k = 0; k < ways; k++) {
+            most = number_most(most, off[k * count + i]);
+        }
+        for (int k = 0; k < ways && most > 0.0; k++) {
+            share[k] += off[k * count + i] / most;
+        }
+    }
+}
+
+static void evaluate_list(const image *im, image_role role, const double *x, double *value) {
+    const state_list l = state_list_open(im, role);
+    memcpy(value, state_list_at(&l, 0.0, x, x + im->angles),
+           (size_t)im->list[role]->results * sizeof *value);
+    state_list_close(&l);
+}
+
+static void look_at_list(const image *im, image_role role, const double *x, double *share) {
+    const int results = im->list[role] != NULL ? im->list[role]->results : 0;
+    double *value = alloc((1 + (int64_t)im->ways) * results, sizeof *value);
+    double *off = value + results;
+    if (results > 0) {
+        evaluate_list(im, role, x, value);
+        for (int k = 0; k < im->ways; k++) {
+            evaluate_list(im->otherwise[k], role, x, off + (ptrdiff_t)k * results);
+        }
+        for (int i = 0; i < im->ways * results; i++) {
+            const double now = fabs(off[i] - value[i % results]);
+            off[i] = isfinite(now) ? now : 0.0; /* a pole: reported elsewhere */
+        }
+    }
+    add_shares(off, im->ways, results, share);
+    free(value);
+}
+
+static void compare_starts(const image *im, double *share) {
+    const int n = im->angles + im->reals;
+    double *off = alloc((int64_t)im->ways * n, sizeof *off);
+    for (int i = 0; i < im->ways * n; i++) {
+        off[i] = fabs(image_start(im->otherwise[i / n], i % n) - image_start(im, i % n));
+    }
+    add_shares(off, im->ways, n, share);
+    free(off);
+}
+
+/* The variant that differs most near the scene's start; NULL if there are no variants. Evaluates at the start, and with
+ * one SI unit added to each component, because a component that is zero may hide a factor. */
+static const image *constant_sensitivity_furthest(const image *im) {
+    static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
+    const int n = im->angles + im->reals;
+    double share[IMAGE_WAYS] = {0.0};
+    if (im->ways == 0) {
+        return NULL;
+    }
+    double *x = alloc(n, sizeof *x);
+    compare_starts(im, share);
+    for (int at = -1; at < n; at++) {
+        for (int i = 0; i < n; i++) {
+            x[i] = image_start(im, i) + (i == at ? 1.0 : 0.0);
+        }
+        for (size_t r = 0; r < sizeof roles / sizeof roles[0]; r++) {
+            look_at_list(im, roles[r], x, share);
+        }
+    }
+    free(x);
+    int furthest = 0;
+    for (int k = 1; k < im->ways; k++) {
+        furthest = share[k] > share[furthest] ? k : furthest;
+    }
+    return im->otherwise[furthest];
+}
+
 /* --- the finer run's image ---------------------------------------------------------------------------*/
 
 static whole_ratio half_of(whole_ratio step) {
@@ -53,7 +133,7 @@ bool step_doubling_plain(const image_settings *of, image_settings *plain) {
 /* Gives the finer run constants that are folded with other roundings. With the same constants both runs would have the
  * same round-off. */
 static void fold_the_other_way(image *im) {
-    const image *other = im->otherwise;
+    const image *other = constant_sensitivity_furthest(im);
     for (int role = 0; role < IMAGE_ROLES && other != NULL; role++) {
         const bool is_its_own = role != IMAGE_MATRIX || im->step_s == other->step_s;
         im->list[role] = is_its_own ? other->list[role] : im->list[role];
@@ -361,7 +441,7 @@ step_doubling *step_doubling_open(const image *im, const image *plain, const eng
                                   void *run, const pole_crossing *jumped) {
     step_doubling *t = alloc(1, sizeof *t);
     make_finer(t, im, plain);
-    t->otherwise = im->otherwise != NULL;
+    t->otherwise = im->ways > 0;
     t->shape = records_open(NULL, im, kind);
     t->columns = t->shape->columns - im->own_outputs;
     t->column = alloc(t->columns, sizeof *t->column);

@@ -323,6 +323,8 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
  * effect. */
 #define FOLDED_MUCH 1e-9
 
+_Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
+
 /* Do the two images have the same state and the same signals? */
 static bool is_alike(const image *im, const image *other) {
     bool alike = im->form == other->form && im->coordinates == other->coordinates &&
@@ -374,8 +376,11 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
         return NULL;
     }
     const bool asks = use == IMAGE_TO_RUN && nearest.lost > FOLDED_MUCH;
-    for (int way = FOLDING_OTHER; way < FOLDING_WAYS && asks && im->otherwise == NULL; way++) {
-        im->otherwise = make_otherwise(im, e, conserve, settings, way);
+    for (int way = FOLDING_OTHER; way < FOLDING_WAYS && asks; way++) {
+        image *other = make_otherwise(im, e, conserve, settings, way);
+        if (other != NULL) {
+            im->otherwise[im->ways++] = other;
+        }
     }
     return im;
 }

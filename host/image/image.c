@@ -36,8 +36,8 @@ void image_free(image *im) {
             op_list_free(im->list[role]);
         }
     }
-    if (im->base == NULL) {
-        image_free(im->otherwise);
+    for (int k = 0; k < im->ways && im->base == NULL; k++) {
+        image_free(im->otherwise[k]);
     }
     arena_free(im->memory);
 }

@@ -16,6 +16,9 @@
 #include "host/image/op_list.h"
 #include "host/number/ratio.h"
 
+/* Largest number of variants of an image with other ways of folding numbers. */
+enum { IMAGE_WAYS = 6 };
+
 /* Largest number of coordinates of a mechanism, or of first-order components of a system. */
 #define IMAGE_COMPONENTS_MAX 64
 
@@ -296,8 +299,10 @@ typedef struct image {
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* the mechanism's own and those of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    /* if constant folding lost digits: the same image, folded in another way (host/number/folding.h); else NULL */
-    struct image *otherwise;
+    /* If constant folding lost digits: the same image, folded in other ways (host/number/folding.h). Only the lists
+     * of these variants are used. */
+    struct image *otherwise[IMAGE_WAYS];
+    int ways;
     bool unbounded;         /* in a variant, a number of the file is not finite */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */

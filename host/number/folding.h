@@ -8,8 +8,9 @@
  *     only round-off, such as cos(90 deg) or 0.1 + 0.2 - 0.3. A residue loses nothing, and neither do products with it.
  *     It counts as a loss if it is a large part of a sum, or a divisor.
  *   - A derivation can be repeated in another *way*, in which inexact results are moved by one or two doubles. Exact
- *     results stay, and nearly equal numbers are not merged (Vignes, A stochastic arithmetic for reliable scientific
- *     computation, 1993, does this at run time). If that gives equations of another form, the next way is tried.
+ *     results stay, and nearly equal numbers are not merged. If several round-offs add up, one way may yield the same
+ *     numbers by chance. So there are several ways (Vignes, A stochastic arithmetic for reliable scientific
+ *     computation, 1993, does this at run time).
  *
  * Each derivation has its own `folding`: the way, and the record. folding_use() sets the current one for the whole
  * program, as a processor's rounding mode is set. */
