@@ -381,11 +381,10 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
         opening_print(out, &sim->opening, sim->records, sim->checks->books);
     }
     if (s->chosen != NULL) {
-        fprintf(
-            out, "%s%s\n", s->chosen,
-            (sim->checks->warned & ~FINDING_OF_SCENE) != 0
-                ? "; the step was chosen for this error alone, but the warning concerns the whole motion"
-                : "");
+        fprintf(out, "%s%s\n", s->chosen,
+                (sim->checks->warned & ~FINDING_OF_SCENE) != 0
+                    ? "; this step keeps --error, but see the warning"
+                    : "");
     }
     summary_head(out, sim->image, s->kind, sim->run);
     if (s->no_scene) {

@@ -10,7 +10,7 @@
 #include "host/io/records.h"
 #include "pole.h"
 
-/* Most comparisons of the two runs. They are made at ends of steps, at equal intervals. */
+/* Largest number of comparisons of the two runs. They are made at ends of steps, at equal intervals. */
 enum { STEP_DOUBLING_LOOKS = 20000 };
 
 /* After `time_s` the difference was `size` or more for the first time. */

@@ -232,7 +232,7 @@ static void print_momentum(FILE *out, const image *im, const books *b) {
         fprintf(out, "stays %.3g %s within %.1e. ", number_shown(b->momentum[found]), si,
                 b->drift[found]);
     } else {
-        fprintf(out, "drifts by %.2g %s, though it is conserved. ", b->drift[found], si);
+        fprintf(out, "drifts by %.2g %s, but should be constant. ", b->drift[found], si);
     }
 }
 

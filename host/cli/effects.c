@@ -30,7 +30,7 @@ static const command_usage usage = {
     .groups = OPTIONS_CHANGE | OPTIONS_STEP,
     .tail =
         "  --error X=1mm,...    allowed errors of coordinates, rates or outputs; all others are unlimited. A\n"
-        "                       bare number is SI, and refused if the declared unit is not. Default: 0.1 %\n"
+        "                       bare number is refused if the declared unit is not SI. Default: 0.1 %\n"
         "                       of each coordinate's range.\n"
         "  --board B            the board of the costs: an emulated board of docs/boards.md, or host\n"
         "                       (default: mps2-an386, a Cortex-M4F, also for an STM32F405)\n",

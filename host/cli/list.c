@@ -32,7 +32,7 @@
     X("A motor too weak for a resonance", "sommerfeld", "none, except the error of the method", \
       "right") \
     X("Friction under a load that vanishes", "pulsating_load", \
-      "a step across a kink is of second order", "right: order 4, kinks are events") \
+      "a step across a kink is of second order", "right, of order 4: steps end at kinks") \
     X("Bounces that end", "moving_floor", "infinitely many impacts happen in a finite time", \
       "right") \
     X("Contacts that repeat each other", "redundant", "only the moment of release is determined", \

@@ -13,7 +13,7 @@
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
       "a new value for a parameter or an input (repeatable, each name once). A bare number is " \
-      "SI, and refused if the declared unit is not. Parameters of effects need --with.") \
+      "refused if the declared unit is not SI. Parameters of effects need --with.") \
     X(OPTION_START, "--start", "NAME=EXPR", OPTIONS_CHANGE, \
       "a start value: --start \"theta'=330 [rpm]\" (repeatable)") \
     X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \

@@ -20,7 +20,7 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
       "worst coordinate or rate, as a part of its largest value)") \
     X(PRICING_ERROR, BOTH, "--error", "0.1mm", \
       "the allowed error: in the unit of --of, else a part of the largest value. X=0.1mm " \
-      "includes --of X. A bare number is SI, and refused if the declared unit is not.") \
+      "includes --of X. A bare number is refused if the declared unit is not SI.") \
     X(PRICING_HORIZON, BOTH, "--horizon", "T", \
       "compare errors up to this time (default: the scene's end). In a chaotic motion Whirl " \
       "uses an earlier time, and the output says so.") \

@@ -383,7 +383,7 @@ static product_sum divided(collecting *c, product_sum x, product_sum y) {
     int by;
     if (!is_of_angles(c, y, &by)) {
         refuse(c->why,
-               "have a denominator with a rate, an input or a coordinate that is no turn angle",
+               "have a denominator with a rate, an input, or a coordinate other than a turn angle",
                "leave out --tables: with tables, a denominator may depend only on the turn angle",
                -1);
         return sum;
@@ -404,7 +404,7 @@ static product_sum function_of(collecting *c, const op *o) {
         (op_rows[o->code].values > 1 && o->b >= 0 && !is_of_angles(c, c->sum[o->b], &b))) {
         refuse(
             c->why,
-            "contain a function (a root, abs, sign, ...) of a rate, an input or a coordinate that is no turn angle",
+            "contain a function (a root, abs, sign, ...) of a rate, an input, or a coordinate other than a turn angle",
             "leave out --tables: with tables, only products of these quantities are possible", -1);
         return (product_sum){NULL, 0};
     }
@@ -424,7 +424,7 @@ static product_sum wave_of(collecting *c, const op *o) {
     double *multiple = NULL;
     if (phase->b >= 0 || phase->parts != NULL) {
         refuse(
-            c->why, "contain a sine or cosine of a quantity that is no turn angle",
+            c->why, "contain a sine or cosine of a quantity other than a turn angle",
             "leave out --tables: an angle that also stands outside a sine or cosine is stored in radians, so it is no turn angle",
             -1);
         return (product_sum){NULL, 0};

@@ -658,7 +658,7 @@ static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
         made.offset_rad = o->value;
         made.offset = phase_of_constant(o->value);
         *lacks =
-            o->b >= 0 || o->parts != NULL ? "the sine of a quantity that is no turn angle" : NULL;
+            o->b >= 0 || o->parts != NULL ? "the sine of a quantity other than a turn angle" : NULL;
         return made;
     case OP_SIN: made.code = FIXED_SINE; break;
     case OP_COS: made.code = FIXED_COSINE; break;

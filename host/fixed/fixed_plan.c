@@ -126,8 +126,8 @@ static int room_for(double size, double most) {
     return finest - less;
 }
 
-/* Sets the gain that multiplies a number of at most `size` units by `factor`, and changes its digits after the point
- * from `from` to `to`. Returns false if there is no room. */
+/* Computes the gain that multiplies a number by `factor`. The number has `from` digits after the point and is at most
+ * `size` units; the product gets `to` digits. Returns false if the product does not fit. */
 static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
     const int bits = fixed_factor_bits(factor);
     int digits;

@@ -42,12 +42,10 @@ static bool has_range(parser *in, const token *name, const named *found) {
         return false;
     }
     if ((moves && what->order > 0 && name->primes >= what->order) || (!moves && name->primes > 0)) {
-        diag_error(
-            in->diags, name->at, NULL,
-            moves
-                ? "'%s' has too many primes: a derivative that follows from the equations has no range"
-                : "'%s' is an input: its rate has no range; leave out the prime",
-            what->name);
+        diag_error(in->diags, name->at, NULL,
+                   moves ? "the derivative of '%s' follows from the equations, so it has no range"
+                         : "'%s' is an input: its rate has no range; leave out the prime",
+                   what->name);
         return false;
     }
     for (int i = 0; i < made->range_count; i++) {

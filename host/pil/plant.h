@@ -31,8 +31,9 @@ typedef struct binding {
     bound bound[WH_SIGNALS_MAX]; /* bindings, in the order of the hello; notes are not bound */
 } binding;
 
-/* The number of the hello's signals of this kind, and the signal of a channel; NULL if there is none. */
-unsigned hello_channels(const wh_hello *hello, wh_signal_kind kind);
+unsigned hello_channels(const wh_hello *hello,
+                        wh_signal_kind kind); /* number of signals of a kind */
+/* Returns the signal of a channel, or NULL if there is none. */
 const wh_signal *hello_signal(const wh_hello *hello, wh_signal_kind kind, unsigned channel);
 /* A sample's count of the value, within the signal's range, and its status. */
 int32_t hello_count(const wh_signal *s, double value, uint8_t *status);

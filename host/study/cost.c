@@ -60,7 +60,7 @@ static void add(cost_counts *c, cost_class class, double run, double code) {
 
 /* --- the lists ---------------------------------------------------------------------------------------*/
 
-/* The classes of the operations; 0: COST_CLASS_MOVE. */
+/* The classes of the operations. An operation that is not listed has the class COST_CLASS_MOVE. */
 static const cost_class classes[OPS] = {
     [OP_ADD] = COST_CLASS_SUM,       [OP_SUB] = COST_CLASS_SUM,
     [OP_MUL] = COST_CLASS_PRODUCT,   [OP_DIV] = COST_CLASS_QUOTIENT,

@@ -278,7 +278,7 @@ TEST(rig_off, a_stage_that_drives_is_found) {
     for (unsigned i = 0; i < draw_cases(OFF_BENCHES); i++) {
         draw_bench();
         const unsigned drawn = draw_one_of(&seed, 2U * PLACES);
-        /* COMMANDED: the motor brakes */
+        /* COMMANDED, where the motor brakes, is drawn as often as all other places together. */
         const place where = drawn < PLACES ? (place)drawn : COMMANDED;
         go_to(where);
         if (where != TRIPPED && b.rig.guard.trip != WH_TRIP_NONE) {

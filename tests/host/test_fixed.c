@@ -365,7 +365,7 @@ TEST(fixed_runs, refusals) {
     } tried[] = {
         {"V = 1 [J]*sqrt(1 + (x/1 [m])^2)", "", "a square root"},
         {"V = 1 [J]*exp(x/1 [m])", "", "contain exp, which"},
-        {"V = 1 [J]*cos(x/1 [m])", "", "the sine of a quantity that is no turn angle"},
+        {"V = 1 [J]*cos(x/1 [m])", "", "the sine of a quantity other than a turn angle"},
         {"Q(x) = -1 [N]*(2 + x/1 [m])^2.5", "", "contain"},
         {"output o = x\nnoise o deviation 1 [mm] seed 7", "", "outputs of 's' have noise"},
         {"stop x >= -1 [m] restitution 0.5", "", "fixed point has no events"},

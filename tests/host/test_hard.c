@@ -936,9 +936,9 @@ static double unequal_off_m(double mass, const engine_kind *kind) {
     return off;
 }
 
-/* Up to a mass ratio of 1e8, round-off has no visible effect. M + m is rounded by 2^-53 of the larger mass, so
- * relative to the smaller mass this error grows with the ratio. Up to a ratio of 1e13, the test allows the error in
- * a phase of 50 rad. Beyond that, the mass matrix is refused. */
+/* Up to a mass ratio of 1e8, round-off has no visible effect. Up to 1e13, it changes the frequency: M + m is rounded by
+ * 2^-53 of the larger mass. The test allows the phase error that this gives after 50 rad. Above 1e13, the mass matrix
+ * is refused. */
 TEST(hard_edges, two_bodies_of_very_different_mass) {
     double worst[2] = {0.0, 0.0};
     double beyond = 0.0;

@@ -367,12 +367,12 @@ static const struct {
      "more than one turn angle", "2:12"},
     {"mechanism m\ncoordinate a [rad]\ncoordinate x [m]\n"
      "T = 1 [kg*m^2]*a'^2/2 + 1 [kg]*x'^2/2 + 1 [kg]*x^2*a'^2/2\nV = 1 [J]*cos(a)\n",
-     "have a denominator with a rate, an input or a coordinate that is no turn angle", "1:11"},
+     "have a denominator with a rate, an input, or a coordinate other than a turn angle", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*cos(a)\n"
      "Q(a) = -0.1 [N*m]*sign(a')\n",
      "contain a function", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*(cos(a) + a^2)\n",
-     "contain a sine or cosine of a quantity that is no turn angle", "1:11"},
+     "contain a sine or cosine of a quantity other than a turn angle", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*abs(cos(a))\n",
      "have a kink or a jump", "1:11"},
     {"mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^2/2\nV = 1 [J]*tan(a)\n",
