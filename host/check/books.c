@@ -16,11 +16,12 @@ books *books_open(const image *im) {
     b->image = im;
     b->list = state_list_open(im, IMAGE_BOOKS);
     b->value = b->list.result;
-    b->off = alloc(results + 4 * (int64_t)im->count, sizeof *b->off);
+    b->off = alloc(results + 5 * (int64_t)im->count, sizeof *b->off);
     b->momentum = b->off + results;
     b->drift = b->momentum + im->count;
     b->momentum_now = b->drift + im->count;
-    b->terms = b->momentum_now + im->count;
+    b->rateless = b->momentum_now + im->count;
+    b->terms = b->rateless + im->count;
     b->rate = alloc(2 * (int64_t)im->count, sizeof *b->rate);
     b->push = b->rate + im->count;
     b->step_s = im->step_s;
@@ -233,6 +234,56 @@ double books_rule_J(const books *b) {
     return is_even ? b->rule_J : b->entries > 2 ? b->rule_J + b->pair_J : (double)INFINITY;
 }
 
+/* --- terms linear in the rates -------------------------------------------------------------------*/
+
+/* The kinetic energy at this state with every rate reversed. rateless[] gets the momenta of the reversed state. */
+static double reversed_J(books *b, const double *angle_rad, const double *from) {
+    const image *im = b->image;
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    for (int i = 0; i < im->reals; i++) {
+        real[i] = im->real[i].primes == 1 ? -from[i] : from[i];
+    }
+    evaluate_now(b, angle_rad, real, b->time_s);
+    memcpy(b->rateless, b->value + im->count + BOOK_MOMENTA,
+           (size_t)im->count * sizeof *b->rateless);
+    return b->value[im->count + BOOK_KINETIC];
+}
+
+/* rateless[] becomes the mean of the momenta with reversed rates and of those just evaluated with the actual rates. */
+static void take_rateless(books *b) {
+    for (int i = 0; i < b->image->count; i++) {
+        b->rateless[i] = 0.5 * (b->rateless[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
+    }
+}
+
+/* Does a momentum have a part that stays the same if all rates are reversed? Tests three states other than the start. A
+ * coordinate that is recovered from its momentum has no rate to reverse. */
+static bool find_rateless(books *b) {
+    const image *im = b->image;
+    double angle_rad[IMAGE_COMPONENTS_MAX];
+    double real[2 * IMAGE_COMPONENTS_MAX] = {0};
+    bool found = false;
+    for (int k = 1; k <= 3 && im->recovered == 0; k++) {
+        for (int i = 0; i < im->angles; i++) {
+            angle_rad[i] = b->angle_rad[i] + 0.37 * k * (i + 1);
+        }
+        for (int i = 0; i < im->reals; i++) {
+            real[i] = b->real[i] + (0.61 * k * (i + 1)) * (1.0 + fabs(b->real[i]));
+        }
+        (void)reversed_J(b, angle_rad, real);
+        evaluate_now(b, angle_rad, real, b->time_s);
+        take_rateless(b);
+        double most = 0.0;
+        for (int i = 0; i < im->count; i++) {
+            most = number_most(most, fabs(b->value[im->count + BOOK_MOMENTA + i]));
+        }
+        for (int i = 0; i < im->count; i++) {
+            found = found || (isfinite(most) && fabs(b->rateless[i]) > 1e-9 * most);
+        }
+    }
+    return found;
+}
+
 /* A kinetic energy that is negative by more than this part of all energies is not round-off. */
 #define NEGATIVE 1e-6
 
@@ -245,13 +296,22 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         evaluator_wrap(b->list.evaluator);
     }
     b->time_s = (double)kind->steps(run) * b->step_s;
+    if (b->entries == 0) {
+        b->has_rateless = find_rateless(b);
+        memset(b->rateless, 0, (size_t)im->count * sizeof *b->rateless);
+    }
+    const double back_J = b->has_rateless ? reversed_J(b, b->angle_rad, b->real) : 0.0;
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
     const double *entry = b->value + im->count;
+    b->moving_J[1] = entry[BOOK_KINETIC];
+    if (b->has_rateless) {
+        b->moving_J[1] = 0.5 * (b->moving_J[1] + back_J);
+        take_rateless(b);
+    }
     const double power_W[2] = {entry[BOOK_INPUT_POWER], entry[BOOK_LOSS_POWER]};
     b->kinetic_J[1] = entry[BOOK_KINETIC];
     b->stored_J[1] = entry[BOOK_STORED];
     b->energy_J[1] = energy_of(im, b->value);
-    b->moving_J[1] = im->has_integral ? b->energy_J[1] - b->stored_J[1] : b->kinetic_J[1];
     if (b->entries == 0) {
         b->kinetic_J[0] = b->kinetic_J[1];
         b->moving_J[0] = b->moving_J[1];
@@ -268,7 +328,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     }
     spread_enter(&b->kinetic, b->moving_J[1], b->entries);
     spread_enter(&b->stored, b->stored_J[1], b->entries);
-    if (!b->negative && !im->has_integral && b->moving_J[1] < -NEGATIVE * b->size_J) {
+    if (!b->negative && b->moving_J[1] < -NEGATIVE * b->size_J) {
         b->negative = true;
         b->negative_s = b->time_s;
     }
@@ -282,7 +342,8 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     for (int i = 0; i < im->count; i++) {
         b->rate[i].pushed = b->rate[i].pushed || b->value[i] != 0.0;
         all += entry[BOOK_MOMENTA + i];
-        spread_enter(&b->push[i], entry[BOOK_MOMENTA + i], b->entries);
+        const double own = entry[BOOK_MOMENTA + i] - b->rateless[i];
+        spread_enter(&b->push[i], own, b->entries);
         b->momentum_now[i] = entry[BOOK_MOMENTA + i];
         b->drift[i] = number_most(b->drift[i], fabs(entry[BOOK_MOMENTA + i] - b->momentum[i]));
     }

@@ -43,8 +43,7 @@ typedef struct books {
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
-    /* kinetic_J; with an energy integral, its part without stored_J, which has no terms linear in the rates */
-    double moving_J[2];
+    double moving_J[2];  /* kinetic_J without terms of odd order in the rates */
     double stored_J[2];
     double energy_J[2];   /* balanced: kinetic + stored, or the energy integral */
     double input_J;       /* work of the inputs so far */
@@ -52,8 +51,11 @@ typedef struct books {
     double power_W[2][2]; /* input and loss power: [0] after 0, 2, 4, ... steps, [1] a step later */
     spread kinetic;       /* spread over the steps */
     spread stored;
-    spread *rate;       /* [count] */
-    spread *push;       /* [count] momenta */
+    spread *rate; /* [count] */
+    spread *push; /* [count] momenta without rateless[] */
+    /* [count] the part of each momentum that stays the same if all rates are reversed; it depends on the origin */
+    double *rateless;
+    bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
     double *off;        /* bounds on the round-off of value[], in units of the unit round-off */
     double size_J;      /* largest |T| + |V| */
     double rounding_J;  /* largest sampled energy change by the round-off of one step */
