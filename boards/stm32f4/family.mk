@@ -13,10 +13,7 @@ $(ELF)/bench_plant.elf: BOARD_LDLIBS += -Wl,--wrap=hal_motor_start -Wl,--wrap=ha
 $(ELF)/bench_plant.elf: $(call objects,$(FLASHED),boards/programs/station.c tests/boards/f405_plant.c \
     $(GEN)/rig_observed.c $(GEN)/rig_fixed.c) $(without_sensors) $(call libraries,$(FLASHED),station rig virtual whirl)
 	$(link_board)
-$(ELF)/bench_slots.elf: $(call objects,$(FLASHED),tests/boards/f405_slots.c boards/stm32f4/slots_exti.c) \
-    $(filter-out %/slots.o,$(FLASHED_OBJECTS)) $(call libraries,$(FLASHED),whirl)
-	$(link_board)
-FLASHED_TESTS := $(ELF)/bench_plant.elf $(ELF)/bench_slots.elf
+FLASHED_TESTS := $(ELF)/bench_plant.elf
 endif
 build/tools/f405: $(call objects,host,$(addprefix tests/tools/,board_tests.c f405.c f405_seen.c f405_states.c emulated.c))
 	$(link)

@@ -43,7 +43,6 @@
 #define RCC_APB2ENR_TIM1 (1U << 0)
 #define RCC_APB2ENR_USART6 (1U << 5)
 #define RCC_APB2ENR_ADC1 (1U << 8)
-#define RCC_APB2ENR_SYSCFG (1U << 14)
 #define RCC_CSR (RCC + 0x74U)
 #define RCC_CSR_RMVF (1U << 24) /* clears the reset flags */
 #define RCC_CSR_BORRSTF (1U << 25)
@@ -90,12 +89,6 @@
 #define GPIO_IDR(port) (0x40020000U + 0x400U * (port) + 0x10U)
 #define GPIO_BSRR(port) (0x40020000U + 0x400U * (port) + 0x18U)
 #define GPIO_AFR(port, half) (0x40020000U + 0x400U * (port) + 0x20U + 4U * (half))
-
-/* System configuration, 9.2, and external interrupts, 12.3. */
-#define SYSCFG_EXTICR(quarter) (0x40013808U + 4U * (quarter))
-#define EXTI_IMR 0x40013C00U
-#define EXTI_RTSR 0x40013C08U
-#define EXTI_PR 0x40013C14U
 
 /* DMA controller 2, 10.5. ADC1 uses channel 0 of stream 0. */
 #define DMA2_LIFCR 0x40026408U
@@ -203,8 +196,6 @@
 /* Interrupts with a vector that a driver handles: X(number, name). */
 #define STM32F4_INTERRUPTS 82
 #define STM32F4_VECTOR_ROWS(X) \
-    X(6, exti0) \
-    X(7, exti1) \
     X(28, tim2) \
     X(56, dma2_stream0) \
     X(71, usart6)

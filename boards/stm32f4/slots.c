@@ -4,7 +4,7 @@
  * so the end of a pulse never overwrites its begin. The interrupt only copies the times. */
 #include "hal/slots.h"
 
-#include "pulses.h"
+#include "ring.h"
 #include "stm32f4.h"
 
 #define TIM2_IRQ 28U
@@ -12,6 +12,23 @@
 
 #define ALL (TIM_SR_CCIF(1U) | TIM_SR_CCIF(2U) | TIM_SR_CCIF(3U) | TIM_SR_CCIF(4U))
 #define OVERRUNS (ALL << 8)
+
+#define EDGES_KEPT 16U
+
+static hal_slot_edge kept_edges[EDGES_KEPT];
+static stm32f4_ring_counts edge_counts;
+static const stm32f4_ring edges = {&edge_counts, kept_edges, EDGES_KEPT, sizeof *kept_edges};
+static volatile uint32_t overruns;
+
+/* Stores an edge; the interrupt calls this. Returns false if there is no room, which counts as one overrun: the
+ * interrupt then stays off until an edge is taken. */
+static bool keep_edge(const hal_slot_edge *edge) {
+    if (stm32f4_ring_put(&edges, edge) && stm32f4_ring_has_room(&edges)) {
+        return true;
+    }
+    overruns++;
+    return false;
+}
 
 static const uint8_t pins[2] = {BOARD_SLOT_PINS};
 static const uint8_t inputs[2] = {BOARD_SLOT_CHANNELS};

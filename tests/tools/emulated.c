@@ -257,10 +257,3 @@ void emulated_store(emulated *e, uint32_t address, uint32_t value) {
     (void)snprintf(order, sizeof order, "writel 0x%x 0x%x\n", (unsigned)address, (unsigned)value);
     (void)ask(e, order);
 }
-
-void emulated_set_line(emulated *e, const char *path, unsigned number, bool high) {
-    char order[160];
-    (void)snprintf(order, sizeof order, "set_irq_in %s unnamed-gpio-in %u %d\n", path, number,
-                   high ? 1 : 0);
-    (void)ask(e, order);
-}

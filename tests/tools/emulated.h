@@ -1,4 +1,4 @@
-/* emulated.h: a board in QEMU with its image, driven from outside by its console and by qtest (memory and interrupt lines). The
+/* emulated.h: a board in QEMU with its image, driven from outside by its console and by qtest (memory). The
  * log of stores to devices that QEMU does not model (-d unimp) is read too.
  *
  * A fault of the emulator itself ends the program with a message. */
@@ -47,8 +47,5 @@ void emulated_wait(emulated *e, unsigned ms);
 
 uint32_t emulated_load(emulated *e, uint32_t address);
 void emulated_store(emulated *e, uint32_t address, uint32_t value);
-
-/* Sets a device's input line, by path and number. */
-void emulated_set_line(emulated *e, const char *path, unsigned number, bool high);
 
 #endif

@@ -1,7 +1,6 @@
 /* f405.c: an STM32F405's firmware in QEMU's netduinoplus2, driven and observed from outside.
  *
  *     f405 boot|console|time IMAGE [TIMES [SEED]]      the flashed image (station.elf)
- *     f405 slots|storm IMAGE ...                       tests/boards/f405_slots.c
  *     f405 faults|resets IMAGE ...                     the firmware with a plant inside (tests/boards/f405_plant.c)
  *
  * Prints "ok - ..." or "not ok - ..." lines; exit status 1 if one fails. QEMU has no registers of the motor's timer but logs
@@ -14,9 +13,7 @@
 
 #define MACHINE "netduinoplus2"
 #define SERIALS_BEFORE 5U
-#define SHIFT 7U       /* 128 ns per instruction: slower than the real chip */
-#define SHIFT_STORM 4U /* 16 ns: the board's time is so slow that edges from outside are a storm */
-#define EXTI "/machine/unattached/device[0]/exti"
+#define SHIFT 7U /* 128 ns per instruction: slower than the real chip */
 
 static bool boots(unsigned times) {
     char line[300];
@@ -100,95 +97,11 @@ static bool keeps_time(unsigned times) {
     return true;
 }
 
-static unsigned told; /* edges since the last query */
-
-static bool ask_late(unsigned *late, unsigned *overruns, unsigned *periods) {
-    char line[100];
-    told = 0;
-    emulated_say(&board, "l");
-    for (unsigned lines = 0; lines < 5000; lines++) {
-        if (!emulated_hear(&board, line, sizeof line, 60000)) {
-            return no("'l' is not answered");
-        }
-        unsigned numbers[3];
-        if (numbers_of(line, numbers, 3) == 3) {
-            *late = numbers[0];
-            *overruns = numbers[1];
-            *periods = numbers[2];
-            return true;
-        }
-        told++;
-    }
-    return no("'l' is not answered");
-}
-
-static bool sees_edges(unsigned times) {
-    char line[100];
-    unsigned late = 0;
-    unsigned overruns = 0;
-    unsigned periods = 0;
-    if (!ask_late(&late, &overruns, &periods)) {
-        return false;
-    }
-    for (unsigned i = 0; i < times; i++) {
-        const unsigned sensor = below(2);
-        unsigned said[2]; /* the two printed numbers: sensor, ticks */
-        const uint32_t before = emulated_load(&board, TIM2_CNT);
-        emulated_set_line(&board, EXTI, sensor, true);
-        const uint32_t after = emulated_load(&board, TIM2_CNT);
-        emulated_set_line(&board, EXTI, sensor, false); /* ends the pulse */
-        if (!emulated_hear(&board, line, sizeof line, 60000) || numbers_of(line, said, 2) != 2) {
-            return no("edge %u is not told", i);
-        }
-        /* 20 us: the interrupt takes some tens of instructions of 0.128 us */
-        if (said[0] != sensor || said[1] - before > after - before + 20U) {
-            return no("edge %u of sensor %u between %u and %u: '%s'", i, sensor, (unsigned)before,
-                      (unsigned)after, line);
-        }
-    }
-    return !emulated_hear(&board, line, sizeof line, 300) || no("one more: '%s'", line);
-}
-
-/* Number of edges between two pauses. On a fast machine, single edges with pauses between them would be no storm. */
-#define BURST 8U
-
-static bool survives_storm(unsigned times) {
-    unsigned late = 0;
-    unsigned overruns = 0;
-    unsigned before = 0;
-    unsigned periods = 0;
-    if (!ask_late(&late, &overruns, &before)) {
-        return false;
-    }
-    const uint32_t began = emulated_load(&board, TIM2_CNT);
-    for (unsigned i = 0; i < times; i++) {
-        emulated_set_line(&board, EXTI, i % 2, true);
-        emulated_set_line(&board, EXTI, i % 2, false);
-        if (i % BURST == BURST - 1) {
-            emulated_wait(&board, 1); /* without pauses the emulator would stall */
-        }
-    }
-    const uint32_t took = emulated_load(&board, TIM2_CNT) - began;
-    const double per_s = 1e6 * times / took;
-    if (!ask_late(&late, &overruns, &periods)) {
-        return false;
-    }
-    printf("# %u edges, %.0f a second, %u told, latest wait %u ticks, %u overruns\n", times, per_s,
-           told, late, overruns);
-    return (late <= 200 || no("a period ended %u ticks late", late)) &&
-           (periods - before + 3U >= took / 2000U ||
-            no("%u periods in %u ticks", periods - before, (unsigned)took)) &&
-           (per_s > 2000.0 || no("only %.0f edges a second: no storm", per_s)) &&
-           (told > 100 || no("only %u of %u edges are told", told, times));
-}
-
 int main(int count, char **words) {
     static const board_test tests[] = {
         {"boot", boots, 1, "boots though no clock ever answers, converses, and refuses to arm"},
         {"console", converses, 40, "each line is answered, through the receive interrupt"},
         {"time", keeps_time, 3, "control periods are 2 ms of timer 2"},
-        {"slots", sees_edges, 100, "each edge once, its sensor, its time between before and after"},
-        {"storm", survives_storm, 2000, "a storm of edges does not hold up the control period"},
         {"faults", all_faults, 12,
          "a fault in whatever state: off first, then the record, reset, report; a trip stays"},
         {"resets", all_resets, 20,
@@ -199,8 +112,7 @@ int main(int count, char **words) {
     if (board_test_asked(count, words, tests, sizeof tests / sizeof tests[0], &asked) == NULL) {
         return 2;
     }
-    emulated_start(&board, MACHINE, image, SERIALS_BEFORE,
-                   asked.holds == survives_storm ? SHIFT_STORM : SHIFT);
+    emulated_start(&board, MACHINE, image, SERIALS_BEFORE, SHIFT);
     (void)snprintf(what, sizeof what, "%s, %u times, seed %s: %s", asked.name, asked.times,
                    count > 4 ? words[4] : "1", asked.what);
     const int failed = board_test_tell(starts_after(0) && asked.holds(asked.times), what);

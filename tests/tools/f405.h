@@ -13,9 +13,6 @@ extern emulated board;
 /* The symbol's address in the image; 0: none. */
 uint32_t symbol(const char *name);
 
-/* Finds the decimal numbers in a line, at most `most`. Returns how many there are. */
-unsigned numbers_of(const char *line, unsigned *numbers, unsigned most);
-
 /* The console's next line that begins with this. */
 bool hear(const char *begin, char *line, unsigned room, unsigned ms);
 

@@ -32,19 +32,6 @@ uint32_t symbol(const char *name) {
     return (uint32_t)address;
 }
 
-unsigned numbers_of(const char *line, unsigned *numbers, unsigned most) {
-    unsigned count = 0;
-    for (const char *at = line; count < most; count++) {
-        char *end = NULL;
-        numbers[count] = (unsigned)strtoul(at, &end, 10);
-        if (end == at) {
-            break;
-        }
-        at = end;
-    }
-    return count;
-}
-
 bool hear(const char *begin, char *line, unsigned room, unsigned ms) {
     for (unsigned lines = 0; lines < 200; lines++) {
         if (!emulated_hear(&board, line, room, ms)) {
