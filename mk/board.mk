@@ -139,8 +139,7 @@ TESTS_ELF := $(ELF)/tests$(SUITES:%=_%).elf
 emulate = $(call BOARD_EMULATE,$(1))
 
 # Files that only this board compiles, for checks of single files.
-BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(if $(BOARD_FLASHED_FLAGS),,$(BOARD_FLASHED))) $(BOARD_LINK) $(BOARD_WATCHDOG) \
-    $(wildcard tests/boards/guard_*.c $(if $(BOARD_WATCHDOG),tests/boards/watchdog.c))
+BOARD_OWN_C = $(sort $(BOARD_SOURCES) $(if $(BOARD_FLASHED_FLAGS),,$(BOARD_FLASHED))) $(BOARD_LINK) $(wildcard tests/boards/guard_*.c)
 # Files that only its separate flashed build compiles.
 BOARD_FLASHED_C = $(if $(BOARD_FLASHED_FLAGS),$(BOARD_FLASHED))
 
@@ -150,19 +149,16 @@ else
 # Images that must follow the firmware rules, and whose sizes are printed.
 IMAGES := $(ELF)/scenes.elf $(ELF)/firmware.elf $(STATION)
 
-# Programs that touch the guard of the stack and must not return (tests/boards/guard.sh), and the watchdog's program,
-# for boards with a watchdog (tests/boards/watchdog.sh).
+# Programs that touch the guard of the stack and must not return (tests/boards/guard.sh).
 GUARDS := $(patsubst tests/boards/%.c,$(ELF)/%.elf,$(wildcard tests/boards/guard_*.c))
-WATCHDOG := $(if $(BOARD_WATCHDOG),$(ELF)/watchdog.elf)
-$(WATCHDOG): $(call objects,$(BOARD),$(BOARD_WATCHDOG))
-$(GUARDS) $(WATCHDOG): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
+$(GUARDS): $(ELF)/%.elf: $(B)/$(BOARD)/tests/boards/%.o $(BOARD_OBJECTS) $(call libraries,$(BOARD),whirl)
 	$(link_board)
 
 board-images: $(IMAGES) ##- with BOARD=: its images of the scenes
-board-tests: $(TESTS_ELF) $(GUARDS) $(WATCHDOG) $(PIL_IMAGES) $(STATION) $(ELF)/firstlight.elf
-run-suites: # the portable suites, the guard of the stack, the watchdog, and first light
+board-tests: $(TESTS_ELF) $(GUARDS) $(PIL_IMAGES) $(STATION) $(ELF)/firstlight.elf
+run-suites: # the portable suites, the guard of the stack, and first light
 	@status=0; $(call emulate,$(TESTS_ELF)) || status=1; sh tests/boards/guard.sh $(BOARD) || status=1; \
-	    sh tests/boards/watchdog.sh $(BOARD) || status=1; sh tests/boards/firstlight.sh $(BOARD) || status=1; exit $$status
+	    sh tests/boards/firstlight.sh $(BOARD) || status=1; exit $$status
 print-hashes: ##- with BOARD=: a line for each scene, with the hash of its last state
 	@$(call need,$(BOARD_EMULATOR))
 	@$(call emulate,$(ELF)/scenes.elf)

@@ -127,7 +127,7 @@ wanted_count=$(wc -l <"$scratch/scenes")
 # --- one build -------------------------------------------------------------------------------------------------------------
 can_fuse=$(grep -c -m 1 -w fma /proc/cpuinfo 2>/dev/null)
 # The emulator's programs end by themselves and use no line, so the files of flashed images and of lines are omitted.
-demo_sources=$(ls boards/cortexm/*.c boards/shared/*.c | grep -vE '/(flashed|kept|link|link_console|cmsdk_watchdog|remembered|reset_words|rig_time)\.c$')
+demo_sources=$(ls boards/cortexm/*.c boards/shared/*.c | grep -vE '/(flashed|kept|link|link_console|remembered|reset_words|rig_time)\.c$')
 board=boards/mps2-an386
 emulate="sh tests/limit.sh 60 qemu-system-arm -M mps2-an386 -nographic -semihosting-config enable=on,target=native -kernel"
 board_flags="-mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffreestanding -I$board"

@@ -5,7 +5,6 @@
 #     BOARD_MATH     further flags
 #     BOARD_SECONDS  processor seconds that the emulator may take for a program
 #     BOARD_TIMING   the core whose cycles mk/count/thumb_cycles.h estimates, if any
-#     BOARD_WATCHDOG the board's hal/watchdog.h, if programs may use its hardware (tests/boards/watchdog.c); may be missing
 #     BOARD_SUITES   `none`: the portable suites are too large for the board; may be missing
 #     BOARD_WHEN     the target that includes the board: `test`, `check` or `all` (mk/board.mk)
 #

@@ -6,6 +6,5 @@ BOARD_MATH     :=
 BOARD_SECONDS  := 1800
 BOARD_TIMING   := m0
 BOARD_WHEN     := all
-BOARD_WATCHDOG := boards/cortexm/cmsdk_watchdog.c
 include boards/cortexm/cortexm.mk
 BOARD_SOURCES  += boards/shared/convert.c

@@ -5,5 +5,4 @@ BOARD_MATH     :=
 BOARD_SECONDS  := 900
 BOARD_TIMING   := m3
 BOARD_WHEN     := check
-BOARD_WATCHDOG := boards/cortexm/cmsdk_watchdog.c
 include boards/cortexm/cortexm.mk

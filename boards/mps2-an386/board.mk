@@ -6,5 +6,4 @@ BOARD_MATH     := -fno-math-errno
 BOARD_SECONDS  := 600
 BOARD_TIMING   := m4
 BOARD_WHEN     := test
-BOARD_WATCHDOG := boards/cortexm/cmsdk_watchdog.c
 include boards/cortexm/cortexm.mk

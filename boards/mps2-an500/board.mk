@@ -5,5 +5,4 @@ BOARD_CPU      := -mcpu=cortex-m7 -mthumb -mfpu=fpv5-sp-d16 -mfloat-abi=hard
 BOARD_MATH     := -fno-math-errno
 BOARD_SECONDS  := 600
 BOARD_WHEN     := all
-BOARD_WATCHDOG := boards/cortexm/cmsdk_watchdog.c
 include boards/cortexm/cortexm.mk

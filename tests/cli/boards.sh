@@ -35,7 +35,7 @@ for board in $boards; do
     makefile=$tree/boards/$board/board.mk
     for variable in $(sed -n 's/^\(BOARD_[A-Z]*\) *:= *[^ ].*/\1/p' "boards/$board/board.mk"); do
         case $variable in
-        BOARD_MATH | BOARD_TIMING | BOARD_WATCHDOG) continue ;; # these may be missing
+        BOARD_MATH | BOARD_TIMING) continue ;; # these may be missing
         BOARD_SOURCES) continue ;;             # adds to the family's
         esac
         sed -i "/^$variable /d" "$makefile"
