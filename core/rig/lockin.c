@@ -26,11 +26,6 @@
 #define STEADY_PART 64U
 #define STILL_PART 256U
 
-void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin) {
-    *lockin = (wh_lockin){.stage = WH_LOCKIN_WAITS};
-    wh_turn_angle_start(rotor, &lockin->angle);
-}
-
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin) {
     lockin->stage = WH_LOCKIN_WAITS;
     lockin->piece = 0;

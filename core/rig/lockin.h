@@ -187,10 +187,8 @@ typedef struct wh_lockin {
     uint32_t ticks[WH_LOCKIN_SAMPLES];
 } wh_lockin;
 
-void wh_lockin_start(const wh_rotor_config *rotor, wh_lockin *lockin);
-
-/* Restart without resetting the counters. It leaves the samples' memory uncleared: to clear it would take too long in a
- * control step. */
+/* Start a zeroed lock-in, or restart one without resetting the counters. It leaves the samples' memory uncleared: to
+ * clear it would take too long in a control step. */
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
 /* Call this when the rotor has passed sensor 0 or 1 at `ticks`. `quarter` is the number of quarter turns so far,

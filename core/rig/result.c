@@ -293,14 +293,6 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
     }
 }
 
-void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
-                   const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
-                   wh_measured *measured) {
-    for (unsigned piece = 0; piece < WH_MERGE_MEAN_PIECES; piece++) {
-        wh_merge_mean_piece(config, rotor, merge, angle, tare_N, measured, piece);
-    }
-}
-
 /* Returns the length of the difference between two speed ripples: one found from the load, one of the angle model. A
  * ripple is a vector of size E in the direction psi - gamma. Over the rotor's angle, the second order of the force is
  * 3/2 E/(1 + 3/2 E^2) times its first order, in that direction. An error of the model's ripple also changes the model's

@@ -148,19 +148,14 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
  * WH_REPEATS_FIRST to WH_REPEATS_LAST. */
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
-/* Compute means and half-widths; the half-widths are 0 with fewer than two turns. `tare_N` is subtracted. */
-void wh_merge_mean(const wh_result_config *config, const wh_rotor_config *rotor,
-                   const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
-                   wh_measured *measured);
-
 #define WH_MERGE_MEAN_PIECES 6U
-/* wh_merge_mean() in pieces. Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete
- * until the last piece. */
+/* Compute means and half-widths, in pieces; the half-widths are 0 with fewer than two turns. `tare_N` is subtracted.
+ * Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last piece. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);
 
-/* After wh_merge_mean(): evaluate the error of the speed ripple, the repeating residual, and the scatter of the
+/* After the last piece: evaluate the error of the speed ripple, the repeating residual, and the scatter of the
  * turns. */
 void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
                       const wh_turn_angle *angle, wh_measured *measured);

@@ -42,10 +42,6 @@ void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause) {
     start_timer(rig);
 }
 
-uint32_t hal_virtual_rig_phase(const hal_virtual_rig *rig) {
-    return wh_phase_of(rig->state.angle[0]);
-}
-
 float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig) {
     return wh_scene_rates(rig->scene, &rig->state)[0];
 }

@@ -93,8 +93,7 @@ void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading);
 bool hal_virtual_rig_take_sample(hal_virtual_rig *rig, hal_load_sample *sample);
 
-/* For tests: the true angle of the arms (phase within the turn, 2^32 per turn), and the speed. */
-uint32_t hal_virtual_rig_phase(const hal_virtual_rig *rig);
+/* For tests: the true speed of the arms. */
 float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig);
 
 hal_virtual_rig *hal_virtual_rig_instance(void);

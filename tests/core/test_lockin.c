@@ -78,7 +78,8 @@ static void check_one_piece(wh_lockin_stage stage) {
 
 /* Runs until `wanted` turns are finished, but at most three turns longer. */
 static void run(const made_up *made, unsigned wanted) {
-    wh_lockin_start(&rotor, &lockin);
+    lockin = (wh_lockin){0};
+    wh_lockin_forget(&rotor, &lockin);
     turns_done = 0;
     unsigned turn = 0;                       /* number of the pulse that ends the present turn */
     unsigned second = 0;                     /* number of sensor 2's next pulse */
@@ -338,7 +339,8 @@ TEST(lockin, a_speed_that_changes_does_not_count) {
 
 TEST(lockin, samples_out_of_order_are_refused) {
     settings();
-    wh_lockin_start(&rotor, &lockin);
+    lockin = (wh_lockin){0};
+    wh_lockin_forget(&rotor, &lockin);
     wh_load load = {.ticks = 5000, .force_N = WH_R(1.0), .status = WH_LOAD_OK};
     wh_lockin_load(&lockin, &load);
     wh_lockin_load(&lockin, &load);
@@ -356,7 +358,8 @@ TEST(lockin, samples_out_of_order_are_refused) {
 /* If a pulse never comes, the newest samples wait, and none is stored outside the buffer. */
 TEST(lockin, samples_stay_in_their_room) {
     settings();
-    wh_lockin_start(&rotor, &lockin);
+    lockin = (wh_lockin){0};
+    wh_lockin_forget(&rotor, &lockin);
     wh_lockin_pulse(&lockin, 0, 0, 0);
     for (uint32_t i = 1; i <= 3U * WH_LOCKIN_SAMPLES + 7U; i++) {
         const wh_load load = {.ticks = i * PERIOD_TICKS, .force_N = (wh_real)i};

@@ -128,11 +128,13 @@ TEST(lockin_late, late_samples_change_nothing) {
     for (unsigned i = 0; i < 40U; i++) {
         stream from = draw_stream();
         const unsigned steps = 6U * (TURN_TICKS / PERIOD_TICKS + 1U) + 80U;
-        wh_lockin_start(&rotor, &lockin);
+        lockin = (wh_lockin){0};
+        wh_lockin_forget(&rotor, &lockin);
         TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &lockin, steps, wanted));
         from.held = draw_one_of(&seed, (unsigned)from.lead + 110U);
         from.hold_more = i % 2U == 0 ? 0U : 15U;
-        wh_lockin_start(&rotor, &lockin);
+        lockin = (wh_lockin){0};
+        wh_lockin_forget(&rotor, &lockin);
         TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &lockin, steps, found));
         for (unsigned k = 0; k < TURNS; k++) {
             check_same(&wanted[k], &found[k], WH_R(0.0));
@@ -152,9 +154,10 @@ TEST(lockin_late, what_was_forgotten_changes_nothing) {
         stream from = draw_stream();
         from.lead = (int)draw_one_of(&seed, 12) - 6;
         const unsigned steps = 6U * (TURN_TICKS / PERIOD_TICKS + 1U) + 80U;
-        wh_lockin_start(&rotor, &fresh);
+        fresh = (wh_lockin){0};
+        wh_lockin_forget(&rotor, &fresh);
         TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &fresh, steps, wanted));
-        wh_lockin_start(&rotor, &lockin);
+        wh_lockin_forget(&rotor, &lockin);
         (void)play(&before, &lockin, draw_one_of(&seed, 500), found);
         const uint32_t refused = lockin.refused;
         wh_lockin_forget(&rotor, &lockin);
@@ -181,7 +184,7 @@ TEST(lockin_late, pulses_may_fall_on_samples) {
                     turn * (int32_t)TURN_TICKS + split * (int32_t)(TURN_TICKS / 4U);
                 from.behind_ticks = (into + beside) % (int32_t)PERIOD_TICKS;
                 const unsigned steps = 6U * (TURN_TICKS / PERIOD_TICKS + 1U) + 80U;
-                wh_lockin_start(&rotor, &lockin);
+                wh_lockin_forget(&rotor, &lockin);
                 TEST_ASSERT_EQUAL_UINT(TURNS, play(&from, &lockin, steps, found));
                 for (unsigned k = 2; k < TURNS; k++) {
                     TEST_ASSERT_TRUE(found[k].fault == WH_TURN_OK);

@@ -248,7 +248,7 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
 TEST(rig_gravity, the_lockin_is_told) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
-    wh_lockin_start(rotor, &lockin);
+    wh_lockin_forget(rotor, &lockin);
     wh_lockin_pulse(&lockin, 0, 1000, 0);
     wh_lockin_compensate(&lockin, false, WH_R(0.0625));
     TEST_ASSERT_TRUE(lockin.open && lockin.skipped == 0);

@@ -65,7 +65,9 @@ static void begin(void) {
 static void add(const wh_lockin_turn *turn) { wh_merge_add(&bench, &rotor, &merge, turn, &angle); }
 
 static void conclude(const wh_result_config *config) {
-    wh_merge_mean(config, &rotor, &merge, &angle, WH_R(56.0), &measured);
+    for (unsigned i = 0; i < WH_MERGE_MEAN_PIECES; i++) {
+        wh_merge_mean_piece(config, &rotor, &merge, &angle, WH_R(56.0), &measured, i);
+    }
     wh_merge_compare(&rotor, &merge, &angle, &measured);
     wh_merge_judge(config, &rotor, &merge, &angle, &measured);
 }

@@ -148,7 +148,8 @@ static void measure(const plant *p) {
     uint32_t due = 0; /* ticks from `begin` to the next pulse */
     uint32_t pulses = 0;
     unsigned done = 0;
-    wh_lockin_start(&rotor, &lockin);
+    lockin = (wh_lockin){0};
+    wh_lockin_forget(&rotor, &lockin);
     for (uint32_t now = 777U; done < BEFORE + TURNS; now += PERIOD_TICKS) {
         while (due <= now) {
             wh_lockin_pulse(&lockin, pulses % 2U, begin + due, pulses / 2U * 4U + pulses % 2U);
@@ -166,7 +167,9 @@ static void measure(const plant *p) {
         }
         TEST_ASSERT_TRUE(now < 60U * turn_ticks);
     }
-    wh_merge_mean(config, &rotor, &merge, &lockin.angle, WH_R(56.0), &measured);
+    for (unsigned i = 0; i < WH_MERGE_MEAN_PIECES; i++) {
+        wh_merge_mean_piece(config, &rotor, &merge, &lockin.angle, WH_R(56.0), &measured, i);
+    }
     wh_merge_compare(&rotor, &merge, &lockin.angle, &measured);
     wh_merge_judge(config, &rotor, &merge, &lockin.angle, &measured);
     TEST_ASSERT_EQUAL_UINT32(TURNS, measured.turns);

@@ -112,7 +112,7 @@ static void test_pulses_stand_at_their_angles(void) {
             const float speed = hal_virtual_rig_speed_radps(plant);
             const float turned = speed * since_s * WH_PHASE_PER_RAD;
             const uint32_t stand = pulse.sensor * 0x40000000U;
-            const float off = (float)(int32_t)(hal_virtual_rig_phase(plant) - stand) - turned;
+            const float off = (float)(int32_t)(wh_phase_of(plant->state.angle[0]) - stand) - turned;
             const float off_deg = off / WH_PHASE_PER_RAD * WH_RIG_DEG_PER_RAD;
             CHECK_NEAR(0.005f, -HAL_SLOT_LEAD_DEG, off_deg);
             pulses++;

@@ -222,7 +222,8 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     for (unsigned i = 0; i < 16; i++) {
         scattered();
     }
-    wh_lockin_start(rotor, &lockin);
+    lockin = (wh_lockin){0};
+    wh_lockin_forget(rotor, &lockin);
     wh_lockin_compensate(&lockin, orbit->compensated, WH_R(0.0625));
     lockin.angle.drive_V = (wh_real)(orbit->drive_Nm / 0.0625);
     wh_merge merge = {0};
@@ -279,7 +280,10 @@ void rig_measure(const rig_orbit *orbit, const rig_noise *noise, const wh_rotor_
     for (unsigned k = WH_REPEATS_FIRST; k <= WH_REPEATS_LAST; k++) {
         wh_merge_harmonic(&merge, k);
     }
-    wh_merge_mean(&judged, rotor, &merge, &lockin.angle, (wh_real)orbit->tare_N, measured);
+    for (unsigned i = 0; i < WH_MERGE_MEAN_PIECES; i++) {
+        wh_merge_mean_piece(&judged, rotor, &merge, &lockin.angle, (wh_real)orbit->tare_N, measured,
+                            i);
+    }
     wh_merge_compare(rotor, &merge, &lockin.angle, measured);
     wh_merge_judge(&judged, rotor, &merge, &lockin.angle, measured);
 }
