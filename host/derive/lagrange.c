@@ -563,11 +563,6 @@ static bool too_large(const equations *e) {
 }
 
 equations *equations_derive(const instance *inst, diags *errors) {
-    return equations_derive_after(inst, NULL, NULL, errors);
-}
-
-equations *equations_derive_after(const instance *inst, equations_question *before, void *context,
-                                  diags *errors) {
     const mechanism *m = inst->mechanism;
     const int n = m->coordinate_count;
     equations *e = alloc(1, sizeof *e);
@@ -575,9 +570,6 @@ equations *equations_derive_after(const instance *inst, equations_question *befo
     e->folding.way = folding_way();
     folding *const before_it = folding_use(&e->folding);
     e->algebra = algebra_new();
-    if (before != NULL) {
-        before(context, e->algebra, inst);
-    }
     e->instance = inst;
     e->count = n;
     e->unknowns = alloc(n, sizeof *e->unknowns);

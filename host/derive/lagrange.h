@@ -25,10 +25,5 @@ bool rank_is_positive(double *m, int n);
  * energy, a singular mass matrix, an equation that is nonlinear in the highest derivative, and an expression above the
  * limit of size. */
 equations *equations_derive(const instance *inst, diags *errors);
-/* As equations_derive(), but `before` (may be NULL) uses the algebra first. The result must not depend on that use
- * (tests/host/test_asked_first.c). */
-typedef void equations_question(void *context, algebra *a, const instance *inst);
-equations *equations_derive_after(const instance *inst, equations_question *before, void *context,
-                                  diags *errors);
 
 #endif

@@ -1,5 +1,5 @@
-/* test_asked_first.c: the result of a derivation must not depend on earlier computations: other expressions in the
- * same algebra, earlier output, or other mechanisms. Tests every built-in scene and generated mechanisms
+/* test_asked_first.c: a scene's program must not depend on what was computed before it with the same equations: other
+ * expressions in their algebra, printed forms, or another program. Tests every built-in scene and generated mechanisms
  * (WHIRL_CASES). The C code must be identical to the byte; if the core lacks a function, the Octave form is compared
  * instead. */
 #include "command.h"
@@ -47,10 +47,8 @@ static const poly *any_result(algebra *a, const poly *x, const poly *y, const me
     }
 }
 
-/* Uses symbols, outputs and energies for the first time, in a random sequence, and combines them to expressions. */
-static void ask(void *context, algebra *a, const instance *inst) {
-    uint64_t *from = context;
-    const mechanism *m = inst->mechanism;
+/* Uses symbols, outputs and energies in a random sequence, and combines them to expressions. */
+static void ask(uint64_t *from, algebra *a, const mechanism *m) {
     const poly *pool[POOL];
     for (int i = 0; i < POOL; i++) {
         pool[i] = any_symbol(a, m, from);
@@ -100,7 +98,10 @@ static char *written(const scene *in, before way, uint64_t from) {
     equations *e = NULL;
     image *p = NULL;
     if (inst != NULL) {
-        e = equations_derive_after(inst, way == OTHER_THINGS ? ask : NULL, &from, errors);
+        e = equations_derive(inst, errors);
+    }
+    if (e != NULL && way == OTHER_THINGS) {
+        ask(&from, e->algebra, inst->mechanism);
     }
     if (e != NULL && way == OTHER_FORMS) {
         print_forms(e, &from);
