@@ -12,8 +12,8 @@
 /* Operations that no run takes. */
 #define UNLIMITED ((uint64_t)1 << 62)
 
-static run_checks *open(const image *im, const image *plain, const engine_kind *kind, void *run,
-                        budget *of, bool whole) {
+static run_checks *checks_of(const image *im, const image *plain, const engine_kind *kind,
+                             void *run, budget *of, bool whole) {
     run_checks *v = alloc(1, sizeof *v);
     v->whole = whole;
     v->own.own = whole ? UNLIMITED : 0;
@@ -35,7 +35,7 @@ static run_checks *open(const image *im, const image *plain, const engine_kind *
 
 run_checks *run_checks_open(const image *im, const image *plain, const engine_kind *kind, void *run,
                             budget *of) {
-    return open(im, plain, kind, run, of, false);
+    return checks_of(im, plain, kind, run, of, false);
 }
 
 void run_checks_close(run_checks *v) {
@@ -310,7 +310,7 @@ static bool see(void *of, uint64_t step) {
 
 run_checks *run_checks_whole(const image *im, const image *plain, const engine_kind *kind,
                              void (*progress)(double share, void *context), void *context) {
-    observer o = {open(im, plain, kind, kind->start(im), NULL, true), progress, context};
+    observer o = {checks_of(im, plain, kind, kind->start(im), NULL, true), progress, context};
     const loop l = {.kind = kind, .run = o.checks->run, .steps = im->steps, .see = see, .of = &o};
     wh_status status;
     o.checks->interrupted = loop_run(&l, &status) == LOOP_INTERRUPTED;

@@ -307,7 +307,7 @@ bool read_valued(parser *in, const statement_word *word) {
     symbol *made = declare(in, &name, kind);
     unit_scale written = {0};
     const char *unit_text = NULL;
-    place value_at;
+    place value_at = name.at;
     if (!parse_output_unit(in, kind, &written, &unit_text) ||
         (kind == SYM_INPUT && !parse_rate(in, made)) ||
         !parse_value(in, made, word, contexts[kind], &value_at) ||

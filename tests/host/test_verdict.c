@@ -363,6 +363,40 @@ TEST(verdict, a_limit_is_one_of_the_energy) {
     TEST_ASSERT_TRUE(of[0] > 1 && of[1] > 1);
 }
 
+/* A disc with an uneven inertia and a torque of several waves. With coarse tables the finer run must not have the same
+ * tables, whether the sweep derives each point (over M) or could share its lists (over a start or the step). */
+TEST(verdict, coarse_tables_are_found_in_every_sweep) {
+    dice d = dice_of("tables", 15006);
+    unsigned of[2] = {0};
+    for (unsigned i = 0; i < dice_cases(few_or_all(12, 60)); i++) {
+        char text[TEXT];
+        char start[60];
+        char torque[60];
+        said ran;
+        said swept;
+        const double rate = dice_between(&d, 1.0, 3.0);
+        const double torque_Nm = dice_between(&d, 0.01, 4.0);
+        snprintf(text, sizeof text,
+                 "mechanism m\ncoordinate a [rad]\nparameter M = %.17g [N*m]\n"
+                 "T = 1 [kg*m^2]*a'^2/2*(1 + %.3g*cos(a)^2)\nQ(a) = M*sin(%u*a)\n"
+                 "scene s { start a' = %.17g [rad/s]; step 5 [ms]; until 2 [s] }\n",
+                 torque_Nm, dice_between(&d, 0.1, 0.6), 1U + dice_one_of(&d, 5), rate);
+        snprintf(start, sizeof start, "a'=%.17g..%.17g [rad/s]:1", rate, rate);
+        snprintf(torque, sizeof torque, "M=%.17g..%.17g [N*m]:1", torque_Nm, torque_Nm);
+        const char *const overs[] = {"step=5..5 [ms]:1", start, torque};
+        const char *cells = dice_one_of(&d, 2) == 0 ? "--cells=8" : "--cells=1024";
+        COMMAND_SAY(command_run, &ran, model_keep(text), "--quiet", "--tables", "linear", cells);
+        COMMAND_SAY(command_sweep, &swept, model_keep(text), "--quiet", "--tables", "linear", cells,
+                    "--over", overs[i % 3]);
+        const bool told = strstr(ran.err, "[accuracy]") != NULL;
+        TEST_ASSERT_EQUAL_MESSAGE(told, strstr(swept.err, "[accuracy]") != NULL, text);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(ran.status, swept.status, text);
+        of[told]++;
+    }
+    model_drop();
+    TEST_ASSERT_TRUE(of[0] > 1 && of[1] > 1);
+}
+
 TEST(verdict, a_point_is_judged_as_its_run) {
     static const char *const methods[] = {"rk4", "heun", "leapfrog", "semi-implicit-euler",
                                           "nystroem5"};
