@@ -23,13 +23,11 @@ static const struct {
     const char *derive; /* options that `whirl derive` and `whirl run` share */
     const char *form;   /* options of `whirl derive` only */
     const engine_kind *kind;
-    cost_number priced;
     bool compensated;
-} numbers[] = {
-    {"float", " --number float", "", "", &engine_float, COST_FLOAT, false},
-    {"float compensated", " --number float", " --compensated", "", &engine_float, COST_FLOAT, true},
-    {"double", "", "", "", &engine_double, COST_DOUBLE, false},
-    {"fixed", " --number fixed", "", " --number fixed", &engine_fixed, COST_FIXED, false}};
+} numbers[] = {{"float", " --number float", "", "", &engine_float, false},
+               {"float compensated", " --number float", " --compensated", "", &engine_float, true},
+               {"double", "", "", "", &engine_double, false},
+               {"fixed", " --number fixed", "", " --number fixed", &engine_fixed, false}};
 static_assert(sizeof numbers / sizeof numbers[0] == SETTING_NUMBERS, "a row for each number");
 
 int setting_number(const setting *s) {
@@ -165,7 +163,12 @@ setting setting_at(int i) {
     }
 }
 
-cost_number setting_cost_number(const setting *s) { return numbers[setting_number(s)].priced; }
+/* Not a column of `numbers`, which has no row for compensated sums in double. */
+cost_number setting_cost_number(const setting *s) {
+    return setting_is_fixed(s)           ? COST_FIXED
+           : s->number == &engine_double ? COST_DOUBLE
+                                         : COST_FLOAT;
+}
 
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]) {
     const wh_method m = s->image.method;

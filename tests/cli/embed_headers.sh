@@ -51,7 +51,7 @@ alone=0
 : >"$scratch/err"
 some=$(echo "$scenes" | grep -E '^(scenes|thomson_a|ball_bounces|carriage_stop)\.h$') # all are of one kind
 for header in $public $some; do
-    echo "#include \"$header\"" | tee "$scratch/one.c" >"$scratch/one.cpp"
+    printf '#include "%s"\ntypedef int one;\n' "$header" | tee "$scratch/one.c" >"$scratch/one.cpp"
     { gcc -std=c11 $warnings -I. -I"$gen" -fsyntax-only "$scratch/one.c" &&
         g++ -std=c++11 $warnings -I. -I"$gen" -fsyntax-only "$scratch/one.cpp"; } >>"$scratch/err" 2>&1 &&
         alone=$((alone + 1))
