@@ -584,7 +584,9 @@ static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) 
 
 static void shift(plant_queue *q, unsigned gone) {
     q->count -= gone;
-    memmove(q->event, q->event + gone, q->count * sizeof q->event[0]);
+    if (gone > 0) { /* otherwise there may be no memory yet */
+        memmove(q->event, q->event + gone, q->count * sizeof q->event[0]);
+    }
 }
 
 void plant_read(plant *p, wh_readings *readings) {
