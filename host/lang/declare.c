@@ -294,11 +294,10 @@ static bool parse_output_unit(parser *in, symbol_kind kind, unit_scale *unit, co
 }
 
 bool read_valued(parser *in, const statement_word *word) {
-    static const expr_context contexts[] = {[SYM_PARAMETER] = CONTEXT_CONSTANT,
-                                            [SYM_INPUT] = CONTEXT_CONSTANT,
-                                            [SYM_LET] = CONTEXT_LET,
-                                            [SYM_OUTPUT] = CONTEXT_OUTPUT};
     const symbol_kind kind = (symbol_kind)word->kind;
+    const expr_context context = kind == SYM_LET      ? CONTEXT_LET
+                                 : kind == SYM_OUTPUT ? CONTEXT_OUTPUT
+                                                      : CONTEXT_CONSTANT;
     token name;
     if (!take_name(in, word->text, &name)) {
         return false;
@@ -310,7 +309,7 @@ bool read_valued(parser *in, const statement_word *word) {
     place value_at = name.at;
     if (!parse_output_unit(in, kind, &written, &unit_text) ||
         (kind == SYM_INPUT && !parse_rate(in, made)) ||
-        !parse_value(in, made, word, contexts[kind], &value_at) ||
+        !parse_value(in, made, word, context, &value_at) ||
         (kind == SYM_INPUT && !parse_rate(in, made))) {
         return false;
     }
