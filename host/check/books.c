@@ -53,6 +53,10 @@ static double swing(const spread *s, uint64_t entries) {
     return entries > 0 ? number_root(8.0 * s->squares / (double)entries) : 0.0;
 }
 
+double books_mass(const books *b, int unknown) {
+    return swing(&b->push[unknown], b->entries) / swing(&b->rate[unknown], b->entries);
+}
+
 /* Swings are differences from means, so that a common speed of all bodies changes nothing. */
 double books_swing_J(const books *b) {
     double most = number_most(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));

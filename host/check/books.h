@@ -82,6 +82,8 @@ void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
 book_account books_account(const books *b);
+/* Standard deviation of a momentum divided by that of its rate: a mass or a moment of inertia; NaN if they are constant. */
+double books_mass(const books *b, int unknown);
 /* The largest swing of an energy (energy_residual.h). */
 double books_swing_J(const books *b);
 /* Energy change by the round-off of one step in numbers of this kind. Counts the round-off of the state, of the accelerations

@@ -151,6 +151,28 @@ static void judge_energy(run_checks *v) {
     }
 }
 
+/* In float: if a coordinate has less than this fraction of the energy, its rate is below the round-off of other rates. */
+#define FAINT 0x1p-48
+
+static bool is_faint(const run_checks *v, int unknown) {
+    const step_doubling *t = v->doubling;
+    const int rate = image_find_component(v->image, unknown, 1);
+    if (v->books == NULL || v->kind != &engine_float || rate < 0) {
+        return false;
+    }
+    double fastest = 0.0; /* includes the finer run's rate, because the rate in float may be zero */
+    for (int k = 1; k < t->columns; k++) {
+        const record_column *c = &t->shape->column[k];
+        const step_doubling_column *at = &t->column[k];
+        if (c->unknown == unknown && c->primes == 1) {
+            const double own = number_most(fabs(at->low), fabs(at->high));
+            fastest = number_most(own, at->off.most) / at->one;
+        }
+    }
+    const double mass = books_mass(v->books, unknown);
+    return mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
+}
+
 /* Is the error of the column at most two units of a float turn angle? Turn angles move by whole units, so this error is
  * always possible. */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
@@ -163,7 +185,8 @@ static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
 /* Rates jump at contacts. Two runs may have the jump in different steps, and then their rates differ at that time. */
 static bool is_asked(const run_checks *v, int k) {
     const record_column *c = &v->doubling->shape->column[k];
-    return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->doubling, k);
+    return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->doubling, k) &&
+           !is_faint(v, c->unknown);
 }
 
 static bool is_worse(const horizon_column *a, const horizon_column *b) {
