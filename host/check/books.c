@@ -6,6 +6,7 @@
 
 #include "host/base/alloc.h"
 #include "host/number/functions.h"
+#include "host/number/gauss.h"
 
 books *books_open(const image *im) {
     if (!im->has_energies) {
@@ -13,26 +14,32 @@ books *books_open(const image *im) {
     }
     const int results = im->list[IMAGE_BOOKS]->results;
     books *b = alloc(1, sizeof *b);
+    const size_t count = 2 * (size_t)results + 5 * (size_t)im->count + (size_t)im->inputs;
+    double *numbers = alloc((int64_t)count, sizeof *numbers);
     b->image = im;
-    b->list = state_list_open(im, IMAGE_BOOKS);
-    b->value = b->list.result;
-    b->off = alloc(results + 5 * (int64_t)im->count, sizeof *b->off);
+    b->evaluator = evaluator_new(im->list[IMAGE_BOOKS]);
+    b->value = numbers;
+    b->off = numbers + results;
     b->momentum = b->off + results;
     b->drift = b->momentum + im->count;
     b->momentum_now = b->drift + im->count;
     b->rateless = b->momentum_now + im->count;
     b->terms = b->rateless + im->count;
+    b->input = b->terms + im->count;
     b->rate = alloc(2 * (int64_t)im->count, sizeof *b->rate);
     b->push = b->rate + im->count;
+    b->frame = alloc(im->count, sizeof *b->frame);
+    image_inputs(im, b->input);
     b->step_s = im->step_s;
     return b;
 }
 
 void books_close(books *b) {
     if (b != NULL) {
-        state_list_close(&b->list);
-        free(b->off);
+        evaluator_free(b->evaluator);
+        free(b->value);
         free(b->rate);
+        free(b->frame);
         free(b);
     }
 }
@@ -53,17 +60,16 @@ static double swing(const spread *s, uint64_t entries) {
     return entries > 0 ? number_root(8.0 * s->squares / (double)entries) : 0.0;
 }
 
-double books_mass(const books *b, int unknown) {
-    return swing(&b->push[unknown], b->entries) / swing(&b->rate[unknown], b->entries);
+double books_momentum(const books *b, int unknown) {
+    const spread *s = &b->push[unknown];
+    const double mean = b->frame[unknown] ? 0.0 : s->first + s->mean;
+    return b->entries > 0 ? number_root(s->squares / (double)b->entries + mean * mean) : 0.0;
 }
 
-/* Swings are differences from means, so that a common speed of all bodies changes nothing. */
 double books_swing_J(const books *b) {
     double most = number_most(swing(&b->kinetic, b->entries), swing(&b->stored, b->entries));
-    for (int i = 0; i < b->image->count; i++) {
-        const double of_momentum = swing(&b->push[i], b->entries);
-        const double of_rate = swing(&b->rate[i], b->entries);
-        most = number_most(most, of_momentum * of_rate / number_root(32.0));
+    for (int i = 0; i < b->image->count && b->entries > 0; i++) {
+        most = number_most(most, 0.5 * books_momentum(b, i) * swing(&b->rate[i], b->entries));
     }
     return most;
 }
@@ -79,8 +85,10 @@ double books_swing_J(const books *b) {
 
 static void evaluate_now(const books *b, const double *angle_rad, const double *real,
                          double time_s) {
-    (void)state_list_at(&b->list, time_s, angle_rad, real);
-    for (int i = 0; i < b->image->list[IMAGE_BOOKS]->results; i++) {
+    const image *im = b->image;
+    evaluator_run(b->evaluator, time_s, angle_rad, real, real + (im->coordinates - im->angles),
+                  b->input, b->value);
+    for (int i = 0; i < im->list[IMAGE_BOOKS]->results; i++) {
         b->value[i] = number_shown(b->value[i]); /* -0 becomes 0 */
     }
 }
@@ -170,7 +178,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
     for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
         without_W += b->off[im->count + k];
     }
-    evaluator_rounding(b->list.evaluator, b->angle_rad, FLOAT_LEAST, b->off);
+    evaluator_rounding(b->evaluator, b->angle_rad, FLOAT_LEAST, b->off);
     for (int k = BOOK_INPUT_POWER; k <= BOOK_LOSS_POWER; k++) {
         with_W += b->off[im->count + k];
     }
@@ -180,14 +188,35 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
+/* Updates terms[]: a momentum is a sum of masses times rates, and of terms without rates (rateless[]). */
+static void look_at_momenta(books *b) {
+    const image *im = b->image;
+    double real[2 * IMAGE_COMPONENTS_MAX];
+    double sum[IMAGE_COMPONENTS_MAX];
+    memcpy(real, b->real, sizeof real);
+    for (int i = 0; i < im->count; i++) {
+        sum[i] = fabs(b->rateless[i]);
+    }
+    for (int k = 0; k < im->reals; k++) {
+        if (im->real[k].primes == 1 && b->real[k] != 0.0) {
+            real[k] = 0.0;
+            evaluate_now(b, b->angle_rad, real, b->time_s);
+            real[k] = b->real[k];
+            for (int i = 0; i < im->count; i++) {
+                sum[i] += fabs(b->momentum_now[i] - b->value[im->count + BOOK_MOMENTA + i]);
+            }
+        }
+    }
+    for (int i = 0; i < im->count; i++) {
+        b->terms[i] = number_most(b->terms[i], sum[i]);
+    }
+}
+
 static void look_at_rounding(books *b, const engine_kind *kind, const void *run) {
     const double state_J = state_rounding_J(b, kind, run);
+    look_at_momenta(b);
     evaluate_now(b, b->angle_rad, b->real, b->time_s);
-    evaluator_rounding(b->list.evaluator, b->angle_rad, 0.0, b->off);
-    for (int i = 0; i < b->image->count; i++) {
-        const double sizes = b->off[b->image->count + BOOK_MOMENTA + i];
-        b->terms[i] = isfinite(sizes) ? number_most(b->terms[i], sizes) : b->terms[i];
-    }
+    evaluator_rounding(b->evaluator, b->angle_rad, 0.0, b->off);
     const double off_J = energy_of(b->image, b->off);
     b->rounding_J = number_most(b->rounding_J, state_J + step_rounding_J(b, kind));
     b->computing_J = number_most(b->computing_J, isfinite(off_J) ? 0x1p-53 * off_J : 0.0);
@@ -288,6 +317,83 @@ static bool find_rateless(books *b) {
     return found;
 }
 
+/* --- momenta that every motion conserves ---------------------------------------------------------------*/
+
+/* Conserved sums of momenta are not searched in mechanisms with more coordinates. */
+enum { FRAME_MOST = 24 };
+/* FRAME_ASIDE_S: a short motion lasts this time before and after its state, s. FRAME_LEAST: a smaller part of the
+ * largest change of a momentum is round-off. */
+#define FRAME_ASIDE_S 1e-5
+#define FRAME_LEAST 1e-6
+
+/* change[]: the change of each momentum in a short motion through state number `draw`, whose positions and rates are random.
+ * Returns false if a change is not finite. */
+static bool momenta_change(books *b, int draw, double *change) {
+    const image *im = b->image;
+    double angle_rad[2][IMAGE_COMPONENTS_MAX];
+    double real[2][2 * IMAGE_COMPONENTS_MAX] = {{0}};
+    double from[3 * IMAGE_COMPONENTS_MAX];
+    bool finite = true;
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const uint32_t drawn = (uint32_t)(draw * (im->angles + im->reals) + i + 1) * 2654435769U;
+        const double at = i < im->angles ? b->angle_rad[i] : b->real[i - im->angles];
+        from[i] = at + (0x1p-31 * (double)drawn - 1.0) * (1.0 + fabs(at));
+    }
+    evaluate_now(b, from, from + im->angles, b->time_s);
+    for (int i = 0; i < im->angles + im->reals; i++) {
+        const component c = image_component(im, i);
+        const int rate = c.primes == 0 ? image_find_component(im, c.unknown, 1) : -1;
+        const double slope = rate >= 0 ? from[rate] : b->value[c.unknown];
+        for (int k = 0; k < 2; k++) {
+            double *to = i < im->angles ? &angle_rad[k][i] : &real[k][i - im->angles];
+            *to = from[i] + (k == 0 ? -FRAME_ASIDE_S : FRAME_ASIDE_S) * slope;
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        evaluate_now(b, angle_rad[k], real[k], b->time_s);
+        for (int i = 0; i < im->count; i++) {
+            const double p = b->value[im->count + BOOK_MOMENTA + i];
+            change[i] = k == 0 ? p : change[i] - p;
+            finite = finite && isfinite(change[i]);
+        }
+    }
+    return finite;
+}
+
+/* Finds conserved sums of momenta. A matrix has the changes of the n momenta at 2 n random states. Elimination finds its
+ * null vectors: these are the sums. frame[] is set for each momentum in such a sum. */
+static void find_frame(books *b) {
+    const int n = b->image->count;
+    const int rows = 2 * n;
+    if (n > FRAME_MOST || b->image->recovered > 0) {
+        return;
+    }
+    double *a = alloc((int64_t)rows * n, sizeof *a);
+    int lead[FRAME_MOST];
+    bool leads[FRAME_MOST] = {false};
+    double most = 0.0;
+    bool known = true;
+    for (int r = 0; r < rows && known; r++) {
+        known = momenta_change(b, r, a + r * n);
+        for (int i = 0; i < n && known; i++) {
+            most = number_most(most, fabs(a[r * n + i]));
+        }
+    }
+    const int rank = known ? gauss_reduce(a, rows, n, n, false, FRAME_LEAST * most, lead) : 0;
+    for (int r = 0; r < rank; r++) {
+        leads[lead[r]] = true;
+    }
+    for (int c = 0; c < n && known; c++) {
+        for (int r = -1; r < rank && !leads[c];
+             r++) { /* column c has no pivot: in its null vector, entry c is 1 (r = -1) */
+            const int i = r < 0 ? c : lead[r];
+            const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
+            b->frame[i] = b->frame[i] || share > FRAME_LEAST;
+        }
+    }
+    free(a);
+}
+
 /* A kinetic energy that is negative by more than this part of all energies is not round-off. */
 #define NEGATIVE 1e-6
 
@@ -297,11 +403,12 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
     const image *im = b->image;
     kind->state(run, b->angle_rad, b->real);
     if (b->entries == 0 && kind == &engine_float) {
-        evaluator_wrap(b->list.evaluator);
+        evaluator_wrap(b->evaluator);
     }
     b->time_s = (double)kind->steps(run) * b->step_s;
     if (b->entries == 0) {
         b->has_rateless = find_rateless(b);
+        find_frame(b);
         memset(b->rateless, 0, (size_t)im->count * sizeof *b->rateless);
     }
     const double back_J = b->has_rateless ? reversed_J(b, b->angle_rad, b->real) : 0.0;

@@ -33,13 +33,13 @@ typedef struct spread {
 
 typedef struct books {
     const image *image;
-    state_list list;      /* IMAGE_BOOKS */
-    double *value;        /* list.result, without negative zeros */
+    double *input; /* [image->inputs] */
+    evaluator *evaluator;
+    double *value;        /* results of the image's books list */
     double *momentum;     /* [count] at the start of the run */
     double *momentum_now; /* [count] */
     double *drift;        /* [count] largest change of a momentum since the start */
-    double *
-        terms; /* [count] largest sampled sum of the sizes of a momentum's terms, each about three times */
+    double *terms;        /* [count] largest sampled sum of the sizes of a momentum's terms */
     double angle_rad[IMAGE_COMPONENTS_MAX];
     double real[2 * IMAGE_COMPONENTS_MAX];
     double kinetic_J[2]; /* start, now */
@@ -53,6 +53,8 @@ typedef struct books {
     spread stored;
     spread *rate; /* [count] */
     spread *push; /* [count] momenta without rateless[] */
+    /* [count] does this momentum belong to a conserved sum? A common speed of its bodies then only changes the mean */
+    bool *frame;
     /* [count] the part of each momentum that stays the same if all rates are reversed; it depends on the origin */
     double *rateless;
     bool has_rateless;  /* a rateless[] is nonzero, as in a magnetic field */
@@ -82,8 +84,8 @@ void books_close(books *b);
 /* Enter the state after each step, the start included. */
 void books_enter(books *b, const engine_kind *kind, const void *run);
 book_account books_account(const books *b);
-/* Standard deviation of a momentum divided by that of its rate: a mass or a moment of inertia; NaN if they are constant. */
-double books_mass(const books *b, int unknown);
+/* Root mean square of a momentum over the run. If the momentum is part of a conserved sum (frame[]), its mean is subtracted. */
+double books_momentum(const books *b, int unknown);
 /* The largest swing of an energy (energy_residual.h). */
 double books_swing_J(const books *b);
 /* Energy change by the round-off of one step in numbers of this kind. Counts the round-off of the state, of the accelerations

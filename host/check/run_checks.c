@@ -160,17 +160,18 @@ static bool is_faint(const run_checks *v, int unknown) {
     if (v->books == NULL || v->kind != &engine_float || rate < 0) {
         return false;
     }
+    double own = 0.0;
     double fastest = 0.0; /* includes the finer run's rate, because the rate in float may be zero */
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
         const step_doubling_column *at = &t->column[k];
         if (c->unknown == unknown && c->primes == 1) {
-            const double own = number_most(fabs(at->low), fabs(at->high));
-            fastest = number_most(own, at->off.most) / at->one;
+            own = number_most(fabs(at->low), fabs(at->high)) / at->one;
+            fastest = number_most(own, at->off.most / at->one);
         }
     }
-    const double mass = books_mass(v->books, unknown);
-    return mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
+    const double mass = books_momentum(v->books, unknown) / own;
+    return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
 /* Is the error of the column at most two units of a float turn angle? Turn angles move by whole units, so this error is

@@ -88,8 +88,6 @@ char *about_tables(const image *im) {
 /* ROWS: most sampled rows of a run. NAMED: most coordinates that the sentence names. */
 enum { ROWS = 100000, NAMED = 3 };
 #define STAYS 1e-6
-/* A momentum stays if it drifts by less than this part of books.terms[], which has each term about three times. */
-#define STAYS_WITHIN (HORIZON_TOLERANCE / 3.0)
 
 opening opening_begin(const records *r, uint64_t steps) {
     opening o = {.each = steps / ROWS + 1};
@@ -228,7 +226,7 @@ static void print_momentum(FILE *out, const image *im, const books *b) {
     }
     const char *si = im->unknown[found].momentum_si;
     fprintf(out, "The momentum of %s ", im->unknown[found].name);
-    if (b->drift[found] <= STAYS_WITHIN * b->terms[found]) {
+    if (b->drift[found] <= HORIZON_TOLERANCE * b->terms[found]) {
         fprintf(out, "stays %.3g %s within %.1e. ", number_shown(b->momentum[found]), si,
                 b->drift[found]);
     } else {
