@@ -172,7 +172,7 @@ static bool is_nonlinear(const equations *e, const term *t) {
 }
 
 static void report_nonlinear(const image *im, const equations *e, diags *errors) {
-    static const char hint[] = "leave out --matrix: it is only for linear equations";
+    static const char hint[] = "leave out --matrix: it needs linear statements, with linear lets";
     const mechanism *m = e->instance->mechanism;
     int k = 0;
     while (k < m->term_count && !is_nonlinear(e, &m->terms[k])) {
