@@ -329,7 +329,7 @@ static void show_form(const show *s, const contact_law *law, const char *form) {
         case 's': show_poly(s, law->speed); break;
         case 'a': show_poly(s, law->first); break;
         case 'b': show_poly(s, law->second); break;
-        default: show_symbol(s, law->from->coordinate, 0); break;
+        case 'q': show_symbol(s, law->from->coordinate, 0); break;
         }
     }
 }
