@@ -42,11 +42,30 @@ bool files_are_one(const struct stat *one, const char *path, const struct stat *
     return one_path(path, other_path);
 }
 
+/* Would the two paths, of which neither exists, name one file: the same name in one folder? */
+static bool is_one_place(const char *one, const char *other) {
+    const char *slash[] = {strrchr(one, '/'), strrchr(other, '/')};
+    const char *name = slash[0] == NULL ? one : slash[0] + 1;
+    const char *other_name = slash[1] == NULL ? other : slash[1] + 1;
+    char *folder = alloc_words("%.*s.", (int)(name - one), one);
+    char *other_folder = alloc_words("%.*s.", (int)(other_name - other), other);
+    struct stat first;
+    struct stat second;
+    const bool met = strcmp(name, other_name) == 0 && stat(folder, &first) == 0 &&
+                     stat(other_folder, &second) == 0 &&
+                     files_are_one(&first, folder, &second, other_folder);
+    free(folder);
+    free(other_folder);
+    return met;
+}
+
 bool files_same(const char *one, const char *other) {
     struct stat first;
     struct stat second;
-    return strcmp(one, other) == 0 ||
-           (stat(one, &first) == 0 && stat(other, &second) == 0 && S_ISREG(first.st_mode) &&
+    const bool there = stat(one, &first) == 0;
+    const bool other_there = stat(other, &second) == 0;
+    return strcmp(one, other) == 0 || (!there && !other_there && is_one_place(one, other)) ||
+           (there && other_there && S_ISREG(first.st_mode) &&
             files_are_one(&first, one, &second, other));
 }
 

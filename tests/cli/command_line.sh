@@ -295,7 +295,7 @@ for ending in '' .part .toml .toml.part .sweep; do
     beside=$scratch/b.svg$ending
     for one in --csv --columns --vcd --plot; do
         for other in --csv --columns --vcd; do
-            [ $one = $other ] || exits 2 "error: --[a-z]* and --[a-z]* cannot share a file" run "$own" $one "$scratch/b.svg" $other "$beside"
+            [ $one = $other ] || exits 2 "error: --[a-z]* and --[a-z]* cannot share a file" run "$own" $one "$scratch/b.svg" $other "$scratch/./b.svg$ending"
         done
     done
     exits 2 'error: --csv and --plot cannot share a file' map "$own" --over x=1..2:2 --over step=1ms..2ms:2 --plot "$scratch/b.svg" --csv "$beside"
