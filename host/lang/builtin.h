@@ -1,5 +1,4 @@
-/* builtin.h: the models built into the program. Their C, made by mk/setup/embed_models.sh, holds copies of the files in
- * core/models. */
+/* builtin.h: the models built into the program: copies of the files in core/models, by mk/setup/embed_models.sh. */
 #ifndef LANG_BUILTIN_H
 #define LANG_BUILTIN_H
 

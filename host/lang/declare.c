@@ -43,7 +43,7 @@ static bool parse_seed(parser *in, uint32_t *seed) {
     return true;
 }
 
-/* Returns the symbol of the noisy output. All noises of one output share this symbol. */
+/* Returns the symbol of the output with noise. All noises of the output share it. */
 static const symbol *record_of(parser *in, const symbol *output) {
     const mechanism *inside = in->builder->made;
     for (int i = 0; i < inside->noise_count; i++) {
@@ -246,8 +246,7 @@ static bool parse_value(parser *in, symbol *made, const statement_word *word, ex
     return value != NULL;
 }
 
-/* Reads an optional `rate NAME` after an input's name or value. NAME is the input that is the time derivative; it may
- * be declared later. */
+/* Reads an optional `rate NAME`. NAME is the input that is the time derivative; it may be declared later. */
 static bool parse_rate(parser *in, symbol *made) {
     if (!parser_is_word(in, WORD_RATE) || (made != NULL && made->rate != NULL)) {
         return true;

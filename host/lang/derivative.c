@@ -1,5 +1,4 @@
-/* derivative.c: time derivatives of lets, by the chain rule. Each derivative is a let without a statement, made when an
- * expression first names it. Other code treats it as any other let. */
+/* derivative.c: time derivatives of lets, by the chain rule. Each is a let without text, made at its first use. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,7 +22,7 @@ static const expr *call(parser *in, function_id f, place at, const expr *a) {
     return expr_call(in, f, at, a, NULL);
 }
 
-/* Builds a^n; NULL if the nesting is too deep (reported). Slopes have negative powers in place of quotients. */
+/* Builds a^n; NULL if the nesting is too deep (reported). */
 static const expr *power(parser *in, const expr *a, double n) {
     return a == NULL ? NULL : expr_binary(in, EXPR_POW, a->at, a, number(in, a->at, n));
 }
@@ -82,7 +81,7 @@ static const expr *of_call(parser *in, const expr *of, const expr *du, const exp
         const expr *size = expr_binary(in, EXPR_ADD, at, square(in, u), square(in, v));
         return expr_binary(in, EXPR_MUL, at, top, power(in, size, -1.0));
     }
-    /* if both arguments are equal, half the slope of each */
+    /* if both arguments are equal, the mean of their derivatives */
     if (of->function == FN_MIN || of->function == FN_MAX) {
         const expr *lead = call(in, FN_SIGN, at, expr_binary(in, EXPR_SUB, at, u, v));
         const expr *half = number(in, at, of->function == FN_MIN ? -0.5 : 0.5);
@@ -224,7 +223,7 @@ const symbol *let_rate(parser *in, const symbol *let, const token *name) {
 }
 
 /* === inputs with a rate ======================================================================= */
-/* Inside a step, an input with a rate moves as a coordinate of given acceleration does. */
+/* Inside a step, an input with a rate moves like a coordinate of given acceleration. */
 
 const symbol *symbol_moving(const symbol *s, int *primes) {
     if (s->kind != SYM_INPUT || s->driven == NULL) {
@@ -308,8 +307,7 @@ static void drive(parser *in, mechanism *made, named *input) {
     rate->symbol.driven = rate->symbol.driven != NULL ? rate->symbol.driven : &coordinate->symbol;
 }
 
-/* Finds an input in the expression: if `rates`, an input that is a rate, otherwise an input without a rate. Returns
- * NULL if there is none. Each let is visited once. */
+/* Finds an input in the expression: one that is a rate (`rates`), or one without a rate. Visits each let once. */
 static const symbol *find_input(const mechanism *made, const expr *tree, bool rates, int mark) {
     if (tree == NULL || (tree->uses & USES_INPUT) == 0) {
         return NULL;
@@ -330,8 +328,7 @@ static const symbol *find_input(const mechanism *made, const expr *tree, bool ra
     return found != NULL ? found : find_input(made, tree->right, rates, mark);
 }
 
-/* Checks that the expression of a stop or hold contains no rate. In a hold, each input must have a rate, because the
- * hold fixes the expression's value. */
+/* Reports a rate in a stop or hold. A hold fixes its expression, so each input in it must have a rate. */
 static void check_contact(parser *in, const mechanism *made, const contact_statement *each,
                           int mark) {
     char hint[RATE_HINT_SIZE];

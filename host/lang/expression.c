@@ -45,8 +45,7 @@ int name_declared_later(const token *name) {
     return 0;
 }
 
-/* Returns a hint such as "write x'" for a derivative in another spelling, such as xdot, if x is a coordinate, state or
- * let; else NULL. */
+/* Returns a hint such as "write x'" for "xdot", if x is a coordinate, state or let; else NULL. */
 static const char *rate_hint(parser *in, const token *name) {
     static const char *const forms[][3] = {
         {"", "dot", "'"}, {"", "_dot", "'"}, {"", "ddot", "''"}, {"", "_ddot", "''"},
@@ -103,7 +102,7 @@ static void report_reserved(parser *in, const token *name) {
                "'%.*s' is a reserved word", (int)name->length, name->text);
 }
 
-/* Is a symbol of this kind, with this number of primes, allowed here? `written` is its name in the text. */
+/* Is `found`, with the primes of `name`, allowed in the current context? `written` is the name in messages. */
 static bool allowed_here(parser *in, const token *name, const symbol *found, const token *written) {
     const bool is_unknown = found->kind == SYM_COORDINATE || found->kind == SYM_STATE;
     const bool by_let = found->kind == SYM_LET && found->value != NULL;
@@ -190,7 +189,6 @@ static const expr *unknown_value(expr *made) {
     return made;
 }
 
-/* Copies the height, order and uses of a name to its node. A let or an output has those of its expression. */
 static const expr *take_properties(parser *in, expr *made, const token *name) {
     const symbol *found = made->symbol;
     switch (found->kind) {
@@ -225,7 +223,6 @@ static const expr *take_properties(parser *in, expr *made, const token *name) {
     return made;
 }
 
-/* --- names (expression.c) --- */
 static const expr *expr_name(parser *in, const token *name) {
     expr *made = expr_new(in, EXPR_SYMBOL, name->at);
     if (token_is_word(name, WORD_PI)) {
@@ -246,7 +243,7 @@ static const expr *expr_name(parser *in, const token *name) {
         }
         report_unknown(in, name);
         if (in->builder != NULL && !in->all_effects) {
-            /* The unknown name is added, so that it is reported only once. */
+            /* Adding the name prevents a second report. */
             found = names_add(in->builder->names, name->text, name->length);
             found->is_placeholder = true;
             found->symbol.kind = SYM_LET;
@@ -640,7 +637,7 @@ static const expr *parse_comparison(parser *in) {
     return made;
 }
 
-/* Reads PART { word PART }. If there are several parts, each must be a condition. */
+/* Reads PART { word PART }. Each of several parts must be a condition. */
 static const expr *parse_joined(parser *in, word_id word, function_id function,
                                 const expr *(*part)(parser *)) {
     const expr *left = part(in);
@@ -665,7 +662,6 @@ static const expr *parse_both(parser *in) {
 
 static const expr *parse_any(parser *in) { return parse_joined(in, WORD_OR, FN_MAX, parse_both); }
 
-/* Reads an expression by `rule`. */
 static const expr *parse_by(parser *in, expr_context context, const expr *(*rule)(parser *)) {
     const expr_context outer = in->context;
     in->context = context;

@@ -1,4 +1,4 @@
-/* expression.h: the parser of expressions: grammar, conditions and names (expression.c), dimensions of operators (operators.c). NESTING_MAX and EXPR_HEIGHT_MAX bound the recursion. */
+/* expression.h: the parser of expressions. NESTING_MAX and EXPR_HEIGHT_MAX bound the recursion. */
 #ifndef LANG_EXPRESSION_H
 #define LANG_EXPRESSION_H
 
@@ -9,11 +9,11 @@
 
 /* --- grammar (expression.c) --- */
 const expr *parse_expression(parser *in, expr_context context); /* NULL after an error */
-/* Reads the condition of a hold as one expression, which is above zero if the condition is true. NULL after an error. */
+/* Reads the condition of a hold as one expression, above zero if the condition is true. NULL after an error. */
 const expr *parse_condition(parser *in);
 /* reads the ')' that closes `open` */
 bool parse_close(parser *in, place open);
-/* Reads the current unit token, or a unit without brackets up to the end of the text. *text is its text without blanks. */
+/* Reads the current unit token, or a unit without brackets up to the end of the text. *text has no blanks. */
 void parse_unit(parser *in, unit_scale *result, const char **text);
 
 /* Returns the line of a later statement of the mechanism that declares the name, or 0. */
@@ -26,7 +26,7 @@ void no_such_symbol(parser *in, const mechanism *of, const token *name);
 /* Reads "= EXPR", the value of `name`. It is not checked if the name is unknown (`of` is NULL). */
 bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
                     const char *hint, const expr **value);
-/* Reports an earlier assignment to the symbol `name`; `verb` says what it was: "set" or "given". */
+/* Reports that `list` already assigns to `name`; `verb` is "set" or "given". */
 void check_assigned_once(parser *in, const assignment *list, int count, const symbol *of,
                          const token *name, const char *verb);
 
@@ -58,9 +58,9 @@ bool check_named(parser *in, place at, const expr *value, dimension wanted, cons
 /* Reports a nonzero value without a unit at `at`, and returns false, if the declared unit of the symbol (or of its
  * derivative) is not SI. The current token must be the one after the value. */
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
-/* Checks unit and dimension of a value that `name`, the symbol `of` or its derivative, is to take. */
+/* As check_unit() and check_dimension(), for a value of the symbol `of` or of its derivative (primes of `name`). */
 bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name);
-/* As check_unit(), for the limit `value` of a stop or a crossing. True if `of` is more than a single symbol. */
+/* As check_unit(), for the limit `value` of a stop or crossing of `of`. True if `of` is more than a single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 
 #endif

@@ -5,11 +5,10 @@
 #include "host/base/alloc.h"
 #include "host/lang/value.h"
 
-/* A rate near zero, SI, far below any rate of interest. */
+/* SI, far below any rate of interest */
 #define NEAR_REST 1e-6
 
-/* Returns true if the tree names a coordinate other than `own`, or `own` without a prime. Lets are searched, too.
- * EXPR_HEIGHT_MAX bounds the recursion. */
+/* Does the tree, or a let in it, name a coordinate other than `own`, or `own` without a prime? */
 static bool names_others(const expr *tree, const symbol *own) {
     if (tree == NULL || (tree->uses & USES_UNKNOWNS) == 0) {
         return false;
@@ -44,8 +43,8 @@ static double term_at(const term *of, const symbol *coordinate, valuation *known
     return value;
 }
 
-/* Does the force jump against the motion at rate 0? If the rate falls to a tenth, a jump keeps its size, and the change
- * of a smooth force falls to a tenth. False if the force is not finite. */
+/* Does the force oppose the motion with a jump at rate 0? A jump is equally large at a tenth of the rate; the change of
+ * a smooth force is a tenth. False if the force is not finite. */
 static bool opposes_at_rest(const term *of, valuation *known) {
     const symbol *own = of->coordinate;
     const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);
@@ -54,14 +53,13 @@ static bool opposes_at_rest(const term *of, valuation *known) {
     return jump < 0.0 && nearer < 0.5 * jump;
 }
 
-/* F at +rate plus F at -rate, minus twice F at rate 0. */
+/* Second difference of F at rate 0, with the step `rate`. */
 static double bend(const term *of, const symbol *coordinate, valuation *known, double rate) {
     return term_at(of, coordinate, known, rate) + term_at(of, coordinate, known, -rate) -
            2.0 * term_at(of, coordinate, known, 0.0);
 }
 
-/* Has F a kink at rate 0? If the rate falls to a tenth, the bend of a kink falls to a tenth, that of a smooth F to a
- * hundredth. */
+/* Has F a kink at rate 0? At a tenth of the rate, a kink bends by a tenth, a smooth F by a hundredth. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
     const double size = term_at(of, coordinate, known, 0.0);
     const double far = bend(of, coordinate, known, NEAR_REST);

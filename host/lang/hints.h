@@ -5,8 +5,7 @@
 #include "model.h"
 
 /* Returns the first active Q or F that is dry friction without the statement `friction`, or NULL. Such a Q contains
- * sign() of its coordinate's rate and jumps against the motion at rate 0. Such an F has a kink at rate 0. *of is the
- * coordinate with the friction. */
+ * sign() of its coordinate's rate and jumps against the motion at rate 0; such an F has a kink. *of: the coordinate. */
 const term *hint_friction(const instance *made, const symbol **of);
 
 #endif

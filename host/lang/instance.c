@@ -30,7 +30,7 @@ const effect *instance_lacks(const instance *of, const symbol *what) {
 
 /* === ranges of contacts and of noise ========================================================== */
 
-/* Allowance for round-off: 0.3 - 0.2 - 0.1 is -3e-17, but must pass as not below zero. */
+/* Allowance for round-off: 0.3 - 0.2 - 0.1 is -3e-17, and must pass as zero. */
 #define LAST_DIGITS 1e-15
 
 /* Returns the value at the start. NAN if it changes with the motion, or is not finite (reported). */
@@ -76,7 +76,7 @@ static void check_noise(const noise *each, valuation *known) {
     }
 }
 
-/* Reports statements of two active effects that exclude each other. */
+/* Reports two statements of active effects that exclude each other. */
 static void check_pairs(const instance *made, diags *all) {
     const mechanism *of = made->mechanism;
     for (int i = 0; i < of->contact_count; i++) {
@@ -107,7 +107,7 @@ static void check_pairs(const instance *made, diags *all) {
     }
 }
 
-/* Reports an input of an effect that is not active: the run has no such input. */
+/* Reports an input whose effect is not active: the run has no such input. */
 static void check_inputs(const instance *made, const expr *tree, diags *all) {
     if (tree == NULL) {
         return;
@@ -140,8 +140,7 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     }
 }
 
-/* Reports values of `made` that are out of range. Inputs are checked with their initial values. A program that
- * changes inputs during a run is responsible for the new values. */
+/* Reports values out of range. Inputs have their initial values: programs that change inputs must check them. */
 static void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
     known->input = made->input;
@@ -284,7 +283,7 @@ static void apply_texts(plan *into, instance *made, override_kind kind, const ch
 
 static bool is_word(const char *text, word_id word) { return word_is(word, text, strlen(text)); }
 
-/* Applies "all", which must come before the names of single effects. */
+/* Applies "all". Single effects follow in apply_effects(). */
 static void apply_all(instance *made, const char *const *texts, int count, bool wanted) {
     for (int i = 0; i < count; i++) {
         for (int k = 0; is_word(texts[i], WORD_ALL) && k < made->mechanism->effect_count; k++) {
@@ -415,7 +414,6 @@ static void evaluate(plan *from, instance *made) {
     }
 }
 
-/* Allocates the numbers of parameters, inputs and starts. */
 static void allocate_numbers(instance *made) {
     const mechanism *of = made->mechanism;
     struct arena *memory = made->arena;

@@ -47,9 +47,8 @@ static bool is_letter(int c) {
 
 static bool is_digit(int c) { return c >= '0' && c <= '9'; }
 
-/* Reports a carriage return within a line. Lines end with a line feed, optionally after a carriage return. A lone
- * carriage return would hide the text after it when the file is displayed. If all lines ended in
- * it, a # would turn the rest of the file into a comment. */
+/* Reports a carriage return without a line feed. An editor may show a line end or hide text there, but for the lexer a
+ * # comment would go on, to the end of the file if all lines end so. */
 static void check_line_ends(const lexer *in) {
     const source *text = in->at.source;
     const char *at = text->text + in->at.offset;

@@ -16,8 +16,8 @@ enum {
 typedef enum token_kind {
     TOKEN_END,
     TOKEN_NEWLINE,
-    TOKEN_NAME,   /* letters, digits, underscores, then `primes` primes */
-    TOKEN_NUMBER, /* without unit */
+    TOKEN_NAME, /* letters, digits, underscores, then `primes` primes */
+    TOKEN_NUMBER,
     TOKEN_UNIT,   /* [ ... ]: `text` is between the brackets */
     TOKEN_STRING, /* " ... ": `text` is between the quotes */
     TOKEN_SIGN,   /* one of + - * / ^ ( ) { } , ; = < > or a two-character sign listed below */
@@ -49,7 +49,6 @@ typedef struct lexer {
 lexer lexer_start(const source *source, diags *diags);
 token lexer_next(lexer *in);
 
-/* Returns the place `bytes` bytes after `from` in its text. */
 place place_after(place from, size_t bytes);
 
 #endif

@@ -1,7 +1,5 @@
-/* model.h: the contents of a .whirl file, with names resolved, units converted to SI and dimensions checked. host/lang
- * fills it; host/derive reads it. It does not depend on the algebra.
- *
- * The arena of the `model` owns everything and frees it. */
+/* model.h: the contents of a .whirl file, with names resolved, units converted to SI and dimensions checked. The arena
+ * of the `model` owns everything and frees it. */
 #ifndef LANG_MODEL_H
 #define LANG_MODEL_H
 
@@ -36,17 +34,15 @@ typedef struct symbol {
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
     const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
-    /* An input with a rate moves inside a step: a driven coordinate, listed after the declared ones, takes its place.
-     * This pointer leads from the input, and from its rate, to that coordinate, and from the coordinate to the input.
-     * For other symbols it is NULL. */
+    /* A driven coordinate replaces an input with a rate inside a step; it is listed after the declared ones. This
+     * points from the input and from its rate to that coordinate, and from that coordinate to the input; else NULL. */
     const struct symbol *driven;
 } symbol;
 
-/* Returns the symbol that takes the place of `s` during motion. For an input with a rate, and for that rate, it is
- * the driven coordinate with *primes primes. For any other symbol it is `s`. */
+/* Returns the driven coordinate for an input with a rate (*primes: 0), and for that rate (1); else `s`. */
 const symbol *symbol_moving(const symbol *s, int *primes);
 
-/* Returns the input that accelerates a driven coordinate. If NULL, the rate is constant inside a step. */
+/* Returns the input that accelerates a driven coordinate; NULL if the rate is constant inside a step. */
 const symbol *symbol_acceleration(const symbol *driven);
 
 /* Writes a hint that declares the rate of an input to buffer[RATE_HINT_SIZE]: two statements that can be pasted. */
@@ -78,13 +74,11 @@ struct expr {
     const expr *right;
     place at; /* place of the operator or the operand, for messages */
     dimension dim;
-    /* 1 for a leaf; for a let or an output, one more than its expression's height */
-    int height;
-    int order;         /* most primes on any coordinate or state, also within lets */
-    unsigned uses;     /* USES_ bits of its dependencies, through lets too */
-    bool is_condition; /* above zero if true; no operand of arithmetic */
-    /* a symbol in the expression that is an angle not declared in SI, or NULL */
-    const symbol *angle;
+    int height;          /* 1 for a leaf; for a let or output, its expression's height + 1 */
+    int order;           /* most primes on any coordinate or state, also within lets */
+    unsigned uses;       /* USES_ bits, also within lets */
+    bool is_condition;   /* above zero if true; not an operand of arithmetic */
+    const symbol *angle; /* a symbol in the expression: an angle not declared in rad; or NULL */
 };
 
 enum {
@@ -95,7 +89,7 @@ enum {
     USES_UNIT = 16 /* the expression contains a number with a unit */
 };
 
-/* Greatest height of an expression tree, lets included. Recursive functions rely on this limit. */
+/* Greatest height of an expression tree, lets included; bounds the recursion. */
 #define EXPR_HEIGHT_MAX 1000
 
 /* --- mechanisms -------------------------------------------------------------------------------- */
@@ -117,8 +111,8 @@ typedef struct effect {
     int last_line; /* end of its block */
 } effect;
 
-/* An assignment of a scene, `set NAME = EXPR` or `start NAME' = EXPR`, whose expression is constant. Or an assignment
- * of a `when`, whose expression may contain coordinates, rates, parameters and inputs. */
+/* `set NAME = EXPR` or `start NAME' = EXPR` of a scene, with a constant expression. Or an assignment of a `when`, whose
+ * expression may contain coordinates, rates, parameters and inputs. */
 typedef struct assignment {
     const symbol *symbol;
     int primes;
@@ -126,7 +120,7 @@ typedef struct assignment {
     place at;
 } assignment;
 
-/* One contact, handled inside the step (core/contact.h says how). */
+/* One contact, handled inside the step (core/contact.h). */
 typedef struct contact_statement {
     contact_kind kind;
     /* stop: left - right (coordinates, no rates); >= 0 when apart
@@ -138,12 +132,10 @@ typedef struct contact_statement {
     const expr *restitution;     /* stop: restitution, 0 to 1 */
     const expr *static_friction; /* friction: coefficients, 0 <= kinetic <= static */
     const expr *kinetic_friction;
-    const expr *normal; /* friction: normal force [N]; below zero counts as zero */
-    /* hold: active while this expression is above zero; `and` has become min, `or` max */
-    const expr *condition;
-    int direction; /* when: +1 rising, -1 falling, 0 both */
-    /* when: assignments to coordinates and rates; all values are computed before any is set */
-    const assignment *sets;
+    const expr *normal;     /* friction: normal force [N]; below zero counts as zero */
+    const expr *condition;  /* hold: active while above zero; `and` is min, `or` is max */
+    int direction;          /* when: +1 rising, -1 falling, 0 both */
+    const assignment *sets; /* when: all values are computed before any is assigned */
     int set_count;
     int effect; /* index of the effect that contains the statement, or -1 */
     place at;
@@ -155,8 +147,7 @@ enum { CONTACTS_MAX = 16, SETS_MAX = 128 };
 /* `noise OUTPUT deviation EXPR seed NUMBER`: Gaussian noise on a recorded output (core/noise.h). */
 typedef struct noise {
     const symbol *output;
-    /* symbol of the noisy output (SYM_RECORD); all noises of an output share it */
-    const symbol *record;
+    const symbol *record;  /* the output with noise (SYM_RECORD), shared by its noises */
     const expr *deviation; /* expression of constants, in the output's dimension, >= 0 */
     uint32_t seed;
     int effect;
@@ -199,7 +190,6 @@ typedef struct mechanism {
     const struct names *names; /* finds symbols by name (parser.h) */
 } mechanism;
 
-/* Largest numbers in one mechanism or one file. */
 enum { COORDINATES_MAX = 64, EFFECTS_MAX = 500, MECHANISMS_MAX = 500, SCENES_MAX = 1000 };
 
 /* --- scenes ------------------------------------------------------------------------------------ */
@@ -242,26 +232,23 @@ void model_free(whirl_model *model);
 
 /* --- instances: a scene, or a bare mechanism, with the command line's changes, in numbers -------- */
 
-/* Changes from the command line. Every `const char *` is text as the user typed it ("m=3 [kg]", "theta'=1.2"). A number
- * without a unit has the SI unit of the quantity; it is refused if the declared unit is not SI. */
+/* Changes from the command line, as the user typed them ("m=3 [kg]", "theta'=1.2"). A number without a unit has the SI
+ * unit of the quantity; it is refused if the declared unit is not SI. */
 typedef struct overrides {
     const char *const *sets;
     int set_count; /* --set: parameters and inputs */
     const char *const *starts;
     int start_count; /* --start: coordinates and rates */
     const char *const *values;
-    /* values of all symbols: a parameter or input counts as --set, a coordinate or rate as --start */
-    int value_count;
+    int value_count; /* parameters and inputs (as --set), coordinates and rates (as --start) */
     const char *const *with;
     int with_count; /* effect names added, or "ledger"; "all" adds every effect */
     const char *const *without;
-    /* Effect names removed. "all" is applied first. "conserve" removes the scene's conserve. */
-    int without_count;
+    int without_count; /* effects, "ledger", "conserve" or "all" (applied first) */
     const char *step;  /* "1ms", "1 [ms]", "0.001", or NULL */
     const char *until; /* the end of the scene, or NULL */
-    const char
-        *name;    /* replaces the scene's or mechanism's name, or NULL; must outlive the instance */
-    bool balance; /* true: keep a ledger if the run has contacts, also without `with ledger` */
+    const char *name;  /* replaces the scene's or mechanism's name, or NULL; not copied */
+    bool balance;      /* true: keep a ledger if the run has contacts, also without `with ledger` */
 } overrides;
 
 /* A range in SI numbers, with low < high. */
@@ -273,7 +260,7 @@ typedef struct range_value {
     place at;
 } range_value;
 
-/* A value as it is written, and its place; no value: not given. */
+/* A value as written, and its place; `value` is NULL if it is not given. */
 typedef struct given_value {
     const expr *value;
     place at;
@@ -281,12 +268,10 @@ typedef struct given_value {
 
 typedef struct instance {
     const mechanism *mechanism;
-    const scene *scene; /* NULL for a bare mechanism */
-    const char *name;   /* the scene's name, the mechanism's, or overrides.name */
-    bool *with;         /* [effect_count] */
-    const bool
-        /* [coordinate_count] true: recover the coordinate from its momentum; NULL: none */
-        *conserve;
+    const scene *scene;           /* NULL for a bare mechanism */
+    const char *name;             /* the scene's name, the mechanism's, or overrides.name */
+    bool *with;                   /* [effect_count] */
+    const bool *conserve;         /* [coordinate_count] recovered from its momentum; NULL: none */
     bool ledger;                  /* record the balance of energy and momentum */
     bool balance;                 /* overrides.balance */
     double *parameter;            /* [parameter_count] SI */
@@ -294,8 +279,7 @@ typedef struct instance {
     const expr **parameter_given; /* expressions of the values */
     const expr **input_given;
     given_value **start_given; /* [coordinate_count][order] a start that is not given is 0 */
-    /* [coordinate_count][order] the start in SI: value, rate, ...; order is at least 2 */
-    double **start;
+    double **start;     /* [coordinate_count][order >= 2] value, rate, ... at the start, SI */
     int *start_count;   /* [coordinate_count] entries in start[i] (2 for coordinates) */
     range_value *range; /* [range_count] */
     int range_count;
@@ -307,28 +291,25 @@ typedef struct instance {
     struct arena *arena;
 } instance;
 
-/* Is a statement of the effect with index `within` active? A statement of the mechanism itself (-1) always is. */
+/* Is a statement of the effect with index `within` active? Those of the mechanism itself (-1) always are. */
 bool instance_has(const instance *of, int within);
 
 /* The SI value of a parameter or an input, or the start of a coordinate or its derivative. NAN for other symbols. */
 double instance_value(const instance *of, const symbol *s, int primes);
 
-/* The inactive effect that declared this parameter or input. NULL if the effect is active, or if the symbol belongs to
- * no effect. */
+/* The inactive effect that declared this symbol; NULL if there is none. */
 const effect *instance_lacks(const instance *instance, const symbol *what);
 
-/* Evaluates a scene to numbers. Without a scene (NULL), the mechanism starts at rest at zero. `changes` may be NULL.
- * Returns NULL after an error, reported to `diags`. */
+/* Evaluates a scene to numbers. `scene` NULL: the mechanism, at rest at zero. `changes` may be NULL. NULL on errors. */
 instance *instance_make(const mechanism *mechanism, const scene *scene, const overrides *changes,
                         diags *diags);
-/* A copy in which parameters, inputs and initial values are computed with the current folding_way(). `first` must
- * outlive the copy. Returns NULL if a value is not finite. */
+/* A copy with parameters, inputs and initial values computed with the current folding_way(). `first` must outlive it.
+ * Returns NULL if a value is not finite. */
 instance *instance_again(const instance *first);
 void instance_free(instance *instance);
 
 /* *seconds: a time from the command line, such as `--from 1.5 [s]`, at least 0. `text` may contain parameters, which
- * have their values in the changed scene. `what` is the time's name in messages. Returns false after an error, reported
- * to `diags`. */
+ * have their values in the changed scene. `what`: its name in messages. Returns false after an error. */
 bool instance_duration(const mechanism *mechanism, const scene *scene, const overrides *changes,
                        const char *what, const char *text, diags *diags, double *seconds);
 

@@ -13,7 +13,7 @@ expr *expr_new(parser *in, expr_op op, place at) {
     return made;
 }
 
-/* Returns true if the expression contains pi. Then it is meant in radians. */
+/* An expression with pi is meant in radians. */
 static bool has_pi(const expr *tree) {
     return tree != NULL && ((tree->op == EXPR_NUMBER && tree->number == PI) || has_pi(tree->left) ||
                             has_pi(tree->right));
@@ -81,7 +81,6 @@ bool expr_constant(const expr *tree, double *value) {
     return *value - *value == 0.0;
 }
 
-/* A number without a unit, with or without a sign. */
 static bool is_bare_number(const expr *tree) {
     while (tree->op == EXPR_NEG) {
         tree = tree->left;
@@ -119,7 +118,7 @@ bool check_named(parser *in, place at, const expr *value, dimension wanted, cons
 
 static const char is_declared[] = "'%s' is declared in [%s], and this value has no unit";
 
-/* Reports a bare number that is added to an angle, or compared with it, if the angle is not declared in radians. */
+/* Reports a bare number that is added to or compared with an angle that is not declared in radians. */
 static void check_bare(parser *in, const expr *value, const symbol *angle) {
     const symbol *s = value->symbol;
     const expr *is = s != NULL && s->kind == SYM_LET && s->value != NULL ? s->value : value;
@@ -136,8 +135,8 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 
-/* Reports a missing unit, and returns false. If `with_name` is true, the hint begins with the symbol's name; on the
- * command line only if the name was typed. */
+/* Reports a missing unit, returning false. The hint has the name if `with_name`; on the command line, if the user typed
+ * it. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
     enum { SHOWN_MAX = 60 };
@@ -281,7 +280,7 @@ const expr *expr_binary(parser *in, expr_op op, place at, const expr *left, cons
     return made;
 }
 
-/* Returns true if both expressions have the same operators and operands in the same order. */
+/* Do both have the same operators and operands in the same order? */
 static bool are_same(const expr *a, const expr *b) {
     if (a == NULL || b == NULL || a->op != b->op) {
         return a == b;

@@ -20,7 +20,7 @@ static parser begin(const mechanism *of, const char *text, struct arena *arena, 
     return in;
 }
 
-/* Reads the remaining text. If the value contains no unit, it is SI in the wanted dimension. */
+/* Reads the remaining text. A value without a unit is SI in the wanted dimension. */
 static const expr *parse_quantity(parser *in, dimension wanted, const char *what) {
     const place at = in->token.at;
     const expr *made = parse_expression(in, CONTEXT_CONSTANT);
@@ -41,7 +41,7 @@ static const expr *parse_quantity(parser *in, dimension wanted, const char *what
     return made;
 }
 
-/* Returns true if this option may change the symbol. Otherwise reports the reason. */
+/* May this option change the symbol? If not, reports the reason. */
 static bool check_target(parser *in, override_kind kind, const token *name, const symbol *target) {
     const bool moves = target->kind == SYM_COORDINATE || target->kind == SYM_STATE;
     const bool is_constant = target->kind == SYM_PARAMETER || target->kind == SYM_INPUT;
@@ -109,7 +109,7 @@ const expr *override_quantity(const mechanism *of, const char *what, const char 
     return diags_calls(all) == before ? made : NULL;
 }
 
-/* Returns the coordinate, state or output of this name, or NULL. *primes: the number of primes. */
+/* Returns the coordinate, state or output of this name without its primes (*primes), or NULL. */
 static const symbol *quantity_named(const mechanism *of, const char *name, int *primes) {
     const size_t length = strcspn(name, "'");
     const named *known = names_find(of->names, name, length);

@@ -13,7 +13,7 @@ struct names {
     struct arena *arena;
     named **slots;
     size_t slot_count; /* a power of two */
-    named **entries;   /* the named things, in the order of declaration */
+    named **entries;   /* in the order of declaration */
     int count;
 };
 
@@ -104,7 +104,7 @@ const statement_word *token_statement(const token *each) {
 
 bool parser_is_word(const parser *in, word_id word) { return token_is_word(&in->token, word); }
 
-/* Does the token begin a line, and has its word this rule (ENDS_EFFECT, ...)? Then the word ends the block. */
+/* Does the token begin a line with a word that ends blocks of this rule (ENDS_EFFECT, ...)? */
 static bool parser_leaves(const parser *in, unsigned rule) {
     const statement_word *word = in->token.starts_line ? token_statement(&in->token) : NULL;
     return word != NULL && (word->rules & rule) != 0;
@@ -217,7 +217,7 @@ void parser_skip_statement(parser *in) {
     }
 }
 
-/* "2,5", the decimal comma of some countries: a comma between two digits. */
+/* A comma between two digits: the decimal comma of "2,5". */
 static bool is_decimal_comma(const token *sign) {
     return sign->sign == ',' && sign->at.offset > 0 && isdigit((unsigned char)sign->text[-1]) &&
            isdigit((unsigned char)sign->text[1]);
@@ -244,7 +244,7 @@ const char *parser_operator_hint(const parser *in) {
     if (before == 0 || !whole) {
         return "write products with * and units in brackets: 2*m, 2 [m]";
     }
-    size_t unit = length; /* length of the longest beginning that may be a unit, such as kg/s */
+    size_t unit = length; /* length of the longest prefix that may be a unit, such as kg/s */
     while (!opens && (isalnum((unsigned char)name[unit]) || strchr("*/^", name[unit]) != NULL) &&
            name[unit] != '\0') {
         unit++;

@@ -1,5 +1,4 @@
-/* parser.h: the state of the parser. The lowest layer is parser.h (tokens), then come expressions (expression.h) and
- * statements (statements.h); statements.c is the top. */
+/* parser.h: the state of the parser, and access to tokens; the base of expression.h and statements.h. */
 #ifndef LANG_PARSER_H
 #define LANG_PARSER_H
 
@@ -26,8 +25,7 @@ names *names_new(struct arena *arena);
 named *names_find(const names *all, const char *text, size_t length);
 /* Adds an entry. The name must be new. */
 named *names_add(names *all, const char *text, size_t length);
-/* Offers declared names to the search: those outside effects, and those of effect `effect_index` (-1: of no effect,
- * -2: of all effects). */
+/* Offers declared names to the search: those outside effects, and of effect `effect_index` (-1: none, -2: all). */
 void names_offer(const names *all, int effect_index, nearest *search);
 
 enum { NESTING_MAX = 200 };
@@ -87,7 +85,7 @@ typedef struct parser {
     expr_context context;
     unit_scale number_unit; /* the unit after the last number, and its text */
     const char *number_unit_text;
-    const char *const *around; /* of override_parse() */
+    const char *const *around; /* see override_parse() */
     const char *condition_at;  /* a parenthesis at this place of the text may enclose a condition */
     int effect;                /* index of the current effect, or -1 */
     bool all_effects;          /* a scene may name the parameters of every effect */
@@ -111,7 +109,6 @@ bool parser_is_word(const parser *in, word_id word);
 bool parser_at_end_of_line(const parser *in); /* newline, `;`, end of text */
 bool token_is(const token *each, const char *word);
 bool token_is_word(const token *each, word_id word);
-/* Returns the row of the statement that this token begins, or NULL. */
 const statement_word *token_statement(const token *each);
 bool parser_is_body_word(const parser *in); /* begins a statement of a file, mechanism or effect */
 /* Expects this word. If it is missing, reports this with the statement's form as a hint, and returns false. */
@@ -120,7 +117,7 @@ bool parser_expect_word(parser *in, word_id word, word_id statement);
 bool parser_fail(parser *in, const char *hint, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 bool parser_expect_sign(parser *in, int sign, const char *where);
-/* Writes the name of the token for messages, such as "'x'" or "the end of the line". */
+/* Returns the token for messages, such as "'x'" or "the end of the line". */
 const char *token_words(const parser *in, const token *each);
 /* Returns the hint "did you mean 'NAME'?", or `otherwise` if no name is similar. */
 const char *parser_nearest(const parser *in, const nearest *search, const char *otherwise);
@@ -128,8 +125,7 @@ const char *parser_nearest(const parser *in, const nearest *search, const char *
 void parser_skip_statement(parser *in);
 void parser_skip_lines(parser *in);    /* skip empty lines, and `;` */
 void parser_skip_newlines(parser *in); /* skip empty lines only */
-/* Skips to the next statement of a block that words with `rule` end. Returns false after the last one; *closed: '}' is
- * the current token. */
+/* Skips to the next statement of a block. Returns false at '}' (*closed), at a word with `rule`, and at the end. */
 bool parser_in_block(parser *in, unsigned rule, bool *closed);
 /* Returns the hint for a missing operator before the current name, number or '('. */
 const char *parser_operator_hint(const parser *in);

@@ -5,7 +5,7 @@
 #include "host/lang/statements.h"
 #include "host/lang/value.h"
 
-/* Reads the name of a symbol of the mechanism. *found is NULL if the name is unknown (reported). */
+/* *found is NULL if the name is unknown (reported) */
 static bool scene_take_symbol(parser *in, draft *into, const statement_word *word, token *name,
                               named **found);
 /* Reads ITEM {, ITEM}. A line may end after a comma. */
@@ -89,7 +89,7 @@ static bool range_item(parser *in, const statement_word *word) {
         return true;
     }
     static const char *const nothing[] = {"", ""};
-    in->around = nothing; /* the hint for a missing unit is one end, without the name */
+    in->around = nothing; /* hints quote one end of the range, without the name */
     low = with_unit(in, low, high);
     if (check_value(in, low_at, low, &found->symbol, &name) &&
         check_value(in, high_at, high, &found->symbol, &name)) {
@@ -104,7 +104,6 @@ bool read_range(parser *in, const statement_word *word) { return scene_list(in, 
 
 /* === the lists of a scene: with, set, start, conserve ========================================= */
 
-/* Reports "WORD needs a name", and returns false. */
 static bool scene_fail_name(parser *in, const statement_word *word) {
     return parser_fail(in,
                        in->token.kind == TOKEN_NUMBER
@@ -187,8 +186,7 @@ static bool set_item(parser *in, const statement_word *word) {
     return true;
 }
 
-/* Reports a symbol that the scene sets if its effect is not selected. This is checked at the end of the scene, because
- * `with` may come after `set`. */
+/* Reports set symbols of effects that are not selected; at the scene's end, because `with` may follow `set`. */
 static void scene_check_sets(parser *in, const draft *read) {
     const scene *made = read->made;
     for (int i = 0; i < made->set_count; i++) {

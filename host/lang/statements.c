@@ -146,8 +146,8 @@ bool read_equation(parser *in, const statement_word *word) {
 
 /* === checks of a complete mechanism =========================================================== */
 
-/* If `in` is NULL, raises the order of each state to its highest derivative in an equation. Otherwise reports a higher
- * derivative in an output. Each let is visited once. EXPR_HEIGHT_MAX bounds the recursion. */
+/* If `in` is NULL, raises the order of each state to its highest derivative in an equation. Otherwise reports a
+ * derivative in an output above that order. Visits each let once. EXPR_HEIGHT_MAX bounds the recursion. */
 static void walk_orders(parser *in, const expr *tree) {
     if (tree == NULL) {
         return;
@@ -203,7 +203,7 @@ static void finish_system(parser *in, builder *done) {
     }
 }
 
-/* Finds a T in the mechanism or its effects. Whether a scene has a T is checked when its equations are derived. */
+/* Does the mechanism or an effect have a T? host/derive checks this for each scene. */
 static bool has_kinetic_energy(const mechanism *made) {
     for (int i = 0; i < made->term_count; i++) {
         if (made->terms[i].kind == TERM_T) {
@@ -239,7 +239,7 @@ static void finish_mechanism(parser *in, builder *done) {
 static bool read_statement(parser *in, unsigned where);
 
 static bool parse_name(parser *in, effect *made) {
-    /* words that have a meaning of their own in a list of effects */
+    /* words with a special meaning in a list of effects */
     static const struct {
         word_id word;
         const char *as;
@@ -348,7 +348,7 @@ static bool read_mechanism(parser *in, const statement_word *word) {
     return parser_end_statement(in, "the mechanism's title");
 }
 
-/* Stores the place of the scene and skips the scene, because it may name later effects. */
+/* Skips a scene, and stores its place: a scene may name later effects. */
 static bool note_scene(parser *in, const statement_word *word) {
     (void)word;
     if (in->pending_count == SCENES_MAX) {
@@ -374,7 +374,7 @@ static bool note_scene(parser *in, const statement_word *word) {
 static statement_reader *const readers[] = {BODY_WORD_ROWS(READER)};
 #undef READER
 
-/* Coordinates need energies, and states need equations. A mechanism must not mix them. */
+/* Records whether the mechanism has energies or equations, and reports a mix. */
 static void note_way(parser *in, const statement_word *word) {
     builder *into = in->builder;
     if (into == NULL) {
@@ -410,7 +410,6 @@ static bool read_statement(parser *in, unsigned where) {
     return readers[word - word_row((word_id)0)](in, word);
 }
 
-/* Reads a statement outside all blocks. */
 static bool read_outside(parser *in) {
     const bool in_file = parser_is_word(in, WORD_MECHANISM) || parser_is_word(in, WORD_SCENE);
     if (in->builder == NULL && !in_file) {

@@ -1,6 +1,5 @@
-/* statements.h: the readers of statements, one for each row of words.h. The current token is the one after the
- * statement's word. A reader that gives up inside the statement reports the error and returns false; its caller then
- * skips to the next statement. */
+/* statements.h: the readers of statements, one for each row of words.h, called at the token after the statement's word.
+ * After an error that ends the statement, a reader returns false, and its caller skips to the next statement. */
 #ifndef LANG_STATEMENTS_H
 #define LANG_STATEMENTS_H
 
@@ -18,11 +17,10 @@ statement_reader read_noise;                             /* declare.c */
 /* Reports that the contact cannot be combined with state and equation. */
 void contact_on_system(parser *in, const contact_statement *each);
 
-/* Returns false for two different effects, because a scene may select only one of them. The mechanism itself (-1) is
- * always active. */
+/* False for two different effects: a scene may select only one of them. -1, the mechanism itself, is always active. */
 static inline bool always_meet(int one, int other) { return one == other || one < 0 || other < 0; }
 
-/* Reads the whole text except the scenes, which are read last: they may name effects that come later. */
+/* Reads the text. Scenes are only noted: they are read last, because they may name later effects. */
 void read_file(parser *in);                                      /* statements.c */
 void finish_inputs(parser *in, mechanism *made);                 /* derivative.c */
 void read_noted_scene(parser *in, const pending_scene *pending); /* scene_block.c */

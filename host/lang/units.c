@@ -100,7 +100,7 @@ static const unit_entry units[] = {
 };
 enum { UNIT_COUNT = sizeof units / sizeof units[0] };
 
-/* Other spellings of units, and the name to write instead. */
+/* Other spellings of units, and the unit to write instead. */
 static const struct {
     const char *written;
     const char *meant;
@@ -157,8 +157,7 @@ static const unit_entry *find_unit(const char *name, size_t length) {
     return NULL;
 }
 
-/* Encloses a factor of the table. Whole numbers are exact. Other factors are decimals, or multiples of pi, rounded to
- * the nearest double. */
+/* Encloses a factor of the table: whole numbers are exact, decimals and multiples of pi are the nearest double. */
 static enclosure exact_factor(double factor) {
     return number_nearest(factor) == factor ? enclosure_of(factor) : enclosure_about(factor, 1);
 }
@@ -264,7 +263,7 @@ static bool read_product(reader *in, unit_scale *result);
 
 #define BARE "leave the brackets out: a number without them has no unit"
 
-/* Returns true if the text consists of this sign and blanks only. */
+/* Does the text consist of this sign and blanks only? */
 static bool is_all(const reader *in, const char *sign) {
     const size_t blanks = strspn(in->text, " ");
     return strncmp(in->text + blanks, sign, strlen(sign)) == 0 &&
@@ -573,7 +572,7 @@ static dimension dim_of_quantity(quantity_id which) {
     return dim_of(e[DIM_LENGTH], e[DIM_MASS], e[DIM_TIME], e[DIM_CURRENT], e[DIM_TEMPERATURE]);
 }
 
-/* Returns the row of this dimension; the row of NUMBER if the dimension has no name. */
+/* Returns the row of this dimension, or the row of NUMBER if it has no name. */
 static const quantity_row *find_quantity(dimension dim) {
     for (int i = 0; i < QUANTITIES; i++) {
         if (same_exponents(dim, dim_of_quantity((quantity_id)i))) {

@@ -9,8 +9,8 @@
 
 /* === physical quantities: their names in messages, if unambiguous, and their usual units ====== */
 
-/* X(id, exponents of m, kg, s, A and K, name in messages, unit in hints, unit in records and the balance). "" instead
- * of a name: there is none. "" instead of a unit: base units are shown. */
+/* X(id, exponents of m, kg, s, A and K, name in messages, unit in hints, unit in records and the balance). A name ""
+ * means that there is none; a unit "", that base units are shown. */
 #define QUANTITY_ROWS(X) \
     X(NUMBER, 0, 0, 0, 0, 0, "", "", "") \
     X(ANGLE, 0, 0, 0, 0, 0, "", "", "") \
@@ -57,7 +57,6 @@ typedef struct dimension {
     bool unknown; /* contains a reported error: fits every dimension, to avoid more reports */
 } dimension;
 
-/* A dimension with whole exponents. */
 dimension dim_of(int length, int mass, int time, int current, int temperature);
 dimension dim_none(void);
 dimension dim_energy(void); /* also the dimension of torque */
@@ -70,7 +69,7 @@ bool dim_is_none(dimension dim); /* dimensionless, zero or unknown */
 bool dim_multiply(dimension a, dimension b, dimension *product);
 bool dim_divide(dimension a, dimension b, dimension *quotient);
 bool dim_power(dimension base, double exponent, dimension *power);
-/* Computes the dimension of a time derivative: `of` divided by time once for each prime. */
+/* The dimension of the derivative with `primes` primes: `of` / time^primes. */
 bool dim_derivative(dimension of, int primes, dimension *derivative);
 
 /* Writes the dimension for messages: "force [kg*m/s^2]", "[kg/s]" or "dimensionless". Returns `buffer`. */
@@ -83,8 +82,7 @@ char *dim_unit(dimension dim, char *buffer, size_t size);
 char *dim_recorded_unit(dimension dim, char *buffer, size_t size);
 #define DIM_TEXT_SIZE 128
 
-/* SI value = number * scale / divisor. With two factors, 7 [ms] is 7/1000 with a single rounding. scale/divisor lies
- * between 1e-200 and 1e200. */
+/* SI value = number * scale / divisor: 7 [ms] is 7/1000, rounded once. scale/divisor is from 1e-200 to 1e200. */
 typedef struct unit_scale {
     double scale;
     double divisor;
@@ -108,8 +106,7 @@ bool unit_is_si(unit_scale u);
 /* Returns the name of unit `index`, counted from 0, or NULL after the last. */
 const char *unit_name(int index);
 
-/* Writes the name of the SI unit (or base units) of unit `index`, cut to `size` bytes; returns `buffer`. *value: the
- * unit in SI. */
+/* Writes the SI unit (or base units) of unit `index`, cut to `size` bytes; returns `buffer`. *value: the unit in SI. */
 char *unit_in_si(int index, double *value, char *buffer, size_t size);
 
 /* True if the text is a unit of angle: rad, deg or rev. */

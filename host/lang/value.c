@@ -62,9 +62,8 @@ char *shown_written(const expr *given) {
     }
     const char *text = leaf->at.source->text;
     size_t at = leaf->at.offset;
-    while (at > 0 &&
-           /* back to the beginning of the value, before signs, parentheses and a function's name */
-           strchr("=\n", text[at - 1]) == NULL) {
+    /* back over signs, parentheses and a function's name */
+    while (at > 0 && strchr("=\n", text[at - 1]) == NULL) {
         at--;
     }
     at += strspn(text + at, " \t");
@@ -106,8 +105,7 @@ char *shown_assignment(const symbol *s, int primes, const char *number) {
 
 enum {
     NAME_BUFFER = 100,
-    /* largest valuation.depth; bounds the recursion */
-    DEPTH_MAX = 20000
+    DEPTH_MAX = 20000 /* most valuation.depth; bounds the recursion */
 };
 
 valuation valuation_new(const mechanism *of, struct arena *arena, diags *all) {

@@ -6,8 +6,8 @@
 
 /* === units of displayed numbers: the declared unit, or SI ===================================== */
 
-/* The display unit of an output, of a coordinate or state, or of its derivative with `primes` primes. It is the
- * declared unit; a derivative adds per second: [deg] becomes deg/s, deg/s^2. Without a declared unit it is SI. */
+/* The display unit of an output, coordinate or state, or of its derivative: the declared unit, per second for each
+ * prime ([deg]: deg/s, deg/s^2); SI if none is declared. */
 unit_scale shown_unit(const symbol *s, int primes);
 
 /* Returns the name of the display unit, such as "deg/s", "kg*m/s^2", "rad" or "1". The caller frees it. */
@@ -16,20 +16,20 @@ char *shown_unit_name(const symbol *s, int primes);
 /* Returns the name of the SI unit of the same quantity. The caller frees it. */
 char *shown_si_name(const symbol *s, int primes);
 
-/* Returns the text of a value as it stands in the file or on the command line, such as "0.72 [lb]", with single
- * blanks. NULL if there is no text. The caller frees it. */
+/* Returns the text of a value in the file or on the command line, such as "0.72 [lb]", with single blanks, or NULL if
+ * there is no text. The caller frees it. */
 char *shown_written(const expr *given);
 /* As shown_written(), for a formula. NULL for a single number, with or without a unit. */
 char *shown_formula(const expr *given);
 
-/* Returns an assignment such as "theta'=3 [rad/s]" in the form of an option; `number` is SI. The unit is omitted if the
- * declared unit is SI. The caller frees the text. */
+/* Returns an assignment in the form of an option, such as "theta'=3 [rad/s]", without the unit if the declared unit is
+ * SI. `number` is SI. The caller frees the text. */
 char *shown_assignment(const symbol *s, int primes, const char *number);
 
 /* Writes the SI unit of a dimension to text[size], such as "rad", "m/s", "kg*m^2/s^2" or "1". Returns `text`. */
 const char *dimension_unit(dimension dim, bool is_angle, char *text, size_t size);
 
-/* The parameters of one run. Values are computed on demand: a `set` may name a parameter declared later. */
+/* The parameters of one run, evaluated on demand: a `set` may name a parameter declared later. */
 typedef struct valuation {
     const mechanism *of;
     const expr **parameter_expr;  /* [parameter_count] */

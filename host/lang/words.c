@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* Defines name(kind), which returns an entry of one column of the rows. */
+/* Defines name(kind), which returns the entry of `row`, one column of the rows. */
 #define COLUMN(name, kinds, rows, row) \
     const char *name(kinds kind) { \
         static const char *const text[] = {rows(row)}; \
@@ -133,7 +133,7 @@ _Static_assert(sizeof rows / sizeof rows[0] == WORD_COUNT, "a row for each word"
 const statement_word *word_row(word_id id) { return &rows[id]; }
 
 bool word_is(word_id id, const char *text, size_t length) {
-    /* compare the first letters first, because most words differ in them */
+    /* fast: most words differ in the first letter */
     const char *word = rows[id].text;
     return length > 0 && word[0] == text[0] && strlen(word) == length &&
            memcmp(word, text, length) == 0;

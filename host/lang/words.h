@@ -1,7 +1,5 @@
-/* words.h: the words of the language. A new statement is a row of BODY_WORD_ROWS or SCENE_WORD_ROWS and the function
- * that reads it. A new word inside a statement is a row of INNER_WORD_ROWS. From the rows the parser knows where a word
- * is allowed, whether it ends a block with a forgotten brace, whether it is reserved, and which word a misspelt one
- * resembles. docs/language.md must list all words. */
+/* words.h: the words of the language. A new statement is a row of BODY_WORD_ROWS or SCENE_WORD_ROWS and its reader. A
+ * new word inside a statement is a row of INNER_WORD_ROWS. docs/language.md must list all words. */
 #ifndef LANG_WORDS_H
 #define LANG_WORDS_H
 
@@ -76,10 +74,9 @@ enum {
 
 /* Rules of a word. */
 enum {
-    RESERVED = 1, /* not available as a user's name */
-    DECLARES = 2, /* declares the name after it */
-    /* if the word is at the beginning of a line inside an effect, the effect's brace is missing */
-    ENDS_EFFECT = 4,
+    RESERVED = 1,      /* not available as a user's name */
+    DECLARES = 2,      /* declares the name after it */
+    ENDS_EFFECT = 4,   /* begins a line in an effect: the effect's '}' is missing */
     ENDS_SCENE = 8,    /* the same, for a scene */
     ENDS_WHEN = 16,    /* the same, for a `when` */
     INTO_EFFECT = 32,  /* in a scene, the message says that the statement belongs into an effect */
@@ -92,7 +89,7 @@ enum {
 /* Statements of files, mechanisms and effects. A misspelt word is compared with them in this order.
  *
  *   word    its spelling. WORD_COORDINATE is the constant of `coordinate`.
- *   where   the blocks that allow the statement.
+ *   stands  the blocks that allow the statement.
  *   rules   other rules, from the list above.
  *   reader  the function that reads the part after the word (statements.h).
  *   kind    the kind of the result: symbol_kind, term_kind or contact_kind, as the reader expects.
@@ -178,7 +175,6 @@ typedef enum word_id {
 
 #define WORD_ONE(...) +1
 enum {
-    /* the words of statements come first */
     STATEMENT_WORDS = 0 BODY_WORD_ROWS(WORD_ONE) SCENE_WORD_ROWS(WORD_ONE),
     WORD_COUNT = STATEMENT_WORDS INNER_WORD_ROWS(WORD_ONE)
 };
