@@ -4,10 +4,10 @@
 
 #include "contact_resolve.h"
 
-/* Finds the contacts that are active at the start of a run, before any impact or capture: stops that touch, within the
- * error of their gaps, and holds with a true condition. A condition at its limit counts as true, unless the motion of
- * the held expression makes it false. Bit sets: *still gets the contacts at rest, *moving the others; stops in `pushed`
- * count as touching. work->law must have been evaluated at the state. */
+/* Finds the contacts that act at the start of a run, before impacts and captures: *still gets, as bits, those at rest,
+ * *moving the closing stops and moving holds. A stop acts if its gap is at most round-off, or if it is in `pushed`
+ * (bits). A hold acts if its condition is positive, or zero within round-off and not falling. work->law must belong to
+ * `s`. */
 static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned pushed, const wh_real *signal,
                                           const wh_real *input, wh_contact_state *s,
@@ -35,11 +35,10 @@ static inline void wh_contact_first_touch(const wh_contact_system *of, const wh_
     }
 }
 
-/* Sets the modes at the start of a run and after a correction (wh_scene_set_real()). A body beyond a stop is put back
- * onto it. Contacts at rest stay at rest if the forces keep them there. Then closing stops are hit, and holds with a
- * true condition capture: *hit gets these contacts as bits, impulse[forced] their impulses. Returns the number of
- * moments that count towards WH_EVENTS_MAX: one if a body was put back onto a stop, and one if contacts at rest and
- * moving contacts were resolved separately. */
+/* Sets the modes at the start of a run and after wh_scene_set_real(). A body beyond a stop is first moved back onto it.
+ * Then contacts at rest become active if the forces keep them closed. Last, closing stops are hit and moving holds
+ * capture: *hit gets these contacts as bits, impulse[forced] their impulses. Returns the number of moments that count
+ * towards WH_EVENTS_MAX: one for a body moved back, and one if contacts at rest and moving contacts were resolved. */
 static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *s, unsigned *hit,
                                         wh_real *impulse) {
@@ -54,7 +53,7 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
     bool below = false;
     *hit = 0;
     for (unsigned k = 0; k < of->contacts; k++) {
-        w->mode[k] = 0; /* 0: a free stop or hold, a stuck friction, a crossing without a sign */
+        w->mode[k] = 0; /* 0: a free stop or hold, a stuck friction, an undecided crossing */
     }
     if (wh_contact_any_of(of, WH_FRICTION)) {
         wh_contact_slide(of, w, 0, WH_R(0.0), wh_contact_rates(of, s));
@@ -79,7 +78,7 @@ static inline unsigned wh_contact_begin(const wh_contact_system *of, wh_contact_
     m.events = still & wh_contact_which(of, w, WH_HOLD, false);
     wh_contact_set_modes(of, w, still & ~m.events, WH_ACTIVE);
     (void)wh_contact_resolve(of, w, &m, input, s, impulse);
-    for (unsigned k = 0; k < of->forced; k++) { /* is a body beyond a resting stop? */
+    for (unsigned k = 0; k < of->forced; k++) {
         below = below || (wh_contact_of(of, k, WH_STOP) && w->mode[k] == WH_ACTIVE &&
                           signal[2 * k] < WH_R(0.0));
     }

@@ -1,15 +1,15 @@
-/* contact_crossing.h: the assignments of crossings, and the side of zero on which each crossing's value is.
+/* contact_crossing.h: the assignments of crossings, and the signs of their values.
  *
- * A crossing's mode is the sign of its value, +1 or -1. The time of a crossing is located with an error, so after the
- * event the value is not exactly zero. If the value then turns back or stands still, it may pass zero again because of
- * this error. Both passages count as one crossing. */
+ * A crossing's mode is the sign of its value, +1 or -1, or 0 while the sign is undecided. The located time has an
+ * error, so the value after the event is not exactly zero. If the value then reverses or stays constant, this error may
+ * make it pass zero twice. Both passages count as one crossing. */
 #ifndef WH_CONTACT_CROSSING_H
 #define WH_CONTACT_CROSSING_H
 
 #include "contact_impact.h"
 #include "contact_locate.h"
 
-/* Evaluates all values that a crossing assigns, then assigns them. */
+/* Reverses the sign of crossing k and makes its assignments. All values are evaluated before the first assignment. */
 static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_work *w, unsigned k,
                                      const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -43,13 +43,12 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
         }
     }
     wh_books_levels(of, w, s, input, k, WH_R(1.0));
-    /* the change of the signals shows which contacts the assignment moved */
     wh_contact_point_of(of, s, &at);
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, after);
     w->mover = k;
     for (unsigned l = 0; l < of->forced; l++) {
         const bool same = after[2 * l] == before[2 * l] && after[2 * l + 1] == before[2 * l + 1];
-        /* a hold's value may have changed although its signals did not */
+        /* a hold's expression may have changed although its signals did not */
         w->moved |= same && !(moves && wh_contact_slips(of, w, l)) ? 0U : 1U << l;
     }
     unsigned onto = 0; /* bits: crossings whose values were set to zero */
@@ -63,10 +62,10 @@ static inline void wh_contact_assign(const wh_contact_system *of, wh_contact_wor
     w->stands |= onto | (w->located || after[2 * k] == WH_R(0.0) ? 1U << k & ~sides : 0U);
 }
 
-/* Sets the signs of the crossings in work->stands. Their values are zero, or past zero by the error of location. If the
- * value moves back towards its old side, the crossing has turned back: its return over zero is no second crossing. The
- * first derivative of the value decides, or the second if the first is zero. If both are zero, the crossing stands
- * still and its sign is undecided. */
+/* Decides the signs of the crossings in work->stands, whose values are zero within the error of location. The sign is
+ * that of the value's first derivative, or of the second if the first is zero; if both are zero, it stays undecided. A
+ * sign other than that of the event means that the value returns over zero: work->slack and work->due prevent a second
+ * event. */
 WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                    const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;
@@ -89,7 +88,7 @@ WH_APART void wh_contact_turn_back(const wh_contact_system *of, wh_contact_work 
                     w->mode[k] = (int8_t)-w->mode[k];
                     /* never 0, because 0 means that the crossing has not turned back */
                     w->slack[k] = WH_R(2.0) * WH_ABS(now[2 * k]) + WH_R(1e-30);
-                    /* larger for a second derivative, which may vanish at once, for example if friction sticks */
+                    /* wider for a second derivative, which may vanish at once, for example if friction sticks */
                     w->due[k] = w->slack[k] + (order == 2 ? WH_ABS(gain) / 64 : WH_R(0.0));
                 }
             }
@@ -112,8 +111,8 @@ WH_INLINE void wh_contact_remember(const wh_contact_system *of, const wh_real *s
     }
 }
 
-/* If the projection of a stop moved the value of a crossing by more than its distance from zero, the crossing changes
- * sides without an event. */
+/* Sets the sign of a crossing in work->stands without an event, if the projection of a stop changed the value by more
+ * than its magnitude. before[] are the signals before the projection. */
 WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *before, const wh_real *signal) {
     unsigned sides = 0;
@@ -125,9 +124,9 @@ WH_INLINE void wh_contact_carry(const wh_contact_system *of, wh_contact_work *w,
     w->stands &= ~sides;
 }
 
-/* Sets the sign of each crossing without an event to the sign of its value. Two kinds of crossings stay undecided: a
- * crossing that turned back, until its value is more than work->due from zero; and a crossing that stands, until its
- * value has moved by more than |work->stood|. */
+/* Sets the sign of each crossing without an event to that of its value. Two kinds stay undecided: a crossing that
+ * turned back, until its value is farther than work->due from zero; and a crossing without a sign, until its value has
+ * changed by more than |work->stood|. */
 WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
                                wh_contact_work *w) {
     unsigned passed = 0;
@@ -143,7 +142,7 @@ WH_INLINE void wh_contact_pass(const wh_contact_system *of, const wh_margins *m,
     wh_contact_set_sides(of, w, passed, m->signal);
 }
 
-/* Saves the values of crossings with an undecided sign, at the begin of a trial step from `s`. */
+/* Saves the values of all crossings at the start `s` of a trial step in work->stood, if a sign is undecided. */
 WH_INLINE void wh_contact_stand(const wh_contact_system *of, wh_contact_work *w,
                                 const wh_real *input, wh_contact_state *s) {
     wh_contact_point at;

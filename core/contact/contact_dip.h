@@ -4,23 +4,24 @@
 
 #include "contact_locate.h"
 
-/* A trial step over the rest of a step: from `now` to `next`. */
+/* A trial step from `now` to `next`. */
 typedef struct wh_contact_attempt {
     wh_contact_state now;
     wh_contact_state next;
     wh_real span;       /* length of the trial step, s; wh_contact_attempt_dipped() sets it */
     wh_margins margins; /* at `next` */
-    /* Bits: free stops that open at the end. Extrapolated back from there, the gap is negative at the begin. */
+    /* bits: free stops that open at `next` and, from their gap and its rate there, may have been closed before */
     unsigned leaving;
-    unsigned dips; /* subset of `leaving`, as bits: open at both ends, perhaps closed in between */
-    int fault;     /* if !sound: the component that left its bounds */
-    bool made;     /* the trial step was computed */
-    bool sound;    /* the trial step's end is within bounds */
+    unsigned
+        dips;  /* bits: those of `leaving` that are open at both ends, perhaps closed in between */
+    int fault; /* if !sound: the component that left its bounds */
+    bool made;
+    bool sound; /* `next` is within bounds */
 } wh_contact_attempt;
 
-/* Returns the share of the trial step at which the tangents to the gap at both ends meet; *least gets their common
- * value. If the gap's curve is convex, as for a body that passes a round obstacle, *least is a lower bound of the gap.
- * gap[2] and rate[2] are the values at the ends, which are h seconds apart. */
+/* Intersects the tangents to the gap at both ends of a trial step. Returns the time of their intersection as a fraction
+ * of h; *least gets their value there. If the gap is convex in time, as for a body that passes a round obstacle, *least
+ * is a lower bound of the gap. gap[2] and rate[2] are the values at the ends, which are h seconds apart. */
 WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, wh_real h,
                                       wh_real *least) {
     const wh_real share = (gap[1] - gap[0] - rate[1] * h) / ((rate[0] - rate[1]) * h);
@@ -28,9 +29,9 @@ WH_INLINE wh_real wh_contact_tangents(const wh_real *gap, const wh_real *rate, w
     return share;
 }
 
-/* Finds stops that a body hit although they open at the end of the trial step. If the gap is negative at the end, and
- * was open or closing at the begin, the stop was hit: its margin becomes negative. If the gap is open at both ends, but
- * closes at the begin, the stop may have been hit in between: a->dips gets it. */
+/* Finds impacts on the stops in a->leaving. If the gap was positive or closing at `now` and is negative at `next`, the
+ * stop was hit, and its margin becomes negative. If the gap is positive at both ends and the tangents meet below zero,
+ * the stop may have been hit in between: a->dips gets it. */
 WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact_work *w,
                                          wh_real span, const wh_real *input,
                                          wh_contact_attempt *a) {
@@ -63,12 +64,11 @@ WH_INLINE void wh_contact_attempt_dipped(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Returns the share of the trial step at which the first of a->dips is found closed, or 1 if all stay open. Each probe
- * is a point of the path, and replaces the end whose rate has the same sign. The search ends if the tangents meet above
- * zero. Odd probes are at the point where the tangents meet, which is the lowest point of a gap shaped like a square
- * root. Even probes are at the zero of a linear rate, which is the lowest point of a parabola. After a probe inside the
- * obstacle, the next one is halfway back to the surface, because the gap of a round post may be undefined at its
- * centre. */
+/* Searches the gaps of the stops in a->dips for a negative value. Returns the earliest such time as a fraction of the
+ * trial step, or 1. Each probe replaces the end of the interval at which the rate has the same sign. Probes alternate
+ * between the intersection of the end tangents, which suits a distance sqrt(x^2 + y^2), and the zero of a linear rate,
+ * which suits a parabola. After a probe with a negative gap, the next one is halfway back to the surface, because the
+ * gap of a round post may be undefined at its centre. The search ends if the tangents meet above zero. */
 WH_APART wh_real wh_contact_dip(const wh_contact_system *of, wh_contact_attempt *a,
                                 const wh_real *input) {
     const wh_real h = a->span;

@@ -4,10 +4,10 @@
 
 #include "contact_lcp.h"
 
-/* Shares the load with the redundant contacts `repeats` (bits of indices in member[]), which have no force so far. Does
- * nothing unless another contact is overloaded, or the redundant contacts contradict the others. work->force gets the
- * shares; for a contact that gives way, the limit plus the excess. The accelerations change only after a
- * contradiction. */
+/* Distributes the load over all contacts in member[], if a force exceeds its limit or a redundant contact contradicts
+ * the others. The redundant contacts are `repeats` (bits of indices in member[]); their forces are zero so far.
+ * work->force gets the new forces; a contact that gives way gets its limit plus the excess. accel[] changes only after
+ * a contradiction. */
 WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, unsigned repeats,
                                       wh_real *accel) {
@@ -40,7 +40,7 @@ WH_APART void wh_contact_redistribute(const wh_contact_system *of, wh_contact_wo
         if ((giving >> k & 1U) != 0) {
             w->force[k] -= left[i] / wh_delassus_diagonal(of, w, k);
             if (!wh_contact_exceeds(of, w, k, w->force[k])) {
-                /* round-off hides the excess: replace it by a larger one */
+                /* round-off hides the excess: use a larger one */
                 w->force[k] += left[i] < WH_R(0.0) ? WH_CONTACT_SHOWS * WH_ABS(lambda[i])
                                                    : -WH_CONTACT_SHOWS * WH_ABS(lambda[i]);
             }
@@ -96,7 +96,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     wh_books_stage(of, w, phase, linear, rate, input);
 }
 
-/* Evaluates the accelerations, forces and signals at a state, with the modes in work. */
+/* Evaluates the accelerations, forces and signals at state `s`, in the modes of work. */
 static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work *w,
                                    wh_contact_state *s, const wh_real *input, wh_real *accel,
                                    wh_real *signal) {
@@ -110,10 +110,10 @@ static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work 
     wh_contact_signals(of, at.phase, at.linear, at.rate, input, signal);
 }
 
-/* Solves for all impulses at once. After them J_k q' is target[k] for the contacts in `set` (bits), and zero for active
- * contacts other than frictions and for the free stops in `beside` (bits). Stops push and do not pull, so a gap may
- * open faster than that. work->law must have been evaluated at this position. The impulses are added to
- * impulse[forced]. Returns, as bits, the stops that would have to pull. */
+/* Solves for all impulses at once, adds them to impulse[forced] and applies them to rate[]. Afterwards J_k q' is
+ * target[k] for contacts in `set` (bits). It is zero for free stops in `beside` (bits) and for active contacts other
+ * than frictions. A gap may open faster, because stops do not pull. Returns, as bits, the stops that would have to
+ * pull. work->law must belong to the position. */
 static inline unsigned wh_contact_impulses(const wh_contact_system *of, wh_contact_work *w,
                                            unsigned set, unsigned beside, const wh_real *target,
                                            wh_real *rate, wh_real *impulse) {

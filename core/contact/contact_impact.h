@@ -4,17 +4,17 @@
 
 #include "contact_project.h"
 
-/* A rate counts as zero if it is below this share of the change of rates by an impact or by friction. */
+/* A rate counts as zero below this fraction of the rate change that an impact or friction causes. */
 #define WH_CONTACT_STILL (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-4))
 
-/* Two gaps close at the same moment if they differ by at most this share of the sum of their terms' magnitudes. */
+/* Two gaps close at the same time if they differ by at most this fraction of the sum of their terms' magnitudes. */
 #define WH_CONTACT_TIE (WH_DOUBLE ? WH_R(0x1p-50) : WH_R(0x1p-21))
 
 typedef struct wh_contact_moment {
     unsigned events; /* contacts with an event, as bits */
     unsigned falls;  /* resting stops that are to open, as bits */
     wh_real h;       /* length of the step, s */
-    bool last;       /* the last moment of the step: a stop that is hit must rest */
+    bool last;       /* the step allows no more moments, so a stop that is hit must rest */
 } wh_contact_moment;
 
 WH_INLINE void wh_contact_set_modes(const wh_contact_system *of, wh_contact_work *w, unsigned bits,
@@ -24,7 +24,7 @@ WH_INLINE void wh_contact_set_modes(const wh_contact_system *of, wh_contact_work
     }
 }
 
-/* Sets the side of zero of the crossings in `bits`. A crossing whose value is zero keeps its side. */
+/* Sets the signs of the crossings in `bits` to those of their values. A zero value leaves the sign unchanged. */
 WH_INLINE void wh_contact_set_sides(const wh_contact_system *of, wh_contact_work *w, unsigned bits,
                                     const wh_real *signal) {
     WH_UNROLL
@@ -58,8 +58,8 @@ static inline wh_real wh_contact_terms(const wh_contact_system *of, const wh_con
     return size;
 }
 
-/* Returns the acceleration with which the forces would close the gap of stop k. Values within the round-off of the
- * other contacts' forces count as zero. work->law and accel[] must have been evaluated at the state. */
+/* Returns the acceleration towards stop k, or zero if it is within the round-off of the other contacts' forces.
+ * work->law and accel[] must belong to the state. */
 static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_contact_work *w,
                                           unsigned k, const wh_real *accel) {
     const wh_real bias = wh_contact_law(of, w, k)[WH_LAW_BIAS];
@@ -70,8 +70,8 @@ static inline wh_real wh_contact_pressing(const wh_contact_system *of, const wh_
     return WH_ABS(pressing) <= none ? WH_R(0.0) : pressing;
 }
 
-/* Returns true if the flight of stop k after a bounce with `speed` would be too short (WH_REST_SHARE), given the
- * acceleration that presses the body onto the stop. */
+/* True if stop k comes to rest instead of bouncing with `speed`: a force presses the body onto the stop, and the flight
+ * would be shorter than WH_REST_SHARE of the step, or m->last is set. Without such a force, `speed` must be zero. */
 static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_contact_moment *m, wh_real speed,
                                     const wh_real *accel, const wh_real *rate) {
@@ -83,9 +83,8 @@ static inline bool wh_contact_rests(const wh_contact_system *of, const wh_contac
     return pressing > WH_R(0.0) && (m->last || speed + speed <= pressing * (m->h * WH_REST_SHARE));
 }
 
-/* Returns resting stops that merely touch, as bits: they have a restitution, and no force presses them. An impulse
- * through such a stop is an impact of its own in the next round, as in Newton's cradle. work->force must be up to
- * date. */
+/* Returns, as bits, the resting stops that have a restitution and carry no load. After their release, an impulse
+ * through such a stop is a separate impact in the next round, as in Newton's cradle. work->force must be up to date. */
 static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned resting, const wh_real *accel) {
     unsigned bits = 0;
@@ -102,8 +101,8 @@ static inline unsigned wh_contact_loose(const wh_contact_system *of, const wh_co
     return bits;
 }
 
-/* Returns, as bits, the free stops that touch and close, within the error of their gaps and rates. All of them are hit
- * at the same moment, so the result does not depend on which one was located first. */
+/* Returns, as bits, the closing free stops that touch within the error of location and round-off. They are hit
+ * together, so the result does not depend on which one was located first. */
 static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_contact_work *w,
                                        wh_real h, const wh_real *signal, wh_contact_state *s) {
     const wh_real *rate = wh_contact_rates(of, s);
@@ -119,8 +118,8 @@ static inline unsigned wh_contact_tied(const wh_contact_system *of, const wh_con
     return bits;
 }
 
-/* Finds the free stops outside `hits` that touch within the error of location and are closing because of an impulse.
- * They are hit in the next round. `before` and `after` are the signals before and after the impulse. */
+/* Adds to work->hit_next, for an impact in the next round, the free stops outside `hits` that touch within the error of
+ * location and that an impulse made close. `before` and `after` are the signals before and after the impulse. */
 static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_work *w,
                                         unsigned hits, wh_real h, const wh_real *before,
                                         const wh_real *after) {
@@ -135,9 +134,9 @@ static inline void wh_contact_passed_on(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* Returns, as bits, the free stops without restitution that touch and are at rest, compared with the rate that the
- * impact of `hits` passes on to them. Such stops join the impact, because they block the motion after it. As separate
- * plastic impacts, two such stops could cause each other's impact for ever. */
+/* Returns, as bits, the free stops without restitution that touch and whose rate is negligible, compared with the rate
+ * that the impact of `hits` gives them. They take part in the impact, because they block the motion after it. As
+ * separate plastic impacts, two such stops could cause each other's impact for ever. */
 static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_contact_work *w,
                                          unsigned hits, wh_real h, const wh_real *was,
                                          const wh_real *target, const wh_real *signal,
@@ -161,12 +160,12 @@ static inline unsigned wh_contact_beside(const wh_contact_system *of, const wh_c
     return bits;
 }
 
-/* The interpreter defines this macro to record the restitution of stop k at an impact. In generated code it is empty. */
+/* The interpreter defines this macro to record the restitution of stop k at an impact. */
 #ifndef WH_RESTITUTION_SEEN
 #define WH_RESTITUTION_SEEN(of, k, given) ((void)0)
 #endif
 
-/* The restitution of stop k, limited to 0 ... 1. A value that is not a number is reported (work->undefined). */
+/* Returns the restitution of stop k, limited to 0 ... 1. A value that is not finite is reported (work->undefined). */
 WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact_work *w,
                                          unsigned k) {
     const wh_real given = wh_contact_law(of, w, k)[WH_LAW_FIRST];
@@ -175,10 +174,10 @@ WH_INLINE wh_real wh_contact_restitution(const wh_contact_system *of, wh_contact
     return given > WH_R(0.0) ? (given < WH_R(1.0) ? given : WH_R(1.0)) : WH_R(0.0);
 }
 
-/* Resolves the impact of all stops that are hit: each bounces, or rests if its next flight would be too short. A stop
- * that comes to rest gets a single impulse: a bounce and an impulse back would release other stops. A stop that the
- * impact releases stays at rest if its own flight would be too short. Otherwise a body in a corner would bounce for
- * ever. */
+/* Resolves the impact of the stops in `hits` (bits): each bounces, or rests if its flight would be too short. A stop
+ * that comes to rest gets one impulse: a bounce and an impulse back would release other stops. A resting stop that the
+ * impact releases rests again if its flight would be too short, because a body in a corner would otherwise bounce for
+ * ever. Returns `hits` and the stops that close at the same time. */
 static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_work *w,
                                       unsigned hits, const wh_contact_moment *m,
                                       const wh_real *input, wh_contact_state *s, wh_real *impulse) {
@@ -218,7 +217,6 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         wh_contact_look(of, w, s, input, accel, signal);
         wh_contact_passed_on(of, w, closing, m->h, before, signal);
         for (unsigned k = 0; k < of->forced && of->forced > 1; k++) {
-            /* another impulse has changed the stop's speed */
             if ((closing & ~released & 1U << k) == 0) {
                 speed[k] = wh_jacobian_times(of, w, k, rate);
             }
@@ -248,7 +246,7 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
         gone &= stays ? ~0U : ~(1U << k);
     }
     wh_contact_set_modes(of, w, gone, WH_ACTIVE);
-    if ((gone | leaving) != 0) { /* at their rates these stops would open */
+    if ((gone | leaving) != 0) { /* the rates would open these stops */
         wh_contact_project_rates(of, w, wh_contact_stuck(of, w), true, rate);
     }
     if ((rest | gone) != 0) {
@@ -257,9 +255,9 @@ static inline unsigned wh_contact_hit(const wh_contact_system *of, wh_contact_wo
     return hits;
 }
 
-/* Moves bodies off the free stops that they have passed (by more than round-off if `coarse`). The move is the smallest
- * one, measured with the mass matrix. Stops push and do not pull, as in an impact. Returns, as bits, the stops that
- * were passed and those that pushed. Afterwards signal[] and work->law belong to the new state. */
+/* Moves bodies that are beyond free stops (by more than round-off if `coarse`) back onto them. The displacement is the
+ * smallest one in the metric of the mass matrix, and stops push and do not pull. Returns, as bits, the stops that were
+ * passed and those that pushed. Afterwards signal[] and work->law belong to the new state. */
 static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_contact_work *w,
                                            bool coarse, const wh_real *input, wh_contact_state *s,
                                            wh_real *signal, unsigned *pushed) {
@@ -276,7 +274,8 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         unsigned mover = WH_CONTACTS_MAX;
         unsigned count = 0;
-        unsigned over = 0; /* stops that were pushed too far, because their gaps are curved */
+        unsigned over =
+            0; /* bits: stops off which the body was moved too far, because the gap is curved */
         wh_contact_look(of, w, s, input, accel, signal);
         for (unsigned k = 0; k < of->forced; k++) {
             const bool stop = wh_contact_of(of, k, WH_STOP);
@@ -331,8 +330,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
     return passed | *pushed;
 }
 
-/* Ends a step with too many events: bodies that passed free stops are moved off them, and these stops are hit without
- * restitution. */
+/* Ends a step with too many events: moves bodies back onto free stops that they passed, with plastic impacts. */
 static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_work *w,
                                       const wh_real *input, wh_contact_state *s) {
     wh_real signal[2 * WH_CONTACTS_MAX];
@@ -341,7 +339,7 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
     unsigned pushed;
     const unsigned touched = wh_contact_push_out(of, w, false, input, s, signal, &pushed);
     if (touched != 0) {
-        unsigned open = 0; /* bits: stops that do not touch now; they do not rest and are not hit */
+        unsigned open = 0; /* bits: stops that do not touch now: they are not hit */
         for (unsigned k = 0; k < of->forced; k++) {
             const bool may = wh_contact_of(of, k, WH_STOP) && (pushed >> k & 1U) == 0;
             open |= may && wh_contact_open(of, w, k, signal, s) ? 1U << k : 0U;
@@ -355,14 +353,14 @@ static inline void wh_contact_squeeze(const wh_contact_system *of, wh_contact_wo
 
 /* --- conditions that depend on the held expression --------------------------------------------------------------- */
 
-/* The condition of a hold may depend on the held expression. Such a hold captures at the condition's limit. To find the
- * dependence, the expression is perturbed by WH_EDGE_PROBE of its terms. The condition's round-off is WH_EDGE times the
- * resulting change. */
+/* The condition of a hold may depend on the held expression. Such a hold captures at the limit, where the condition is
+ * zero. To find the condition's round-off there, the expression is perturbed by the fraction WH_EDGE_PROBE of its
+ * terms. The round-off is WH_EDGE times the resulting change of the condition. */
 #define WH_EDGE_PROBE (WH_DOUBLE ? WH_R(0x1p-26) : WH_R(0x1p-13))
 #define WH_EDGE (WH_CONTACT_ROUNDING / WH_EDGE_PROBE)
 
-/* Returns the change of the condition of hold k from `now`, if the held expression and its rate are perturbed by
- * WH_EDGE_PROBE of their terms. work->law must have been evaluated at the state. */
+/* Returns the change of the condition of hold k from `now`, if the held expression and its rate change by WH_EDGE_PROBE
+ * of their terms. work->law must belong to the state. */
 WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 const wh_real *input, const wh_contact_state *s, wh_real now) {
     wh_contact_point at;
@@ -382,8 +380,8 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* Returns 0 unless the condition `now` of hold k is at its limit, which means zero within round-off. Then returns this
- * round-off, with a negative sign if the condition falls when the expression rises. */
+/* If the condition of hold k, whose value is `now`, is zero within round-off, returns this round-off, with a negative
+ * sign if the condition falls when the expression rises. Otherwise returns 0. */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {
@@ -391,9 +389,9 @@ WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_conta
     return WH_ABS(now) <= WH_ABS(known) ? known : WH_R(0.0);
 }
 
-/* If the error of location let a hold (`holds`, bits) capture slightly before its condition's limit, moves the held
- * expression to the same distance beyond the limit. signal[] must have been evaluated at the state; rates[] are the
- * signals before the capture. */
+/* If a hold in `holds` (bits) captured while its condition was still negative by the error of location, moves the held
+ * expression until the condition has the opposite value. signal[] must belong to the state; rates[] are the signals
+ * before the capture. */
 WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work *w, unsigned holds,
                                    wh_real h, const wh_real *rates, const wh_real *signal,
                                    const wh_real *input, wh_contact_state *s) {
@@ -410,7 +408,7 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
             const wh_real by = -(signal[2 * k] + signal[2 * k]) / own *
                                (WH_EDGE_PROBE * wh_contact_extent(of, w, k, s));
             if (WH_ABS(by) <= WH_ABS(rates[2 * k + 1]) * h / 64) {
-                /* if the move is larger, the limit does not come from the held expression */
+                /* after a larger move, the limit would not come from the held expression */
                 wanted[i] = by;
                 mover = k;
             }
@@ -434,7 +432,6 @@ WH_APART void wh_contact_over_edge(const wh_contact_system *of, wh_contact_work 
     wh_books_moved(of, w, s, input, mover);
 }
 
-/* Lets holds capture, all at once. */
 static inline void wh_contact_captures(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned holds, wh_real h, const wh_real *input,
                                        wh_contact_state *s, wh_real *impulse) {

@@ -1,4 +1,4 @@
-/* contact_lcp.h: load sharing between contacts with limits, as a linear complementarity problem.
+/* contact_lcp.h: forces of contacts with limits, as a linear complementarity problem.
  *
  * A resting stop pushes and does not pull, and a sticking friction takes no more than its static limit. So the forces
  * of the active contacts solve, with the Delassus matrix J M^-1 J^T,
@@ -6,21 +6,17 @@
  *      a = J M^-1 J^T lambda - wanted, low <= lambda <= high,
  *      a_k = 0 between the limits, a_k >= 0 at the low limit, a_k <= 0 at the high limit (contact k gives way).
  *
- * Normal forces do not depend on lambda, so the problem is convex and its accelerations are unique. The forces are
- * unique, too, unless contacts are redundant. In an impact, impulses and rates take the place of forces and
- * accelerations (Moreau; Pfeiffer & Glocker, chapter 8).
+ * Normal forces do not depend on lambda, so the problem is convex. Its accelerations are unique, and so are its forces
+ * unless contacts are redundant. In an impact, impulses and rates take the place of forces and accelerations (Moreau;
+ * Pfeiffer & Glocker, chapter 8).
  *
  * The method is principal pivoting by least index (Murty, Linear Complementarity, Linear and Nonlinear Programming,
- * chapters 2 to 4; Judice & Pires 1994 for limits on both sides). It starts from the present modes: in the first round
- * all active contacts stay active. The method provably ends if the rows are independent, because the matrix is then a
- * P-matrix. With redundant rows the matrix is only semidefinite. Then each contact that would enter the basis a second
- * time is tested for a contradiction. The leaving contact is found by a ratio test along the null direction, as in the
- * pivoting of Keller and of Graves for semidefinite matrices (Cottle, Pang & Stone, section 4.2).
- *
- * The pivoting with these tests is not proved to end. So the number of rounds is limited to 4 n + 1, and a step that
- * reaches this limit counts as an overrun.
- *
- * The random problems of tests/core/test_contact_pivot.c stay below the limit. */
+ * chapters 2 to 4; Judice & Pires 1994 for limits on both sides). In the first round all active contacts stay active.
+ * If the rows are independent, the matrix is a P-matrix, and the method provably ends. With redundant rows the matrix
+ * is only semidefinite, and each redundant contact is tested for a contradiction with the others. The leaving contact
+ * is found by a ratio test along the null direction (Keller; Graves; Cottle, Pang & Stone, section 4.2). With these
+ * tests the pivoting is not proved to end, so it has at most 4 n + 1 rounds. A step that reaches this limit counts as
+ * an overrun. The random problems of tests/core/test_contact_pivot.c stay below it. */
 #ifndef WH_CONTACT_LCP_H
 #define WH_CONTACT_LCP_H
 
@@ -29,18 +25,18 @@
 /* Stands for "no limit": larger than any force. */
 #define WH_LIMITLESS WH_R(1e30)
 
-/* Forces and accelerations below this share of their terms count as zero. Otherwise round-off would release and hit an
- * unloaded resting stop for ever. */
+/* Forces and accelerations below this fraction of the sum of their terms' magnitudes count as zero. Otherwise round-off
+ * would release and hit an unloaded resting stop for ever. */
 #define WH_CONTACT_QUIET (WH_DOUBLE ? WH_R(1e-13) : WH_R(2e-6))
 
-/* A path counts as straight if its curvature term J' q' is below this share of the largest acceleration. The term is
- * quadratic in the rates, and after friction has stopped a motion, a small rate remains. */
+/* A path counts as straight if its curvature term J' q' differs from that of the other contacts by less than this
+ * fraction of the acceleration's terms. The term is quadratic in the rates, and a small rate remains after friction has
+ * stopped a motion. */
 #define WH_CONTACT_CREEP (WH_DOUBLE ? WH_R(1e-22) : WH_R(1e-12))
 
-/* If round-off hides the excess of a force over its limit, the force gets an excess of this share of the limit. */
+/* The excess of a force over its limit, as a fraction of the limit, if round-off hides the true excess. */
 #define WH_CONTACT_SHOWS WH_R(0.001)
 
-/* Round-off of a sum with terms of the sizes a, b and c. */
 WH_INLINE wh_real wh_contact_rounding(wh_real a, wh_real b, wh_real c) {
     return WH_CONTACT_ROUNDING * (WH_ABS(a) + WH_ABS(b) + WH_ABS(c));
 }
@@ -51,13 +47,12 @@ typedef struct wh_contact_set {
     const int8_t *at; /* [count] -1: at low limit, 0: between, 1: at high limit; NULL: all 0 */
 } wh_contact_set;
 
-/* Finds redundant contacts that contradict the others. Examples: at a dead centre two rows are parallel, but only one
- * of the paths bends; in an impact two stops on one path have different restitutions.
- *
- * For each contact in `repeats` (bits of indices in member[]), push[] gets the sign of the missing push: 1, -1, or 0
- * without a contradiction. If impulse[] is NULL, way[] is the change of the accelerations by all forces; otherwise it
- * is the change of the rates by all impulses. The curvature term J' q' is also tested by itself: in a slow motion the
- * round-off of the accelerations would hide it. */
+/* Finds redundant contacts whose wanted acceleration (in an impact, rate) the other contacts do not produce. Examples:
+ * at a dead centre two rows are parallel, but only one of the paths is curved; two stops on one path have different
+ * restitutions. push[] gets the sign of the missing part, 1 or -1, for each contact in `repeats` (bits of indices in
+ * member[]), or 0. way[] is the change of the accelerations by all forces or, if impulse[] is not NULL, of the rates by
+ * all impulses. The curvature term J' q' is also tested by itself: in a slow motion the round-off of the accelerations
+ * would hide it. */
 static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_contact_work *w,
                                           const wh_contact_set *set, unsigned repeats,
                                           const wh_real *impulse, const wh_real *wanted,
@@ -87,7 +82,7 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
             const wh_real missing = wanted[i] - made;
             const wh_real made_bent = wh_jacobian_times(of, w, member[i], bent);
             const wh_real missing_bend = bend[i] - made_bent;
-            wh_real bends_by = WH_R(0.0); /* sum of |terms| of the curvature */
+            wh_real bends_by = WH_R(0.0); /* sum of |terms| of made_bent */
             for (unsigned l = 0; l < count && impulse == NULL; l++) {
                 bends_by += WH_ABS(wh_delassus(of, w, member[i], member[l]) * lambda[l]);
             }
@@ -101,7 +96,6 @@ static inline void wh_contact_contradicts(const wh_contact_system *of, const wh_
     }
 }
 
-/* Return the high and the low limit of contact k's force. */
 WH_INLINE wh_real wh_contact_high(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned k) {
     return wh_contact_is(of, k, WH_LIMITED) ? wh_contact_law(of, w, k)[WH_LAW_FIRST] : WH_LIMITLESS;
@@ -117,8 +111,8 @@ WH_INLINE bool wh_contact_exceeds(const wh_contact_system *of, const wh_contact_
     return lambda < wh_contact_low(of, w, k) || lambda > wh_contact_high(of, w, k);
 }
 
-/* Stores in work->rough, for each member, the sum of the magnitudes of its acceleration's terms, including the
- * round-off of the other forces. accel[] are the accelerations with all forces. */
+/* Stores in work->rough, for each contact in member[], the scale of its acceleration's round-off: the sum of the
+ * magnitudes of the terms. accel[] are the accelerations with all forces. */
 static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact_work *w,
                                          const uint8_t *member, unsigned count,
                                          const wh_real *accel) {
@@ -134,8 +128,7 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
             w->rough[member[i]] += WH_ABS(row[c]) * size;
         }
     }
-    /* Round-off spreads from one contact to the next, through chains of bodies. This loop does not amplify it
-     * (Cauchy-Schwarz inequality). */
+    /* Round-off spreads through chains of bodies. This loop does not amplify it (Cauchy-Schwarz inequality). */
     for (unsigned round = 0; round < count; round++) {
         for (unsigned i = 0; i < count; i++) {
             for (unsigned l = 0; l < count; l++) {
@@ -152,10 +145,9 @@ static inline void wh_contact_magnitudes(const wh_contact_system *of, wh_contact
     }
 }
 
-/* Finds the contact that gives way if the redundant contact member[i] must push in direction `push`. A friction, or a
- * stop that would have to pull, gives way itself. If member[i] is a hold, or a stop that must push more, the contact
- * whose force first reaches a limit gives way. Returns the contact's index in member[] and its limit, or `count` if no
- * contact gives way. */
+/* Finds the contact that gives way if the redundant contact member[i] needs a force in direction `push`. A friction, or
+ * a stop that would have to pull, gives way itself. Otherwise the contact whose force first reaches a limit gives way.
+ * Returns its index in member[] and, in *limit, that limit; or returns `count` if no contact gives way. */
 static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *lambda, unsigned i, int8_t push,
@@ -163,7 +155,7 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
     const bool pulls = wh_contact_is(of, member[i], WH_UNILATERAL) && push < 0;
     int8_t fixed[WH_CONTACTS_MAX];
     wh_real less[WH_CONTACTS_MAX];
-    /* decrease of each force if contact i gets a unit force */
+    /* decrease of each force by a unit force of contact i */
     wh_real share[WH_CONTACTS_MAX];
     wh_real soonest = WH_LIMITLESS;
     unsigned first = count;
@@ -191,8 +183,8 @@ static inline unsigned wh_contact_gives_way(const wh_contact_system *of, const w
 }
 
 /* Does one round of the pivoting. Contacts with at[] = 0 get the forces that give the accelerations `wanted`; the
- * caller checks their limits. The others get the force at their limit (-1: low, 1: high). `way` gets the change of the
- * accelerations by all forces. Returns the redundant contacts, as bits of indices. */
+ * caller checks their limits. The others get the force at their limit (-1: low, 1: high). `way`, zero on entry, gets
+ * the change of the accelerations by all forces. Returns the redundant contacts, as bits of indices. */
 static inline unsigned wh_contact_lcp_round(const wh_contact_system *of, const wh_contact_work *w,
                                             const uint8_t *member, unsigned count, const int8_t *at,
                                             const wh_real *wanted, wh_real *lambda, wh_real *way) {
@@ -245,7 +237,7 @@ WH_INLINE unsigned wh_contact_lcp_one(const wh_contact_system *of, const wh_cont
     return (low ? *left : -*left) > rounding ? 1U << k : 0U;
 }
 
-/* The pivoting's state: the contacts in the order of elimination, with their marks. */
+/* State of the pivoting. Contacts are in the order of elimination. */
 typedef struct wh_contact_pivot {
     uint8_t member[WH_CONTACTS_MAX];
     int8_t at[WH_CONTACTS_MAX]; /* -1: at the low limit, 1: at the high limit, 0: between */
@@ -258,7 +250,7 @@ typedef struct wh_contact_pivot {
 } wh_contact_pivot;
 
 /* Moves the contact at index i to its limit `to` (-1: low, 1: high), or frees it (0). A freed contact becomes the last
- * one in the elimination. If its row depends on earlier rows, it is the redundant contact, and is tested for a
+ * one in the elimination. If the rows are dependent, it is therefore the redundant contact, and is tested for a
  * contradiction. */
 WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsigned i, int8_t to) {
     const uint8_t k = p->member[i];
@@ -278,8 +270,8 @@ WH_INLINE void wh_contact_pivot_move(wh_contact_pivot *p, unsigned count, unsign
     p->wanted[i] = wanted;
 }
 
-/* Returns the index of a contact that violates its complementarity condition, and the contact's new limit; `count` if
- * there is none. If there are several, the contact with the least number is chosen. */
+/* Returns the index of the contact that violates its complementarity condition, or `count`. *to gets its new limit. If
+ * there are several such contacts, the one with the least number is chosen. */
 static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const wh_contact_work *w,
                                               wh_contact_pivot *p, unsigned count, bool forces,
                                               const wh_real *way, int8_t *to) {
@@ -303,7 +295,7 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
             *to = less ? 0 : *to;
         } else if (outwards > rounding) {
             p->giving |= 1U << k;
-        } else if ((p->contradicted >> k & 1U) != 0) { /* the violation may be only round-off */
+        } else if ((p->contradicted >> k & 1U) != 0) { /* counts even if round-off hides it */
             p->left[i] = p->at[i] < 0 ? rounding : -rounding;
             p->giving |= 1U << k;
         }
@@ -311,9 +303,8 @@ static inline unsigned wh_contact_pivot_wrong(const wh_contact_system *of, const
     return wrong;
 }
 
-/* Solves for the forces (or impulses) lambda[count] of the contacts in member[], within their limits. left[count] gets
- * the residuals of the accelerations (or rates). `forces` is false for impulses. Returns the contacts that give way, as
- * bits. */
+/* Solves for the forces lambda[count] of the contacts in member[] within their limits, or for impulses if !forces.
+ * left[count] gets the residual accelerations or rates. Returns the contacts that give way, as bits. */
 static inline unsigned wh_contact_lcp(const wh_contact_system *of, wh_contact_work *w,
                                       const uint8_t *member, unsigned count, const wh_real *wanted,
                                       bool forces, wh_real *lambda, wh_real *left) {

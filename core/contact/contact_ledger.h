@@ -6,15 +6,14 @@
 
 #if WH_LEDGER
 
-/* True if the scene keeps a ledger and the ledger shall get this evaluation, because it belongs to the run and is no
- * probe. */
+/* True if the scene keeps a ledger and is in a step. Outside a step, as in wh_contact_observe(), books is NULL. */
 WH_INLINE bool wh_books_open(const wh_contact_system *of, const wh_contact_work *w) {
     return of->ledger != NULL && w->books != NULL;
 }
 
 /* Enters the work and the impulse of contact k, whose force `lambda` acted for the time `share` while J_k q' was
- * `speed`. For an impulse, share is 1 and speed is the mean speed. The entry gets only the work on the coordinates: the
- * work on an input with a rate belongs to the input's entry. */
+ * `speed`. For an impulse, `share` is 1 and `speed` is the mean speed. Work on an input with a rate belongs to the
+ * input's entry, not to this one. */
 static inline void wh_books_enter(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                   wh_real share, wh_real lambda, wh_real speed, const wh_real *rate,
                                   wh_real *entry) {
@@ -48,7 +47,7 @@ static inline void wh_books_stage(const wh_contact_system *of, const wh_contact_
 }
 
 /* Enters an impulse of contact k that changed its speed from `before` to `after`. Its work is the impulse times the
- * mean of both speeds (Kelvin). */
+ * mean of these speeds (Kelvin). */
 WH_INLINE void wh_books_impulse(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 wh_real impulse, wh_real before, wh_real after,
                                 const wh_real *rate) {
@@ -75,8 +74,8 @@ static inline void wh_books_levels(const wh_contact_system *of, const wh_contact
 }
 
 /* Call wh_books_look() before the projection of a contact, and wh_books_moved() after it. The difference of the
- * accounts is the contact's entry. A difference within the accounts' round-off is dropped: in float, the noise of many
- * steps would exceed the true entries. */
+ * accounts is the contact's entry. It is dropped if it is within round-off: in float, the noise of many steps would
+ * exceed the true entries. */
 static inline void wh_books_look(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_state *s, const wh_real *input) {
     if (wh_books_open(of, w)) {

@@ -9,16 +9,16 @@ typedef struct wh_margins {
     wh_real value[WH_CONTACTS_MAX];
     wh_real signal[2 * WH_CONTACTS_MAX];
     wh_real accel[WH_COORDS]; /* accelerations, only if wh_contact_watched() */
-    /* The sum of all contacts' values: it is finite only if every value is. */
+    /* sum of all signals and limits: finite only if each of them is */
     wh_real all;
 } wh_margins;
 
-/* The path between two states that are `h` apart. Positions follow the cubic through both ends' positions and rates.
- * Rates follow the cubic through both ends' rates and accelerations a0 and a1. (The slope of the first cubic would be
- * one order less accurate, and magnify the positions' round-off by 1/h.) */
+/* The path over `h` seconds. Positions follow the cubic through both ends' positions and rates, rates the cubic through
+ * both ends' rates and accelerations a0 and a1. (The slope of the first cubic would be one order less accurate, and
+ * magnify the positions' round-off by 1/h.) */
 typedef struct wh_contact_path {
-    wh_real h;              /* duration, s */
-    wh_contact_point begin; /* state at the path's begin */
+    wh_real h;
+    wh_contact_point begin;
     wh_real way[WH_COORDS]; /* displacement from begin to end, rad or m */
     wh_real end_rate[WH_COORDS];
     wh_real gain[WH_COORDS]; /* change of the rates from begin to end */
@@ -49,7 +49,7 @@ static inline void wh_contact_path_of(const wh_contact_system *of, wh_contact_st
     }
 }
 
-/* Returns the point of the path at the share `s` of its duration. */
+/* Computes the point of the path at the fraction `s` of its duration. */
 WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_path *path,
                                   wh_real s, wh_contact_point *at) {
     const wh_real rest = WH_R(1.0) - s;
@@ -69,8 +69,8 @@ WH_INLINE void wh_contact_between(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* Returns the margin of contact k's force. A negative margin within the round-off of the other contacts' forces counts
- * as zero. (The round-off is computed only for negative margins.) */
+/* Returns `margin`, the distance of contact k's force from its limit, or zero if it is negative only by the round-off
+ * of the other contacts' forces. */
 static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, wh_real margin) {
     wh_real others = WH_R(0.0);
@@ -85,7 +85,7 @@ static inline wh_real wh_contact_beyond(const wh_contact_system *of, const wh_co
     return margin;
 }
 
-/* True if the event of a contact depends on its force. */
+/* True if a stop rests or a friction sticks: their events depend on their forces. */
 WH_INLINE bool wh_contact_watched(const wh_contact_system *of, const wh_contact_work *w) {
     WH_UNROLL
     for (unsigned k = 0; k < of->forced; k++) {
@@ -149,8 +149,8 @@ static inline void wh_contact_margins(const wh_contact_system *of, wh_contact_wo
     m->all = all;
 }
 
-/* True if no event has happened and all values are finite. (No NaN is below zero: without the test for finite values, a
- * contact with a NaN would never have an event again.) */
+/* True if no event has happened and all values are finite. A NaN is never below zero, so without the test for finite
+ * values its contact would never have an event again. */
 WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m) {
     bool calm = wh_finite(m->all);
     WH_UNROLL
@@ -160,7 +160,7 @@ WH_INLINE bool wh_contact_calm(const wh_contact_system *of, const wh_margins *m)
     return calm;
 }
 
-/* To be called if margins are not calm: stores a contact whose signal or limit is not finite in work->undefined. */
+/* Stores in work->undefined a contact whose signal, limit or margin is not finite. */
 WH_APART void wh_contact_find_undefined(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_margins *m) {
     for (unsigned k = 0; k < of->contacts; k++) {
@@ -184,9 +184,9 @@ WH_INLINE unsigned wh_contact_happened(const wh_contact_system *of, const wh_mar
     return bits;
 }
 
-/* A hold that began the trial step at the limit of its condition is released only if the condition falls below zero by
- * more than work->slack. If the hold has no event at the trial step's end, it has none in between: a lower condition
- * there would be an error of the cubic. `events` are the contacts with an event at the end. */
+/* A hold whose condition was zero within round-off when the trial step began is released only if the condition falls
+ * below -work->slack. If such a hold has no event at the trial step's end (`events`, bits), it has none in between: a
+ * lower condition there would be an error of the cubic. */
 WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_work *w,
                                   unsigned events, wh_margins *m) {
     for (unsigned k = 0; k < of->forced; k++) {
@@ -198,16 +198,16 @@ WH_INLINE void wh_contact_slacken(const wh_contact_system *of, const wh_contact_
     }
 }
 
-/* In a scene with several contacts, the search is not inlined. Load sharing makes the deepest calls, and the variables
- * of an inlined search would add to that stack depth. */
+/* With several contacts, the search is not inlined: load sharing makes the deepest calls, and the variables of an
+ * inlined search would add to that stack depth. */
 #if WH_CONTACTS_MAX > 1
 #define WH_SEARCH WH_APART
 #else
 #define WH_SEARCH static inline
 #endif
 
-/* Locates the first event between `from` and `to`. Returns its time as a share of h; the result is late by at most
- * WH_BRACKET. *events gets the contacts with an event at that time. at_end are the margins at `to`. */
+/* Locates the first event between `from` and `to`. Returns its time as a fraction of h, late by at most WH_BRACKET.
+ * *events gets the contacts with an event at that time. at_end are the margins at `to`. */
 WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work *w,
                                     wh_contact_state *from, wh_contact_state *to, wh_real h,
                                     const wh_real *input, const wh_margins *at_end,
@@ -223,8 +223,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
     const unsigned at_end_events = wh_contact_happened(of, at_end);
     *events = at_end_events;
 
-    /* If a margin is negative at the begin, the event happens at once. Sliding friction is an exception, because its
-     * rate starts at zero. */
+    /* A negative margin at the start means an event at once, except for sliding friction: its rate starts at zero. */
     wh_contact_path_of(of, from, to, h, &path);
     wh_contact_margins(of, w, &path.begin, input, &probe);
     wh_contact_slacken(of, w, *events, &probe);
@@ -243,8 +242,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         if ((*events >> k & 1U) != 0 && !slides && before[k] < WH_R(0.0)) {
             at_once |= 1U << k;
         }
-        /* If a stop was open or closing at the begin and its body is beyond it at the end, it was hit, even if it is
-         * opening at the end. */
+        /* if the gap was open or closing at the start and is negative at the end, the stop was hit */
         if (wh_contact_any_of(of, WH_STOP) &&
             (probe.signal[2 * k] > WH_R(0.0) || probe.signal[2 * k + 1] < WH_R(0.0))) {
             w->inside &= ~(1U << k);
@@ -274,7 +272,7 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
         wh_real root = high;
         for (unsigned k = 0; k < of->contacts; k++) {
             /* A margin of zero at `low` may be the start of an event. Exceptions: a sliding friction; and, after the
-             * begin of the search, a force at its limit, because other contacts may bear part of the load. */
+             * first probe, a force at its limit, because other contacts may bear part of the load. */
             const bool begins =
                 (sliding >> k & 1U) == 0 && (low == WH_R(0.0) || (loads >> k & 1U) == 0);
             if ((*events >> k & 1U) != 0 &&
@@ -283,9 +281,9 @@ WH_SEARCH wh_real wh_contact_locate(const wh_contact_system *of, wh_contact_work
                 root = low + width * share < root ? low + width * share : root;
             }
         }
-        /* The guess is slightly past the root, towards the farther end, so that the interval closes from both sides.
-         * After each failure the next guess is further past the root. If two probes did not halve the interval, the
-         * guess is the interval's middle. */
+        /* The guess is slightly past the root, as seen from the nearer end, so that the interval closes from both
+         * sides. If the root is not between that end and the guess, the next guess is further past the root. If two
+         * probes did not halve the interval, the guess is its middle. */
         const wh_real over =
             width * (width < WH_R(0.015625) ? width : WH_R(0.015625)) * reach + WH_BRACKET_FINE / 4;
         wh_real guess = low + WH_R(0.5) * width;

@@ -1,5 +1,4 @@
-/* contact_project.h: projection: moves resting stops and holds back to their constraints, and sets their rates to
- * zero. */
+/* contact_project.h: projection of positions and rates onto the constraints of resting stops and holds. */
 #ifndef WH_CONTACT_PROJECT_H
 #define WH_CONTACT_PROJECT_H
 
@@ -18,15 +17,13 @@ WH_INLINE void wh_contact_move(const wh_contact_system *of, unsigned i, wh_real 
     }
 }
 
-/* Adds the product a b to *sum, and the product's round-off to *rest. Otherwise the round-off would add up over the
- * steps. */
+/* Adds the product a b to *sum, and its round-off to *rest, because the round-off would add up over the steps. */
 WH_INLINE void wh_contact_add_product(wh_real a, wh_real b, wh_real *sum, wh_real *rest) {
     *rest += wh_product_rest(a, b);
     *sum += a * b; /* exact if opposite rotations cancel */
 }
 
-/* Returns the displacement of a straight hold k between two states, rad or m: the constant J_k times the change of the
- * coordinates. */
+/* Returns the displacement of a straight hold k, rad or m: its constant J_k times the change of the coordinates. */
 static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k, const wh_contact_state *from,
                                        const wh_contact_state *to) {
@@ -53,13 +50,13 @@ static inline wh_real wh_contact_moved(const wh_contact_system *of, const wh_con
     return (turns + rests[0]) / WH_PHASE_PER_RAD + (ways + rests[1]);
 }
 
-/* True if contact k is a closed hold that can slip. A hold with a pin cannot. */
+/* True if contact k is an active hold that can slip. A hold with a pin cannot. */
 WH_INLINE bool wh_contact_slips(const wh_contact_system *of, const wh_contact_work *w, unsigned k) {
     return of->held > 0 && wh_contact_of(of, k, WH_HOLD) && !wh_contact_pinned(of, k) &&
            w->mode[k] == WH_ACTIVE;
 }
 
-/* Returns the displacement of contact k from its constraint, at state `s`. `from` is the begin of the trial step that
+/* Returns the displacement of contact k from its constraint, at state `s`. `from` is the start of the trial step that
  * ends at `s`, or NULL. */
 WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned k, const wh_real *signal, const wh_contact_state *from,
@@ -77,8 +74,7 @@ WH_INLINE wh_real wh_contact_drift(const wh_contact_system *of, const wh_contact
     return from != NULL ? held + wh_contact_moved(of, w, k, from, s) : WH_R(0.0);
 }
 
-/* Stores the value of a hold that has just captured, or whose expression was set. work->law must have been evaluated at
- * this position. */
+/* Stores the value of a hold that captures or whose expression was set. work->law must belong to the position. */
 WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *w, unsigned k) {
     if (wh_contact_slips(of, w, k)) {
         w->held[of->contact[k].first_set] =
@@ -86,8 +82,7 @@ WH_INLINE void wh_contact_capture(const wh_contact_system *of, wh_contact_work *
     }
 }
 
-/* Returns, as bits, stuck frictions beyond their limit: they are about to slide and constrain nothing. work->force must
- * be up to date. */
+/* Returns, as bits, stuck frictions beyond their limit, which are about to slide. work->force must be up to date. */
 WH_INLINE unsigned wh_contact_breaking(const wh_contact_system *of, const wh_contact_work *w) {
     unsigned bits = 0;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -111,18 +106,17 @@ WH_INLINE unsigned wh_contact_members(const wh_contact_system *of, const wh_cont
 
 /* The options of a projection of resting stops and holds. */
 typedef struct wh_contact_place {
-    const wh_contact_state *from; /* begin of the trial step, or NULL */
+    const wh_contact_state *from; /* start of the trial step, or NULL */
     wh_real h;                    /* length of the trial step, s */
-    unsigned but;                 /* contacts that are left out, as bits */
-    /* The crossing or contact whose entry in the ledger gets the change of energy; WH_CONTACTS_MAX: the first contact
-     * that is off its constraint. */
+    unsigned but;                 /* bits: contacts to leave out */
+    /* The contact whose entry in the ledger gets the change of energy; WH_CONTACTS_MAX: the first displaced contact. */
     unsigned mover;
 } wh_contact_place;
 
 #define WH_CONTACT_HERE ((wh_contact_place){NULL, WH_R(0.0), 0, WH_CONTACTS_MAX})
 
-/* Moves resting stops and holds back to their constraints; stuck coordinates stay. work->law and signal[] must have
- * been evaluated at this position. Returns true if the error was so large that a second projection is needed. */
+/* Moves resting stops and holds back to their constraints; stuck coordinates stay. Returns true if the displacement was
+ * so large that a second projection is needed. work->law and signal[] must belong to the position. */
 static inline bool wh_contact_project_places(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_contact_place *spot, const wh_real *signal,
                                              const wh_real *input, wh_contact_state *s) {
@@ -161,7 +155,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
             }
         }
     }
-    /* The other coordinates move only if contacts tie them to the pinned one. */
+    /* The other coordinates move only if contacts tie them to the pinned ones. */
     for (unsigned i = 0; i < count; i++) {
         const bool pinned = wh_contact_pinned(of, member[i]);
         wanted[i] = pinned ? WH_R(0.0) : -(off[i] + wh_jacobian_times(of, w, member[i], moved));
@@ -194,7 +188,7 @@ static inline bool wh_contact_project_places(const wh_contact_system *of, wh_con
 }
 
 /* Projects the rates along all active contacts to zero together, except for the contacts in `but` (bits). If `booked`,
- * the ledger gets the changes as impulses of the contacts. work->law must have been evaluated at this position. */
+ * the ledger gets the impulses. work->law must belong to the position. */
 static inline void wh_contact_project_rates(const wh_contact_system *of, const wh_contact_work *w,
                                             unsigned but, bool booked, wh_real *rate) {
     uint8_t member[WH_CONTACTS_MAX] = {0};
@@ -228,7 +222,8 @@ WH_INLINE unsigned wh_contact_stuck(const wh_contact_system *of, const wh_contac
     return bits;
 }
 
-/* Returns the sum of the magnitudes of the terms that make up a stop's gap. */
+/* Returns the sum of the magnitudes of the terms of contact k's expression, the scale of its round-off; 1 rad for each
+ * angle. */
 static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_contact_work *w,
                                         unsigned k, const wh_contact_state *s) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -239,8 +234,8 @@ static inline wh_real wh_contact_extent(const wh_contact_system *of, const wh_co
     return size;
 }
 
-/* If a gap is below minus WH_CONTACT_FAR times the sum of the magnitudes of its terms, the body is beyond the stop. If
- * the gap is above WH_CONTACT_FAR times that sum, the body has left the stop. */
+/* Below minus this fraction of wh_contact_extent(), a gap means that the body is beyond the stop; above it, that the
+ * body has left the stop. */
 #define WH_CONTACT_FAR (WH_DOUBLE ? WH_R(1e-9) : WH_R(1e-5))
 WH_INLINE bool wh_contact_far(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                               const wh_real *signal, const wh_contact_state *s) {
@@ -270,8 +265,7 @@ static inline void wh_contact_put_back(const wh_contact_system *of, wh_contact_w
     wh_contact_project_rates(of, w, spot.but, false, wh_contact_rates(of, s));
 }
 
-/* Removes the integrator's slip in the step from `from` to `s`, of length h: first the displacements of resting stops
- * and holds, then the rates along active contacts. A pinned coordinate cannot slip. */
+/* Removes the integrator's slip in a step of length h from `from` to `s`. A pinned coordinate cannot slip. */
 WH_INLINE void wh_contact_stabilise(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                     const wh_real *input, const wh_contact_state *from,
                                     wh_contact_state *s) {

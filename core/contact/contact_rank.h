@@ -1,7 +1,7 @@
-/* contact_rank.h: detects holds that lose rank.
+/* contact_rank.h: detects positions at which holds lose rank: their rows of the Jacobian become linearly dependent.
  *
- * Holds that close a linkage lose rank in its flat position. From there more than one motion satisfies the holds, and
- * an integrator would pick one at random. So a step that reaches or passes such a position is refused.
+ * An example is the flat position of a linkage that holds close. From there more than one motion satisfies the holds,
+ * and an integrator would pick one at random. So a step that reaches or passes such a position is refused.
  *
  * Each row is made orthogonal to the earlier ones in the metric of M^-1 (Gram and Schmidt). If the remainder of a row
  * vanishes, the step has reached such a position; if the remainder has reversed its direction, the step has passed one.
@@ -11,13 +11,12 @@
 
 #include "contact_project.h"
 
-/* For each active hold, `row` is the remainder of its row after the earlier rows, and `way` is M^-1 times that
- * remainder. */
+/* For each active hold, `row` is its row of J, made orthogonal to the earlier rows, and `way` is M^-1 times `row`. */
 typedef struct wh_contact_rows {
     wh_real row[WH_CONTACTS_MAX][WH_COORDS];
     wh_real way[WH_CONTACTS_MAX][WH_COORDS];
-    wh_real size[WH_CONTACTS_MAX]; /* row times way; 0: the hold is redundant or inactive */
-    unsigned holds;                /* number of active holds */
+    wh_real size[WH_CONTACTS_MAX]; /* row . way; 0: the hold is redundant or inactive */
+    unsigned holds;
 } wh_contact_rows;
 
 WH_INLINE wh_real wh_contact_dot(const wh_contact_system *of, const wh_real *a, const wh_real *b) {
@@ -64,16 +63,16 @@ static inline void wh_contact_rows_of(const wh_contact_system *of, wh_contact_wo
     }
 }
 
-/* Returns the first hold whose remainder is nonzero in `before`, and vanishes or has reversed its direction in `after`;
- * of->contacts if there is none. */
+/* Returns the first hold whose orthogonal row is nonzero in `before`, and vanishes or has reversed its direction in
+ * `after`; of->contacts if there is none. */
 static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_contact_rows *before,
                                          const wh_contact_rows *after) {
     of = WH_CONTACTS_HERE(of);
     for (unsigned k = 0; k < of->forced; k++) {
         const wh_real along = wh_contact_dot(of, before->row[k], after->way[k]);
         const wh_real against = along < WH_R(0.0) ? along * along : WH_R(0.0);
-        /* If there is only one hold, its row must have turned by almost half a turn: a smaller rotation shows only that
-         * the step is coarse. */
+        /* The row of a single hold must have turned by almost half a turn: a smaller rotation shows only that the step
+         * is coarse. */
         const wh_real least = before->holds > 1 ? WH_R(0.0) : WH_R(0.9);
         const bool passed = against > least * before->size[k] * after->size[k];
         if (before->size[k] > WH_R(0.0) && (passed || !(after->size[k] > WH_R(0.0)))) {
@@ -84,8 +83,8 @@ static inline unsigned wh_contact_fallen(const wh_contact_system *of, const wh_c
 }
 
 /* Returns the hold that lost rank in a step of length `span`, or of->contacts. `to` is the end of the step, or NULL if
- * the step failed. Near a flat position the accelerations have no bound and may have moved `to` anywhere. So the
- * function also tests the state that the rates alone would reach. */
+ * the step failed. Near a flat position the accelerations have no bound and may have moved `to` anywhere. So the state
+ * that the rates alone would reach is tested, too. */
 static inline unsigned wh_contact_lost(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real span, wh_contact_state *from, wh_contact_state *to,
                                        const wh_real *input) {

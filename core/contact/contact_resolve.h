@@ -1,4 +1,4 @@
-/* contact_resolve.h: the resolution of a moment with events, the one place that changes modes.
+/* contact_resolve.h: resolves the events of one moment.
  *
  * wh_contact_resolve() takes all contacts with an event at once, so the order in which contacts are declared does not
  * matter, except for the assignments of crossings:
@@ -12,16 +12,16 @@
  * 3. Accelerations: resting stops that would have to pull give way, and so do frictions beyond their limit, until all
  * forces are within their limits.
  *
- * 4. The rates along contacts that just came to stick, and along all active ones, are projected to zero.
+ * 4. If a friction came to stick, the rates along all active contacts are projected to zero.
  *
  * The law of impacts is Newton's, for all stops that are hit together. J v are the rates of their gaps:
  *
  *      v+ = v- + M^-1 J^T Lambda, 0 <= Lambda_k, J_k v+ >= -e_k J_k v-.
  *
- * For each k one of both inequalities is an equality. Resting and held contacts take part with J_k v- = 0 and e_k = 0
- * (Moreau; Pfeiffer & Glocker, chapter 8). The energy changes by 1/2 sum Lambda_k (1 - e_k) J_k v-. That is never
- * positive, because only closing stops take part, even with different restitutions. A touching stop that closes because
- * of an impact is hit in the next round of the same moment. So an impact runs through a row of balls. */
+ * For each k at least one of the two inequalities is an equality. Resting and held contacts take part with J_k v- = 0
+ * and e_k = 0 (Moreau; Pfeiffer & Glocker, chapter 8). The energy changes by 1/2 sum Lambda_k (1 - e_k) J_k v-. That is
+ * never positive, because only closing stops take part, even with different restitutions. A touching stop that closes
+ * because of an impact is hit in the next round, at the same time. So an impact runs through a row of balls. */
 #ifndef WH_CONTACT_RESOLVE_H
 #define WH_CONTACT_RESOLVE_H
 
@@ -29,9 +29,9 @@
 
 /* --- disturbance by crossings -------------------------------------------------------------------- */
 
-/* Repairs the contacts in work->moved, whose gaps, conditions or rates a crossing's assignments changed. A body that
- * has passed a stop is put back onto it. A stop that moved, in either direction, does not rest any more. Active holds
- * capture again. The crossing caused the change, so its entry in the ledger gets the energy. */
+/* Repairs the contacts in work->moved, whose gaps, conditions or rates a crossing's assignments changed. A body beyond
+ * a stop is moved back onto it. A stop that moved, in either direction, does not rest any more. Active holds capture
+ * again if their condition is still true. The ledger enters the energy under the crossing. */
 static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_work *w,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -62,7 +62,7 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
     }
     wh_contact_set_modes(of, w, stops, WH_FREE);
     if (passed != 0) {
-        /* these modes last only while the body is put back onto the stop */
+        /* only during the projection */
         wh_contact_set_modes(of, w, passed, WH_ACTIVE);
         wh_real before[2 * WH_CONTACTS_MAX];
         wh_contact_remember(of, signal, before);
@@ -79,8 +79,8 @@ static inline void wh_contact_revise(const wh_contact_system *of, wh_contact_wor
 }
 
 /* Returns, as bits, the contacts of `giving` (bits) that give way first: all stops, if there are any. Otherwise the
- * friction whose load exceeds its limit by the largest factor: if the load grew from zero, this friction would slide
- * first. The caller then tests the other frictions again. Frictions with equal factors slide together. */
+ * friction whose force exceeds its limit by the largest factor, and frictions with an equal factor: under a load that
+ * grows from zero, these would slide first. The caller then tests the other frictions again. */
 WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned giving) {
     const unsigned stops = giving & wh_contact_which(of, w, WH_STOP, true);
@@ -102,11 +102,11 @@ WH_INLINE unsigned wh_contact_first(const wh_contact_system *of, const wh_contac
 
 /* Sets the direction of each sliding friction to the sign of its rate, with two exceptions:
  * - If the error of location left the rate on its old side of zero, the old direction stays.
- * - If the rate has just come to zero, the friction is stuck until wh_contact_give_way() decides. This concerns the
- * frictions in `zeros` (bits) whose rate no impulse of this moment changed. It also concerns rates that are negligible
- * compared with the change by friction in the time h.
+ * - A friction whose rate has just come to zero sticks until wh_contact_give_way() decides. Such a rate is negligible,
+ * compared with its change by friction in the time h. Or the friction is in `zeros` (bits), and no impulse of this
+ * moment changed the rate.
  *
- * If h is not 0, work->law must have been evaluated at this position. */
+ * If h is not 0, work->law must belong to the position. */
 WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w, unsigned zeros,
                                 wh_real h, const wh_real *rate) {
     unsigned stick = 0;
@@ -136,9 +136,9 @@ WH_INLINE void wh_contact_slide(const wh_contact_system *of, wh_contact_work *w,
     wh_contact_set_modes(of, w, slides[1], 1);
 }
 
-/* Returns, as bits, resting stops without load (within round-off) that push in the direction of a stop in `gone`. The
- * caller releases them together with that stop: redundant supports lose their load at the same moment, and round-off
- * would hit and release any support that stayed. */
+/* Returns, as bits, resting stops without load (within round-off) that push in the same direction as a stop in `gone`
+ * (bits). The caller releases them, too: redundant supports lose their load at the same time, and round-off would hit
+ * and release any support that stayed. */
 WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact_work *w,
                                    unsigned gone) {
     unsigned bits = 0;
@@ -155,9 +155,9 @@ WH_INLINE unsigned wh_contact_idle(const wh_contact_system *of, const wh_contact
     return bits;
 }
 
-/* Releases resting stops that would have to pull, and stuck coordinates beyond their limits. After each release the
- * forces are computed again, because other contacts may then have to give way. If all forces are within their limits, a
- * contact of `must` (bits) is released nevertheless, because the search found its force beyond the limit. */
+/* Releases resting stops that would have to pull, and stuck frictions beyond their limits. After each release the
+ * forces are computed again, because other contacts may then have to give way. A contact in `must` (bits) is released
+ * even if all forces are within their limits, because the search found its force beyond the limit. */
 static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_work *w,
                                        unsigned must, const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];
@@ -200,8 +200,8 @@ static inline void wh_contact_give_way(const wh_contact_system *of, wh_contact_w
 }
 
 /* Sets the rates of the stuck frictions in work->turned to zero, together with those of all active contacts, so that
- * two frictions do not release each other. The other frictions in work->turned slide in the direction of the push, even
- * if their small remaining rate has the opposite sign. */
+ * two frictions do not release each other. The other frictions in work->turned keep their sliding direction, even if
+ * the small remaining rate has the opposite sign. */
 WH_INLINE void wh_contact_stick(const wh_contact_system *of, wh_contact_work *w, wh_real *rate) {
     bool sticks = false;
     for (unsigned k = 0; k < of->forced; k++) {
@@ -268,14 +268,14 @@ WH_APART unsigned wh_contact_resolve(const wh_contact_system *of, wh_contact_wor
         wh_contact_stick(of, w, rate);
     }
     for (unsigned k = 0; k < of->forced; k++) {
-        /* no event if the release of another contact has relieved contact k */
+        /* no event: the release of another contact has relieved contact k */
         events &= (must >> k & 1U) != 0 && wh_contact_constrains(of, w, k) ? ~(1U << k) : ~0U;
     }
     return events;
 }
 
-/* Ends a step of length h with too many events. A friction whose rate passed zero sticks, unless the forces drive the
- * rate on. Stuck coordinates that were moved slide. */
+/* Ends a step of length h with too many events. A friction whose rate passed zero sticks, unless the forces keep the
+ * rate growing. Stuck coordinates that were moved slide. */
 static inline void wh_contact_overrun(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                       const wh_real *input, wh_contact_state *s) {
     wh_contact_moment end = {0, 0, h, true};
@@ -317,10 +317,10 @@ WH_INLINE bool wh_contact_follows(const wh_contact_system *of, const wh_contact_
     return false;
 }
 
-/* Adapts contacts to inputs with a rate, after that rate changed between two steps. A resting stop takes on the new
- * rate if its pressing force achieves that within the step. Otherwise it opens (returned as bits) or is hit (*hits,
- * as bits). Impulses correct the rates of the other active contacts. work->law must have been evaluated at this
- * position. */
+/* Adapts contacts to an input whose rate changed between two steps, except for the contacts in `but` (bits). A resting
+ * stop stays active if its pressing force can bring the body to the new rate within the step. Otherwise it opens
+ * (returned as bits, with `but`) or is hit (*hits, bits). Impulses correct the rates of the other active contacts.
+ * work->law must belong to the position. */
 static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_contact_work *w,
                                                wh_real h, unsigned but, unsigned *hits,
                                                wh_real *rate) {
@@ -349,9 +349,9 @@ static inline unsigned wh_contact_follow_rates(const wh_contact_system *of, wh_c
     return but;
 }
 
-/* Adapts contacts to inputs that have moved between two steps. The body on a moved stop is put back onto it, or falls
- * if the pressing force cannot close the gap within the step. Holds are projected, too. The contact's entry in the
- * ledger gets the energy. */
+/* Adapts contacts to inputs that changed between two steps. The body on a moved stop is moved back onto it, or falls if
+ * the pressing force cannot close the gap within the step. Holds are projected, too. The ledger enters the energy under
+ * the contact. */
 static inline void wh_contact_follow(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                      const wh_real *input, wh_contact_state *s) {
     wh_real accel[WH_COORDS];

@@ -14,7 +14,7 @@ WH_INLINE void wh_contact_modes(const wh_contact_system *of, const wh_state *sta
     }
 }
 
-/* Fills in the part of the working memory that every trial step needs. */
+/* Initializes the members of the working memory that every trial step needs. */
 WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state *state,
                                      wh_contact_work *w) {
     wh_contact_modes(of, state, w);
@@ -36,7 +36,7 @@ WH_INLINE void wh_contact_work_begin(const wh_contact_system *of, const wh_state
 #endif
 }
 
-/* Fills in the part of the working memory that only events need. */
+/* Initializes the members of the working memory that only events need. */
 WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work *w) {
     if (wh_contact_any_of(of, WH_FRICTION)) {
         w->turned = 0;
@@ -53,7 +53,7 @@ WH_INLINE void wh_contact_work_open(const wh_contact_system *of, wh_contact_work
     w->fault = -1;
 }
 
-/* Computes the accelerations at the state, with the contacts' forces, for records: accel[coordinates]. */
+/* Computes accel[coordinates] at the state, including contact forces, for records. */
 static inline void wh_contact_observe(const wh_contact_system *of, const wh_state *state,
                                       wh_real *accel) {
     wh_contact_work work;
@@ -70,7 +70,7 @@ static inline void wh_contact_observe(const wh_contact_system *of, const wh_stat
     wh_contact_look(of, &work, &now, state->input, accel, signal);
 }
 
-/* Steps `s` by h in the modes of work. Returns false if component *fault left its bounds; `s` is then unchanged. */
+/* Steps `s` by h in fixed modes. Returns false if component *fault left its bounds; `s` is then unchanged. */
 static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                   wh_real *input, wh_contact_state *s, int *fault) {
     of = WH_CONTACTS_HERE(of);
@@ -90,8 +90,8 @@ static inline bool wh_contact_try(const wh_contact_system *of, wh_contact_work *
 #define WH_PIECE_SEEN(of, w, span, from, to) ((void)0)
 #endif
 
-/* Computes a trial step of length `left` from `now` to `next`. On entry `next` is a copy of `now`; only holds that can
- * slip need `now`. */
+/* Computes a trial step of length `left` to `next`, which is a copy of the start on entry. `now`, the start, is needed
+ * only for holds that can slip. */
 WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_work *w,
                                        wh_real left, wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -116,8 +116,8 @@ WH_INLINE void wh_contact_attempt_make(const wh_contact_system *of, wh_contact_w
     }
 }
 
-/* Gives slack to each closed hold whose condition was zero within round-off when the trial step began: the hold stays
- * closed while its condition stays that small. */
+/* Sets work->slack of each active hold whose condition was zero within round-off when the trial step began: the hold
+ * stays active while its condition is that small. */
 WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_work *w,
                                         const wh_real *input, wh_contact_attempt *a) {
     wh_contact_point at;
@@ -134,14 +134,12 @@ WH_APART void wh_contact_attempt_frozen(const wh_contact_system *of, wh_contact_
     }
 }
 
-/* True if the trial step ended without an event and with finite margins. */
 WH_INLINE bool wh_contact_attempt_calm(const wh_contact_system *of, const wh_contact_work *w,
                                        const wh_contact_attempt *a) {
     return wh_contact_calm(of, &a->margins) && (of->held == 0 || w->undefined < 0);
 }
 
-/* After a failed trial step of length h from `from`: moves along the rates to find a friction or hold that becomes
- * undefined. */
+/* After a failed trial step of length h: looks along the rates for a friction or hold that becomes undefined. */
 WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                const wh_real *input, wh_contact_state *from) {
     wh_contact_point at;
@@ -152,7 +150,6 @@ WH_APART void wh_contact_blame(const wh_contact_system *of, wh_contact_work *w, 
     }
 }
 
-/* Refuses the step, because a contact's expression is not finite or component `fault` left its bounds. */
 WH_INLINE wh_status wh_contact_refuse(const wh_contact_work *w, int fault, wh_state *state) {
     state->fault = w->undefined >= 0 ? w->undefined : fault;
     return w->undefined >= 0 ? WH_E_UNDEFINED : WH_E_DIVERGED;
@@ -173,7 +170,7 @@ WH_INLINE void wh_contact_note(const wh_contact_system *of, const wh_contact_wor
     }
 }
 
-/* Resolves and logs one moment, at_s after the step's begin. */
+/* Resolves and logs one moment, at_s after the step's start. */
 WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w,
                                  const wh_contact_moment *m, wh_real at_s, const wh_real *input,
                                  wh_contact_state *now, wh_contact_log *log) {
@@ -185,8 +182,7 @@ WH_INLINE void wh_contact_happen(const wh_contact_system *of, wh_contact_work *w
     }
 }
 
-/* Sets the modes at the start of a run. The first step logs the impacts at its start. Returns the number of moments
- * that the start adds to the step's count. */
+/* Sets the modes at the start of a run and logs the impacts there. Returns as wh_contact_begin() does. */
 static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                         const wh_real *input, wh_contact_state *now,
                                         wh_contact_log *log) {
@@ -197,7 +193,7 @@ static inline unsigned wh_contact_start(const wh_contact_system *of, wh_contact_
     return rounds;
 }
 
-/* The stops in work->hit_next that are still open, as bits; clears work->hit_next. */
+/* Returns, as bits, the stops in work->hit_next that are still free, and clears work->hit_next. */
 WH_INLINE unsigned wh_contact_next(const wh_contact_system *of, wh_contact_work *w) {
     unsigned bits = 0;
     if (of->forced <= 1 || w->hit_next == 0) {
@@ -260,11 +256,11 @@ WH_INLINE unsigned wh_contact_accept(const wh_contact_system *of, wh_contact_wor
 /* A step with events in progress: trial steps from attempt->now to the step's end or to the next events. */
 typedef struct wh_contact_progress {
     wh_contact_attempt *attempt;
-    const wh_contact_state *end; /* the state at the step's end, once the step has reached it */
+    const wh_contact_state *end; /* state at the end of the step, when done */
     wh_real *input;
     wh_contact_log *log;
     wh_real h;
-    wh_real left;    /* remaining time from attempt->now on, s */
+    wh_real left;    /* time from attempt->now to the step's end, s */
     wh_real reach;   /* length of the next trial step, s: shorter than `left` after a dip */
     unsigned round;  /* number of moments so far, at most WH_EVENTS_MAX */
     unsigned events; /* events at attempt->now, as bits */
@@ -275,8 +271,7 @@ typedef struct wh_contact_progress {
     bool done;
 } wh_contact_progress;
 
-/* Begins a step with events. If no trial step was made yet, finds the modes at the start of a run, or adapts the
- * contacts to inputs that have moved. */
+/* If no trial step was made yet, sets the modes at the start of a run, or adapts the contacts to changed inputs. */
 static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_contact_work *w,
                                              const wh_state *state, wh_contact_progress *p) {
     wh_contact_state *now = &p->attempt->now;
@@ -306,8 +301,7 @@ static inline void wh_contact_progress_begin(const wh_contact_system *of, wh_con
     }
 }
 
-/* Ends a step in which the trial step of length `span` from `from` left its bounds, and looks for a contact that
- * becomes undefined. */
+/* Ends the step after a trial step of length `span` left its bounds. Looks for a contact that became undefined. */
 static inline void wh_contact_progress_diverged(const wh_contact_system *of, wh_contact_work *w,
                                                 wh_real span, wh_contact_state *from,
                                                 wh_contact_progress *p) {
@@ -343,7 +337,7 @@ static inline void wh_contact_progress_pass(const wh_contact_system *of, wh_cont
     p->done = true;
 }
 
-/* Shortens the trial step to its first events. The step goes on from there. */
+/* Replaces the trial step by one that ends at its first events. */
 static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_contact_work *w,
                                            wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -367,8 +361,8 @@ static inline void wh_contact_progress_cut(const wh_contact_system *of, wh_conta
     p->reach = p->left;
 }
 
-/* Computes a trial step over the rest of the step. Then accepts it, or shortens it to its first events, or lets the
- * next trial step end at a dip. */
+/* Computes a trial step of length p->reach, unless one was made. Then accepts it, or shortens it to its first events,
+ * or lets the next trial step end at a dip. */
 static inline void wh_contact_progress_try(const wh_contact_system *of, wh_contact_work *w,
                                            wh_contact_progress *p) {
     wh_contact_attempt *a = p->attempt;
@@ -404,8 +398,8 @@ static inline void wh_contact_progress_try(const wh_contact_system *of, wh_conta
     }
 }
 
-/* Resolves the events at attempt->now. If a stop comes to rest at the step's last moment, where it might have bounced,
- * the step counts as an overrun. */
+/* Resolves the events at attempt->now. A stop that comes to rest at the step's last moment might have bounced, so the
+ * step then counts as an overrun. */
 static inline void wh_contact_progress_happen(const wh_contact_system *of, wh_contact_work *w,
                                               wh_contact_progress *p) {
     const bool last = ++p->round == WH_EVENTS_MAX;
@@ -436,7 +430,7 @@ static inline wh_status wh_contact_progress_end(const wh_contact_system *of, wh_
     return WH_OK;
 }
 
-/* Does a step with events. If a->made, the first trial step was already made. Returns as wh_step_contact() does. */
+/* Does a step with events; a->made: the first trial step was already made. Returns as wh_step_contact() does. */
 WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_work *w, wh_real h,
                                        wh_contact_attempt *a, wh_state *state) {
     wh_contact_log log;
@@ -462,8 +456,8 @@ WH_APART wh_status wh_contact_eventful(const wh_contact_system *of, wh_contact_w
 }
 
 /* Does one step with its events. Returns as wh_step_second() does; or WH_E_UNDEFINED or WH_E_SINGULAR with the contact
- * in state->fault. Only values that the step uses must be finite: a trial step that is shortened to an event may have
- * left an expression's domain. */
+ * in state->fault. Only values that the step uses must be finite: a trial step may leave an expression's domain after
+ * the event to which it is then shortened. */
 static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, wh_state *state) {
     wh_contact_work work;
     wh_contact_attempt a;
@@ -483,7 +477,6 @@ static inline wh_status wh_step_contact(const wh_contact_system *of, wh_real h, 
             wh_contact_copy(of, state->angle, state->real, state->carry, &a.now);
         }
         wh_contact_attempt_make(of, &work, h, state->input, &a);
-        /* a pivoting that reached its cap counts as an overrun */
         const bool capped = of->forced > 1 && work.capped;
         if (a.sound && a.leaving == 0 && !capped &&
             wh_contact_attempt_calm(of, &work, &a)) { /* most steps end here */

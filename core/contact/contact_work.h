@@ -11,8 +11,8 @@
 #define WH_APART static inline
 #endif
 
-/* Numbers of a step's parts. A program that counts instructions between these parts defines WH_MARK()
- * (boards/programs/mark.h); it is empty in all other programs. */
+/* Arguments of WH_MARK(), a macro that programs define to count the instructions of a step's parts
+ * (boards/programs/mark.h). */
 #define WH_MARK_ACCEL 1   /* the accelerations are evaluated next */
 #define WH_MARK_SIGNALS 2 /* the signals are evaluated next */
 #ifndef WH_MARK
@@ -22,33 +22,34 @@
 /* A step in progress: scratch memory, and the contacts' modes in the present trial step. */
 typedef struct wh_contact_work {
     int8_t mode[WH_CONTACTS_MAX];
-    wh_real force[WH_CONTACTS_MAX]; /* lambda at the last evaluation of the accelerations */
-    /* J q'' + J' q', which the forces of the active contacts had to cancel. */
+    wh_real force[WH_CONTACTS_MAX]; /* lambda, from the last evaluation of the accelerations */
+    /* acceleration along each constraining contact that its force must produce; index as in wh_contact_members() */
     wh_real wanted[WH_CONTACTS_MAX];
-    wh_real rough[WH_CONTACTS_MAX]; /* if contacts are redundant: bound on the terms of `wanted` */
+    wh_real rough[WH_CONTACTS_MAX]; /* sum of |terms| of the acceleration along each contact */
     wh_real law[WH_CONTACTS_MAX * (WH_LAW_ROWS + 2 * WH_COORDS)];
-    /* Bits: stops whose gap was closed when the trial step began; they may now open. */
+    /* Bits: stops that were closed when the trial step began, and may now open. */
     unsigned inside;
     unsigned hit_next; /* bits: touching stops that close because of an impact of this moment */
-    /* bits: frictions whose rate has just come to zero, and which may stick or slide on */
+    /* bits: frictions whose rate has just come to zero: they may stick or slide on */
     unsigned turned;
     /* 0, except in three cases:
      * - sliding friction: the error of the located rate, rad/s or m/s
-     * - crossing that turned back: the distance beyond zero within which a passage is no second crossing
-     * - hold whose condition was at its limit at the begin: the distance beyond the limit that still counts as true */
+     * - crossing that turned back: the distance beyond zero within which a passage is no second event
+     * - hold whose condition was zero within round-off when the trial step began: the negative values that still count
+     * as true */
     wh_real slack[WH_CONTACTS_MAX];
     /* Crossing that turned back: distance from zero beyond which the crossing has a sign again. */
     wh_real due[WH_CONTACTS_MAX];
-    /* Crossing whose sign is undecided: its value when the trial step began, or when the value stood still. */
+    /* Crossing whose sign is undecided: its value when the trial step began, or when the sign became undecided. */
     wh_real stood[WH_CONTACTS_MAX];
-    wh_real came[WH_COORDS];       /* rates at the begin of the present moment */
+    wh_real came[WH_COORDS];       /* rates when the present moment began */
     wh_real held[WH_CONTACTS_MAX]; /* values of the holds, indexed by wh_contact.first_set */
     unsigned moved; /* bits: contacts whose signals a crossing's assignments changed */
-    unsigned mover; /* the crossing whose assignments changed w->moved */
+    unsigned mover; /* the crossing whose assignments set `moved` */
     /* bits: crossings of this moment whose values are zero or next to zero */
     unsigned stands;
-    /* True if the present moment was located in time, and no contact has been moved since: a value past zero is then an
-     * error of location. */
+    /* True if the present moment was located in time, and no contact has been moved since: the value of its crossing is
+     * then zero within the error of location. */
     bool located;
     bool capped;   /* the pivoting reached its limit of rounds */
     int fault;     /* component that was assigned a value beyond its range, or -1 */
@@ -64,16 +65,15 @@ typedef struct wh_contact_model {
     wh_contact_work *work;
 } wh_contact_model;
 
-/* WH_CONTACTS_HERE is the scene's contacts in a function that is not inlined. In code for size the compiler may pass no
- * constants into functions, and gcc then warns of loops without a bound. So such code refers to the constant itself. */
+/* The scene's contacts in a function that is not inlined. In code for size the compiler may pass no constants into
+ * functions, and gcc then warns of loops without a bound. So such code refers to the constant itself. */
 #if defined(WH_CONTACTS_OF) && defined(__OPTIMIZE_SIZE__)
 #define WH_CONTACTS_HERE(of) WH_CONTACTS_OF(of)
 #else
 #define WH_CONTACTS_HERE(of) (of)
 #endif
 
-/* The scene's contacts. A generated scene defines WH_CONTACTS_OF as its own constant, so that the compiler knows the
- * members. */
+/* The scene's contacts. A generated scene defines this as its own constant, so the compiler knows the members. */
 #ifndef WH_CONTACTS_OF
 #define WH_CONTACTS_OF(model) ((model)->of)
 #endif
@@ -92,7 +92,7 @@ WH_INLINE void wh_contact_signals(const wh_contact_system *of, const wh_phase *p
     of->signals(of->model, phase, linear, rate, input, signal);
 }
 
-/* A point between the ends of a trial step. */
+/* A point on the path of a trial step. */
 typedef struct wh_contact_point {
     wh_phase phase[WH_COORDS];
     wh_real linear[WH_COORDS];
@@ -137,8 +137,8 @@ WH_INLINE void wh_contact_point_of(const wh_contact_system *of, wh_contact_state
     }
 }
 
-/* Computes the state after the time `span`: its positions move along the rates of `s`, and along accel[coordinates] if
- * accel is not NULL. The rates stay those of `s`. */
+/* Computes the point after the time `span`. Positions move along the rates of `s`, and along accel[coordinates] if it
+ * is not NULL. The rates stay those of `s`. */
 static inline void wh_contact_point_ahead(const wh_contact_system *of, wh_contact_state *s,
                                           wh_real span, const wh_real *accel,
                                           wh_contact_point *at) {
@@ -165,7 +165,7 @@ WH_INLINE bool wh_contact_of(const wh_contact_system *of, unsigned k, wh_contact
            (of->kinds == WH_KIND_BIT(kind) || of->contact[k].kind == kind);
 }
 
-/* True if the kind of contact k, which has a force, has one of the traits in `trait`. */
+/* True if contact k, which has a force, is of a kind with one of the traits in `trait`. */
 WH_INLINE bool wh_contact_is(const wh_contact_system *of, unsigned k, unsigned trait) {
 #define WH_KIND_IS(name, is) || (((is)&trait) != 0 && wh_contact_of(of, k, name))
     return false WH_CONTACT_KINDS(WH_KIND_IS);
@@ -186,7 +186,6 @@ WH_INLINE const wh_real *wh_contact_law(const wh_contact_system *of, const wh_co
     return w->law + k * (WH_LAW_ROWS + 2U * of->coordinates);
 }
 
-/* Returns J_k x. */
 WH_INLINE wh_real wh_jacobian_times(const wh_contact_system *of, const wh_contact_work *w,
                                     unsigned k, const wh_real *x) {
     const wh_real *row = wh_contact_law(of, w, k) + WH_LAW_ROWS;
@@ -201,7 +200,7 @@ WH_INLINE wh_real wh_jacobian_times(const wh_contact_system *of, const wh_contac
     return sum;
 }
 
-/* Does x += M^-1 J_k^T lambda. */
+/* x += M^-1 J_k^T lambda. */
 WH_INLINE void wh_contact_apply(const wh_contact_system *of, const wh_contact_work *w, unsigned k,
                                 wh_real lambda, wh_real *x) {
     const wh_real *way = wh_contact_law(of, w, k) + WH_LAW_ROWS + of->coordinates;
@@ -217,20 +216,18 @@ WH_INLINE wh_real wh_delassus(const wh_contact_system *of, const wh_contact_work
     return wh_jacobian_times(of, w, k, wh_contact_law(of, w, l) + WH_LAW_ROWS + of->coordinates);
 }
 
-/* Round-off of a sum, as a share of the sum of its terms' magnitudes. */
+/* Round-off of a sum, as a fraction of the sum of its terms' magnitudes. */
 #define WH_CONTACT_ROUNDING (WH_DOUBLE ? WH_R(1e-11) : WH_R(1e-5))
 
-/* Returns a diagonal entry of the Delassus matrix: the acceleration along contact k that a unit force of contact k
- * causes. */
 WH_INLINE wh_real wh_delassus_diagonal(const wh_contact_system *of, const wh_contact_work *w,
                                        unsigned k) {
     return wh_delassus(of, w, k, k);
 }
 
 /* Solves sum_l (J_k M^-1 J_l^T) lambda_l = wanted_k for the `count` contacts in member[], by elimination without
- * pivoting. The matrix is positive definite, except for redundant contacts. Redundant contacts get zero (NaN if their
- * wanted value is not a number); the function returns them, as bits of their indices in member[]. Contacts with at[] !=
- * 0 also get zero; `at` may be NULL. */
+ * pivoting, because the matrix is positive definite except for redundant contacts. Redundant contacts get zero (NaN if
+ * their wanted value is not finite); the function returns them, as bits of their indices in member[]. Contacts with
+ * at[] != 0 also get zero; `at` may be NULL. */
 static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const wh_contact_work *w,
                                              const uint8_t *member, unsigned count,
                                              const int8_t *at, const wh_real *wanted,
@@ -268,7 +265,7 @@ static inline unsigned wh_delassus_eliminate(const wh_contact_system *of, const 
     return repeats;
 }
 
-/* Does the same as wh_delassus_eliminate(), faster if no contact or one contact is active, as in most steps. */
+/* As wh_delassus_eliminate(), but faster if no contact or one contact is active, as in most steps. */
 WH_INLINE unsigned wh_delassus_solve(const wh_contact_system *of, const wh_contact_work *w,
                                      const uint8_t *member, unsigned count, const int8_t *at,
                                      const wh_real *wanted, wh_real *lambda) {
@@ -300,7 +297,7 @@ WH_INLINE bool wh_contact_constrains(const wh_contact_system *of, const wh_conta
 }
 
 /* Checks that the limits of sticking frictions, the forces of sliding frictions and the values of holds are finite. (A
- * stop's restitution matters only at an impact.) Rarely called, so out of line. */
+ * stop's restitution matters only at an impact.) */
 WH_APART void wh_contact_expect_laws(const wh_contact_system *of, wh_contact_work *w) {
     for (unsigned k = 0; k < of->forced; k++) {
         const bool friction = wh_contact_of(of, k, WH_FRICTION);
