@@ -1,5 +1,4 @@
-/* algebra.h: the tables that keep one copy of equal objects of normal_form.h (interning), and the functions that make
- * these objects. Only for host/algebra. */
+/* algebra.h: the tables that store equal objects of normal_form.h once (interning), for host/algebra only. */
 #ifndef ALGEBRA_ALGEBRA_H
 #define ALGEBRA_ALGEBRA_H
 
@@ -41,7 +40,7 @@ struct algebra {
     const poly *one;
 };
 
-/* Interning returns the one object with these contents. The caller frees scratch objects; the arena owns interned
+/* Interning returns the stored object equal to `candidate`. The caller frees scratch objects, the arena interned
  * ones. */
 mono *mono_scratch(int factors);
 const mono *mono_intern(algebra *a, mono *candidate);
@@ -52,12 +51,10 @@ uint64_t symbol_bit(const symbol *sym, int primes);
 poly *poly_scratch(int terms);
 const poly *poly_intern(algebra *a, poly *candidate);
 
-/* The derivative of a function by its argument x (which = 0) or y (1), at these arguments (calculus.c). y may be NULL
- * for a function of one argument. */
+/* The derivative of a function by its argument x (which = 0) or y (1). Without a second argument, y is NULL
+ * (calculus.c). */
 const poly *function_slope(algebra *a, function_id function, int which, const poly *x,
                            const poly *y);
-
-/* order of the normal form (poly.c) */
 
 /* Negative if x comes before y, 0 if they are equal, else positive. */
 int poly_order(const poly *x, const poly *y);
@@ -67,12 +64,10 @@ double coefficient_sum(double x, double y);
 /* Is p a sum of at least two terms, made of positions, parameters and numbers only, without rates and functions? */
 bool poly_is_place(const poly *p);
 
-/* --- sums of many polys (poly.c) ------------------------------------------------------------------*/
-
 typedef struct sum_item {
     const mono *mono;
     double coefficient;
-    /* order of entry: products that are equal are added in this order */
+    /* place in the order of entry, in which equal products are added */
     size_t turn;
 } sum_item;
 
@@ -88,10 +83,10 @@ void sum_add(algebra *a, poly_sum *s, const poly *p, double scale);
 /* Returns the sum, and frees the memory of `s`. */
 const poly *sum_close(algebra *a, poly_sum *s);
 
-/* base^exponent. Whole powers of sums of positions are not expanded if the exponent is `kept` or more. */
+/* base^exponent. If the exponent is `kept` or more, whole powers of sums of positions are not expanded. */
 const poly *poly_power(algebra *a, const poly *base, double exponent, double kept);
 
-/* memo_get() returns the stored result for the pair, or NULL. memo_put() stores a result. */
+/* memo_get() returns the stored result for the pair, or NULL. */
 const poly *memo_get(intern_table *table, const void *left, const void *right);
 void memo_put(algebra *a, intern_table *table, const void *left, const void *right,
               const poly *result);

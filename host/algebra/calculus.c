@@ -63,7 +63,7 @@ static double atom_value(const atom *x, poly_value *value, void *context) {
     return 0.0;
 }
 
-/* Returns the sum of the terms; with `sizes`, of their absolute values, in which a wave counts as one. */
+/* Returns the sum of the terms. With `sizes`: the sum of their absolute values, with 1 for each sine and cosine. */
 static double sum_of_terms(const poly *p, poly_value *value, void *context, bool sizes) {
     double sum = 0.0;
     for (int i = 0; i < p->count; i++) {
@@ -213,8 +213,6 @@ const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int pr
     return known;
 }
 
-/* --- determinants --------------------------------------------------------------------------------*/
-
 const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
                              unsigned columns) {
     const poly *sum = poly_number(a, 0.0);
@@ -234,8 +232,6 @@ const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned r
     }
     return sum;
 }
-
-/* --- search for a symbol ------------------------------------------------------------------------- */
 
 bool poly_contains(const poly *p, const symbol *sym, int primes) {
     if (primes >= 0 && !poly_may_contain(p, sym, primes)) {
@@ -264,12 +260,10 @@ bool poly_contains(const poly *p, const symbol *sym, int primes) {
     return false;
 }
 
-/* --- substitution --------------------------------------------------------------------------------*/
-
 typedef struct substitution {
     poly_replacement *replace;
     void *context;
-    double kept;       /* whole powers of sums of positions stay powers from this exponent on */
+    double kept;       /* from this exponent on, whole powers of sums of positions stay powers */
     intern_table done; /* memo_pair of a poly or atom and NULL */
 } substitution;
 
@@ -327,7 +321,7 @@ static const poly *substitute(algebra *a, const poly *p, substitution *s) {
 }
 
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context) {
-    /* 2.0, so that (x - b)^2, the slope of (x - b)^3, also stays a power */
+    /* 2.0, because the slope of (x - b)^3, which has (x - b)^2, must stay a power, too */
     substitution s = {replace, context, 2.0, {0}};
     const poly *result = substitute(a, p, &s);
     free(s.done.slots);
@@ -351,8 +345,6 @@ const poly *poly_expanded(algebra *a, const poly *p) {
     free(s.done.slots);
     return result;
 }
-
-/* --- from a parsed expression --------------------------------------------------------------------*/
 
 const poly *poly_from_expr(algebra *a, const expr *e) {
     if (a->overflow) {

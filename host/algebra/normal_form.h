@@ -7,11 +7,11 @@
  *     sin(a)*sin(b) = cos(a - b)/2 - cos(a + b)/2        sin(a)^2 + cos(a)^2 = 1
  *
  * Whole powers of sums of positions are not expanded from the third on, so that (x - b)^3 keeps its digits near x = b.
- * Two such powers have one form if their sums differ only in order, sign and scale. They equal their expanded form only
- * after poly_expanded().
+ * Two such powers have one form if their sums differ only in order, sign and scale. poly_expanded() makes them
+ * comparable with their expanded form.
  *
- * All three kinds of object are interned in an `algebra`: equal objects are the same pointer, and results are memoized.
- * Objects never change.
+ * Polys, products and atoms are interned in an `algebra`: equal objects are the same pointer, results are memoized, and
+ * objects never change.
  *
  * Coefficients are doubles. A sum below 1e-14 of its addends counts as zero, so that decimal parameters (0.1 + 0.2 -
  * 0.3) leave no spurious terms. */

@@ -13,9 +13,8 @@
 static void algebra_work(algebra *a, size_t amount);
 
 /* === the order of the normal form ============================================================= */
-/* The order of atoms, products and sums depends on their contents, never on the time of creation. So an expression has
- * the same form whatever was computed before, and with any compiler. Equal objects have the same address, so a
- * comparison skips shared parts in one step. It ends at the first difference. */
+/* The order of atoms, products and sums depends only on their contents, so the form of an expression depends neither on
+ * earlier work nor on the compiler. Equal objects have the same address, so a comparison skips shared parts. */
 
 static int of_ints(int x, int y) { return (x > y) - (x < y); }
 
@@ -32,8 +31,7 @@ static int of_numbers(double x, double y) {
     return (left > right) - (left < right);
 }
 
-/* Symbols come first: positions, then rates, then accelerations, each in the order of declaration. Then come calls,
- * powers and groups. */
+/* Positions come first, then rates, accelerations (each in the order of declaration), calls, powers and groups. */
 static uint64_t atom_rank(const atom *x) {
     uint64_t rank = (uint64_t)x->kind << 60;
     if (x->kind == ATOM_SYMBOL) {
@@ -91,7 +89,7 @@ int poly_order(const poly *x, const poly *y) {
 
 /* === questions about a poly =================================================================== */
 
-/* A sum that is smaller than this, relative to its addends, is a rounding error of decimals. */
+/* A sum smaller than this, relative to its addends, is a rounding error of decimals. */
 #define CANCELLED 1e-14
 /* A whole power of a sum is multiplied out if this takes at most this many products of terms. */
 #define POWER_TERMS_MAX 64
@@ -135,8 +133,7 @@ bool poly_is_place(const poly *p) {
     return p->count > 1;
 }
 
-/* Returns true if the power is to be multiplied out. A sum of positions stays a power if the exponent is `kept` or
- * more. */
+/* A sum of positions stays a power if the exponent is `kept` or more. */
 static bool power_multiplies_out(const poly *base, double exponent, double kept) {
     if (exponent <= 0.0 || !exponent_is_whole(exponent) ||
         (exponent >= kept && poly_is_place(base))) {
@@ -150,7 +147,7 @@ static bool power_multiplies_out(const poly *base, double exponent, double kept)
 }
 
 /* === sums of many polys ======================================================================= */
-/* Adding polys one by one would build and keep every partial sum. Here the terms are collected first. */
+/* Adding polys one by one would build and store every partial sum, so the terms are collected first. */
 
 static void push(poly_sum *s, const mono *m, double coefficient) {
     if (s->count == s->room) {
@@ -195,7 +192,7 @@ static void collect(poly_sum *s) {
     s->count = kept;
 }
 
-/* Sum up `row` by itself, then add it to `s`. `row` is then empty; its memory is reused. */
+/* Adds up `row` by itself, then adds it to `s`. `row` is then empty, and its memory can be reused. */
 static void sum_add_row(poly_sum *s, poly_sum *row) {
     collect(row);
     for (size_t i = 0; i < row->count; i++) {
@@ -219,13 +216,12 @@ const poly *sum_close(algebra *a, poly_sum *s) {
 
 /* === interning ================================================================================ */
 
-/* Limit of the work of a derivation, in bytes: some 500 MB, or half a minute. An arm of six joints without zero lengths
- * needs 0.42e9. */
+/* Limit of the work of a derivation, in bytes: some half a minute. An arm of six joints of nonzero lengths needs
+ * 0.42e9. */
 #define WORK_MAX ((size_t)1 << 29)
 /* Processing one term counts as this many bytes of work. */
 #define WORK_OF_TERM 2U
-/* Work of making an object, in bytes: its size on a 64-bit host. The numbers are fixed, so that the limit does not
- * depend on the host. */
+/* Work of making an object, in bytes: its size on a 64-bit host, so that the limit is the same on every host. */
 enum { ATOM_BYTES = 72, MONO_BYTES = 48, POLY_BYTES = 32, PART_BYTES = 16, PAIR_BYTES = 24 };
 
 static uint64_t bits_of(double value) {
@@ -233,8 +229,6 @@ static uint64_t bits_of(double value) {
     memcpy(&bits, &value, sizeof bits);
     return bits;
 }
-
-/* --- hash tables ---------------------------------------------------------------------------------*/
 
 static void table_grow(intern_table *table) {
     const size_t size = table->size == 0 ? 1024 : table->size * 2;
@@ -311,8 +305,6 @@ void algebra_free(algebra *a) {
 
 bool algebra_overflow(const algebra *a) { return a->overflow; }
 
-/* --- atoms ---------------------------------------------------------------------------------------*/
-
 uint64_t symbol_bit(const symbol *sym, int primes) {
     const uint64_t which = (uint64_t)sym->kind * 1024U + (uint64_t)sym->index;
     return UINT64_C(1) << (hash_mix(which, (uint64_t)primes + 1) >> 58);
@@ -364,8 +356,6 @@ static const atom *atom_of_polys(algebra *a, atom_kind kind, function_id functio
     return atom_intern(a, &candidate);
 }
 
-/* --- products of atoms ---------------------------------------------------------------------------*/
-
 static bool mono_equal(const void *x, const void *y) {
     const mono *left = x;
     const mono *right = y;
@@ -381,7 +371,7 @@ static bool mono_equal(const void *x, const void *y) {
     return true;
 }
 
-/* `candidate` may be scratch memory: a new object is copied. */
+/* A new object is a copy of `candidate`, which may be scratch memory. */
 const mono *mono_intern(algebra *a, mono *candidate) {
     uint64_t hash = hash_mix((uint64_t)candidate->trig,
                              candidate->angle == NULL ? 0 : candidate->angle->id + 1U);
@@ -425,8 +415,6 @@ const mono *mono_make(algebra *a, const mono_factor *factors, int count, trig ki
     free(m);
     return made;
 }
-
-/* --- sums ----------------------------------------------------------------------------------------*/
 
 static bool poly_equal(const void *x, const void *y) {
     const poly *left = x;
@@ -491,8 +479,6 @@ const poly *poly_number(algebra *a, double value) {
     return poly_of_term(a, value, mono_make(a, NULL, 0, TRIG_NONE, NULL));
 }
 
-/* --- stored results -----------------------------------------------------------------------------*/
-
 static bool pair_equal(const void *x, const void *y) {
     const memo_pair *left = x;
     const memo_pair *right = y;
@@ -524,10 +510,10 @@ void memo_put(algebra *a, intern_table *table, const void *left, const void *rig
 
 /* === sums, products and powers ================================================================ */
 
-/* A product of two sums is not expanded if it has more products of terms than this. */
+/* A product of two sums with more products of terms than this is not expanded. */
 #define PRODUCT_TERMS_MAX 400000
-/* A sum of positions with this whole exponent or a larger one stays a power: expanded, (x - b)^3 would lose its digits
- * near x = b. Squares are expanded, because equal sums of squares may have the same form only then. */
+/* A sum of positions with at least this whole exponent stays a power: expanded, (x - b)^3 would lose its digits near x
+ * = b. Squares are expanded, because equal sums of squares may have the same form only then. */
 #define POWER_KEPT 3.0
 
 const poly *poly_of_atom(algebra *a, const atom *x, double exponent) {
@@ -578,8 +564,6 @@ const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double 
     return made;
 }
 
-/* --- sines and cosines ---------------------------------------------------------------------------*/
-
 static const poly *trig_of(algebra *a, trig kind, const poly *angle) {
     double value;
     if (poly_is_number(angle, &value)) {
@@ -613,10 +597,8 @@ static const poly *trig_product(algebra *a, trig left, const poly *x, trig right
     return poly_scale(a, p, 0.5);
 }
 
-/* --- products ------------------------------------------------------------------------------------*/
-
-/* Replaces |p|^n by p^n (n even) or p^(n - 1) |p|, and a small whole power of a group by its product. Returns NULL for
- * other powers. */
+/* Replaces |p|^n by p^n (n even) or p^(n - 1) |p|, and expands a small whole power of a group. NULL for other
+ * powers. */
 static const poly *power_expands(algebra *a, const mono_factor *f) {
     if (f->atom->kind == ATOM_CALL && f->atom->function == FN_ABS && f->exponent >= 2.0) {
         const poly *inside = f->atom->argument[0];
@@ -715,7 +697,7 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
     if (a->overflow) {
         return a->zero;
     }
-    /* The order of the operands is fixed, so that rounding does not depend on the order of the arguments. */
+    /* A fixed order of the operands makes rounding independent of the order of the arguments. */
     if (poly_order(right, left) < 0) {
         const poly *swap = left;
         left = right;
@@ -728,8 +710,6 @@ const poly *poly_mul(algebra *a, const poly *left, const poly *right) {
     }
     return known;
 }
-
-/* --- powers and functions ------------------------------------------------------------------------*/
 
 /* A power of a term, by rules that hold for every real value of the atoms: (x^2)^(1/2) is not x. */
 static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
@@ -777,7 +757,7 @@ static const poly *term_pow(algebra *a, const poly_term *t, double exponent) {
 }
 
 /* Returns the divisor that makes sums equal if they differ only by a factor. For a positive whole power it is not the
- * constant term, so that x - b keeps its form if b becomes a number. */
+ * constant term, so that x - b has the same form with a number for b. */
 static double size_of_sum(const poly *p, double exponent) {
     const bool constant = p->terms[0].mono->count == 0 && p->terms[0].mono->trig == TRIG_NONE;
     return constant && exponent_is_whole(exponent) && exponent > 0.0 ? p->terms[1].coefficient

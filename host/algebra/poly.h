@@ -23,7 +23,7 @@ const atom *atom_symbol(algebra *a, const symbol *sym, int primes);
 const poly *poly_add(algebra *a, const poly *left, const poly *right);
 const poly *poly_sub(algebra *a, const poly *left, const poly *right);
 const poly *poly_scale(algebra *a, const poly *p, double scale);
-/* Returns p with each coefficient replaced by change(coefficient, by). */
+/* p with each coefficient c replaced by change(c, by) */
 const poly *poly_each_number(algebra *a, const poly *p, double (*change)(double number, double by),
                              double by);
 const poly *poly_mul(algebra *a, const poly *left, const poly *right);
@@ -39,31 +39,27 @@ const poly *poly_of_term(algebra *a, double coefficient, const mono *m);
 bool poly_is_zero(const poly *p);
 /* Returns true if p is a number, and stores it in *value. */
 bool poly_is_number(const poly *p, double *value);
-/* Returns false only if p certainly does not contain the symbol with `primes` primes. It is quick, but may return
- * true without cause. */
+/* A quick test: false only if p certainly does not contain the symbol with `primes` primes; true may be wrong. */
 bool poly_may_contain(const poly *p, const symbol *sym, int primes);
 /* Exact test: does p contain the symbol with `primes` primes? For primes = -1, any number of primes counts. */
 bool poly_contains(const poly *p, const symbol *sym, int primes);
 
-/* --- calculus.c ---------------------------------------------------------------------------------*/
-
-/* Determinant of a part of the n by n matrix m, n <= 32: of the rows and columns in two bit sets of equal size. It is
- * expanded by cofactors, so it is only for a few rows. */
+/* Determinant, by cofactors, of the rows and columns in two bit sets of the n by n matrix m, n <= 32. Only for a few
+ * rows. */
 const poly *poly_determinant(algebra *a, const poly *const *m, int n, unsigned rows,
                              unsigned columns);
 
 /* Partial derivative by the symbol with `primes` primes. */
 const poly *poly_derivative(algebra *a, const poly *p, const symbol *sym, int primes);
 
-/* poly_substitute() replaces symbols in p. `replace` returns the replacement of a symbol with `primes` primes, or
- * NULL to keep it. */
+/* Replaces symbols in p. `replace` returns the replacement of a symbol with `primes` primes, or NULL to keep it. */
 typedef const poly *poly_replacement(void *context, algebra *a, const symbol *sym, int primes);
 const poly *poly_substitute(algebra *a, const poly *p, poly_replacement *replace, void *context);
 
-/* Returns p with its powers of sums multiplied out, unless the result is large. If p is zero, the result shows it. */
+/* p with its powers of sums multiplied out, unless the result is large. A p that equals zero then has no terms. */
 const poly *poly_expanded(algebra *a, const poly *p);
 
-/* poly_evaluate() returns the value of p. `value` returns the value of a symbol. */
+/* `value` returns the value of a symbol. */
 typedef double poly_value(void *context, const symbol *sym, int primes);
 double poly_evaluate(const poly *p, poly_value *value, void *context);
 /* The sum of the absolute values of p's terms, as a reference for the round-off in poly_evaluate(). Sines and cosines

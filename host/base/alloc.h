@@ -1,6 +1,5 @@
-/* alloc.h: heap allocation for the whole host. If memory runs out, the program ends with a message and exit status 1,
- * so no function returns NULL. free() releases the memory. `count` is a number of elements, `size` the bytes of one
- * element. A product above SIZE_MAX, or a negative count, is treated as if memory had run out. */
+/* alloc.h: heap allocation for the whole host. If memory runs out, `count` elements of `size` bytes exceed SIZE_MAX, or
+ * `count` < 0, the program ends with a message and exit status 1: no function returns NULL. The caller calls free(). */
 #ifndef BASE_ALLOC_H
 #define BASE_ALLOC_H
 
@@ -11,8 +10,7 @@
 /* Returns `count` zeroed elements. If `count` is 0, the pointer must not be dereferenced. */
 void *alloc(int64_t count, size_t size);
 
-/* Resizes `array` to `count` elements and keeps its contents. If `array` is NULL, it is allocated. New elements are
- * not initialized. */
+/* Resizes `array` to `count` elements. New elements are not initialized. If `array` is NULL, it is allocated. */
 void *alloc_more(void *array, int64_t count, size_t size);
 
 /* Returns a zeroed structure of `head` bytes, followed by `count` zeroed elements. */
@@ -23,11 +21,11 @@ char *alloc_copy(const char *text, size_t length);
 /* The same without blanks, tabs and line ends at both ends. */
 char *alloc_trimmed(const char *text, size_t length);
 
-/* The formatted text, as printf() would print it. */
+/* The text that printf() would print. */
 char *alloc_words(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Opens a stream that writes into memory. alloc_text_end() closes it. *text then has `length` bytes, followed by a zero
- * byte; the caller frees it. */
+/* Opens a memory stream. alloc_text_end() closes it and sets *text, for the caller to free: `length` bytes and a zero
+ * byte. */
 FILE *alloc_text(char **text, size_t *length);
 void alloc_text_end(FILE *stream);
 
@@ -41,18 +39,16 @@ void arena_free(struct arena *arena); /* `arena` may be NULL */
 /* `size` zeroed bytes, aligned for any type. */
 void *arena_alloc(struct arena *arena, size_t size);
 
-/* A copy of `length` bytes with a zero byte after them. */
+/* arena_copy() and arena_words() are as alloc_copy() and alloc_words(). */
 char *arena_copy(struct arena *arena, const char *text, size_t length);
-
-/* The formatted text, as printf() would print it. */
 char *arena_words(struct arena *arena, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
-/* Makes room for one more element after the first `count` of `array`. Returns `array`, or a copy of twice the size.
- * The capacity is always the smallest power of two that is at least `count`. */
+/* Returns `array` with memory for one more element than its `count`, or a copy of twice the size. The capacity is the
+ * smallest power of two that is at least `count`. */
 void *arena_room(struct arena *arena, void *array, int count, size_t element_size);
 
-/* Appends a copy of `element` to the array and adds one to *count. Returns the array, which may have moved. */
+/* Appends a copy of `element`, and adds one to *count. Returns the array, which may have moved. */
 void *arena_push(struct arena *arena, const void *array, int *count, const void *element,
                  size_t element_size);
 

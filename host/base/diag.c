@@ -20,7 +20,7 @@ void statement_text(place at, char *text, size_t size) {
     }
     size_t end = start;
     int open = 0;        /* depth of the statement's own braces */
-    bool quoted = false; /* inside a text, which may have any of these signs */
+    bool quoted = false; /* inside a quoted text, in which # { } ; have no meaning */
     while (end < from->length && from->text[end] != '\n' &&
            (quoted || (from->text[end] != '#' &&
                        (open > 0 || (from->text[end] != '}' && from->text[end] != ';'))))) {
@@ -51,7 +51,7 @@ enum {
 };
 
 typedef struct entry {
-    /* only compared: the source may be freed after diag_error() has returned */
+    /* only compared, never dereferenced: the caller may free the source after diag_error() */
     const source *source;
     int file_order;
     char file[FILE_SIZE];
@@ -88,8 +88,8 @@ int diags_count(const diags *all) { return all->reported; }
 
 size_t diags_calls(const diags *all) { return all->calls; }
 
-/* Copies the source line around the place. Each column shows one character. Control characters and invalid bytes
- * become "?", tabs become spaces. */
+/* Copies the source line around the place, one column per character. Invalid bytes and control characters become
+ * "?". */
 static void copy_line(entry *made, place at) {
     const char *text = at.source->text;
     const size_t length = at.source->length;
@@ -130,7 +130,7 @@ static void copy_line(entry *made, place at) {
     made->caret = before;
 }
 
-/* The lines are compared, too: a new source may have the address of a freed one. */
+/* Compares the shown lines, too, because a new source may have the address of a freed one. */
 static bool is_repeat(const diags *all, const entry *made) {
     for (int i = 0; i < all->held; i++) {
         const entry *each = &all->entries[i];

@@ -7,8 +7,8 @@
 
 #define DIAG_MAX 20 /* largest number of errors printed; if there were more, a last line says so */
 
-/* A source text, and a place in it. Lines and columns count from 1; a column is a character. If `text` is NULL,
- * messages show no source line. */
+/* A source text, and a place in it. Lines and columns (characters) count from 1. Without `text`, messages have no
+ * line. */
 typedef struct source {
     const char *file;
     const char *text;
@@ -24,22 +24,20 @@ typedef struct place {
 
 typedef struct diags diags;
 
-/* Errors go to `out` (standard error in the program) when diags_flush() is called. */
 diags *diags_new(void);
 void diags_free(diags *diags);
 
-/* Reports an error at `at`. `hint` may be NULL or "". All texts are copied. A second error at the same place is
- * dropped. */
+/* Reports an error at `at`. `hint` may be NULL or "". Texts are copied. A second error at the same place is dropped. */
 void diag_error(diags *diags, place at, const char *hint, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Number of errors since the last diags_flush(), without the dropped ones. It may exceed DIAG_MAX. */
+/* Number of errors since the last diags_flush(), without dropped ones. It may exceed DIAG_MAX. */
 int diags_count(const diags *diags);
 
-/* Number of calls of diag_error() since diags_new(). If it has not changed, there was no error in between. */
+/* Number of calls of diag_error() since diags_new(), including those whose error was dropped. */
 size_t diags_calls(const diags *diags);
 
-/* Prints all errors, sorted by place, and forgets them:
+/* Prints all errors, sorted by place, and removes them:
  *   file:line:column: error: text
  *     source line
  *          ^
@@ -51,8 +49,8 @@ void diags_flush(diags *diags, FILE *out);
 /* Size of a buffer for the text that a message quotes. */
 #define STATEMENT_SIZE 161
 
-/* Writes the statement at `at` to text[size], size > 4: its part of the source line, without indentation, comment and
- * enclosing braces. A longer text is cut and ends in "...". If the place has no source, the text is empty. */
+/* Writes the statement at `at` to text[size], size > 4, without indentation, comment and enclosing braces. A longer
+ * text is cut and ends in "...". If `at` has no source, the text is empty. */
 void statement_text(place at, char *text, size_t size);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-/* X(name, status, meaning): help, documents and code all use these rows. */
+/* X(name, status, meaning): help texts, pages and code use these rows. */
 #define EXIT_ROWS(X) \
     X(EXIT_DONE, 0, "done") \
     X(EXIT_RUN_FAILED, 1, "failed") \
@@ -19,9 +19,8 @@ enum { EXIT_ROWS(EXIT_VALUE) };
 enum { EXITS = 0 EXIT_ROWS(EXIT_ONE) };
 #undef EXIT_ONE
 
-/* Prints the part of a help text that lists the exit statuses, with a line for each. why[EXITS] has a text for each
- * row: its meaning for this command. If the text is "", only the general meaning is printed; if it is NULL, the line is
- * omitted. If a text has several lines, the further ones must begin with seven spaces. */
+/* Prints a help text's list of exit statuses, a line for each row. why[EXITS]: the row's meaning for this command; "":
+ * none; NULL: no line. Further lines of a text must begin with seven spaces. */
 void exit_describe(FILE *out, const char *const *why);
 
 #endif

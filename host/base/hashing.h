@@ -1,5 +1,5 @@
-/* hashing.h: hashes inside the host, for tables and comparisons. core/hash.h hashes states and file contents; the
- * constants of FNV-1a are defined only there and here. */
+/* hashing.h: hashes for tables and comparisons in the host. Apart from core/hash.h, only this file has FNV-1a's
+ * constants. */
 #ifndef BASE_HASHING_H
 #define BASE_HASHING_H
 
@@ -8,8 +8,7 @@
 
 #include "core/hash.h"
 
-/* FNV-1a, 32 bits, of `length` bytes. The hash of an output's name seeds the output's noise, so another hash would
- * change runs. */
+/* FNV-1a with 32 bits. The hash of an output's name seeds its noise, so another hash would change runs. */
 static inline uint32_t hash_text(const char *text, size_t length) {
     uint32_t hash = 2166136261U;
     for (size_t i = 0; i < length; i++) {
@@ -18,12 +17,12 @@ static inline uint32_t hash_text(const char *text, size_t length) {
     return hash;
 }
 
-/* One step of FNV-1a with 64 bits. `word` is itself a hash. */
+/* One step of FNV-1a with 64 bits, for a `word` that is itself a hash. */
 static inline uint64_t hash_of_hashes(uint64_t hash, uint64_t word) {
     return (hash ^ word) * WH_HASH_PRIME;
 }
 
-/* Mixes a word into a hash for tables in memory. It is faster than FNV-1a. The result is never written to a file. */
+/* Mixes a word into a hash for tables in memory, faster than FNV-1a. The result is never written to a file. */
 static inline uint64_t hash_mix(uint64_t hash, uint64_t word) {
     hash ^= word + UINT64_C(0x9e3779b97f4a7c15) + (hash << 6) + (hash >> 2);
     return hash * UINT64_C(0xff51afd7ed558ccd);

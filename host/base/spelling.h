@@ -6,10 +6,10 @@
 
 /* === well-formed, printable UTF-8 characters ================================================== */
 
-/* Length in bytes of the character at `text`; `left` > 0 bytes of the text remain. Returns 0 if the character is
- * malformed, or is a control character above ASCII, which could steer a terminal. */
+/* Length in bytes of the character at `text`; `left` > 0 bytes of the text remain. Returns 0 if it is malformed, or is
+ * a control character above ASCII, which could steer a terminal. */
 size_t utf8_length(const char *text, size_t left);
-/* The hint that names what to write instead of the sign at `text`; `otherwise` for an unknown sign. */
+/* A hint with the ASCII replacement of the character at `text`, such as "write -". Without one, returns `otherwise`. */
 const char *ascii_hint(const char *text, size_t left, const char *otherwise);
 
 /* === the known name closest to a misspelt one ================================================= */

@@ -58,8 +58,6 @@ static int enter_symbol(maker *k, const symbol *s, int primes) {
     return enter_number(k, (double)NAN);
 }
 
-/* --- expressions as they were written ----------------------------------------------------------------*/
-
 static int of_expr(maker *k, const expr *tree);
 
 /* A let may be used in many expressions, but its nodes are entered once. */

@@ -17,8 +17,6 @@
 #include "host/number/folding.h"
 #include "host/number/phase.h"
 
-/* --- parts independent of the lists ---------------------------------------------------------------- */
-
 static void name_it(image_draft *d, const instance *inst) {
     image *im = d->made;
     const mechanism *m = inst->mechanism;

@@ -469,8 +469,6 @@ static bool derive_lagrange(equations *e, diags *errors) {
     return true;
 }
 
-/* --- systems given by equations -----------------------------------------------------------------*/
-
 static int highest_order(const poly *p, const symbol *s) {
     for (int order = 8; order > 0; order--) {
         if (poly_contains(p, s, order)) {

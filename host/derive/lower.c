@@ -556,8 +556,6 @@ static int waves_cosine(lowering *l, const poly *angle) {
 /* Coefficients whose relative difference is smaller than this come from the same number. */
 #define SAME 1e-13
 
-/* --- planning the sines --------------------------------------------------------------------------*/
-
 typedef struct angle_list {
     const poly **angles;
     int count;
@@ -609,8 +607,6 @@ void lower_done(lowering *l) {
     l->uses = NULL;
     l->wave_count = l->uses_room = 0;
 }
-
-/* --- factoring -----------------------------------------------------------------------------------*/
 
 /* Whole exponents above this are not expanded to products, here or in op_list_power(). The test compares doubles,
  * because an int would truncate large exponents. */

@@ -22,8 +22,6 @@ static int minus_product(op_list *t, int from, int x, int y) {
 /* mass[n * n] and force[n] are operations, and are overwritten. solution[n] receives the operations of the
  * unknowns. */
 
-/* --- Cramer's rule -------------------------------------------------------------------------------*/
-
 /* Enters the determinant of the equations rows[] in the unknowns columns[], by cofactors (size <= 3). */
 static int determinant(op_list *t, int n, const int *mass, const int *rows, const int *columns,
                        int size) {
@@ -68,8 +66,6 @@ static void solve_cramer(op_list *t, int n, const int *mass, const int *force, c
     free(swapped);
 }
 
-/* --- symmetric positive definite -----------------------------------------------------------------*/
-
 /* x_k = (f_k - sum over later unknowns of m_kj x_j) / m_kk */
 static void substitute_back(op_list *t, int n, const int *mass, const int *force, const int *order,
                             int at, int *solution) {
@@ -111,8 +107,6 @@ static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const 
         substitute_back(t, n, mass, force, order, left, solution);
     }
 }
-
-/* --- any regular matrix --------------------------------------------------------------------------*/
 
 static double generic(void *context, const symbol *s, int primes) {
     (void)context;

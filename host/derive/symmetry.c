@@ -276,8 +276,6 @@ static int count_by_values(const equations *e, const poly *const *change) {
     return count;
 }
 
-/* --- symmetries -------------------------------------------------------------------------------------*/
-
 const poly *symmetry_along(const equations *e, const symmetry *s, const poly *const *row) {
     const poly *sum = poly_number(e->algebra, 0.0);
     for (int i = 0; i < e->count; i++) {

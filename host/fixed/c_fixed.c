@@ -184,8 +184,6 @@ static void c_fixed_list(FILE *out, const fixed_list *l, bool second) {
 
 /* === the file around the list ================================================================= */
 
-/* --- the step --------------------------------------------------------------------------------------------*/
-
 static void gained(FILE *out, fixed_gain g, const char *x) {
     if (g.shift > 0) {
         fprintf(out, "wh_fixed_mul(wh_fixed_left(%s, %d), ", x, g.shift);
@@ -360,8 +358,6 @@ static void put_advance(FILE *out, const fixed_plan *p) {
     }
     fputs("    state->saturated = saturated;\n    state->steps++;\n    return WH_OK;\n}\n\n", out);
 }
-
-/* --- the file ------------------------------------------------------------------------------------------*/
 
 static void put_numbers(FILE *out, const char *name, const int32_t *number, int count) {
     if (count > 0) {

@@ -157,8 +157,6 @@ typedef struct fixed_run {
     fixed_loss *loss;
 } fixed_run;
 
-/* --- the list ------------------------------------------------------------------------------------------*/
-
 typedef struct fixed_at {
     const uint32_t *phase;
     const int32_t *linear;
@@ -230,8 +228,6 @@ static void evaluate(fixed_run *run, fixed_at in, int32_t *result) {
         result[i] = run->value[l->result[i]];
     }
 }
-
-/* --- the step ------------------------------------------------------------------------------------------*/
 
 static int32_t gained(fixed_gain g, int32_t x) {
     return wh_fixed_mul(wh_fixed_left(x, g.shift), g.number, g.by);
@@ -367,8 +363,6 @@ static wh_status advance(const wh_fixed_scene *scene, wh_fixed_state *state) {
     state->steps++;
     return WH_OK;
 }
-
-/* --- queries of a run --------------------------------------------------------------------------------------*/
 
 static void *run_start(const image *im) {
     const fixed_plan *p = im->fixed;

@@ -241,8 +241,6 @@ static bool make_movers(fixed_plan *p) {
     return true;
 }
 
-/* --- the list's leaves -----------------------------------------------------------------------------------*/
-
 static void set_leaves(fixed_plan *p) {
     const image *im = p->image;
     const int linears = p->second ? im->coordinates - im->angles : im->reals;

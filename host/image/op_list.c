@@ -31,8 +31,6 @@ void op_list_free(op_list *t) {
     free(t);
 }
 
-/* --- the rows of operations ----------------------------------------------------------------------*/
-
 const op_row op_rows[OPS] = {
 #define VALUES_CONSTANT 0
 #define VALUES_LEAF 0
@@ -64,8 +62,6 @@ function_id op_list_function(const op *o) {
     }
     return o->code == OP_CALL ? o->function : (function_id)f;
 }
-
-/* --- entering operations ------------------------------------------------------------------------*/
 
 static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);

@@ -55,8 +55,6 @@ static matrix kernel_of(const matrix *m) {
     return kernel;
 }
 
-/* --- the equations of a list -----------------------------------------------------------------------------------*/
-
 /* The unknowns: an exponent for each operation, and one for each operand that is a raw value (op_list_is_raw()). A
  * raw value may be used as it is or multiplied by a factor. */
 typedef struct unknowns {
@@ -147,8 +145,6 @@ static matrix all_freedoms(const unknowns *u) {
     free(m.at);
     return kernel;
 }
-
-/* --- solutions that multiply few raw values ---------------------------------------------------------------------- */
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
@@ -628,8 +624,6 @@ static void try_number(scaling_search *s, const double *exponent, double x) {
     }
     op_list_free(made);
 }
-
-/* --- candidate numbers ------------------------------------------------------------------------------------------ */
 
 /* Tries products of small primes, the simplest first. A decimal times enough fives is a whole number over a power of
  * two, and a third times three is whole. Factors of two change nothing. */

@@ -92,8 +92,6 @@ static void op_list_needs_free(op_list_needs *n) {
     free(n->user);
 }
 
-/* --- loads and stores of values ------------------------------------------------------------------ */
-
 /* Values in registers, and the number of loads and stores so far. */
 typedef struct registers {
     int value[OP_LIST_REGISTERS];
@@ -337,8 +335,6 @@ static int *ending_lives(const op_list_needs *n, int count, first_of way) {
     schedule_free(&s);
     return sequence;
 }
-
-/* --- the list in its new order -------------------------------------------------------------------*/
 
 typedef struct placing {
     const op_list *t;

@@ -1,6 +1,5 @@
-/* decimal.c: correctly rounded decimal input. Floating-point arithmetic is not used, because its results could depend
- * on the host. The number is a fraction of two whole numbers of any size. Its first 63 or 64 bits come from a long
- * division. If these do not decide the rounding, the remainder does. */
+/* decimal.c: correctly rounded decimal input by long division of big integers, because the host's floating-point
+ * arithmetic may vary. If the quotient's 63 or 64 bits do not decide the rounding, the remainder does. */
 #include "host/number/decimal.h"
 
 #include <stdbool.h>
@@ -22,7 +21,7 @@ char *hex_write(double value, char text[static HEX_SIZE]) {
         snprintf(text, HEX_SIZE, "%s%s", fraction != 0 ? "" : sign, fraction != 0 ? "nan" : "inf");
         return text;
     }
-    char digits[FRACTION / 4 + 2] = "."; /* the point and the digits after it */
+    char digits[FRACTION / 4 + 2] = ".";
     int count = 1;
     for (; fraction != 0; count++) {
         digits[count] = "0123456789abcdef"[fraction >> (FRACTION - 4)];
@@ -43,12 +42,12 @@ enum {
     /* A midpoint of two doubles has at most 768 significant digits. So a longer number is on the same side of every
      * midpoint as its first DIGITS_MAX digits, with a digit 1 appended if the rest is not zero. */
     DIGITS_MAX = 780,
-    /* The least and the largest decimal exponent of the first digit. A number with a smaller exponent is below half of
-     * 2^-1074 and becomes zero; one with a larger exponent becomes infinity. */
+    /* Limits of the first digit's decimal exponent. A number with a smaller exponent is below half of 2^-1074 and
+     * becomes zero; one with a larger exponent becomes infinity. */
     PLACE_LEAST = -324,
     PLACE_MOST = 308,
-    /* Words of the largest number: 5^1106 has 2569 bits, 781 digits have 2595. The shorter of two numbers is shifted to
-     * the length of the longer one plus one bit. */
+    /* Words of the largest number: 5^1106 has 2569 bits, 781 digits have 2595. The division shifts the shorter of two
+     * numbers to the length of the longer one plus one bit. */
     WORDS = 84,
     FIVES = 13, /* 5^13 is the largest power of 5 in a word */
     QUOTIENT_BITS = 64,
@@ -147,8 +146,8 @@ static void take_digit(digits *d, int digit, bool behind_point) {
     d->exponent -= behind_point ? 1 : 0;
 }
 
-/* Reads the exponent whose e is at `text`, and adds it to *exponent. Its size is limited to some 1e13. Returns the end
- * of the exponent, or NULL if there is none. */
+/* Adds the exponent at `text`, from its e on, to *exponent, up to some 1e13. Returns its end, or NULL without
+ * digits. */
 static const char *read_exponent(const char *text, int64_t *exponent) {
     const bool negative = text[1] == '-';
     const char *at = text + (negative || text[1] == '+' ? 2 : 1);
@@ -178,8 +177,8 @@ static uint64_t divide(big *n, const big *m, bool *rest) {
     return quotient;
 }
 
-/* The bits of the double nearest to quotient * 2^exponent, or, if `rest` is true, to a slightly larger number. The
- * quotient's highest bit is bit 62 or 63. *side: the side of the double on which the number lies. */
+/* The bits of the double nearest to quotient * 2^exponent, or, if `rest`, to a slightly larger number. The quotient's
+ * highest bit is bit 62 or 63. *side: the side of the double on which the number lies. */
 static uint64_t rounded(uint64_t quotient, int exponent, bool rest, int *side) {
     const int bits = quotient >> (QUOTIENT_BITS - 1) != 0 ? QUOTIENT_BITS : QUOTIENT_BITS - 1;
     const int power = exponent + bits - 1; /* exponent of the highest bit */

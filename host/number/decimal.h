@@ -6,20 +6,19 @@
 
 enum { HEX_SIZE = 32 };
 
-/* Writes `value` in C's hexadecimal notation, exactly and without trailing zeros: 0x1.8p+1, -0x1p-3, 0x0p+0. A
- * subnormal number has the exponent -1022, such as 0x0.8p-1022; with printf's %a this would depend on the C library.
- * Infinities and NaN become "inf", "-inf" and "nan", which are not C. Returns `text`. */
+/* Writes `value` exactly in C's hexadecimal notation without trailing zeros: 0x1.8p+1, -0x1p-3, 0x0p+0; or "inf",
+ * "-inf", "nan". Subnormal numbers have the exponent -1022 (0x0.8p-1022), unlike in some C libraries. Returns
+ * `text`. */
 char *hex_write(double value, char text[static HEX_SIZE]);
 
-/* Reads the decimal number at the start of `text` as the nearest double. Ties round to even. The number has an
- * optional sign, digits with at most one point, and optionally an e or E with a whole exponent. It may be of any
- * length. Subnormal numbers and signed zeros are supported. From halfway beyond the largest double on, the result is
- * infinite. The host's locale and rounding mode have no effect. *end (may be NULL): the first character after the
- * number. Without a number, *end is `text` and the result is 0. Leading white space, hexadecimal numbers, "inf" and
- * "nan" are not read. */
+/* Returns the double nearest to the decimal number at the start of `text`: an optional sign, digits with at most one
+ * point, and optionally an e or E with a whole exponent. Any length is correct, and ties round to even. From halfway
+ * beyond the largest double on, the result is infinite. The host's locale and rounding mode have no effect. *end (may
+ * be NULL): the first character after the number. White space, hexadecimal numbers, "inf" and "nan" are no number: *end
+ * is then `text` and the result 0. */
 double decimal_read(const char *text, const char **end);
 
-/* Writes a number with as few digits as are needed to read it back exactly, but at least 15; zeros have no sign. Returns
+/* Writes a number with the fewest digits, at least 15, that are read back exactly. Zeros have no sign. Returns
  * `text`. */
 enum { NUMBER_SIZE = 40 };
 char *number_shortest(double value, char text[static NUMBER_SIZE]);

@@ -1,7 +1,6 @@
-/* double_double.h: numbers of some 106 bits: the unevaluated sum of two doubles (Dekker; Muller et al., Handbook of
- * Floating-Point Arithmetic, chapter 14). A constant computed with them is correct to the last bit of a double, after
- * many operations, too. Only IEEE additions, products and divisions are used, so results have the same bits on every
- * host. */
+/* double_double.h: numbers of some 106 bits, the unevaluated sum of two doubles (Dekker; Muller et al., Handbook of
+ * Floating-Point Arithmetic, chapter 14). A constant is correct to the last bit of a double even after many operations.
+ * Only IEEE additions, products and divisions are used, so results have the same bits on every host. */
 #ifndef NUMBER_DOUBLE_DOUBLE_H
 #define NUMBER_DOUBLE_DOUBLE_H
 
@@ -28,9 +27,8 @@ twofold double_double_scale(twofold a, double power_of_two);
 bool double_double_is_zero(twofold a);
 bool double_double_is_finite(twofold a);
 
-/* Returns the double nearest to `a`, for a constant of a scene. If that double is the midpoint of two floats, and `a`
- * is not, the result is the next double on the side of `a`. Then (float) of the result is the float nearest to `a`, as
- * after a single rounding. */
+/* Returns the double nearest to `a`. If that double is the midpoint of two floats, and `a` is not, returns the next
+ * double on the side of `a`. So (float) of the result is the float nearest to `a`, as after a single rounding. */
 double double_double_constant(twofold a);
 
 /* `a` minus the float nearest to `a`, as a double. */

@@ -1,12 +1,9 @@
-/* enclosure.c: interval functions by series. The terms of a series alternate and fall, or have a geometric bound. The
- * truncation error is added as an interval. */
+/* enclosure.c: interval functions by series, whose truncation error is added as an interval. */
 #include "enclosure.h"
 
 #include <math.h>
 
 #include "host/number/functions.h"
-
-/* --- quotients and sizes -----------------------------------------------------------------------------*/
 
 static enclosure none(void) { return (enclosure){(double)NAN, (double)NAN}; }
 
@@ -47,8 +44,6 @@ bool enclosure_inside(enclosure a, enclosure b) { return a.low > b.low && a.high
 
 bool enclosure_has(enclosure a, double x) { return a.low <= x && x <= a.high; }
 
-/* --- sine and cosine -----------------------------------------------------------------------------------*/
-
 /* pi / 2 in three parts. Multiples of the first two parts are exact for whole factors up to QUARTERS_MOST. */
 #define QUARTER_HIGH 0x1.921fb544p+0
 #define QUARTER_MIDDLE 0x1.0b4611a6p-34
@@ -60,9 +55,8 @@ enclosure enclosure_pi(void) { return (enclosure){0x1.921fb54442d18p+1, 0x1.921f
 /* Number of terms of the series, for arguments from -1 to 1. */
 enum { TERMS = 13 };
 
-/* Encloses the sum of (-t)^i / ((from + 1) (from + 2) ... (from + 2 i)) over i, for t = x^2 from 0 to 1. It is cos x
- * if `from` is 0, and sin(x) / x if `from` is 1. The terms fall and alternate, so the truncation error is within the
- * first omitted term. */
+/* Encloses the sum of (-t)^i / ((from + 1) (from + 2) ... (from + 2 i)) over i, for t = x^2 from 0 to 1: cos x if
+ * `from` is 0, sin(x) / x if `from` is 1. The terms alternate and fall, so the first omitted term bounds the error. */
 static enclosure waves(enclosure t, int from) {
     enclosure sum = {0.0, 1.0};
     for (int i = TERMS; i > 0; i--) {
@@ -73,8 +67,7 @@ static enclosure waves(enclosure t, int from) {
     return sum;
 }
 
-/* Subtracts the nearest whole number of quarter turns from x; *quarters is that number modulo four. Returns false if x
- * is too large, or too wide to be useful. */
+/* Subtracts the nearest number of quarter turns, modulo 4 in *quarters. Returns false if x is too large or too wide. */
 static bool reduce(enclosure x, enclosure *rest, int *quarters) {
     const double number = number_nearest(enclosure_middle(x) * 0.63661977236758134);
     if (!(number > -QUARTERS_MOST && number < QUARTERS_MOST)) {
@@ -89,7 +82,7 @@ static bool reduce(enclosure x, enclosure *rest, int *quarters) {
            enclosure_size(enclosure_of(enclosure_middle(*rest))) <= 1.0;
 }
 
-/* The sine of `rest` plus this many quarter turns. It uses the addition theorem at the middle of `rest`. */
+/* The sine of `rest` + `quarters` quarter turns, by the addition theorem at the middle of `rest`. */
 static enclosure wave(enclosure rest, int quarters) {
     const double middle = enclosure_middle(rest);
     const double radius = enclosure_radius(rest);
@@ -130,9 +123,7 @@ enclosure enclosure_cosine(enclosure a) {
     return enclosure_is_zero(a) ? enclosure_of(1.0) : turned(a, 1);
 }
 
-/* --- roots, exponentials, powers -----------------------------------------------------------------------*/
-
-/* Returns true if `root` is a whole number and the exact root of `of`. Then the enclosure stays a point. */
+/* Returns true if `root` is whole and the exact root of `of`. Then the enclosure stays a point. */
 static bool is_whole_root(double root, double of) {
     return root <= 0x1p26 && number_nearest(root) == root && root * root == of;
 }
@@ -148,7 +139,7 @@ enclosure enclosure_root(enclosure a) {
                        is_whole_root(high, a.high) ? high : enclosure_above(high)};
 }
 
-/* Encloses the values of a rising function, which `at` encloses at one number. */
+/* Encloses the values on `a` of a rising function. at(x) encloses its value at x. */
 static enclosure rising(enclosure (*at)(double x), enclosure a) {
     const enclosure low = at(a.low);
     const enclosure high = enclosure_is_point(a) ? low : at(a.high);
@@ -230,10 +221,7 @@ enclosure enclosure_power(enclosure a, enclosure exponent) {
     return enclosure_exp(enclosure_mul(exponent, enclosure_log(a)));
 }
 
-/* --- the language's functions ---------------------------------------------------------------------------*/
-
-/* Encloses a function that is monotonic between `least` and `most`. Its computed values have errors of at most 0.6
- * ulp. */
+/* Encloses the values on `a` of a function that is monotonic from `least` to `most`, and is computed to 0.6 ulp. */
 static enclosure steady(function_id function, enclosure a, double least, double most) {
     const double low = enclosure_lesser(enclosure_larger(a.low, least), most);
     const double high = enclosure_larger(enclosure_lesser(a.high, most), least);
@@ -248,8 +236,8 @@ static enclosure size_of(enclosure a) {
     return (enclosure){across ? 0.0 : enclosure_lesser(low, high), enclosure_larger(low, high)};
 }
 
-/* The angle of the vector (x, y). It lies between the angles of the corners, unless the rectangle contains zero or the
- * jump from -pi to pi. */
+/* The angle of the vector (x, y). It lies between those of the rectangle's corners, except across zero or the jump at
+ * pi. */
 static enclosure angle_of(enclosure y, enclosure x) {
     if (x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0) {
         return (enclosure){-enclosure_pi().high, enclosure_pi().high};

@@ -1,13 +1,13 @@
 /* enclosure.h: interval arithmetic with outward rounding: two doubles that enclose a real number for certain (Moore,
  * Kearfott, Cloud, Introduction to Interval Analysis, 2009).
  *
- * The processor rounds to nearest, as usual. After each operation the ends are moved outwards by one or two ulp. That
- * takes an addition and a product, without access to the number's bits (Rump, Zimmermann, Boldo, Melquiond, Computing
+ * The processor rounds to nearest, as usual. After each operation the ends are moved outwards by one or two ulp, by an
+ * addition and a product, without access to the number's bits (Rump, Zimmermann, Boldo, Melquiond, Computing
  * predecessor and successor in rounding to nearest, BIT 49, 2009). An exact zero stays exact.
  *
- * A failed enclosure is NaN at both ends, for example after a division by an interval that contains zero, a root of a
- * possibly negative number, or an overflow. A result that depends on a failed enclosure is NaN, too. So a single
- * enclosure_is_finite() of the last result is enough. */
+ * A failed enclosure is NaN at both ends, for example after an overflow, a division by an interval that contains zero,
+ * or a root of a possibly negative number. NaN carries over, so one enclosure_is_finite() of the last result is
+ * enough. */
 #ifndef NUMBER_ENCLOSURE_H
 #define NUMBER_ENCLOSURE_H
 
@@ -27,8 +27,7 @@ typedef struct enclosure {
     double high;
 } enclosure;
 
-/* enclosure_below() returns a bound at or below the next lower double, enclosure_above() one at or above the next
- * higher double. */
+/* A bound at or below the next lower double, and one at or above the next higher double. */
 static inline double enclosure_below(double x) {
     return x - (0x1.0000000000001p-53 * (x < 0.0 ? -x : x) + 0x1p-1074);
 }
@@ -107,11 +106,9 @@ static inline enclosure enclosure_hull(enclosure a, enclosure b) {
 
 enclosure enclosure_div(enclosure a, enclosure b);
 enclosure enclosure_square(enclosure a);
-/* The enclosure from the next lower to the next higher double of `value`, with each end moved outwards `more` further
- * times. */
+/* Encloses the next lower and higher doubles of `value`; each end is then moved outwards `more` times. */
 enclosure enclosure_about(double value, int more);
-/* enclosure_middle() returns a double near the middle, enclosure_radius() an upper bound on the distance from that
- * double to either end. */
+/* A double near the middle, and an upper bound on the distance from that double to either end. */
 double enclosure_middle(enclosure a);
 double enclosure_radius(enclosure a);
 /* The largest absolute value in `a`. */
@@ -129,8 +126,7 @@ enclosure enclosure_log(enclosure a);
 enclosure enclosure_whole_power(enclosure a, int n);
 /* a^exponent. If the exponent is not a whole number, `a` must be above zero. */
 enclosure enclosure_power(enclosure a, enclosure exponent);
-/* Encloses the function's values on the part of `a`, or of (a, b), that lies in its domain. Arguments of exp(), sinh()
- * and cosh() beyond 700 in size count as 700. */
+/* Encloses the function on the part of its domain in `a` or (a, b). exp(), sinh() and cosh() treat |x| > 700 as 700. */
 enclosure enclosure_call(function_id function, enclosure a, enclosure b);
 
 #endif

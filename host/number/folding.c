@@ -8,10 +8,8 @@
 #include "enclosure.h"
 #include "host/number/functions.h"
 
-/* Unit round-off of double. */
-#define UNIT 0x1p-53
-/* Relative round-off of a few operations, such as 0.1 + 0.2 - 0.3. */
-#define GHOST (16.0 * UNIT)
+#define UNIT 0x1p-53        /* unit round-off of double */
+#define GHOST (16.0 * UNIT) /* relative round-off of a few operations, such as 0.1 + 0.2 - 0.3 */
 
 /* A residue above this, in SI units, is recorded as a loss: it may be a real quantity, such as a soft spring. */
 #define REST_COUNTS 1e-12
@@ -33,15 +31,15 @@ static uint64_t digits_of(double x) {
     return bits & ((UINT64_C(1) << 52) - 1);
 }
 
-/* Each output bit depends on all input bits (Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014). */
+/* Output bits depend on all input bits (Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014) */
 static uint64_t mixed(uint64_t z) {
     z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
     z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
     return z ^ (z >> 31);
 }
 
-/* Returns the number of doubles by which an inexact result of these operands is moved, positive if upwards. In the ways
- * from FOLDING_SOME on, it depends only on the operands' digits, not on their signs, powers of two and order. */
+/* Returns the number of doubles by which an inexact result of these operands is moved, positive if upwards. From
+ * FOLDING_SOME on, it depends only on the operands' digits, not on their signs, powers of two and order. */
 static int moved_by(double x, double y, bool up) {
     static const signed char some[] = {-2, -1, 1, 2};
     if (now->way <= FOLDING_APART) {
@@ -62,8 +60,8 @@ static double moved(double x, int by) {
     return x;
 }
 
-/* Returns the double nearest to the exact value, moved by moved_by() unless the double is exact. FOLDING_OTHER moves by
- * two doubles, past the exact value, because several round-offs may add up to that much. */
+/* Returns the double nearest to the exact value, moved by moved_by() if it is inexact. FOLDING_OTHER moves by two
+ * doubles, past the exact value, because several round-offs may add up to that much. */
 static double other_neighbour(twofold exact, double x, double y) {
     if (!double_double_is_finite(exact) || exact.low == 0.0) {
         return exact.high;
@@ -78,8 +76,6 @@ static double other_value(double value, double x) {
     return isfinite(value) ? moved(value, moved_by(value, x, (digits_of(value) >> 26 & 1U) != 0))
                            : value;
 }
-
-/* --- loss of digits, in rounding to nearest ----------------------------------------------------------*/
 
 static void note_lost(double part) { now->lost = number_most(now->lost, part); }
 
@@ -101,8 +97,7 @@ static void note_rest(double x) {
     }
 }
 
-/* Records the loss in x + y. A sum that cancels, or a sum of two residues, is a residue. If one addend is a residue,
- * its ratio to the other addend is the loss. */
+/* Records the loss in x + y. If only one addend is a residue, the loss is its ratio to the other addend. */
 static void note_sum(double x, double y, double sum) {
     if (x == 0.0 || y == 0.0) {
         return;
@@ -132,8 +127,8 @@ static void note_power(double base, double exponent, double power) {
     }
 }
 
-/* Records the loss in a function of a residue. If its value differs from the value at zero, no digit is correct. If
- * the value at zero is zero, the function's value is a residue, too. */
+/* Records the loss in a function of a residue. If its value differs from the value at zero, no digit is correct. If the
+ * value at zero is zero, the function's value is a residue. */
 static void note_call(double value, double at_zero) {
     if (!(fabs(value - at_zero) <= 1e-3)) {
         note_lost(1.0);
@@ -142,15 +137,13 @@ static void note_call(double value, double at_zero) {
     }
 }
 
-/* Records the loss in a function that hardly depends on x: cos(1e-9) loses digits of x. If the slope is only the
- * round-off of x modulo quarter turns, there is no loss. */
+/* Records the loss in a function that hardly depends on x: cos(1e-9) loses digits of x. There is no loss in a sine,
+ * cosine or tangent (`turns`) whose slope is only the round-off of a large x. */
 static void note_slope(double value, double x, double slope, bool turns) {
     if (!turns || fabs(slope) > GHOST * fabs(x) || fabs(x) < 1.0) {
         note_lost(UNIT * fabs(value) / fabs(x * slope));
     }
 }
-
-/* --- folding -----------------------------------------------------------------------------------------*/
 
 double folding_sum(double x, double y) {
     if (now->way != FOLDING_NEAREST) {
@@ -160,8 +153,7 @@ double folding_sum(double x, double y) {
     return x + y;
 }
 
-/* Returns true if this way changes products and quotients, too. FOLDING_OTHER does not: in (K + k)/K - 1, the change
- * of the quotient could cancel the change of the sum. */
+/* FOLDING_OTHER keeps products and quotients: in (K + k)/K - 1, a changed quotient could cancel the changed sum. */
 static bool moves_products(void) {
     return now->way != FOLDING_NEAREST && now->way != FOLDING_OTHER;
 }
@@ -198,8 +190,8 @@ double folding_power(double base, double exponent) {
     return power;
 }
 
-/* Returns true if the value has no round-off. abs(), sign(), min() and max() have none. A root has none if it has few
- * digits (is_short()). Another function has none if its value has few digits, and x is 0, 1 or -1. */
+/* Returns true if the value has no round-off, as abs(), sign(), min() and max() have none. A root is exact if it has
+ * few digits (is_short()). Another function is exact if its value has few digits, and x is 0, 1 or -1. */
 static bool is_exact(function_id function, double x, double value) {
     switch (function_takes(function)) {
     case TAKES_SIZE:

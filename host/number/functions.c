@@ -13,7 +13,6 @@ double number_cosine(double rad) { return wh_cosine(rad); }
 double number_root(double x) { return x < 0.0 || wh_is_nan(x) ? WH_NAN : WH_SQRT(x); }
 double number_power(double base, double exponent) { return wh_pow(base, exponent); }
 
-/* --- the language's functions ------------------------------------------------------------------- */
 typedef struct function_row {
     const char *name;
     const char *latex;
@@ -90,7 +89,6 @@ double number_slope(function_id function, int which, double x, double y) {
     return WH_NAN;
 }
 
-/* --- whole numbers ------------------------------------------------------------------------------- */
 #define ALL_WHOLE 0x1p52 /* every double of at least this size is whole */
 
 static double whole_part(double size) { return (double)(int64_t)size; }
@@ -129,7 +127,6 @@ double number_even(double x) {
     return like(up ? whole + 1.0 : whole, x);
 }
 
-/* --- exponents ----------------------------------------------------------------------------------- */
 double number_scaled(double x, int exponent) {
     while (exponent > 1023) {
         if (x == 0.0 || !(WH_ABS(x) < WH_INFINITY)) {
@@ -160,9 +157,7 @@ double number_split(double x, int *exponent) {
     return wh_of_bits((bits & ~(UINT64_C(2047) << 52)) | (UINT64_C(1022) << 52));
 }
 
-/* --- remainders ---------------------------------------------------------------------------------- */
-/* Splits a finite number >= 0 into a whole number, which is returned, and a power of two, whose exponent is at least
- * -1074. */
+/* Returns the whole number w with size = w 2^*exponent, *exponent >= -1074, for a finite size >= 0. */
 static uint64_t whole_of(double size, int *exponent) {
     const uint64_t bits = wh_bits(size);
     const int field = (int)(bits >> 52);
@@ -207,6 +202,5 @@ double number_centred(double x, double y) {
     return wh_signed(rest, wh_bits(x) >> 63 != 0);
 }
 
-/* --- the smaller and the larger number ----------------------------------------------------------- */
 double number_least(double a, double b) { return b < a || wh_is_nan(a) ? b : a; }
 double number_most(double a, double b) { return b > a || wh_is_nan(a) ? b : a; }

@@ -1,5 +1,4 @@
-/* functions.h: the functions of the language, and a few others. The file depends only on the core, and all of the
- * host may use it.
+/* functions.h: the functions of the language, and a few others. The file depends only on the core.
  *
  * The machine's library is not used, so results have the same bits on every host. The functions of core/function.h,
  * such as sines, logarithms and powers, err by less than 0.6 ulp over the whole range. The root is correctly rounded.
@@ -12,9 +11,8 @@
 #include <stddef.h>
 
 /* === rows of functions ================================================================== */
-/* The language's functions, one row for each. All code that lists the functions uses these rows, or
- * switches over function_id with -Wswitch-enum. A new function is a new row, at the end. If a part of it is
- * missing, the build fails.
+/* The language's functions. Code that lists them uses these rows, or switches over function_id with -Wswitch-enum, so a
+ * missing part of a new function fails the build. A new row goes to the end.
  *
  * X(id, word, arguments, dimensions, range, latex, value, slope by x, slope by y)
  *
@@ -69,8 +67,7 @@
 
 /* === printed zeros ============================================================================ */
 
-/* Removes the sign of zeros and NaNs before printing, since "-0" says no more than "0". States and their hashes keep
- * the signs, because only printed values go through here. */
+/* Removes the sign of zeros and NaNs. Only printed values go through here: states and their hashes keep their signs. */
 static inline double number_shown(double value) {
     return isnan(value) ? (double)NAN : value + 0.0; /* -0 + 0 is 0, by IEEE 754 */
 }
@@ -108,8 +105,7 @@ bool function_find(const char *text, size_t length, function_id *function);
 
 /* The function at x, or at (x, y). With a NaN argument the result is NaN, also for min() and max(). */
 double number_call(function_id function, double x, double y);
-/* The partial derivative by x (which = 0) or y (which = 1). If the arguments of min() or max() are equal, both
- * derivatives are 1/2. */
+/* The partial derivative by x (which = 0) or y (which = 1). If the arguments of min() or max() are equal, it is 1/2. */
 double number_slope(function_id function, int which, double x, double y);
 
 double number_sine(double rad);
@@ -117,8 +113,7 @@ double number_cosine(double rad);
 double number_root(double x);
 double number_power(double base, double exponent);
 
-/* Rounding to a whole number: down, up, to the nearest with halves away from zero, and to the nearest with halves to
- * even. */
+/* Rounding to a whole number: down, up, to nearest with ties away from zero, and to nearest with ties to even. */
 double number_floor(double x);
 double number_ceiling(double x);
 double number_nearest(double x);
@@ -134,8 +129,7 @@ double number_centred(double x, double y);
 double number_scaled(double x, int exponent);
 double number_split(double x, int *exponent);
 
-/* The smaller and the larger of two numbers. If one of them is NaN, the result is the other. If both are zero, it is
- * `a`. */
+/* The smaller and the larger number. If one is NaN, the result is the other. If both are zero, the result is `a`. */
 double number_least(double a, double b);
 double number_most(double a, double b);
 

@@ -4,15 +4,14 @@
 
 #include <stdbool.h>
 
-/* Reduces m[rows * columns] until each pivot is the only nonzero entry of its column. The rows with a pivot come first,
- * and are not divided by it. If `full` is false, the first `pivots` columns are searched one after the other, and the
- * largest entry of a column is its pivot. If `full` is true, the next pivot is the largest entry in any of these
- * columns. An entry with a size of at most `zero` is no pivot. Returns the rank. lead[rank]: the columns of the pivots,
- * in rising order if `full` is false. */
+/* Reduces m[rows * columns] until each pivot is the only nonzero entry of its column. Rows with a pivot come first, and
+ * are not divided by it. If `full` is false, the first `pivots` columns are searched in order, and the largest entry of
+ * a column is its pivot. If `full` is true, the next pivot is the largest entry in any of these columns. Entries up to
+ * `zero` in size are no pivots. Returns the rank. lead[rank]: the pivots' columns, in rising order if not `full`. */
 int gauss_reduce(double *m, int rows, int columns, int pivots, bool full, double zero, int *lead);
 
-/* Eliminates below the diagonal of m[n * n] without exchanging rows. The pivots are then on the diagonal. Below a pivot
- * that is zero, nothing is eliminated. */
+/* Eliminates below the diagonal of m[n * n] without exchanging rows. A column with a zero on the diagonal is
+ * skipped. */
 void gauss_pivots(double *m, int n);
 
 #endif

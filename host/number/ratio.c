@@ -89,8 +89,8 @@ typedef struct end {
     uint128 of, in;
 } end;
 
-/* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete Mathematics,
- * section 4.5). If no whole number lies between the ends, both have the same whole part. */
+/* The fraction of least denominator strictly between two ends (Graham, Knuth & Patashnik, Concrete Mathematics, section
+ * 4.5). If no whole number lies between the ends, their whole parts are equal. */
 static whole_ratio between(end low, end high) {
     /* p / q: the last convergent; p_before / q_before: the one before it */
     uint128 p = uint128_of(1);
@@ -142,8 +142,8 @@ uint64_t ratio_divisor(uint64_t a, uint64_t b) {
     return a;
 }
 
-/* Finds the decimal with the fewest digits within a relative error of 2^-52. *said is 10 to the power of its number
- * of digits. Returns false if it needs more than 15 digits, or more than 60 bits as a fraction. */
+/* Finds the decimal with the fewest digits within a relative error of 2^-52. *said: 10^digits. Returns false if it
+ * needs more than 15 digits, or more than 60 bits as a fraction. */
 static bool decimal(double value, whole_ratio *found, uint64_t *said) {
     char text[40];
     for (int digits = 1; digits <= DIGITS_MOST; digits++) {

@@ -1,5 +1,5 @@
-/* ratio.h: steps and end times of runs as fractions of whole numbers, so that counts and times are exact. All
- * conversions of times to numbers of steps are here. */
+/* ratio.h: steps and end times as fractions, so that counts and times are exact. Only here times become numbers of
+ * steps. */
 #ifndef NUMBER_RATIO_H
 #define NUMBER_RATIO_H
 
@@ -36,23 +36,20 @@ typedef struct whole_ratio {
     uint64_t denominator; /* > 0 */
 } whole_ratio;
 
-/* The fraction that `value` was before units and doubles rounded it. The candidates are the decimal with the fewest
- * digits (at most 15) and the simplest fraction, both within a relative error of 2^-51. The shorter one is returned. So
- * 0.0011000000000000001 is 11/10000, and 1/44100 is exact. If the decimal has more than 60 bits in numerator or
- * denominator, as 9.99999999999999e-7 has, the simplest fraction is returned. Values that are not above zero give 0.
- * Others are limited to RATIO_LEAST and RATIO_MOST. */
+/* The fraction that `value` was before a conversion of units and rounding to double: the shorter of two candidates
+ * within a relative error of 2^-51. They are the decimal with the fewest digits (at most 15) and the simplest fraction.
+ * So 0.0011000000000000001 is 11/10000, and 1/44100 is exact. A decimal with more than 60 bits in numerator or
+ * denominator is no candidate. Values <= 0 give 0. Others are limited to RATIO_LEAST and RATIO_MOST. */
 whole_ratio ratio_of(double value);
 
-/* *count: the whole number nearest to whole / part; a tie gives the lower one. Returns false if it exceeds 2^63.
- * `part` must be above zero. */
+/* *count: whole / part to nearest, ties rounded down. Returns false if it exceeds 2^63. `part` must be above zero. */
 bool ratio_count(whole_ratio whole, whole_ratio part, uint64_t *count);
 
-/* *count: the number of steps in `each_s` seconds. Returns false if `each_s` differs from every whole number of steps
- * (at least 1) by more than a relative 1e-6. */
+/* *count: the number of steps in `each_s`. Returns false if the quotient is not whole within 1e-6 (relative), or is
+ * 0. */
 bool ratio_count_each(double each_s, whole_ratio step, uint64_t *count);
 
-/* *count: the number of the first step that ends at or after from_s >= 0, up to round-off; 0 is the start. Returns
- * false if it exceeds 2^63. */
+/* *count: the number of the first step that ends at or after from_s >= 0, up to round-off. Returns false above 2^63. */
 bool ratio_count_from(double from_s, whole_ratio step, uint64_t *count);
 
 /* The greatest common divisor; 0 for two zeros. */

@@ -428,8 +428,6 @@ static bool find(flowpipe *t, taylor *series, const enclosure *x) {
     return taylor_find(series, x);
 }
 
-/* --- enclosure of the motion over a step ------------------------------------------------------------- */
-
 /* Encloses the Taylor polynomial over the whole step, from the whole box: the sum of [0, h]^k x_k over k <= order. */
 static enclosure polynomial_over(const flowpipe *t, int i, enclosure span) {
     enclosure sum = taylor_of(t->all, i, t->order)[0];
