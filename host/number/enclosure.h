@@ -1,9 +1,9 @@
 /* enclosure.h: interval arithmetic with outward rounding: two doubles that enclose a real number for certain (Moore,
  * Kearfott, Cloud, Introduction to Interval Analysis, 2009).
  *
- * The processor rounds to nearest, as usual. After each operation the ends are moved outwards by one or two ulp, by an
- * addition and a product, without access to the number's bits (Rump, Zimmermann, Boldo, Melquiond, Computing
- * predecessor and successor in rounding to nearest, BIT 49, 2009). An exact zero stays exact.
+ * The processor rounds to nearest, as usual. After each operation, an addition and a product move the ends outwards by
+ * one or two ulp (Rump, Zimmermann, Boldo, Melquiond, Computing predecessor and successor in rounding to nearest, BIT
+ * 49, 2009). An exact zero stays exact.
  *
  * A failed enclosure is NaN at both ends, for example after an overflow, a division by an interval that contains zero,
  * or a root of a possibly negative number. NaN carries over, so one enclosure_is_finite() of the last result is
