@@ -1,6 +1,5 @@
-/* console.h: the connection to a person or a program: a UART; on the PC standard output, or a pseudo-terminal. The
- * board implements it (boards/<family>/), because programs without a rig (tests, benchmarks) need a console, too. Bytes
- * are not converted, not even line ends. */
+/* console.h: a UART to a person or a program; on the PC standard output, or a pseudo-terminal. Bytes are not converted.
+ * Boards implement it (boards/<family>/), because programs without a rig need a console, too. */
 #ifndef HAL_CONSOLE_H
 #define HAL_CONSOLE_H
 
@@ -10,17 +9,17 @@ WH_C_BEGIN
 
 #define HAL_CONSOLE_STOP 0x1B /* Escape */
 
-/* Write `count` bytes. The function polls until the device has taken all bytes, so it works with interrupts off and in
- * a fault handler. Do not call it in a control loop: at 115,200 baud a byte takes 87 us. */
+/* Writes `count` bytes and polls until the device has taken them all, so it works with interrupts off and in a fault
+ * handler. Do not call it in a control loop: at 115,200 baud a byte takes 87 us. */
 void hal_console_write(const char *bytes, unsigned count);
 
-/* Versions for control loops: they do not wait. hal_console_read() takes the oldest received bytes, at most `room`.
- * hal_console_offer() writes as many bytes as the device takes at once. Both return the number of bytes: 0 if nobody is
+/* Functions for control loops: they do not wait. hal_console_read() takes the oldest received bytes, at most `room`;
+ * hal_console_offer() writes as many bytes as the device takes at once. Both return the number of bytes, 0 if nobody is
  * connected. Do not call them in an interrupt or a fault handler.
  *
- * Read in every control step, because some devices store only one or two bytes. A damaged byte is read as zero. If the
- * board notices lost bytes, they are read as one zero, too. Do not execute a line that contains a zero byte. A
- * damaged Escape is still read as Escape, because a needless stop is harmless. */
+ * Read in every control step, because some devices store only one or two bytes. A damaged byte is read as zero, and so
+ * is any number of lost bytes, if the board detects the loss. Do not execute a line that contains a zero. A damaged
+ * Escape is still read as Escape, because a needless stop is harmless. */
 unsigned hal_console_read(char *bytes, unsigned room);
 unsigned hal_console_offer(const char *bytes, unsigned count);
 

@@ -1,7 +1,6 @@
-/* link.h: a two-way line of bytes to the simulator of the plant. The board implements it (boards/<family>/link.c): by
- * semihosting with files on the debugger's side under an emulator, by two file descriptors on the PC, by the console on
- * real boards (boards/shared/link_console.c). Bytes arrive in order. If these functions notice that the simulator is
- * gone, they end the program, with exit status HAL_LINK_GONE. */
+/* link.h: a line of bytes to and from the plant's simulator. Boards implement it (boards/<family>/link.c): with
+ * semihosting files under an emulator, file descriptors on the PC, the console on real boards (link_console.c). Bytes
+ * arrive in order. If a function detects that the simulator is gone, the program ends with status HAL_LINK_GONE. */
 #ifndef HAL_LINK_H
 #define HAL_LINK_H
 
@@ -14,25 +13,22 @@ WH_C_BEGIN
 
 #define HAL_LINK_GONE 3
 
-/* File descriptors that the simulator passes to the program or to its emulator: HAL_LINK_DOWN to read, the other to
- * write. */
+/* File descriptors that the simulator passes to the program or its emulator, to read (DOWN) and to write (UP). */
 #define HAL_LINK_DOWN 3
 #define HAL_LINK_UP 4
 
-/* Opens the line. Returns false if there is no line. Call it before the other functions. */
+/* Opens the line; call it first. Returns false if there is no line. */
 bool hal_link_open(void);
 
-/* Waits for data, then reads up to room >= 1 bytes. Returns the number read, at least one. */
+/* Waits for data, then reads up to room >= 1 bytes. Returns the number of bytes read, at least 1. */
 unsigned hal_link_read(uint8_t *bytes, unsigned room);
 
 void hal_link_write(const uint8_t *bytes, unsigned count);
 
-/* hal_link_timer() is a free-running counter that measures computing time and wraps at 2^32. hal_link_timer_per_s()
- * returns its counts per second, or 0 if the counter is unusable. */
+/* A timer for computing times, which wraps at 2^32, and its counts per second (0: the timer is unusable). */
 uint32_t hal_link_timer(void);
 uint32_t hal_link_timer_per_s(void);
 
-/* The board's name. */
 const char *hal_link_board(void);
 
 WH_C_END

@@ -1,6 +1,5 @@
-/* loadcell.h: the load cell in the loading train and its converter.
- * Raw counts are proportional to the force of the rig on the cell along the loading-train axis. They are positive towards
- * the mass at theta = 0, which is straight down. The force includes the rig's weight: the controller subtracts this tare. */
+/* loadcell.h: the load cell in the loading train and its converter. Raw counts are proportional to the rig's force on
+ * the cell, positive towards theta = 0, which is straight down. They include the rig's weight, the tare. */
 #ifndef HAL_LOADCELL_H
 #define HAL_LOADCELL_H
 
@@ -11,18 +10,17 @@
 
 WH_C_BEGIN
 
-/* Full scale of the 16-bit counts: +-50 lbf (222.41 N), 6.79 mN per count, for any converter. */
+/* Full scale of the 16-bit counts, for any converter: +-50 lbf (222.41 N), 6.79 mN per count. */
 #define HAL_LOADCELL_FULL_SCALE_N 222.41108f
 #define HAL_LOADCELL_RAW_MAX 32767
 #define HAL_LOADCELL_N_PER_COUNT (HAL_LOADCELL_FULL_SCALE_N / 32768.0f)
 
-/* Time between samples, as in Almesallmy (2006), I.3.2.1: 2 ms. It is a whole number of control steps. The build of
- * a slower chip sets another value. */
+/* Time between samples, a whole number of control steps: 2 ms (Almesallmy 2006, I.3.2.1), or the build's value. */
 #ifndef HAL_LOADCELL_PERIOD_TICKS
 #define HAL_LOADCELL_PERIOD_TICKS 2000U
 #endif
 
-/* The converter's status of a sample. wh_load_status of core/rig/cell.h has the same values. */
+/* wh_load_status (core/rig/cell.h) has the same values and explains them. */
 typedef enum hal_load_status {
     HAL_LOAD_OK,
     HAL_LOAD_SATURATED,
@@ -32,14 +30,13 @@ typedef enum hal_load_status {
 } hal_load_status;
 
 typedef struct hal_load_sample {
-    uint32_t ticks; /* time on the capture timer (clock.h): middle of the averaging interval */
-    int32_t raw;    /* counts; an overloaded cell gives plus or minus full scale */
+    uint32_t ticks; /* capture timer (clock.h) in the middle of the averaging interval */
+    int32_t raw;    /* counts; at overload plus or minus full scale */
     uint8_t status; /* a hal_load_status */
 } hal_load_sample;
 
-/* Take the oldest sample that was not taken before. Returns false if there is none. At least 4 samples are stored
- * between two calls; if more come, the newest are lost. Do not call it from an interrupt: the queue has one reader
- * only. */
+/* Takes the oldest sample, or returns false. At least 4 samples are stored; more are lost. Do not call this function
+ * from an interrupt: the queue has one reader only. */
 bool hal_loadcell_take(hal_load_sample *sample);
 
 WH_C_END

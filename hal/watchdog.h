@@ -1,5 +1,5 @@
-/* watchdog.h: cuts the motor when the controller falls silent. Do not call it from an interrupt, which could keep a
- * hanging controller alive. */
+/* watchdog.h: cuts the motor's drive if the controller falls silent. Do not call these functions in an interrupt: it
+ * could keep a hanging controller alive. */
 #ifndef HAL_WATCHDOG_H
 #define HAL_WATCHDOG_H
 
@@ -10,12 +10,12 @@
 
 WH_C_BEGIN
 
-/* Arm the watchdog: after this call it cuts the drive if hal_watchdog_kick() is not called for more than
- * `timeout_ticks`. It cannot be disarmed. It either cuts the drive permanently, or resets the processor (hal/reset.h),
- * which switches the drive off. A watchdog with its own oscillator may take up to three times as long. */
+/* Arms the watchdog, which cannot be disarmed. If hal_watchdog_kick() is not called for more than `timeout_ticks`, it
+ * cuts the drive permanently, or resets the processor, which switches the drive off. With its own oscillator a watchdog
+ * may take up to three times as long. */
 void hal_watchdog_start(uint32_t timeout_ticks);
 
-/* Tell the watchdog that the controller is alive. This does not restore a drive that was cut. */
+/* Restarts the timeout. Does not restore a drive that was cut. */
 void hal_watchdog_kick(void);
 
 bool hal_watchdog_has_cut(void);

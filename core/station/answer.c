@@ -5,7 +5,7 @@
 
 #include "core/rig/state_machine.h"
 
-/* Adds words with the character `blank` in place of blanks, so that a list item of several words becomes one word. */
+/* Adds words with `blank` in place of blanks. If `blank` is '_', the words are a list item, and end before '|'. */
 static void add_words(wh_text *text, const char *words, char blank) {
     for (char next = wh_word_at(words); next != '\0'; next = wh_word_at(++words)) {
         if (next == '|' && blank != ' ') {
@@ -15,8 +15,7 @@ static void add_words(wh_text *text, const char *words, char blank) {
     }
 }
 
-/* Adds a number with seven significant digits, as many as a float has, but at most eight decimals. A user can type the
- * text (line.h reads nine digits). */
+/* Adds a float's seven significant digits, with at most eight decimals: wh_line_number() reads nine digits. */
 static void add_exact(wh_text *text, wh_real number) {
     unsigned decimals = 8;
     wh_real size = WH_ABS(number);
@@ -85,7 +84,7 @@ const char *wh_list_item(const char *list, unsigned number) {
 
 /* === reasons for refusing a console line ===================================================== */
 
-/* Indices of the rows: a reason's words are the item with this index. */
+/* index of each reason's words */
 #define WH_STATION_ROW(name, number, words) ROW_##name,
 enum { WH_STATION_ERROR_ROWS(WH_STATION_ROW) ROWS };
 #undef WH_STATION_ROW

@@ -1,5 +1,4 @@
-/* answer.h: formatting of the console's answers, "OK name=value name=value: words"; and lists of words in one
- * string. */
+/* answer.h: the console's answers, "OK name=value name=value: words", and lists of words in one string. */
 #ifndef WH_STATION_ANSWER_H
 #define WH_STATION_ANSWER_H
 
@@ -11,17 +10,15 @@ typedef union wh_value {
     uint32_t count;
 } wh_value;
 
-/* Adds a form to the text. All texts here may stay in flash (core/number/flash.h), except the word to search for. An @
- * and a letter or digit stand for the next value:
+/* Adds `form` to the text. Strings of this file may be in flash (core/number/flash.h). `form` has these @ values:
  *
- *     @w           a word: a list item, with _ in place of blanks
+ *     @w           a word, or a list item with _ in place of blanks
  *     @s           words
  *     @c           a count
  *     @x           a count in eight hexadecimal digits
  *     @g           the word good or bad, for a count of 1 or 0
  *     @0 ... @9    a number with this many decimals
- *     @e           a number with seven digits, at most eight of them decimals, without trailing zeros; a user can
- *                  type it */
+ *     @e           a number with seven digits, at most eight of them decimals, without trailing zeros */
 void wh_answer(wh_text *text, const char *form, const wh_value *value);
 
 /* A list begins with its separator, a character that no item contains: "|" "off" "|" "on". */
@@ -32,16 +29,15 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value);
     "|" \
     "on"
 
-/* Returns the word's index in the list, from 0; or the number of items if the word is not in the list. */
+/* Returns the word's index in the list, from 0; for an unknown word, the number of items. */
 unsigned wh_list_find(const char *list, const char *word);
 
-/* Returns the item with this index. The index must be below the number of items. */
+/* Returns the item with this index, which must be below the number of items. The text goes on to the list's end. */
 const char *wh_list_item(const char *list, unsigned number);
 
 /* === reasons for refusing a console line ===================================================== */
 
-/* Reasons other than the rig's own refusals (wh_refusal, 1 ... 99): X(name, number, words). The numbers never
- * change. */
+/* The console's own reasons: X(name, number, words). 1 to 99 are the rig's (wh_refusal). Numbers never change. */
 #define WH_STATION_ERROR_ROWS(X) \
     X(WH_STATION_NO_COMMAND, 100, "no such command; help lists them") \
     X(WH_STATION_LINE, 101, "the line is too long, or has an invalid character") \
@@ -72,7 +68,7 @@ typedef enum wh_station_error {
 } wh_station_error;
 #undef WH_STATION_NAME
 
-/* Replace the answer by "ERR why words". `why` is a wh_station_error or a wh_refusal. */
+/* Replaces the answer by "ERR why words". `why` is a wh_station_error or a wh_refusal. */
 void wh_answer_refused(wh_text *answer, unsigned why);
 
 #endif

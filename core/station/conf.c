@@ -20,11 +20,10 @@ static const wh_real per_unit[] = {WH_CONF_SCALED_ROWS(UNIT)};
 static const wh_conf_row rows[] WH_FLASH = {WH_CONF_ROWS(ROW)};
 #undef ROW
 
-/* Least damping, as a share of the slope of the motor's torque line. It is below 1, because a measured damping may be
- * too small. */
+/* Least damping / slope of the motor's torque-speed line. Below 1: a measured damping may be too small. */
 #define LINE_PART WH_R(0.9)
 
-#define ENTRY_BYTES 5U /* a setting's number, and its value */
+#define ENTRY_BYTES 5U /* number, float value */
 _Static_assert(WH_CONF_COUNT *ENTRY_BYTES <= WH_STORE_PAYLOAD_MOST, "all settings fit into a slot");
 
 static inline wh_conf_row row_of(unsigned id) {
@@ -55,7 +54,7 @@ static const char *unit_of(wh_conf_id id) {
 #undef WORD
 }
 
-/* Returns the words of a setting as a list: the values of a choice, or one word. */
+/* Returns a list: the words of a choice, or the name of the type. */
 static const char *choices(wh_conf_id id) {
 #define WORDS(kind, words) words "\0"
     static const char words[] WH_WORD_LIST = WH_CONF_KIND_ROWS(WORDS);
@@ -65,12 +64,11 @@ static const char *choices(wh_conf_id id) {
 
 static bool is_on(wh_real value) { return value > WH_R(0.5); }
 
-/* Returns the number of the setting's units in one unit of the configuration. */
+/* Returns the number of the row's units in one unit of the configuration. */
 static wh_real units(const wh_conf_row *row) {
     return row->unit < sizeof per_unit / sizeof per_unit[0] ? per_unit[row->unit] : WH_R(1.0);
 }
 
-/* The setting's kind determines the type of its member in the configuration: a real, or a kind of whole number. */
 static wh_real value_of(const wh_rig_config *c, wh_conf_id id) {
     const wh_conf_row row = row_of(id);
     const void *member = (const uint8_t *)c + row.place;
@@ -101,13 +99,13 @@ static void put(wh_rig_config *c, wh_conf_id id, wh_real value) {
 /* Returns the value as permanent memory stores it. */
 static wh_real as_kept(wh_real value) { return (wh_real)(float)value; }
 
-/* True if the value selects a feature that this build omits. */
+/* True if this build lacks the feature that the value selects. */
 static bool is_absent(wh_conf_id id, wh_real value) {
     return is_on(value) &&
            ((id == WH_CONF_feeds && !WH_RIG_FEEDS) || (id == WH_CONF_swings && !WH_RIG_SWINGS));
 }
 
-/* Returns the error of this value for this setting, or 0. */
+/* Returns the reason for refusing the value, or WH_STATION_FINE. */
 static wh_station_error fits(wh_conf_id id, wh_real value) {
     const wh_conf_row row = row_of(id);
     const wh_real kept = as_kept(value);
@@ -118,7 +116,7 @@ static wh_station_error fits(wh_conf_id id, wh_real value) {
     return is_absent(id, value) ? WH_STATION_NOT_HERE : WH_STATION_FINE;
 }
 
-/* Scales the settings that depend on gravity and on the masses' force (docs/dev/rig.md). */
+/* Scales the members that depend on gravity and on the masses' force (docs/dev/rig.md). */
 static void put_rotor(const wh_conf *conf, wh_rig_config *c) {
     const wh_real moment = conf->value[WH_CONF_mass_moment];
     const wh_real moments = moment / conf->standard[WH_CONF_mass_moment];
@@ -151,7 +149,7 @@ static bool has_motor(const wh_conf *conf) {
            conf->given[WH_CONF_stall_torque];
 }
 
-/* Settings whose defaults follow from the motor. */
+/* settings whose defaults are computed from the motor's data */
 static const uint8_t of_motor[] = {WH_CONF_damping, WH_CONF_gain,         WH_CONF_gain_integral,
                                    WH_CONF_spin_up, WH_CONF_supply_least, WH_CONF_supply_most};
 
@@ -182,8 +180,7 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* True if the motor can lift the arms and reaches the largest set-point at its rated voltage. This voltage must be in
- * the supply's range, and the damping must be at least LINE_PART of the slope of the motor's torque line. */
+/* True if the motor lifts the arms, reaches the largest set-point at rated voltage, and suits supply and damping. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;
@@ -202,7 +199,7 @@ static bool motor_goes(const wh_conf *conf) {
            value[WH_CONF_damping] >= LINE_PART * line_Nms;
 }
 
-/* Returns a hash of the settings. A change of one setting always changes the hash. */
+/* Returns a hash of the settings. A CRC-32 detects every change of one float. */
 static uint32_t hash(const wh_conf *conf) {
     uint32_t crc = 0;
     for (unsigned id = 0; id < WH_CONF_COUNT; id++) {
@@ -222,8 +219,7 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
-/* Computes the configuration from the settings. Returns false if the settings contradict each other: the caller must
- * then restore consistent settings and call this function again. */
+/* Computes the configuration. Returns false if the settings contradict each other: restore them and call again. */
 static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};
@@ -276,7 +272,7 @@ wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value) {
 
 static bool is_choice(wh_conf_id id) { return row_of(id).kind >= WH_CONF_SWITCH; }
 
-/* Returns the word for a value of a choice, as an item of a list. Returns NULL for a setting that is a number. */
+/* Returns a choice's value as a list item, or NULL for a number. */
 static const char *text_of(wh_conf_id id, wh_real value) {
     return is_choice(id) ? wh_list_item(choices(id), (unsigned)value) : NULL;
 }
@@ -321,7 +317,7 @@ static void take_all(wh_conf *conf, const uint8_t *payload, unsigned count) {
     }
 }
 
-/* Computes value[] of the settings that share members, from the values of these members. */
+/* Converts members to settings: adds the slot lead to sensor angles, separates the sign of the cell's scale. */
 static void see_several(wh_real *value) {
     value[WH_CONF_sensor1] += value[WH_CONF_slot_lead];
     value[WH_CONF_sensor2] += value[WH_CONF_slot_lead];
@@ -368,10 +364,10 @@ wh_station_error wh_conf_save(wh_conf *conf) {
 
 /* === the console's command `conf` ============================================================ */
 
-/* Space that `conf list` needs in an answer after the settings. */
+/* space for " next=" and a number at the end of `conf list` */
 #define LIST_TAIL 12U
 
-/* Adds " name=value"; the value of a choice is a word. */
+/* Adds " name=value", with a word for a choice. */
 static void add_value(wh_text *answer, const char *name, wh_conf_id id, wh_real number) {
     const char *choice = text_of(id, number);
     wh_value value[] = {{.word = name}, {.number = number}};
@@ -429,7 +425,7 @@ static void get(const wh_conf *conf, wh_conf_id id, wh_text *answer) {
     wh_answer(answer, ": @s", words);
 }
 
-/* X(what, word): the words allowed after `conf`. */
+/* The subcommands: X(what, word) */
 #define ASKED_ROWS(X) \
     X(LIST, "list") X(GET, "get") X(SET, "set") X(SAVE, "save") X(DEFAULT, "default")
 #define COUNTED(what, word) what,

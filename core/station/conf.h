@@ -1,9 +1,7 @@
-/* conf.h: the rig's settings as named numbers. One table (conf_rows.h) gives their ranges, their places in the rig's
- * configuration and their numbers in permanent memory.
+/* conf.h: the rig's settings as named numbers, listed in conf_rows.h.
  *
- * A setting that the user has not set has exactly the value of the program's own configuration. Only the settings that
- * the user has set are stored, with their numbers. So another version of the program reads the settings that it knows,
- * and takes its own values for the others. */
+ * The program's own configuration gives the defaults. Permanent memory has only the settings that the user has set, so
+ * another version of the program keeps those that it knows and has its own defaults for the others. */
 #ifndef WH_STATION_CONF_H
 #define WH_STATION_CONF_H
 
@@ -23,7 +21,7 @@ typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_c
 typedef enum wh_conf_kind { WH_CONF_KIND_ROWS(WH_CONF_NAME) WH_CONF_KINDS } wh_conf_kind;
 #undef WH_CONF_NAME
 
-/* The part of the configuration that a setting changes, alone or together with other settings. */
+/* Members that are computed from several settings (conf.c); WH_CONF_ALONE: none. */
 typedef enum wh_conf_goes {
     WH_CONF_ALONE,
     WH_CONF_ROTOR,
@@ -42,7 +40,7 @@ typedef struct wh_conf_row {
 } wh_conf_row;
 
 typedef struct wh_conf {
-    /* Fills in the program's own configuration. Its settings are consistent. */
+    /* fills in the program's own configuration, with consistent settings */
     void (*own)(wh_rig_config *config);
     const wh_store_memory *memory; /* NULL: settings are not saved */
     wh_rig_config *config;         /* the rig's configuration, updated with each change */
@@ -53,33 +51,33 @@ typedef struct wh_conf {
     uint32_t sequence;
 } wh_conf;
 
-/* Set *config to the program's own configuration, with the saved settings. Saved settings that do not fit this program
- * are ignored: an unknown number, a value outside its range, settings that contradict each other. */
+/* Sets *config to the program's own configuration with the saved settings. Ignores a saved setting whose number is
+ * unknown or whose value is outside its range; ignores all if they contradict each other. */
 void wh_conf_start(wh_conf *conf, void (*own)(wh_rig_config *config), const wh_store_memory *memory,
                    wh_rig_config *config);
 
 wh_conf_row wh_conf_row_of(wh_conf_id id);
 
-wh_conf_id wh_conf_find(const char *name);
+wh_conf_id wh_conf_find(const char *name); /* WH_CONF_COUNT: no such setting */
 
-/* Returns the setting's name, as an item of a list (answer.h). */
+/* Returns the setting's name as a list item (answer.h). */
 const char *wh_conf_name(wh_conf_id id);
 
-/* Set a setting to a value in its unit (for a choice: the value's number); wh_conf_type() sets it from typed text.
- * Updates the configuration, unless the value is refused. Call it only while the rig is idle. */
+/* Sets a setting to a value in its unit, or of a choice to its index; wh_conf_type() converts typed text. If the value
+ * is refused, the configuration stays. Only while the rig is idle. */
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
 wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 
-/* Reset all settings to their defaults. The settings in permanent memory stay. */
+/* Resets all settings to their defaults, except in permanent memory. */
 void wh_conf_default(wh_conf *conf);
 
-/* Save to permanent memory. The call takes as long as the memory needs (hal/settings.h). */
+/* Saves to permanent memory; waits for the memory (hal/settings.h). */
 wh_station_error wh_conf_save(wh_conf *conf);
 
 /* === the console's command `conf` ============================================================ */
 
-/* Executes `conf` with the words after it. Writes the answer into *answer, which must be empty, or returns the error.
- * `idle` is true if settings may change. */
+/* Executes `conf`, with the subcommand in words->word[1]. Adds to *answer, or returns the error. Settings change only
+ * if `idle`. */
 wh_station_error wh_conf_answer(wh_conf *conf, const wh_words *words, bool idle, wh_text *answer);
 
 #endif

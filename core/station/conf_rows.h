@@ -1,6 +1,6 @@
-/* conf_rows.h: the settings of a rig, one row each: X(name, number, kind, unit, least, most, goes, member, words). The
- * user types the name; the number is stored. Both never change, and no other setting ever gets the number. The range is
- * in the unit. `goes` is the setting's effect on the configuration (conf.c), `member` its place in wh_rig_config. */
+/* conf_rows.h: the rig's settings, one row each: X(name, number, kind, unit, least, most, goes, member, words). The
+ * user types the name, permanent memory has the number. They never change, and a number is never reused. `least` and
+ * `most` are in the unit, `goes` is a wh_conf_goes, `member` is in wh_rig_config. */
 #ifndef WH_STATION_CONF_ROWS_H
 #define WH_STATION_CONF_ROWS_H
 
@@ -18,8 +18,7 @@
                      "|" \
                      "always")
 
-/* X(unit, word, number). First come the units that need a conversion: `number` of them are one unit of the
- * configuration. Then come the units of the configuration itself. */
+/* X(unit, word, number): `number` of this unit make one of the configuration. First those that need a conversion. */
 #define WH_CONF_SCALED_ROWS(X) \
     X(DEG, "deg", 57.29577951308232) \
     X(RPM, "rpm", 9.549296585513721) \

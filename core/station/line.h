@@ -17,9 +17,9 @@ typedef enum wh_line_event {
 /* The state of the line editor. Initially all zeros. */
 typedef struct wh_line {
     bool ended;    /* the next byte begins a line */
-    bool returned; /* the last byte was a carriage return: ignore a line feed */
+    bool returned; /* the last byte was a carriage return: a line feed after it is ignored */
     bool bad;
-    uint8_t key; /* number of bytes so far of a special key, which begins with Escape */
+    uint8_t key; /* state of the escape sequence of a special key, such as an arrow */
     unsigned length;
     char text[WH_LINE_MOST + 1U];
 } wh_line;
@@ -29,15 +29,13 @@ typedef struct wh_words {
     unsigned count;                  /* number of words, including those not stored */
 } wh_words;
 
-/* Process a byte. A line ends with carriage return, line feed or both. Backspace and delete remove the last
- * character. */
+/* Takes a byte. A line ends with carriage return, line feed or both. Backspace and Delete remove a character. */
 wh_line_event wh_line_take(wh_line *line, char byte);
 
-/* Split a line at blanks and tabs. Writes a NUL after each word into the text. */
+/* Splits text into words at blanks and tabs, in place: each separator becomes a NUL. */
 void wh_line_split(wh_words *words, char *text);
 
-/* Convert a number such as "330", "-3.5" or ".5": a sign, digits, a point, digits; at most nine digits. Returns false
- * for other text. */
+/* Converts a number such as "330", "-3.5" or ".5", of at most nine digits. Returns false for other text. */
 bool wh_line_number(const char *word, wh_real *number);
 
 #endif

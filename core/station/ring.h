@@ -1,12 +1,11 @@
-/* ring.h: a FIFO of bytes between a console, which sends bytes one by one, and a program that must not wait for the
- * console. It has one writer and one reader, both in the same context. */
+/* ring.h: a FIFO of bytes between a program and its console, so that neither waits. Not for use in interrupts. */
 #ifndef WH_STATION_RING_H
 #define WH_STATION_RING_H
 
 #include "core/number/flash.h"
 
 typedef struct wh_ring {
-    uint32_t put; /* numbers of bytes put and taken so far; put - taken bytes wait */
+    uint32_t put; /* number of bytes put since the start, wrapping; put - taken bytes are stored */
     uint32_t taken;
     uint32_t size; /* a power of two */
     char *bytes;   /* memory of the caller */
@@ -17,10 +16,10 @@ static inline uint32_t wh_ring_room(const wh_ring *ring) {
     return ring->size - wh_ring_waiting(ring);
 }
 
-/* Put all bytes, or none if there is no room for all: half a line is useless. Returns true if they were put. */
+/* Puts all bytes and returns true. If they do not all fit, puts none and returns false: half a line is useless. */
 bool wh_ring_put(wh_ring *ring, const char *bytes, uint32_t count);
 
-/* Copy the oldest bytes, at most `room`, and return their number. The bytes stay until wh_ring_drop(). */
+/* Copies the oldest bytes, at most `room`, and returns their number. The bytes stay until wh_ring_drop(). */
 uint32_t wh_ring_peek(const wh_ring *ring, char *bytes, uint32_t room);
 void wh_ring_drop(wh_ring *ring, uint32_t count);
 

@@ -6,7 +6,7 @@
 #include "answer.h"
 #include "core/number/arithmetic.h"
 
-/* Largest static load, as a part of the range. A larger load is real, or the cell is not wired. */
+/* Largest load at rest, divided by full scale. Above it something pulls at the cell, or the cell is not wired. */
 #define LOAD_PART WH_R(0.5)
 #define PARTS 8U
 
@@ -28,7 +28,7 @@ void wh_selftest_answer(const wh_rig_config *config, const wh_rig *rig, const wh
                             wh_arithmetic_wrong(scene->arithmetic) == WH_PROBED_COUNT;
     const wh_real off = WH_ABS(swung->place_rad[0]);
     const bool swings = swung->why == WH_SWING_FOUND;
-    wh_value value[] = {{.count = 1U}, /* the whole: good if all parts are good */
+    wh_value value[] = {{.count = 1U}, /* good if all parts are good */
                         {.count = arithmetic},
                         {.count = !seen->inputs.clock_is_fallback},
                         {.count = !seen->inputs.watchdog_has_cut},

@@ -12,7 +12,7 @@
 #define END_BYTES 2U /* "\r\n" */
 #define ESCAPE_KEY '\x1b'
 #define HOST_MOST_S WH_R(3600.0)
-/* Version of the protocol, in the answer to `id`. A program at the other end recognizes the console by it. */
+/* Version of the protocol, in the answer to `id`, by which a program recognizes the console. */
 #define DIALOGUE 1U
 
 typedef struct request {
@@ -37,7 +37,7 @@ static void send(request *r) {
     text->truncated = false;
 }
 
-/* Sends the answer if `why` is 0; otherwise the refusal `why`, a wh_refusal or a wh_station_error. */
+/* Sends the answer if `why` is 0, else the refusal `why` (a wh_refusal or a wh_station_error). */
 static void send_answer(request *r, unsigned why) {
     if (why != 0) {
         wh_answer_refused(&r->answer, why);
@@ -49,8 +49,7 @@ static void send_answer(request *r, unsigned why) {
     send(r);
 }
 
-/* Posts an order to the rig; the console answers after the rig has answered. Returns the reason for a refusal, or 0, as
- * the functions of all commands do. */
+/* Posts an order; its answer follows when the rig has answered. Like all do_ functions, returns 0 or the refusal. */
 static unsigned order(request *r, wh_rig_event event, wh_real value) {
     r->station->answers = r->rig->answers;
     r->station->waits = wh_rig_post(r->rig, event, value);
@@ -78,19 +77,16 @@ static unsigned do_set(request *r) { return order_speed(r, WH_EVENT_SET); }
 static unsigned do_stop(request *r) { return order(r, WH_EVENT_STOP, WH_R(0.0)); }
 static unsigned do_clear(request *r) { return order(r, WH_EVENT_CLEAR, WH_R(0.0)); }
 
-/* Returns the time of the last step. Without wh_station_see() it is unknown: the answers then give a result's age as
- * last counted by the rig. */
+/* Returns the time of the last step, if wh_station_see() gave it. Otherwise result ages are up to 1 s too small. */
 static uint32_t now_ticks(const request *r) {
     return r->station->seen != NULL ? r->station->seen->inputs.now_ticks : r->rig->result_ticks;
 }
 
-/* True if the result was measured with other settings than the present ones. */
+/* True if the settings have changed since the result was measured. */
 static bool is_outdated(const request *r) {
     return r->station->conf != NULL && r->rig->settings != r->station->conf->config->settings;
 }
 
-/* Returns the result's quality and reason in words. They are valid for the settings with which the result was
- * measured. */
 static const char *verdict(const request *r) {
     return !r->rig->has_result ? "none"
            : is_outdated(r)    ? "outdated"
@@ -241,8 +237,7 @@ typedef enum command { WH_COMMAND_ROWS(COMMAND) COMMANDS } command;
 static const char *command_names(void) { return WH_COMMAND_ROWS(COMMAND); }
 #undef COMMAND
 
-/* Executes a command. A switch replaces function pointers: some commands call through pointers themselves (settings),
- * and the stack analysis would report recursion. */
+/* A switch, not pointers: some commands call through pointers, and the stack analysis would see recursion. */
 static unsigned run(request *r) {
 #define COMMAND(name, most, follows, words) 1U + (most),
     static const uint8_t words_most[] = {WH_COMMAND_ROWS(COMMAND)};
@@ -310,7 +305,7 @@ static void tell_stage(request *r) {
     send(r);
 }
 
-/* True in the step in which the host has been silent for too long. The rig is informed only once. */
+/* True only in the step in which the host's silence reaches the limit. */
 static bool host_is_lost(wh_station *station, wh_rig *rig) {
     const uint32_t host_steps = station->host_given ? station->host_steps
                                 : station->config != NULL
@@ -318,7 +313,8 @@ static bool host_is_lost(wh_station *station, wh_rig *rig) {
                                     : 0;
     if (host_steps == 0 || station->silent_steps > host_steps ||
         (station->silent_steps == host_steps &&
-         !wh_rig_post(rig, WH_EVENT_HOST_LOST, WH_R(0.0)))) { /* no room: retry in the next step */
+         !wh_rig_post(rig, WH_EVENT_HOST_LOST,
+                      WH_R(0.0)))) { /* queue full: retry in the next step */
         return false;
     }
     station->silent_steps++;
@@ -343,8 +339,7 @@ void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_r
     }
 }
 
-/* Takes a byte. A lost byte could change "start 330" to "start 30". So a line with a lost byte is replaced by a line
- * that is refused. */
+/* A lost byte could change "start 330" to "start 30", so its line is replaced by one that is refused. */
 static void take_byte(wh_station *station, char byte) {
     static const char spoilt[] = {'\1', '\n'};
     if (byte == ESCAPE_KEY) {
@@ -389,7 +384,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
-        return; /* wait: the rig's next answer must belong to this order */
+        return; /* the rig's next answer must belong to this order */
     }
     wh_text_add(&r.answer, "OK");
     if (station->escaped) {
@@ -402,7 +397,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         }
         wh_line_split(&r.words, station->line.text);
         if (event == WH_LINE_WHOLE && r.words.count == 0) {
-            return; /* no order waits for its answer */
+            return; /* an empty line has no answer */
         }
         why = event == WH_LINE_BAD ? WH_STATION_LINE : run(&r);
     }

@@ -2,18 +2,16 @@
  *
  *     OK name=value name=value: words         ERR number words
  *
- * It serves a person at any terminal, or a program at the other end of a serial line. It never waits: bytes go through
- * rings. If the reader is slow and the ring has no room for an answer, the whole answer is dropped and counted.
+ * The console never waits: bytes go through rings, and an answer that does not fit is dropped as a whole and counted.
  *
  *     every control step, after wh_rig_step() and the motor's command:
  *         wh_station_see(&station, &config, &rig, &seen)  for telemetry, if compiled in
  *         wh_station_take(&station, bytes, count)         the received bytes
  *         wh_station_step(&station, &rig)                 at most the work of one line
- *         count = wh_station_peek(&station, bytes, room)  bytes to send: the console takes some of them
- *         wh_station_drop(&station, taken)                removes the bytes that the console took
+ *         count = wh_station_peek(&station, bytes, room)  bytes to send
+ *         wh_station_drop(&station, sent)                 removes the bytes that were sent
  *
- * wh_rig_post() passes orders to the rig, and the console answers with the rig's answer. The Escape key acts as `stop`,
- * before all waiting input. */
+ * The rig answers orders (wh_rig_post()). The Escape key drops the waiting input and acts as `stop`. */
 #ifndef WH_STATION_STATION_H
 #define WH_STATION_STATION_H
 
@@ -46,12 +44,12 @@
       "a run ends after this time without a byte (setting host, until a reset)") \
     X(talk, 1, " on|off", "echo typed characters, report each new state")
 
-/* A small chip's build may set 0: then station->tel stays NULL, and no telemetry is linked. */
+/* 0 omits telemetry, for small chips: station->tel stays NULL. */
 #ifndef WH_STATION_TELEMETRY
 #define WH_STATION_TELEMETRY 1
 #endif
 
-/* Sizes of the rings for received bytes and for bytes to send. Telemetry may fill half of the second ring. */
+/* Bytes in the rings for input and output. Telemetry fills at most half of the output ring. */
 #ifndef WH_STATION_IN_BYTES
 #define WH_STATION_IN_BYTES 256U
 #endif
@@ -59,15 +57,14 @@
 #define WH_STATION_OUT_BYTES 1024U
 #endif
 
-/* Do not move a started station in memory. Large members come last, because instructions for members near the begin are
- * shorter. */
+/* Do not copy a started station: its rings point into it. Large members last: small offsets make shorter code. */
 typedef struct wh_station {
     bool talks;
-    bool escaped;        /* Escape was received: it acts before all waiting bytes */
-    bool spoils;         /* bytes were lost: the rest of the line is invalid, too */
+    bool escaped;        /* Escape was received: `stop` comes before the waiting bytes */
+    bool spoils;         /* a received byte was lost: the rest of its line is invalid */
     bool waits;          /* the console waits for the rig's answer to an order */
     uint32_t answers;    /* rig->answers when the order was given */
-    const char *program; /* string of the caller */
+    const char *program; /* the caller's string */
     const char *board;
     wh_conf *conf;               /* NULL: no settings */
     wh_tel *tel;                 /* NULL: no telemetry */
@@ -75,10 +72,9 @@ typedef struct wh_station {
     const wh_step_inputs *seen;  /* observations of the last step */
     uint32_t steps_per_s;        /* calls of wh_station_step() per second */
     unsigned stage;              /* the stage that was reported last */
-    uint32_t lost_bytes;         /* number of received bytes that were lost for lack of room */
-    uint32_t lost_answers;       /* number of answers that were lost for lack of room */
-    bool
-        host_given; /* the command `host` was given: its host_steps count, not the setting `host` */
+    uint32_t lost_bytes;         /* number of received bytes that did not fit into `in` */
+    uint32_t lost_answers;       /* number of answers that did not fit into `out` */
+    bool host_given;             /* host_steps replaces the setting `host` */
     /* the host is lost after this many steps without a byte; 0: never */
     uint32_t host_steps;
     uint32_t silent_steps;
@@ -90,24 +86,22 @@ typedef struct wh_station {
     char out_bytes[WH_STATION_OUT_BYTES];
 } wh_station;
 
-/* Start. `steps_per_s` is the rate of wh_station_step(). At first no host is expected, so none can be lost. After this
- * call the caller sets conf and tel. */
+/* Starts the console. `steps_per_s` is the rate of wh_station_step(). Afterwards the caller sets conf and tel. */
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 
-/* Take received bytes. An Escape among them is noticed at once. */
+/* Takes received bytes. An Escape drops the bytes before it at once. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
-/* Give the last control step's observations to telemetry and self-test. They must stay unchanged until the next
- * step. */
+/* Passes the last step to telemetry and self-test. *config and *seen must stay unchanged until the next step. */
 void wh_station_see(wh_station *station, const wh_rig_config *config, const wh_rig *rig,
                     const wh_step_inputs *seen);
 
-/* Execute the oldest line, if the previous line is answered. If the host has been silent for the time set by `host`,
- * the rig gets WH_EVENT_HOST_LOST, once; the rig's configuration decides about the run. */
+/* Executes the oldest line, if the previous line is answered. If the host has been silent for the time set by `host`,
+ * posts WH_EVENT_HOST_LOST once; the configuration decides whether the run ends. */
 void wh_station_step(wh_station *station, wh_rig *rig);
 
-/* Copy the oldest bytes to send, at most `room`, and return their number. */
+/* Copies the oldest bytes to send, at most `room`, and returns their number. */
 static inline unsigned wh_station_peek(const wh_station *station, char *bytes, unsigned room) {
     return (unsigned)wh_ring_peek(&station->out, bytes, room);
 }

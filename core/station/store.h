@@ -1,12 +1,12 @@
-/* store.h: bytes that survive a power loss, in two slots. One of them always has the last complete record.
+/* store.h: a record of bytes in permanent memory, in two slots.
  *
- * A record goes into the slot that does not have the newest record. So a power failure during a write leaves the
- * previous record intact. In a slot, multi-byte numbers are low byte first:
+ * A save overwrites the older record, so the newer one survives a power failure. Layout of a slot, with sizes in bytes
+ * and little-endian numbers:
  *
- *     format 2 | bytes of the payload 2 | sequence 4 | payload | CRC-32 4
+ *     format 2 | size of the payload 2 | sequence 4 | payload | CRC-32 4
  *
- * The newest record with a right CRC is the valid one. Sequence numbers wrap and skip 0. The memory may be flash, where
- * an erase sets all bits and a write only clears some. A slot is written front to back, once after each erase. */
+ * The valid record is the newest one whose CRC matches. Sequence numbers wrap and skip 0. The memory may be flash: a
+ * slot is written only once after each erase, front to back. */
 #ifndef WH_STATION_STORE_H
 #define WH_STATION_STORE_H
 
@@ -18,21 +18,19 @@
 #define WH_STORE_PAYLOAD_MOST 240U
 #define WH_STORE_SLOT_BYTES (WH_STORE_FIXED_BYTES + WH_STORE_PAYLOAD_MOST)
 
-/* Functions that a board supplies (hal/settings.h). Each works on slot 0 or 1. It returns false if the memory reported
- * a failure. */
+/* The board's access to slot 0 or 1 (hal/settings.h). Each function returns false if the memory reports a failure. */
 typedef struct wh_store_memory {
     bool (*erase)(unsigned slot);
     bool (*write)(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count);
     bool (*read)(unsigned slot, unsigned at, uint8_t *bytes, unsigned count);
 } wh_store_memory;
 
-/* Load the newest record into bytes[WH_STORE_SLOT_BYTES]; its payload begins at WH_STORE_HEAD_BYTES. Returns the length
- * of the payload, or -1 if there is no record. *sequence gets the record's sequence number, or 0. */
+/* Loads the newest record into bytes[WH_STORE_SLOT_BYTES], with the payload at WH_STORE_HEAD_BYTES. Returns the
+ * payload's size, or -1 if there is no valid record. *sequence gets the record's sequence number, or 0. */
 int wh_store_load(const wh_store_memory *memory, uint8_t *bytes, uint32_t *sequence);
 
-/* Write a record with a payload of `count` bytes, at most WH_STORE_PAYLOAD_MOST, at bytes[WH_STORE_HEAD_BYTES]. This
- * function adds the other fields and reads the record back. Returns the sequence number; or 0 if the write failed, and
- * then the previous record is intact. */
+/* Saves a payload of `count` <= WH_STORE_PAYLOAD_MOST bytes at bytes[WH_STORE_HEAD_BYTES]; the array needs
+ * WH_STORE_FIXED_BYTES more. Returns the sequence number, or 0 after a failure: then the previous record is intact. */
 uint32_t wh_store_save(const wh_store_memory *memory, uint8_t *bytes, unsigned count);
 
 #endif

@@ -9,7 +9,7 @@
 #define RUN_BYTES (5U + 2U * WH_TEL_SAMPLES)
 #define EVENT_BYTES 2U
 #define LINE_BYTES_OF(count) (WH_TEL_FIXED_BYTES + (count))
-/* number of bytes before a frame on the line: a zero, and the first byte of the code */
+/* bytes before a frame on the line: a zero, the first COBS code */
 #define BEFORE 2U
 #define TEXT_BYTES 96U
 
@@ -23,7 +23,6 @@ _Static_assert(WH_TEL_FIXED_BYTES + WH_TEL_PAYLOAD_MOST <= WH_COBS_SHORT_MOST, "
 #define TRIGGERED 4U
 #define TRIPPED 8U
 
-/* Restarts with this trigger. */
 static void capture_start(wh_capture *capture, wh_capture_trigger trigger) {
     capture->trigger = trigger;
     capture->state = trigger == WH_CAPTURE_OFF ? WH_CAPTURE_NONE : WH_CAPTURE_WAITS;
@@ -42,8 +41,7 @@ static bool triggers(const wh_capture *capture, uint8_t flags) {
     return false;
 }
 
-/* Records a step, less than 65 ms after the last one. Bit 4 of its flags must be clear. `now_ticks` is the step's time
- * with all 32 bits. */
+/* Records a step at `now_ticks`, less than 65 ms after the last one (16 bits), with TRIGGERED clear in its flags. */
 static void capture_step(wh_capture *capture, const wh_captured *step, uint32_t now_ticks) {
     wh_captured *to = &capture->step[capture->next];
     if (capture->count == 0) {
@@ -81,10 +79,10 @@ typedef struct sight {
     unsigned stage;
     uint16_t speed; /* in 1/50 rpm */
     wh_bytes frame; /* the frame in progress */
-    unsigned spare; /* number of bytes in the ring that must stay free for other data */
+    unsigned spare; /* number of bytes in the output ring that must stay free for other data */
 } sight;
 
-/* Returns the number rounded to 16 bits, or NONE_16 for NaN. */
+/* Returns the number rounded and limited to 0 ... 65534, or NONE_16 for NaN. */
 static uint16_t in_16(wh_real number) {
     if (!(number >= WH_R(0.0))) {
         return number < WH_R(0.0) ? 0 : NONE_16;
@@ -118,12 +116,11 @@ static uint16_t speed_50(const wh_rig *rig, uint32_t now_ticks) {
                : NONE_16;
 }
 
-/* True if telemetry's half of the ring has room. The other half is for the console's answers. */
+/* True if telemetry's half of the ring has space. The other half is for the console's answers. */
 static bool fits(const wh_ring *out, unsigned count) {
     return wh_ring_room(out) >= out->size / 2U + count;
 }
 
-/* Puts the whole frame into the ring, or nothing. */
 static bool put_out(const sight *s, wh_tel_channel channel, const char *bytes, unsigned count) {
     if (fits(s->out, count + s->spare) && wh_ring_put(s->out, bytes, count)) {
         return true;
@@ -176,7 +173,7 @@ static void send_event(sight *s, wh_tel_event what, unsigned value, uint32_t tic
     (void)send_frame(s, WH_TEL_EVENT);
 }
 
-/* Sends the ring's frames. They wait for room, so they are never dropped. */
+/* Sends the capture's next frame, if there is space: these frames wait and are never dropped. */
 static void send_ring(sight *s) {
     wh_tel *tel = s->tel;
     const wh_capture *capture = &tel->capture;
@@ -242,7 +239,7 @@ static void take_sample(sight *s, const wh_step_sample *sample) {
     const uint32_t period = cell->period_ticks * tel->every;
     const uint32_t due = tel->first_ticks + tel->samples * period;
     if (load.ticks - due + period / 8U > period / 4U) {
-        /* Sends the samples so far, because the next sample is not one period after the last one. */
+        /* the sample is not one period after the last one, so a new frame begins */
         send_run(s);
     }
     if (tel->samples == 0) {
@@ -258,9 +255,9 @@ static void take_events(sight *s) {
     wh_tel *tel = s->tel;
     const wh_step_inputs *seen = s->seen;
     const unsigned trip = (unsigned)s->rig->guard.trip;
-    if (seen->ended) { /* If many pulses fill the line, the ends of pulses are dropped first */
+    if (seen->ended) { /* if many pulses fill the line, the ends of pulses are dropped first */
         s->spare = LINE_BYTES_OF(RUN_BYTES) +
-                   2U * LINE_BYTES_OF(EVENT_BYTES); /* room for later data of this step */
+                   2U * LINE_BYTES_OF(EVENT_BYTES); /* space for later data of this step */
         send_event(s, WH_TEL_END, seen->end_sensor, seen->end_ticks);
         s->spare = 0;
     }
@@ -333,7 +330,7 @@ void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
 #define STATES WH_CAPTURE_STATE_ROWS(LISTED)
 #define CHANNELS WH_TEL_CHANNEL_ROWS(CHANNEL)
 
-/* From now on sends one of `every` samples of the cell; 0: none. */
+/* Sends one of `every` samples from now on; 0: none. */
 static void set_rate(wh_tel *tel, uint32_t every) {
     tel->every = every;
     tel->passed = 0;
@@ -342,7 +339,7 @@ static void set_rate(wh_tel *tel, uint32_t every) {
     tel->trip = NONE_16;
 }
 
-/* Sends the ring's frames from the beginning. Returns false if the ring is not full yet. */
+/* Starts to send the capture. Returns false if it is not full yet. */
 static bool read_ring(wh_tel *tel) {
     if (tel->capture.state != WH_CAPTURE_FULL) {
         return false;
@@ -435,7 +432,6 @@ static wh_station_error schema(const wh_tel *tel, const wh_cell_config *cell, co
     return WH_STATION_FINE;
 }
 
-/* True if the text format has no room for this many samples per second. */
 static bool is_too_fast(wh_tel_format format, uint32_t per_s) {
     return format != WH_TEL_FRAMES && per_s > WH_TEL_TEXT_PER_S_MOST;
 }
@@ -491,7 +487,7 @@ static wh_station_error set_ring(wh_tel *tel, const char *word, wh_text *answer)
     return WH_STATION_FINE;
 }
 
-/* X(what, word): ALONE_ROWS has the requests of one word, WITH_ROWS those with an argument. */
+/* Subcommands without (ALONE_ROWS) and with an argument (WITH_ROWS): X(what, word) */
 #define ALONE_ROWS(X) X(ALONE_LIST, "list") X(ALONE_OFF, "off") X(ALONE_RING, "ring")
 #define WITH_ROWS(X) \
     X(WITH_SCHEMA, "schema") \

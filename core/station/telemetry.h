@@ -1,23 +1,21 @@
-/* telemetry.h: the rig's data, sample by sample, on the same line as the console's text.
+/* telemetry.h: the rig's data, sample by sample, on the serial line of the console's text.
  *
- * A frame before coding (core/cobs.h), with multi-byte numbers low byte first:
+ * A frame before COBS coding (core/cobs.h), with sizes in bytes and little-endian numbers:
  *
  *     0x80 + channel 1 | sequence 2 | dropped 2 | ticks 4 | payload | CRC-16/CCITT 2
  *
- * On the line each frame is between two zeros. Text has no zeros, and its second byte is below 0x80. So the second byte
- * between two zeros distinguishes frames from text, and a terminal can show the text directly. `sequence` counts the
- * channel's frames, including those dropped here for lack of room; `dropped` counts the dropped ones. Other frames
- * missing in the sequence were lost on the line. Both numbers wrap.
+ * A zero precedes and ends each coded frame. Text is ASCII without zeros, so the second byte after a zero distinguishes
+ * frames from text. `sequence` counts the channel's frames, `dropped` those of them that did not fit into the output
+ * ring; both wrap. Other gaps in `sequence` are losses on the line.
  *
- * The channels are in WH_TEL_CHANNEL_ROWS; the console's `tel schema` describes them:
+ * The console's `tel schema` describes the channels:
  *
- *     run    ten samples of the load, one period apart within an eighth of a period (fewer if samples are late, bad or
- *            missing); speed, drive and state at the last of these samples
- *     event  one event, at `ticks`: a slot pulse, another state, a trip
- *     ring   the stored control steps around a trigger (below), ten in a frame
+ *     run    up to ten samples of the load, one period apart within an eighth of a period; speed, drive and state when
+ *            the frame is sent
+ *     event  one event, at `ticks`: an edge of a slot pulse, another state, a trip
+ *     ring   the recorded control steps around a trigger (below), ten in a frame
  *
- * Telemetry never waits. It fills only its own part of the ring, and drops frames that do not fit. It is off at
- * first. */
+ * Telemetry is off at first. It uses at most half of the output ring, and drops frames that do not fit. */
 #ifndef WH_STATION_TELEMETRY_H
 #define WH_STATION_TELEMETRY_H
 
@@ -46,14 +44,14 @@ typedef enum wh_capture_trigger {
 #undef WH_CAPTURE_NAME
 
 typedef struct wh_captured {
-    uint16_t ticks; /* low half of the step's time in ticks */
-    int16_t load;   /* load in the units of telemetry */
+    uint16_t ticks; /* low half of the step's time */
+    int16_t load;   /* counts divided by 2^wh_tel_shift() */
     uint16_t drive_mV;
     uint8_t flags; /* 1, 2: a pulse of sensor 0, 1; 4: this step is the trigger; 8: tripped */
     uint8_t stage;
 } wh_captured;
 
-/* Progress: X(state, word) */
+/* States of a capture: X(state, word) */
 #define WH_CAPTURE_STATE_ROWS(X) \
     X(WH_CAPTURE_NONE, "off") \
     X(WH_CAPTURE_WAITS, "waiting") \
@@ -66,24 +64,24 @@ typedef enum wh_capture_state {
 } wh_capture_state;
 #undef WH_CAPTURE_NAME
 
-/* A capture in progress. All zeros: off. */
+/* All zeros: off. */
 typedef struct wh_capture {
     wh_capture_trigger trigger;
     wh_capture_state state;
     unsigned left;        /* number of steps still to record after the trigger */
     unsigned count;       /* number of stored steps */
     unsigned next;        /* index of the next stored step */
-    uint32_t first_ticks; /* time of the oldest step, all 32 bits */
+    uint32_t first_ticks; /* time of the oldest step, in full */
     wh_captured step[WH_CAPTURE_STEPS];
 } wh_capture;
 
 #define WH_TEL_SAMPLES 10U
 #define WH_TEL_HEAD_BYTES 9U
-/* Number of bytes on the line besides the payload: zeros, code, CRC. */
+/* Bytes of a frame on the line without its payload: head, zeros, COBS code, CRC. */
 #define WH_TEL_FIXED_BYTES (WH_TEL_HEAD_BYTES + 5U)
 #define WH_TEL_PAYLOAD_MOST (WH_TEL_SAMPLES * WH_CAPTURE_BYTES)
 #define WH_TEL_NO_LOAD (-32768) /* no good sample */
-/* Maximum number of samples per second in a text format, which takes more room. */
+/* Maximum number of samples per second as text, which takes more bytes. */
 #define WH_TEL_TEXT_PER_S_MOST 100U
 
 /* X(channel, number, name) */
@@ -113,15 +111,14 @@ typedef enum wh_tel_event {
 typedef enum wh_tel_format { WH_TEL_FORMAT_ROWS(WH_TEL_NAME) WH_TEL_FORMATS } wh_tel_format;
 #undef WH_TEL_NAME
 
-/* The state of telemetry. All zeros: off. Large members come last, because instructions for members near the begin are
- * shorter. */
+/* All zeros: off. Large members last: small offsets make shorter code. */
 typedef struct wh_tel {
-    bool reads; /* the ring is being sent, beginning with step read_at */
+    bool reads; /* the capture is being sent; read_at is the next step */
     uint16_t sequence[WH_TEL_CHANNELS];
     uint16_t dropped[WH_TEL_CHANNELS]; /* lost lines of text count as frames of WH_TEL_RUN */
     unsigned read_at;
     uint32_t read_ticks;
-    uint32_t every; /* one of this many samples of the cell is sent; 0: telemetry is off */
+    uint32_t every; /* one of this many samples is sent; 0: telemetry is off */
     uint32_t passed;
     wh_tel_format format;
     unsigned samples; /* number of samples in the frame in progress */
@@ -133,17 +130,17 @@ typedef struct wh_tel {
     wh_capture capture;
 } wh_tel;
 
-/* Returns the shift that makes the cell's counts fit into 16 bits. */
+/* Returns the right shift that makes the cell's counts fit into 16 bits. */
 unsigned wh_tel_shift(const wh_cell_config *cell);
 
-/* Call this after each control step. It does at most the work of the step's pulse and two samples, or of one frame of
- * the ring. Bytes to send go into `out`; telemetry uses at most half of its room. */
+/* Call this after each control step. Does at most the work of one pulse, two samples and one frame of the capture.
+ * Frames go into `out`, of which telemetry fills at most half. */
 void wh_tel_step(wh_tel *tel, const wh_rig_config *config, const wh_rig *rig,
                  const wh_step_inputs *seen, wh_ring *out);
 
 /* === the console's command `tel` ============================================================= */
 
-/* Executes `tel` with the words after it. Writes the answer into *answer, which must be empty, or returns the error. */
+/* Executes `tel`, with the subcommand in words->word[1]. Adds to *answer, or returns the error. */
 wh_station_error wh_tel_answer(wh_tel *tel, const wh_cell_config *cell, const wh_words *words,
                                wh_text *answer);
 

@@ -1,7 +1,6 @@
-/* rig_frames.c: the rig's hal_ functions, with a plant at the other end of a line. Signals have the names of
- * docs/plants/rig.whirl; dials have the names there or in docs/plants/carriage.whirl. Simulated time stops while the
- * controller computes. The controller sends its computing time with the outputs, and the plant delays the outputs by
- * this time. */
+/* rig_frames.c: the rig's hal_ functions for a plant at the other end of a line. Signals have the names of
+ * docs/plants/rig.whirl or carriage.whirl. Simulated time stops while the controller computes: the plant gets the
+ * computing time with the outputs, and delays the outputs by it. */
 #include "rig_frames.h"
 
 #include <stddef.h>
@@ -19,17 +18,17 @@
 #if !WH_DOUBLE
 
 #define RAD_PER_DEG 0.0174532925f
-/* The supply's converter has 12 bits for 0 to 60 V. */
+/* 12-bit converter for 0 to 60 V */
 #define SUPPLY_FULL_mV 60000U
 #define SUPPLY_COUNTS 4096
 #define SUPPLY_V_PER_COUNT ((float)SUPPLY_FULL_mV / 1000.0f / (float)SUPPLY_COUNTS)
 _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV),
                "the measurement ends too near to its limit");
-#define SUPPLY_RATED_V 24.0f /* supply until the first measurement */
+#define SUPPLY_RATED_V 24.0f /* before the first measurement */
 
 #define WRAP_AFTER_S 5U /* the timer wraps this early, so that every run crosses the wrap */
 
-/* A slot sensor gives a pulse while the slot, 2 * HAL_SLOT_LEAD_DEG wide, is in front of it. */
+/* A sensor gives a pulse while the slot, 2 * HAL_SLOT_LEAD_DEG wide, is in front of it. */
 #define SLOT_AT(deg) \
     { \
         .kind = WH_SIGNAL_EDGE, .name = "theta", .unit = "rad", \
@@ -38,9 +37,9 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(HAL_MOTOR_SUPPLY_MOST_mV, SUPPLY_FULL_mV
     }
 
 enum { DUTY, ENABLE };                    /* outputs */
-enum { CELL_FORCE, SUPPLY, STOP, DIALS }; /* samples, then the first dial */
+enum { CELL_FORCE, SUPPLY, STOP, DIALS }; /* samples; DIALS is the first dial */
 
-/* A dial's converter has 20 bits: its rounding error is below the bound of every test. */
+/* 20-bit converter: its rounding error is below the tests' bounds */
 #define DIAL_PER_COUNT (1.0f / 1048576.0f)
 
 static const wh_signal signals[] = {
@@ -96,16 +95,15 @@ enum {
 _Static_assert(SIGNALS + CARRIAGE_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 _Static_assert(SIGNALS + BENCH_SIGNALS <= WH_SIGNALS_MAX, "room for all");
 
-/* The board has one plant, because hardware is global. */
 static hal_turns plant;
 static float supply_V = SUPPLY_RATED_V;
 static bool stop_pressed;
 static bool stop_heard; /* false before the first reading and after a long silence */
-/* time of the last reading; before the first, stop counts as pressed */
+/* time of the last reading */
 static uint32_t stop_ticks;
-static uint32_t load_ticks;    /* time stamp of the last load sample */
-static bool load_seen;         /* there was a load sample */
-static const wh_signal *dials; /* signals of the dials and their notes; NULL: there are no dials */
+static uint32_t load_ticks;
+static bool load_seen;         /* load_ticks is valid */
+static const wh_signal *dials; /* signals of the dials and their notes; NULL: no dials */
 static unsigned dial_signals;
 static float dial[HAL_DIALS];
 static bool dial_heard[HAL_DIALS];
@@ -119,8 +117,8 @@ static void see_dial(const wh_sample *sample) {
     }
 }
 
-/* After this time without a reading, stop counts as pressed. It is longer than the guard's wait for the load cell: if
- * all readings fail, the reported trip is that of the load cell. */
+/* After this time without a reading, stop counts as pressed. If all readings fail, the guard's shorter wait for the
+ * load cell comes first, and names the cell as the cause of the trip. */
 #define STOP_SILENCE_TICKS (25U * HAL_STOP_PERIOD_TICKS)
 
 static void see_stop(const wh_sample *sample) {
@@ -129,10 +127,10 @@ static void see_stop(const wh_sample *sample) {
     stop_ticks = plant.ticks;
 }
 
-/* Takes the newest readings of the supply and of stop. */
+/* Takes the newest readings of supply, stop and dials. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
-        stop_heard = false; /* stays false until the next reading, because times wrap */
+        stop_heard = false; /* until the next reading, because times wrap */
     }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
@@ -179,7 +177,7 @@ void hal_clock_wait_until(uint32_t ticks) {
     }
 }
 
-/* Sets the chopper's duty, limited to 0 ... 1. NaN gives 0. */
+/* Sets the chopper's duty, clamped to 0 ... 1 (NaN: 0). */
 static void drive(float duty) {
     hal_turns_set(&plant, DUTY, duty > 1.0f ? 1.0f : duty > 0.0f ? duty : 0.0f);
     hal_turns_set(&plant, ENABLE, 1.0f);
@@ -197,7 +195,7 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* If no supply voltage is measured, the duty is 0: the division would fail. */
+/* Without a measured supply voltage the division would fail: the duty is 0. */
 void hal_motor_set_voltage(float volts) {
     if (motor_started) {
         drive(supply_V > SUPPLY_V_PER_COUNT ? volts / supply_V : 0.0f);
@@ -250,7 +248,7 @@ bool hal_slots_take(hal_slot_edge *edge) {
     return true;
 }
 
-/* The line counts lost edges and lost samples together. */
+/* includes lost samples */
 uint32_t hal_slots_overruns(void) { return plant.lost; }
 
 static uint8_t load_status(uint8_t status) {
@@ -304,7 +302,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* the plant gets the stage by notes */ }
+void hal_reset_mark(uint32_t state) { (void)state; /* a note has the stage */ }
 
 void hal_remember(const void *bytes, unsigned count) { hal_turns_remember(&plant, bytes, count); }
 

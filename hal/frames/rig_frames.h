@@ -1,5 +1,4 @@
-/* rig_frames.h: notes from the rig's controller to the program at the other end of the line. That program judges the
- * run by the controller's own results. The plant does not use the notes. */
+/* rig_frames.h: notes from the rig's controller, by which the program at the other end of the line judges the run. */
 #ifndef HAL_FRAMES_RIG_FRAMES_H
 #define HAL_FRAMES_RIG_FRAMES_H
 
@@ -9,9 +8,8 @@
 
 WH_C_BEGIN
 
-/* Notes, in the order of their channels: X(name, word, unit). `state` is wh_rig_stage(), `reset` is hal_reset_cause().
- * core/rig has the numbers of states, trips and qualities. The other notes are values of the result, which exists only
- * after complete turns. */
+/* Notes in the order of their channels, X(name, word, unit): wh_rig_stage(), wh_trip, the result after complete turns
+ * (`quality` to `turns`), hal_reset_cause(). */
 #define HAL_NOTE_ROWS(X) \
     X(HAL_NOTE_STATE, "state", "1") \
     X(HAL_NOTE_TRIP, "trip", "1") \
@@ -29,28 +27,26 @@ enum {
 #undef ROW
 };
 
-/* Set a note. The controller's next wait sends it with the outputs. */
+/* Sets a note, which the next wait sends with the outputs. */
 void hal_frames_note(unsigned channel, float value);
 
-/* Call these at the begin and at the end of each control step. Then the time to read sensors, set outputs and print
- * does not count: see hal_turns_step_begins(). A debugger can count between the addresses of the two functions. */
+/* Call these at the begin and at the end of each control step (turns.h). A debugger can count from one function's
+ * address to the other's. */
 void hal_frames_step_begins(void);
 void hal_frames_step_ends(void);
 
-/* Call this when the program ends: see hal_turns_end(). */
+/* Call this when the program ends: hal_turns_end(). */
 void hal_frames_end(int status);
 
-/* An operator's dials, X(name, word, unit, largest magnitude), and the notes that depend on them, X(name, word, unit).
- * For programs that ask for dials before hal_clock_start(). */
+/* The carriage operator's dials, X(name, word, unit, largest magnitude), and their notes, X(name, word, unit). */
 #define HAL_DIAL_ROWS(X) \
     X(HAL_DIAL_SPEED, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_RADIUS, "dial_radius", "m", 1.0f) \
     X(HAL_DIAL_RATIO, "dial_ratio", "1", 16.0f)
 #define HAL_DIAL_NOTE_ROWS(X) X(HAL_NOTE_DISPLACEMENT, "displacement", "m")
 
-/* Dials of the rig on its bench. dial_speed is the set-point. dial_feed is the share of gravity's torque that the motor
- * compensates in every run; 0: the whole torque, but only if the set-point needs compensation. dial_brakes is 1 for a
- * motor that brakes at a run's end and after stop. */
+/* The bench operator's dials: the set-point; the compensated part of gravity's torque (0: all, but only if the
+ * set-point needs compensation); 1 if the motor brakes at a run's end and after stop. */
 #define HAL_BENCH_DIAL_ROWS(X) \
     X(HAL_DIAL_TARGET, "dial_speed", "rad/s", 64.0f) \
     X(HAL_DIAL_COMPENSATION, "dial_feed", "1", 4.0f) \
@@ -69,7 +65,7 @@ enum {
 
 #define HAL_DIAL_TICKS 100000U /* time between two readings of a dial */
 
-/* If there are dials, call the function for the carriage or for the bench before hal_clock_start(). */
+/* For a program with dials: call one of these before hal_clock_start(). */
 void hal_frames_with_dials(void);
 void hal_frames_with_bench_dials(void);
 

@@ -13,7 +13,7 @@ static void send(hal_turns *turns, uint8_t kind, uint16_t sequence, unsigned len
     hal_link_write(turns->coded, count);
 }
 
-/* Receives the next good frame. One read may return part of a frame or several frames. */
+/* Receives the next good frame. A read may return part of a frame, or several frames. */
 static void receive(hal_turns *turns, wh_frame *frame) {
     for (;;) {
         while (turns->line_at < turns->line_end) {
@@ -26,7 +26,7 @@ static void receive(hal_turns *turns, wh_frame *frame) {
     }
 }
 
-/* Appends new readings to those that the program has not taken yet. */
+/* Removes the readings that were taken, and appends new ones. */
 static void keep(hal_turns *turns, const wh_readings *news) {
     wh_readings *all = &turns->readings;
     unsigned edges = 0;
@@ -66,8 +66,7 @@ static void look_for_reset(hal_turns *turns, const wh_frame *frame) {
     }
 }
 
-/* Waits for readings; ignores frames that come out of turn or have another version. Before the first reading,
- * `hello_bytes` is the length of the hello in turns->payload. */
+/* Waits for readings; ignores other frames. At first `hello_bytes` is the size of the hello in turns->payload. */
 static void hear(hal_turns *turns, unsigned hello_bytes) {
     wh_frame frame;
     wh_readings news;
@@ -139,8 +138,7 @@ void hal_turns_step_ends(hal_turns *turns) {
     }
 }
 
-/* This message takes no simulated time: in real hardware such a memory is in the processor, so nothing goes over the
- * line. */
+/* Takes no simulated time: in real hardware this memory is in the processor. */
 void hal_turns_remember(hal_turns *turns, const uint8_t *bytes, unsigned count) {
     const uint32_t begun_timer = hal_link_timer();
     const unsigned all = count < WH_REMEMBER_MAX ? count : WH_REMEMBER_MAX;

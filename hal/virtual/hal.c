@@ -11,15 +11,14 @@
 
 #if !WH_DOUBLE
 
-/* The board's only rig. Hardware is global, and so is its simulation. */
 static hal_virtual_rig board_rig;
 
 hal_virtual_rig *hal_virtual_rig_instance(void) { return &board_rig; }
 
 static bool motor_started;
 
-/* true: the leading edge of `pulse` was taken, its trailing edge not yet. Meanwhile no other pulse begins, because
- * pulses are farther apart than they are long. */
+/* True after the leading edge of `pulse` was taken, until its trailing edge is. No other pulse begins meanwhile,
+ * because pulses are farther apart than they are long. */
 static bool is_high;
 static hal_slot_edge pulse;
 
@@ -110,7 +109,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* the model has no faults to record */ }
+void hal_reset_mark(uint32_t state) { (void)state; /* the model has no faults */ }
 
 void hal_remember(const void *bytes, unsigned count) {
     const uint8_t *from = bytes;

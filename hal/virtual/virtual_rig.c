@@ -3,12 +3,12 @@
 
 #include "hal/clock.h"
 
-/* This file needs integer angles. The double reference build has angles in radians, so it leaves the file out. */
+/* The double reference build has angles in radians; this file needs integer angles. */
 #if !WH_DOUBLE
 
 #define QUARTER_TURN 0x40000000U
 #define DEG ((float)QUARTER_TURN / 90.0f) /* phase units per degree */
-#define CELL_OUTPUT 0U                    /* cell_force is the model's first output */
+#define CELL_OUTPUT 0U                    /* cell_force */
 #define OUTPUTS_MAX 8U
 
 static void start_timer(hal_virtual_rig *rig) {
@@ -46,16 +46,16 @@ float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig) {
     return wh_scene_rates(rig->scene, &rig->state)[0];
 }
 
-/* One step of the model: the change of the angle, and the rates at both ends. */
+/* A step of the model. */
 typedef struct slice {
-    uint32_t phase; /* phase at the slice's begin */
-    float way;      /* angle turned in the slice, phase units */
-    float before;   /* rate at the beginning, phase units per step */
+    uint32_t phase; /* phase at the begin */
+    float way;      /* angle turned in the step, phase units */
+    float before;   /* rate at the begin, phase units per step */
     float after;    /* rate at the end */
 } slice;
 
-/* Returns the angle after the share s (0 to 1) of the slice: the cubic through both angles and both rates. At 1 ms and
- * 330 rpm its error is below 1e-9 rad, far below the 3e-5 rad of a microsecond. */
+/* Returns the angle turned after the part s (0 to 1) of the step, from the cubic through both angles and both rates. At
+ * 1 ms and 330 rpm its error is below 1e-9 rad, far below the 3e-5 rad of a microsecond. */
 static float way_at(const slice *during, float s, float *slope) {
     const float a = during->before + during->after - 2.0f * during->way;
     const float b = 3.0f * during->way - 2.0f * during->before - during->after;
@@ -63,8 +63,8 @@ static float way_at(const slice *during, float s, float *slope) {
     return ((a * s + b) * s + during->before) * s;
 }
 
-/* True if the slice moves the rotor onto `edge` in the direction that opens the slot; *part then gets the share of the
- * slice, 0 to 1, at which this happens. */
+/* True if the step moves the rotor onto `edge` in the direction that opens the slot, by Newton's method. *part then
+ * gets the part of the step, 0 to 1, before that moment. */
 static bool opens(const slice *during, uint32_t edge, bool forward, float *part) {
     const float gap = (float)(int32_t)(edge - during->phase);
     if (forward ? !(gap > 0.0f && during->way >= gap) : !(gap < 0.0f && during->way <= gap)) {
@@ -74,7 +74,7 @@ static bool opens(const slice *during, uint32_t edge, bool forward, float *part)
     for (unsigned round = 0; round < 3; round++) {
         float slope;
         const float miss = way_at(during, s, &slope) - gap;
-        /* if the rotor turns back here, a straight line suffices */
+        /* where the rotor turns back, the first guess suffices */
         if (slope * during->way > 0.0f) {
             s -= miss / slope;
         }
@@ -98,15 +98,15 @@ static void add_pulse(hal_virtual_rig *rig, unsigned sensor, uint32_t ticks) {
     }
 }
 
-/* Adds the pulses of the slice that began at `ticks`. A slice is much shorter than a quarter turn, so it has at most
- * one pulse. The pulse begins `lead` before the sensor; if the rotor turns backwards, `lead` after it. */
+/* Adds the pulses of the step that began at `ticks`: at most one, because a step is much shorter than a quarter turn. A
+ * pulse begins `lead` before the sensor; if the rotor turns backwards, `lead` after it. */
 static void watch_slots(hal_virtual_rig *rig, const slice *during, uint32_t ticks) {
     const uint32_t lead = (uint32_t)(HAL_SLOT_LEAD_DEG * DEG);
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         const uint32_t stand = sensor * QUARTER_TURN;
         float part = 0.0f;
         if (opens(during, stand - lead, true, &part) || opens(during, stand + lead, false, &part)) {
-            /* The timer captures the count that it shows, so fractions are dropped. */
+            /* the timer captures whole counts */
             add_pulse(rig, sensor, ticks + (uint32_t)(part * (float)rig->step_ticks));
         }
     }
@@ -145,8 +145,7 @@ static void read_load_cell(hal_virtual_rig *rig) {
     }
 }
 
-/* Returns the duty for the model's input. If the drive stage carries no current, this is the duty at which the motor
- * has no torque, that of its back-EMF. */
+/* Returns the model's duty; if the drive stage carries no current, that of the back-EMF, which gives no torque. */
 static float duty_of(const hal_virtual_rig *rig) {
     const float back_emf = hal_virtual_rig_speed_radps(rig) * (1.0f / HAL_VIRTUAL_NO_LOAD_RADPS);
     const bool stuck = rig->faults.stuck > 0.0f;

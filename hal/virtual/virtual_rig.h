@@ -1,12 +1,11 @@
-/* virtual_rig.h: hardware simulated by the core's own model of the eccentric-mass rig.
+/* virtual_rig.h: hardware simulated by the core's own model of the rig (scene rig_fixed), in single precision.
  *
- * All physics is in core/models/eccentric.whirl (scene rig_fixed). This file has only the sensors around it: slot edges
- * located inside the model's step, the load cell's converter, the timer, the watchdog. One step of the model is one
- * slice of time. Time stops between two calls, so the same calls give the same bits on every machine. Single precision
- * only.
+ * This file has only the sensors around the model: slot edges located inside a step, the load cell's converter, the
+ * timer, the watchdog. Time advances in whole steps, and only in hal_virtual_rig_advance(), so the same calls give the
+ * same bits on every machine.
  *
- * The hal_ functions (clock.h, motor.h, ...) act on the board's only rig, hal_virtual_rig_instance(). The functions
- * below work on any number of rigs in the caller's memory. */
+ * The hal_ functions (clock.h, motor.h, ...) act on hal_virtual_rig_instance(). The functions below work on any number
+ * of rigs in the caller's memory. */
 #ifndef HAL_VIRTUAL_RIG_H
 #define HAL_VIRTUAL_RIG_H
 
@@ -25,40 +24,39 @@ WH_C_BEGIN
 #define HAL_VIRTUAL_SAMPLES 8U
 #define HAL_VIRTUAL_PULSE_TICKS 150U /* length of the monostable's pulse */
 
-/* The supply voltage at which the model has its full duty, 1, and the motor's speed without load at that voltage: the
- * model's no_load. At this speed the back-EMF equals the voltage. */
+/* Supply voltage at the model's duty 1, and the no-load speed at that voltage (the model's no_load). */
 #define HAL_VIRTUAL_RATED_V 24.0f
 #define HAL_VIRTUAL_NO_LOAD_RADPS 62.831853f
 
-/* The timer wraps this time after the start, so that every run crosses the wrap. */
+/* The timer wraps this early, so that every run crosses the wrap. */
 #define HAL_VIRTUAL_WRAP_AFTER_S 5U
 
-/* Injected faults. They may be set at any time. hal_virtual_rig_start() clears all. */
+/* Injected faults, which may be set at any time. hal_virtual_rig_start() clears them. */
 typedef struct hal_virtual_faults {
-    unsigned lose_pulses[2]; /* number of the next pulses that each sensor loses */
+    unsigned lose_pulses[2]; /* number of pulses that each sensor still loses */
     bool dead_sensor[2];     /* the sensor gives no pulse */
-    unsigned lose_samples;   /* number of the next load samples that are lost */
+    unsigned lose_samples;   /* number of load samples still to lose */
     bool stuck_load_cell;    /* the load cell repeats its last count */
-    float stuck;     /* the stage gives this share of the supply for any command; 0: no fault */
-    bool deaf;       /* the stage ignores the enable, too; only the watchdog cuts it */
-    bool freewheels; /* the drive stage can only drive, not brake */
+    float stuck; /* the stage applies this part of the supply for any command; 0: no fault */
+    bool deaf;   /* with `stuck`, the stage also ignores the enable; only the watchdog cuts it */
+    bool freewheels; /* the stage cannot brake */
 } hal_virtual_faults;
 
 typedef struct hal_virtual_rig {
     const wh_scene *scene;
     wh_state state;
     uint64_t memory[WH_STATE_WORDS(1, 1, 1)];
-    wh_status status;      /* WH_E_DIVERGED if the model diverged: the rotor then stands still */
+    wh_status status;      /* WH_E_DIVERGED: the model diverged, and the rotor stands still */
     uint32_t ticks;        /* time now, 1 MHz, wrapping */
     uint32_t step_ticks;   /* duration of one step of the model */
     float volts;           /* commanded voltage */
     bool enabled;          /* the drive is on */
-    float supply_V;        /* HAL_VIRTUAL_RATED_V at the start; may be set at any time */
+    float supply_V;        /* may be set at any time */
     uint32_t sample_ticks; /* time of the next load sample */
     int32_t last_raw;
     hal_slot_edge pulse[HAL_VIRTUAL_PULSES];
     unsigned pulses;
-    uint32_t overruns; /* number of pulses that were lost for lack of room */
+    uint32_t overruns; /* number of pulses lost because pulse[] was full */
     hal_load_sample sample[HAL_VIRTUAL_SAMPLES];
     unsigned samples;
     bool watched; /* the watchdog is armed */
@@ -66,28 +64,27 @@ typedef struct hal_virtual_rig {
     uint32_t watchdog_ticks;
     uint32_t kicked_ticks;
     bool stop_cuts;    /* a short press of stop has cut the drive until hal_motor_off() */
-    bool stop_pressed; /* a person at the rig presses stop; may be set at any time */
+    bool stop_pressed; /* may be set at any time */
     hal_reset cause;   /* why the processor started */
-    bool in_reset;     /* the processor is in reset or starts; the plant goes on meanwhile */
+    bool in_reset;     /* until hal_clock_start(); the plant goes on meanwhile */
     uint8_t remembered[HAL_REMEMBER_BYTES];
     unsigned remembers; /* number of remembered bytes */
     hal_virtual_faults faults;
 } hal_virtual_rig;
 
-/* Put the rig at rest at its scene's start, motor off, watchdog off. Returns false if the scene is not the fixed rig:
+/* Puts the rig at rest at its scene's start, motor and watchdog off. Returns false if the scene is not the fixed rig:
  * one angle, one input, at least one output, a step of whole microseconds. */
 bool hal_virtual_rig_start(hal_virtual_rig *rig, const wh_scene *scene);
 
-/* Advance the time to `ticks` in whole steps of the model, so the time may end up to one step later. */
+/* Advances the time to `ticks`, or up to one step of the model later. */
 void hal_virtual_rig_advance(hal_virtual_rig *rig, uint32_t ticks);
 
-/* Reset the processor, for a cause other than power-on. Drive and watchdog are off, pulses and samples that were not
- * taken are lost, and the timer restarts; the rotor keeps turning. After this call, hal_clock_start() does not start
- * the rig again. */
+/* Resets the processor, for a cause other than power-on. Drive and watchdog are off, pulses and samples are lost, and
+ * the timer restarts; the rotor keeps turning, also through the next hal_clock_start(). */
 void hal_virtual_rig_reset(hal_virtual_rig *rig, hal_reset cause);
 
-/* hal_virtual_rig_drive() switches the enable on and sets a voltage. The next functions do on this rig what
- * hal_motor_off(), hal_slots_take() and hal_loadcell_take() do. The slots give only leading edges. */
+/* Switches the enable on and sets a voltage. The next functions are like hal_motor_off(), hal_slots_take() (leading
+ * edges only) and hal_loadcell_take(). */
 void hal_virtual_rig_drive(hal_virtual_rig *rig, float volts);
 void hal_virtual_rig_motor_off(hal_virtual_rig *rig, hal_motor_off_way way);
 bool hal_virtual_rig_take_pulse(hal_virtual_rig *rig, hal_slot_edge *leading);
@@ -98,7 +95,7 @@ float hal_virtual_rig_speed_radps(const hal_virtual_rig *rig);
 
 hal_virtual_rig *hal_virtual_rig_instance(void);
 
-/* The model that hal_clock_start() starts: core/models/eccentric.whirl, scene rig_fixed. */
+/* The model of hal_virtual_rig_instance(). */
 extern const wh_scene rig_fixed;
 
 WH_C_END
