@@ -1,4 +1,4 @@
-/* commands.h: the commands of `whirl`. Each takes the words after its name and returns an exit status (host/base/exit.h). */
+/* commands.h: the commands of `whirl`. Each takes the words after its name and returns an exit status (base/exit.h). */
 #ifndef CLI_COMMANDS_H
 #define CLI_COMMANDS_H
 

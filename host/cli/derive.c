@@ -15,8 +15,7 @@
 #include "host/show/show.h"
 #include "options.h"
 
-/* The properties of a form. SHOWS: prints the equations of each mechanism of a file in turn, and their derivation
- * (--steps); without it, prints code. */
+/* Properties of a form. SHOWS: prints equations of each mechanism, and their derivation (--steps), instead of code. */
 enum {
     SHOWS = 1,
     FOLDS = 2,  /* prints values instead of names (--folded) */
@@ -70,7 +69,7 @@ typedef struct derive_options {
     bool folded;
 } derive_options;
 
-/* Prints the form, other than C in fixed point. */
+/* Prints every form except C in fixed point. */
 static void print(const derive_options *o, const loaded *made, const char *file) {
     const image *im = made->image;
     const bool matrix = im->settings.matrix != MATRIX_NONE;
@@ -100,8 +99,7 @@ static void print(const derive_options *o, const loaded *made, const char *file)
     }
 }
 
-/* Returns true if the option, such as "--header", is not given, or this form takes it. Otherwise reports that only the
- * forms `with` take it. */
+/* Returns false if the option is given, but the form lacks its property `of`; reports the forms `with` it. */
 static bool goes_with(bool given, const char *option, const char *value, unsigned of,
                       const char *with, const form_row *as) {
     const bool goes = !given || (as->is & of) != 0;
@@ -109,7 +107,7 @@ static bool goes_with(bool given, const char *option, const char *value, unsigne
                                 (int)strcspn(with, " "), with, option, value);
 }
 
-/* --header must be another file than standard output, which gets the code. */
+/* Standard output gets the code. */
 static bool header_is_apart(const char *header) {
     if (strcmp(header, "-") == 0 || header[0] == '\0') {
         return options_fail("derive",
@@ -135,7 +133,7 @@ static bool write_header(const image *im, const fixed_plan *plan, const char *fi
     return out != NULL && atomic_file_close(out, header, true);
 }
 
-/* Can code of that form have the scene's name? Otherwise reports the reason. */
+/* Can code of that form have the scene's name? If not, reports the reason. */
 static bool has_name(const image *im, const source_model *from, place at, const form_row *as,
                      bool header) {
     const char *taken_by = NULL;
@@ -155,7 +153,7 @@ static bool has_name(const image *im, const source_model *from, place at, const 
     return taken_by == NULL;
 }
 
-/* The step in fixed point, if requested; *good is false after an error. */
+/* *good is false after an error */
 static fixed_plan *plan_of(const image *im, const source_model *from, const engine_kind *number,
                            bool *good) {
     fixed_plan *plan = number == &engine_fixed ? fixed_plan_make(im, false, from->errors) : NULL;
@@ -168,7 +166,7 @@ static fixed_plan *plan_of(const image *im, const source_model *from, const engi
     return plan;
 }
 
-/* Can this be C for the core? Otherwise reports the reason. */
+/* Can this be C for the core? If not, reports the reason. */
 static bool has_c_form(const image *im, source_model *from) {
     const bool has = start_angles_are_held(im, from->errors) &&
                      start_has_method(im, im->settings.method, from->errors);
@@ -183,7 +181,7 @@ static int derive_one(source_model *from, const mechanism *of, const scene *in,
     const bool runs = (as->is & RUNS) != 0;
     const image_settings *settings = &options->integration;
     image_settings taken = *settings;
-    if (!runs) { /* equations, and code for other programs, have no tables */
+    if (!runs) { /* only C of the core has tables */
         taken.tables = TABLES_NONE;
         taken.cells = 0;
     }
@@ -244,7 +242,7 @@ static bool options_fit(derive_options *o) {
            goes_with(o->common.number == &engine_fixed, "--number fixed", "", RUNS, "c", o->as);
 }
 
-/* Derives all mechanisms of a file, if the form shows them and no name is given; otherwise the named one. */
+/* Derives all mechanisms of a file if the form shows them and no name is given; otherwise the named one. */
 static int derive_source(source_model *from, void *options) {
     derive_options *o = options;
     const overrides *changes = &o->common.changes;

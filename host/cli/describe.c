@@ -29,7 +29,7 @@ static int words_command(const char *command, const command_usage *usage, int co
 }
 
 /* === whirl accel ============================================================================== */
-/* `whirl accel`: the highest derivatives at one state, with all digits. */
+/* The highest derivatives at one state, with all digits. */
 
 static const command_usage accel_usage = {
     .head =
@@ -65,7 +65,7 @@ static void print(const image *im, const double *result) {
     }
 }
 
-/* Report the expression that is not finite at this state. */
+/* Reports the expression that is not finite at this state. */
 static void tell_undefined(const image *im, const char *file) {
     diags *errors = diags_new();
     const nonfinite_at at = {
@@ -122,7 +122,6 @@ int command_accel(int count, char **words) {
 }
 
 /* === whirl check ============================================================================== */
-/* `whirl check`: parses a file and derives all its scenes and mechanisms, without running them. */
 
 static const command_usage check_usage = {
     .head =

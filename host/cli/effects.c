@@ -12,8 +12,7 @@
 #include "host/study/subsets.h"
 #include "pricing.h"
 
-/* ERROR_PART: the allowed error without --error, as a part of a coordinate's range. ERROR_LEAST: the round-off of a
- * coordinate at rest, SI. */
+/* ERROR_PART: error limit without --error, relative to a coordinate's range. ERROR_LEAST: round-off at rest, SI. */
 #define ERROR_PART 1e-3
 #define ERROR_LEAST 1e-12
 
@@ -47,7 +46,7 @@ static const char primes[] = "''''''''''";
 
 static bool is_coordinate(const record_column *c) { return c->unknown >= 0 && c->primes == 0; }
 
-/* The column `name`. Returns 0, and reports it, if there is none. */
+/* Returns 0 if there is no such column (reported). */
 static int column_of(const subsets *s, const char *name) {
     nearest search = nearest_start(name, strlen(name));
     for (int i = 1; i < s->columns->columns; i++) {
@@ -114,7 +113,7 @@ static void print_cell(const char *head, bool is_head, const char *format, doubl
     free(text);
 }
 
-/* Prints a row, or the headings if `moved` is NULL. With contacts, only the evaluations are known. */
+/* Prints a row, or the headings if `moved` is NULL. Runs with contacts have evaluations, but no cycles. */
 static void print_row(const subsets *s, const char *name, const double *moved, const double *figure,
                       int contacts, const char *verdict) {
     const char *const words[SUBSET_FIGURES] = {
@@ -160,7 +159,6 @@ static void print_effect(const subsets *s, int k) {
                                           : "needed");
 }
 
-/* Prints the names of the effects with these bits. */
 static void print_names(const subsets *s, const char *head, uint64_t bits, const char *between) {
     for (int k = 0; k < s->effects; k++) {
         if ((bits >> (unsigned)k & 1U) != 0) {
@@ -170,7 +168,7 @@ static void print_names(const subsets *s, const char *head, uint64_t bits, const
     }
 }
 
-/* Does a --set name a parameter of an omitted effect? `run` would refuse it. */
+/* Does --set name a parameter of an omitted effect? `whirl run` would refuse it. */
 static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     struct arena *memory = arena_new();
     diags *unsaid = diags_new();
@@ -186,8 +184,7 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* Removes omitted effects from the names of --with. *out keeps the omitted effects that --without must name: those of the
- * scene itself, or all of them if --with has the name `all`. */
+/* Removes omitted effects from --with. *out: those that --without must name (of the scene or of `--with all`). */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

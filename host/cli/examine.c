@@ -36,9 +36,6 @@ typedef struct examine_options {
     const char *form;
 } examine_options;
 
-/* --- causes of a momentum's change ----------------------------------------------------------------- */
-
-/* Prints the place of a statement, and its effect. */
 static void say_where(FILE *out, const equations *e, int within, place at) {
     fprintf(out, ", line %d", at.line);
     if (within >= 0) {
@@ -46,7 +43,7 @@ static void say_where(FILE *out, const equations *e, int within, place at) {
     }
 }
 
-/* A formula with more terms is not printed; its terms are counted. */
+/* Longer formulas are printed as a count of terms. */
 #define READABLE_TERMS 40
 
 static void print_formula(const show *s, const poly *value) {
@@ -63,13 +60,13 @@ static void print_source(const show *s, const poly *value) {
     fputc('\n', s->out);
 }
 
-/* The sum of all forces along the symmetry, without contacts. */
+/* All forces along the symmetry, except those of contacts. */
 static const poly *force_along(const equations *e, const symmetry *of) {
     const poly *sum = symmetry_along(e, of, e->applied);
     return poly_expanded(e->algebra, poly_sub(e->algebra, sum, of->stored));
 }
 
-/* Does a crossing set a symbol of the momentum? */
+/* Does a crossing set a symbol that the momentum contains? */
 static bool crossing_acts(const equations *e, const symmetry *of, const contact_law *law) {
     for (int k = 0; k < law->from->set_count; k++) {
         const assignment *set = &law->from->sets[k];
@@ -99,7 +96,7 @@ static bool any_contact_acts(const equations *e, const symmetry *of) {
     return any;
 }
 
-/* Prints the force -dV of each potential energy along the symmetry. */
+/* Prints the force -dV along the symmetry for each potential energy. */
 static void print_stored(const show *s, const equations *e, const symmetry *of,
                          const char *prefix) {
     algebra *a = e->algebra;
@@ -124,7 +121,7 @@ static void print_stored(const show *s, const equations *e, const symmetry *of,
     free(row);
 }
 
-/* Says if the symmetry shifts two lengths by different amounts: then the conserved momentum need not be the total one. */
+/* Reports two lengths that the symmetry shifts by different amounts: its momentum need not be the total one. */
 static void print_uncommon(const show *s, const equations *e, const symmetry *of,
                            const char *prefix) {
     const symbol *moved[2] = {NULL, NULL};
@@ -222,7 +219,7 @@ static void print_latex(const show *s, const equations *e, const symmetry *of, i
     print_sources(&plain, e, of, "% ");
 }
 
-/* Prints each coordinate whose own shift changes the kinetic energy T, and the derivative of T by the coordinate. */
+/* Prints dT/dq for each coordinate q whose shift changes the kinetic energy T. */
 static void print_broken(const show *s, const equations *e, const char *prefix) {
     for (int i = 0; i < e->count; i++) {
         const symbol *q = e->unknowns[i].symbol;

@@ -15,7 +15,6 @@
 #include "host/os/system.h"
 
 /* === whirl plot =============================================================================== */
-/* `whirl plot`: curves of recorded or new runs in one picture. */
 
 enum { RUNS_MOST = 64 };
 
@@ -52,7 +51,6 @@ static bool is_csv(const char *name) {
     return length > 4 && strcasecmp(name + length - 4, ".csv") == 0;
 }
 
-/* Are the options complete and consistent? */
 static bool is_whole(const plot_options *o) {
     bool scenes = false;
     for (int i = 0; i < o->targets; i++) {
@@ -154,7 +152,7 @@ typedef struct figure_options {
     char *varied; /* the passed words as text, a blank before each */
 } figure_options;
 
-/* Split a built-in description into words by the shell's rules; in place. */
+/* Splits a built-in description into words by the shell's rules, in place. */
 static int words_of(char *line, char **word) {
     int count = 0;
     char *to = line;
@@ -182,7 +180,7 @@ static const char *given_for(const figure_options *o, const char *name) {
     return NULL;
 }
 
-/* Does the command line replace the option at word[at] of a figure? Lists of effects add up instead. */
+/* Does the command line replace the option at word[at] of a figure? Lists of effects are joined instead. */
 static bool is_replaced(const figure_options *o, char **word, int at, int count) {
     char *option = alloc_copy(word[at], strcspn(word[at], "="));
     const char *value = options_value(count, word, at, option);
@@ -277,7 +275,7 @@ static int take_data(const figure_options *o, const char *text, figure_data *dat
     return code;
 }
 
-/* "51", "fig51" or "finding_spin" of mk/figures. */
+/* `name` is "51", "fig51" or "finding_spin" (mk/figures). */
 static const struct builtin_model *figure_named(const char *name) {
     const struct builtin_model *found = NULL;
     char *file = alloc_words("/%s.fig", name);

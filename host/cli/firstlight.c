@@ -1,5 +1,5 @@
-/* firstlight.c: `whirl firstlight`: comparison of the record of a board's first light with the interpreter's runs and
- * the emulator's record; a row for docs/silicon.md. */
+/* firstlight.c: `whirl firstlight`: the record of a board's first light, compared with the interpreter's runs and the
+ * emulator's record; a row for docs/silicon.md. */
 #include <inttypes.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@
 
 enum { LIGHT_EXPECTED = 100 };
 
-/* The expected value of each field; "": no expectation. All zeros before light_expect(). */
+/* The expected value of each field, or "". */
 typedef struct light_expected {
     char of[LIGHT_FIELDS][LIGHT_EXPECTED];
 } light_expected;
@@ -30,14 +30,14 @@ typedef enum light_verdict {
     LIGHT_EQUAL,
     LIGHT_DIFFERS,
     LIGHT_NONE, /* the board or emulator cannot provide it */
-    LIGHT_TOLD  /* no expectation */
+    LIGHT_TOLD  /* nothing is expected */
 } light_verdict;
 
 /* Bounds on the measured length of a control period, which should be 2 ms (hal/clock.h). */
 #define PERIOD_LEAST_US 1900
 #define PERIOD_MOST_US 2100
 
-/* The index of the field `name` + `more`, which must exist. */
+/* Index of the field `name` + `more`, which must exist. */
 static int light_field(const char *name, const char *more) {
     char whole[LIGHT_EXPECTED];
     (void)snprintf(whole, sizeof whole, "%s%s", name, more);
@@ -48,7 +48,7 @@ static int light_field(const char *name, const char *more) {
     return i;
 }
 
-/* Runs the scene in float, because the boards must compute the same bits. */
+/* In float, because the boards must compute the same bits. */
 static int run_scene(const char *name, light_expected *e) {
     static const load_request request = {
         .settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_WRITE, .conserve = true};
@@ -74,7 +74,6 @@ static int run_scene(const char *name, light_expected *e) {
     return code;
 }
 
-/* Run the scenes. Returns an exit status. */
 static int light_expect(light_expected *e) {
 #define SCENE_NAME(scene) #scene,
     static const char *const scenes[] = {WH_LIGHT_SCENES(SCENE_NAME)};
@@ -116,7 +115,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
                    ? LIGHT_EQUAL
                    : LIGHT_DIFFERS;
     }
-    if (strcmp(name, "selftest") == 0) { /* only its first word is compared */
+    if (strcmp(name, "selftest") == 0) { /* compare only the first word */
         return strncmp(value, "good ", 5) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
     }
     return strcmp(value, wanted) == 0 ? LIGHT_EQUAL : LIGHT_DIFFERS;
@@ -126,7 +125,6 @@ static light_verdict light_judge(int field, const char *value, const char *wante
 
 #define LIGHT_PAGE "docs/silicon.md"
 
-/* Writes the median cycles of a step of each scene. */
 static void cycles_of(const light *l, char *cell, size_t size) {
     size_t used = 0;
     cell[0] = '\0';
@@ -140,7 +138,7 @@ static void cycles_of(const light *l, char *cell, size_t size) {
     }
 }
 
-/* The record's row, to be freed: `equal` is the number of equal hashes, `differ` the fields that differ. */
+/* The record's row of the table, to be freed. `equal`: number of equal hashes; `differ`: names of different fields. */
 static char *light_row(const light *l, int equal, const char *differ) {
     char cycles[120];
     char date[16] = "";
@@ -160,8 +158,7 @@ static char *light_row(const light *l, int equal, const char *differ) {
     return row;
 }
 
-/* Adds the row to the page, which ends with the table, unless the page has this record. Prints if it did. Returns an exit
- * status. */
+/* Appends the row to the table that ends the page, unless the page has the record. Returns an exit status. */
 static int light_append(const char *page, const char *row, uint32_t crc) {
     size_t length = 0;
     char seen[24];
@@ -236,7 +233,7 @@ static int say_wrong(const char *name, const char *why, const char *hint) {
     return EXIT_BAD_INPUT;
 }
 
-/* Reads the whole of a file, or from a serial line the first complete record, which is requested repeatedly. */
+/* Reads a file, or the first complete record from a serial line, which is requested repeatedly. */
 static int listen(port *line, const firstlight_options *o, const char *from_name, light *l) {
     static char bytes[BYTES_MOST];
     size_t count = 0;
@@ -289,7 +286,7 @@ static int read_record(const firstlight_options *o, const char *from_name, light
     return code;
 }
 
-/* The emulator's record must be of the same scenes. Its board, compiler and stack are the reference. */
+/* The emulator's record must have the same hashes. Its board, compiler and stack become the reference. */
 static int expect_emulated(const firstlight_options *o, light_expected *e) {
     static light emulated;
     const int code = read_record(o, o->emulated, &emulated);
@@ -313,7 +310,7 @@ static const char *const verdict_words[] = {[LIGHT_EQUAL] = "equal",
                                             [LIGHT_NONE] = "none",
                                             [LIGHT_TOLD] = "-"};
 
-/* The names of fields with this light_verdict, separated by commas, or "". */
+/* The names of fields with this verdict, separated by commas. */
 static void list_of(const light_verdict *found, light_verdict which, char *names, size_t size) {
     size_t used = 0;
     names[0] = '\0';

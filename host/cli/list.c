@@ -11,8 +11,8 @@
 #include "host/lang/units.h"
 
 /* === the hard cases ================================================================================ */
-/* The catalogue of hard cases: X(case, scenes, limit of the theory, verdict). A case is a section of
- * docs/hard_cases.md. Scenes are files of docs/hard or built-in scenes, separated by blanks; or "". */
+/* X(case, scenes, limit of the theory, verdict). A case is a section of docs/hard_cases.md. Scenes are files of
+ * docs/hard or built-in scenes, separated by blanks. */
 
 #define HARD_ROWS(X) \
     X("Chaos", "thomson_a", "each further digit adds the same trusted time", \
@@ -71,7 +71,6 @@ static const command_usage usage = {
 
 enum { OUTSIDE = -1 }; /* outside every effect */
 
-/* Append WORD, with a comma if needed. */
 static void add_word(bool *any, const char *word) {
     printf("%s%s", *any ? "," : "", word);
     *any = true;
@@ -92,7 +91,7 @@ static void put_effects(const mechanism *m, const bool *with, bool ledger) {
     end_words(any);
 }
 
-/* The kinds of the mechanism's statements in `effect`, or outside every effect. */
+/* Prints the kinds of statements in the effect `within`, or outside all effects. */
 static void put_what_is_in(const mechanism *m, int within) {
     static const char *const words[] = {"terms", "contacts", "noise"};
     bool has[3] = {false};
@@ -129,7 +128,7 @@ static void put_what_is_in_scene(const scene *in) {
     end_words(any);
 }
 
-/* An arbitrary text, escaped as in C: it contains no separators of fields or lines. */
+/* Escapes as in C, because the text may contain separators of fields and lines. */
 static void put_text(const char *text) {
     static const char escaped[] = "\t\n\r\\";
     for (const char *at = text; *at != '\0'; at++) {
@@ -150,7 +149,7 @@ static void put_place(const char *kind, const char *name, const mechanism *of, c
     printf("\t%d\t%d\t", first_line, last_line);
 }
 
-/* Prints the scene's step and end; returns false after an error, which is reported. */
+/* Returns false after an error (reported). */
 static bool put_times(const mechanism *of, const scene *in, diags *errors) {
     instance *made = instance_make(of, in, NULL, errors);
     if (made == NULL) {
@@ -208,7 +207,6 @@ typedef struct form {
     bool (*put)(const source_model *from, const mechanism *of);
 } form;
 
-/* The first is the default. */
 static const form forms[] = {
     {.word = "text", .head = NULL, .put = put_lines},
     {.word = "table",
@@ -218,7 +216,7 @@ static const form forms[] = {
 };
 enum { FORMS = sizeof forms / sizeof forms[0] };
 
-/* `first`: no entry was listed before. */
+/* `first`: no entry was listed before */
 static int list_one(const source_model *from, const form *as, bool first) {
     bool good = true;
     if (first && as->head != NULL) {
@@ -283,7 +281,7 @@ static int list_hard(void) {
     return EXIT_DONE;
 }
 
-/* Prints a line for each figure, with the title of its description. `make figures` draws those with a `table`. */
+/* Prints the number and title of each figure. `make figures` draws those with a `table`. */
 static int list_figures(void) {
     for (size_t i = 0; i < builtin_figure_count; i++) {
         const char *file = strrchr(builtin_figures[i].file, '/') + 1;

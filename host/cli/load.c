@@ -24,7 +24,6 @@ static char *realpath(const char *path, char *resolved) {
 }
 #endif
 
-/* Do both resolve to the same path? */
 static bool one_path(const char *path, const char *other_path) {
     char *resolved = realpath(path, NULL);
     char *other = realpath(other_path, NULL);
@@ -42,7 +41,7 @@ bool files_are_one(const struct stat *one, const char *path, const struct stat *
     return one_path(path, other_path);
 }
 
-/* Would the two paths, of which neither exists, name one file: the same name in one folder? */
+/* Neither path exists: would they name one file, with the same name in the same folder? */
 static bool is_one_place(const char *one, const char *other) {
     const char *slash[] = {strrchr(one, '/'), strrchr(other, '/')};
     const char *name = slash[0] == NULL ? one : slash[0] + 1;
@@ -69,7 +68,7 @@ bool files_same(const char *one, const char *other) {
             files_are_one(&first, one, &second, other));
 }
 
-/* What a command may add to the name of an output: its unfinished text, its description, a sweep's settings. */
+/* Endings of files beside an output: unfinished text, description, a sweep's settings. */
 static const char *const beside[] = {"", ".part", ".toml", ".toml.part", ".sweep"};
 enum { BESIDE = sizeof beside / sizeof beside[0] };
 
@@ -105,7 +104,7 @@ static bool is_mechanism(const sought *w, const mechanism *m) {
                                     strncmp(m->name, w->mechanism, w->mechanism_length) == 0);
 }
 
-/* Finds the scene of that name, else the mechanism (*in is NULL). Returns false without one. */
+/* Finds the scene of that name, else the mechanism (*in is NULL). Returns false if there is none. */
 static bool find(const sought *w, const whirl_model *m, const mechanism **of, const scene **in) {
     *of = NULL;
     *in = NULL;
@@ -138,7 +137,7 @@ static void say_ambiguous(const sought *w, const source_model *each, size_t coun
     fputc('\n', stderr);
 }
 
-/* Reports an unknown name. The hint is the nearest name; after MECHANISM: that of a scene of the mechanism. */
+/* Reports an unknown name, with the nearest name as a hint; after MECHANISM: the nearest scene of the mechanism. */
 static void say_unknown(const sought *w, const char *target, const source_model *each,
                         size_t count) {
     nearest search = nearest_start(w->name, strlen(w->name));
@@ -244,7 +243,7 @@ static bool file_exists(const char *path) {
     return strcmp(path, "-") == 0 || stat(path, &about) == 0;
 }
 
-/* The length of FILE in FILE:NAME, or the whole length. */
+/* Length of FILE in FILE:NAME, or of the whole target. */
 static size_t file_part(const char *target) {
     const char *colon = strrchr(target, ':');
     if (colon == NULL || file_exists(target)) {
@@ -296,7 +295,7 @@ void source_close(source_model *s) {
     free(s->name);
 }
 
-/* The file's scenes, or its mechanisms. */
+/* Prints the names of the scenes, or of the mechanisms. */
 static void say_choices(const source_model *s, bool scenes) {
     const whirl_model *m = s->model;
     fprintf(stderr, "hint: name one:");
@@ -331,7 +330,7 @@ int source_pick(source_model *s, bool prefer_scene, const mechanism **of, const 
     return EXIT_BAD_INPUT;
 }
 
-/* A note on dry friction written by hand. */
+/* Prints a note on dry friction that is written without `friction`. */
 static void say_hint(const instance *inst) {
     const symbol *on = NULL;
     const term *friction = hint_friction(inst, &on);

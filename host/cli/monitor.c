@@ -18,7 +18,6 @@
 #include "host/os/port.h"
 #include "host/os/system.h"
 
-/* The outputs, a file each. */
 enum { CSV, VCD, RING, RAW, PLOT, OUTPUTS };
 
 typedef struct monitor_options {
@@ -101,11 +100,11 @@ typedef struct monitor {
     bool half_typed; /* the typed text has no end of line yet */
     bool live;       /* true: a serial line; false: a recorded file */
     bool met;        /* the rig has answered at least once */
-    bool begun;      /* the rig has sent all data from before the recording */
-    int unheard;     /* number of unanswered questions since the line was opened */
+    bool begun;      /* all data from before the recording has arrived */
+    int unheard;     /* unanswered questions since the line was opened */
     int64_t asked_ms;
-    int64_t kept_ms;  /* time when all records were last written to their files */
-    int64_t alive_ms; /* time of the last message to the rig */
+    int64_t kept_ms;  /* when records were last written to their files */
+    int64_t alive_ms; /* when the rig was last sent a message */
     uint64_t times;   /* how often the line was opened */
 } monitor;
 
@@ -142,15 +141,15 @@ static bool open_line(monitor *m) {
     wire_forget(&m->wire);
     m->dialogue = (dialogue){.rate = (int)m->o->rate};
     if (m->line.is_line) {
-        (void)port_write(&m->line, "\n",
-                         1); /* the question must not continue text that the user typed */
+        /* end typed text, because the question must not continue it */
+        (void)port_write(&m->line, "\n", 1);
         ask(m);
     }
     return true;
 }
 
-/* A disturbed line may contain control characters that a terminal would obey. Before the rig has answered, neither
- * disturbed lines are shown, nor lines that may begin with a part of a frame. */
+/* Replaces control characters, which a terminal would obey. Before the rig's first answer, disturbed lines and lines
+ * that may begin with a part of a frame are not shown. */
 static void show(const monitor *m, const char *line) {
     char shown[WIRE_LINE + 1];
     size_t count = 0;
@@ -168,7 +167,6 @@ static void show(const monitor *m, const char *line) {
     }
 }
 
-/* Handles an answer to the current question, and asks the next one. */
 static void go_on(monitor *m) {
     m->met = true;
     if (m->dialogue.asked == DIALOGUE_OFF && !m->begun) {
@@ -243,7 +241,7 @@ static bool written(const monitor *m) {
     return true;
 }
 
-/* Writes the records to their files once a second, so that a sudden end loses at most a second. */
+/* Once a second, so that a sudden end loses at most a second of records. */
 static void keep_records(monitor *m) {
     const int64_t now = now_ms();
     if (now - m->kept_ms < KEPT_MS) {
@@ -257,8 +255,8 @@ static void keep_records(monitor *m) {
     }
 }
 
-/* Sends an empty line from time to time, because the rig ends a run when it receives nothing for the time of its setting
- * `host`. Nothing is sent while the user types a line, which would be split. */
+/* Sends an empty line regularly, because the rig ends a run after silence (setting `host`); not while the user types a
+ * line, because it would split the line. */
 static void stay_alive(monitor *m) {
     const int64_t now = now_ms();
     if (m->line.is_line && m->met && !m->half_typed && now - m->alive_ms >= ALIVE_MS) {
@@ -267,7 +265,6 @@ static void stay_alive(monitor *m) {
     }
 }
 
-/* Listen until the end. */
 static void listen(monitor *m) {
     const int64_t began_ms = now_ms();
     uint8_t bytes[BYTES];
@@ -354,7 +351,7 @@ static void tell(const monitor *m) {
     }
 }
 
-/* Returns false, and reports the reason, if samples were to be recorded, but the rig sent none. */
+/* Reports if samples should be recorded, but the rig sent none. */
 static bool has_source(const monitor *m) {
     bool records = false;
     for (int i = 0; i < OUTPUTS; i++) {
@@ -368,7 +365,7 @@ static bool has_source(const monitor *m) {
                         m->met ? " cannot send samples at this --rate" : " has not answered");
 }
 
-/* Returns false, and reports the reason, if a file could not be read to its end. */
+/* Reports a file that could not be read to its end. */
 static bool was_read(const monitor *m) {
     if (m->live || m->line.failed == 0) {
         return true;

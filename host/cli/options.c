@@ -30,11 +30,10 @@ typedef struct option_row {
 #define ROW(id, word, value, group, text) [id] = {word, value, group, text},
 static const option_row option_rows[OPTIONS] = {OPTION_ROWS(ROW)};
 
-/* Columns of help texts: the beginning of the description, and the width. */
+/* Help texts: first column of the description, and last column. */
 enum { TEXT_COLUMN = 23, LINE_COLUMNS = 78 };
 
-/* Prints a help text that begins at `column`, broken at blanks into lines of at most `width` columns. Later lines are
- * indented by `margin`. */
+/* Prints a help text from `column` on, in lines of at most `width` columns; later lines begin at `margin`. */
 static void options_text(FILE *out, const char *text, int column, int margin, int width) {
     for (; *text != '\0'; text++) {
         const int word = 1 + (int)strcspn(text + 1, " \n"); /* includes the blank before the word */
@@ -64,7 +63,6 @@ static void put_word(FILE *out, const char *word, int *column) {
     *column += fprintf(out, " %s", word);
 }
 
-/* The options' words in lines, and a reference to their description. */
 static void name_them(FILE *out, unsigned groups) {
     int column = fprintf(out, " ");
     for (int i = 0; i < OPTIONS; i++) {
@@ -133,9 +131,8 @@ static bool is_new(int count, char **words, int at, const char *name) {
     return true;
 }
 
-/* If words[*at] is `name` or `name=VALUE`, returns its value and advances *at past it. Returns NULL for another word. A
- * missing value is reported and sets *bad. So is a second value, unless the option `repeats`. An option that `is_bare` has
- * no value: its word is returned. */
+/* If words[*at] is `name` or `name=VALUE`, returns the value and advances *at; else returns NULL. A missing value, or a
+ * second one unless the option `repeats`, is reported and sets *bad. If `is_bare`, the result is the word. */
 static const char *value_of(int count, char **words, int *at, const char *name, bool is_bare,
                             bool repeats, bool *bad) {
     const size_t length = strlen(name);
@@ -155,8 +152,7 @@ static const char *value_of(int count, char **words, int *at, const char *name, 
         ++*at;
         return word + length + 1;
     }
-    if (*at + 1 >= count ||
-        strncmp(words[*at + 1], "--", 2) == 0) { /* the next option is no value */
+    if (*at + 1 >= count || strncmp(words[*at + 1], "--", 2) == 0) { /* an option is no value */
         fprintf(stderr, "whirl: error: %s needs a value\nhint: %s VALUE, or %s=VALUE\n", name, name,
                 name);
         *bad = true;
@@ -194,8 +190,7 @@ static bool is_in(const char *const *list, int count, const char *name) {
     return false;
 }
 
-/* Adds each name of "E, E,...", with optional blanks. Returns false, and reports the reason, if a name is missing or
- * contradicts another. */
+/* Adds the names of "E, E,...". Returns false (reported) if one is missing or contradicts another. */
 static bool push_names(common_options *to, const char *const **list, int *count, const char *option,
                        const char *text) {
     const overrides *c = &to->changes;
@@ -301,13 +296,13 @@ bool options_time(const char *command, const char *option, const char *text, con
     const bool good =
         text == NULL ||
         (instance_duration(of, NULL, NULL, option, text, errors, time_s) && *time_s <= most_s);
-    diags_free(errors); /* a general message is clearer than the parser's */
+    diags_free(errors); /* options_fail() is clearer than the parser's message */
     return good || options_fail(command,
                                 "--%s '%s' is not a time%s\nhint: write a time such as 20us or 1ms",
                                 option, text, isfinite(most_s) ? " from 0 to one hour" : "");
 }
 
-/* Reads --strict, --strict=off or --strict=LIMIT, for run_checks_fails(). Returns false for another word. */
+/* Reads --strict, --strict=off or --strict=LIMIT (run_checks_fails()). Returns false for other words. */
 static bool take_strict(const char *command, int count, char **words, int *at, double *strict,
                         bool *bad) {
     if (*bad || !options_is(words[*at], "--strict")) {
@@ -349,13 +344,12 @@ static bool take_cells(const char *command, const char *value, int *cells) {
     return true;
 }
 
-/* Does the command accept fixed point? Sweeps and prices do not, because they do not search for ranges. */
+/* Does the command accept fixed point? Sweeps and prices do not search for ranges. */
 static bool knows_fixed(const char *command) {
     return strcmp(command, "run") == 0 || strcmp(command, "derive") == 0 ||
            strcmp(command, "trust") == 0;
 }
 
-/* Stores the index of the value's row in `rows` as a setting of the integration. */
 #define CHOOSE(what, rows, count, type, setting) \
     chosen = options_choose(command, what, value, rows, sizeof(rows)[0], count); \
     to->integration.setting = chosen < 0 ? to->integration.setting : (type)chosen; \
@@ -414,7 +408,6 @@ bool options_take(const char *command, unsigned groups, int count, char **words,
 
 /* === the words of a command ================================================================== */
 
-/* The groups of common options that the command accepts. */
 static unsigned groups_of(const target_reader *r) {
     return r->passed != NULL ? OPTIONS_SCENE : r->usage->groups;
 }
@@ -438,7 +431,7 @@ static void say_unknown(const target_reader *r, const char *word) {
     }
 }
 
-/* Takes the value of one of the table's options. Returns false, and reports the reason, if the value is wrong. */
+/* Takes a value of an own option. Returns false, and reports the reason, if the value is wrong. */
 static bool take_value(const char *command, const own_option *o, const char *value) {
     if (o->number == NULL) {
         const int at = o->count != NULL ? *o->count : 0;
@@ -512,7 +505,7 @@ bool options_can_write(const char *command, const char *option, own_file kind, c
            (!draws || gnuplot_is_there());
 }
 
-/* Does the output leave the input alone? */
+/* Reports an output that would overwrite the input. */
 static bool spares(const target_reader *r, const own_option *output, const char *input) {
     char *read = source_file(input);
     const bool good = read == NULL || !files_meet(*output->text, read, true);
@@ -527,7 +520,7 @@ static bool spares(const target_reader *r, const own_option *output, const char 
     return good;
 }
 
-/* Is the output apart from all other files of the command, and possible? */
+/* Is the output different from all other files of the command, and can it be written? */
 static bool output_is_good(const target_reader *r, const own_option *output, const char *target) {
     for (const own_option *o = r->table; o->word != NULL; o++) {
         const char *other = o->file != FILE_NONE ? *o->text : NULL;

@@ -8,8 +8,8 @@
 #include "host/cli/load.h"
 #include "host/engine/engine.h"
 
-/* Options of several commands, in the order of help texts: X(id, word, value, group, description, broken into lines of
- * OPTION_TEXT_WIDTH columns). The descriptions of methods are made from core/method.h. */
+/* X(id, word, value, group, description): options of several commands, in the order of help texts. Descriptions are
+ * broken into lines; those of methods come from core/method.h. */
 #define OPTION_ROWS(X) \
     X(OPTION_SET, "--set", "NAME=EXPR", OPTIONS_CHANGE, \
       "a new value for a parameter or an input (repeatable, each name once). A bare number is " \
@@ -57,13 +57,13 @@ enum { OPTIONS = OPTION_ROWS(OPTION_ONE) };
 
 enum { OPTION_TEXT_WIDTH = 76 };
 
-/* The groups that a command accepts: a sum of these. */
+/* Groups of options, as bits. */
 typedef enum option_group {
-    OPTIONS_CHANGE = 1, /* changes to an instance */
+    OPTIONS_CHANGE = 1, /* changes of an instance */
     OPTIONS_ENGINE = 2, /* the method of integration */
     OPTIONS_NUMBER = 4, /* the number type */
-    OPTIONS_STEP = 8,   /* the step, for commands that do not choose it themselves */
-    OPTIONS_SCENE = 15  /* all of them, for commands that run scenes with given settings */
+    OPTIONS_STEP = 8,   /* the step, if the command does not choose it */
+    OPTIONS_SCENE = 15  /* all groups */
 } option_group;
 
 /* A command's help text. */
@@ -79,18 +79,17 @@ typedef struct command_usage {
 
 void options_usage(FILE *out, const command_usage *usage);
 
-/* A row of a help text: an option, its value ("" without one) and its description. */
+/* Prints a row of a help text: an option, its value ("": none) and its description. */
 void options_describe(FILE *out, const char *word, const char *value, const char *text);
 
-/* If --help or -h is among the words, print `usage` and return true. */
+/* If --help or -h is among the words, prints `usage` and returns true. */
 bool options_help(int count, char **words, const command_usage *usage);
 
-/* Reads a number between two bounds, inclusive, for this option of this command. For other text, returns false and
- * reports the hint. */
+/* Reads a number from `least` to `most`. For other text, returns false and reports the hint. */
 bool options_number(const char *command, const char *option, const char *text, double least,
                     double most, const char *hint, double *number);
 
-/* Reads a time such as 1ms, from 0 to most_s; 0 without a text. For other text, returns false and reports it. */
+/* Reads a time such as 1ms, from 0 to most_s; NULL is 0. For other text, returns false (reported). */
 bool options_time(const char *command, const char *option, const char *text, const mechanism *of,
                   double most_s, double *time_s);
 
@@ -102,74 +101,70 @@ bool options_time(const char *command, const char *option, const char *text, con
     "  --strict=off         exit status 0 even with a warning; without this option it is 1\n" \
     "  --strict=LIMIT       the allowed energy residual, as a part of the balance's largest entry\n"
 
-/* The values of a command's common options. */
 typedef struct common_options {
-    /* --set, --start, --with, --without, --step, --until; and --name, for commands with this option */
-    overrides changes;
-    char **owned; /* the names of comma-separated lists */
+    overrides changes; /* --set, --start, --with, --without, --step, --until, --name */
+    char **owned;      /* names of comma-separated lists */
     int owned_count;
     image_settings
         integration; /* --method, --compensated, --stabilized, --angles, --matrix, --tables, --cells */
     const engine_kind *number; /* --number: the number type */
 } common_options;
 
-/* The values without any option. */
 common_options options_defaults(void);
 void options_forget(common_options *options);
 
-/* Adds --set, whose text the options own; nothing for NULL. */
+/* Adds --set, and takes ownership of the text. NULL adds nothing. */
 void options_set(common_options *options, char *text);
 
-/* If words[*at] is an option of `groups`, stores its value, advances *at past it and returns true. An invalid value is
- * reported and sets *bad. */
+/* Stores words[*at] if it is an option of `groups`, advances *at and returns true. Invalid values set *bad. */
 bool options_take(const char *command, unsigned groups, int count, char **words, int *at,
                   common_options *to, bool *bad);
 
-/* Is the word the option `name`, alone or as NAME=VALUE? options_value() is the value of words[at]; "" if it is missing. */
+/* Is the word `name` or NAME=VALUE? */
 bool options_is(const char *word, const char *name);
 const char *options_value(int count, char **words, int at, const char *name);
 
-/* Is it a name as in a .whirl file, with at most `most` letters? If not, reports it with a hint. */
+/* Is it a name as in a .whirl file, of at most `most` letters? If not, reports it with a hint. */
 bool options_is_name(const char *command, const char *name, int most);
 
-/* Prints "whirl COMMAND: error: MESSAGE" and a line end on standard error. Returns false. */
+/* Prints "whirl COMMAND: error: MESSAGE" on standard error. Returns false. */
 bool options_fail(const char *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Is this output, which may be NULL, standard output? */
 bool options_is_standard(const char *file);
 
 /* The index of the row whose word equals `value`, ignoring case. Each of rows[count] has `size` bytes and begins with
- * its word. If there is no such row, reports the possible words and returns -1. */
+ * its word. If there is none, reports the possible words and returns -1. */
 int options_choose(const char *command, const char *what, const char *value, const void *rows,
                    size_t size, int count);
 
 /* === the words of a command =================================================================== */
 
-/* The file that an option names. All files of a command are apart, and an output must be possible. */
+/* An option's file. All files of a command must differ, and its outputs must be possible. */
 typedef enum own_file {
     FILE_NONE,
     FILE_READ,
     FILE_WRITTEN,
-    FILE_WRITTEN_LATE, /* after the work: whether it can be written is checked before it */
+    FILE_WRITTEN_LATE, /* written after the work, but checked before it */
     FILE_DRAWN         /* a picture, drawn by gnuplot after the work */
 } own_file;
 
-/* Can the file be written? If not, reports the reason. `file` may be NULL. */
+/* Can the file, or NULL, be written? If not, reports the reason. */
 bool options_can_write(const char *command, const char *option, own_file kind, const char *file);
 
-/* One of a command's own options, in a table. Exactly one of text, number, strict and flag is set. */
+/* An option of one command. Exactly one of text, number, strict and flag is set. */
 typedef struct own_option {
     const char *word;
     const char **text; /* gets the value as typed */
-    own_file file;     /* the text names this file */
-    int *count;     /* for an option that may be repeated: the number of values in text[] so far */
-    int limit;      /* the most values; 0: no limit */
-    double *number; /* gets the value as a number from `least` to `most` */
+    own_file file;     /* the kind of file that the text names */
+    int *count;        /* repeatable option: number of values in text[] */
+    int limit;         /* most values; 0: no limit */
+    double *number;    /* gets the value as a number from `least` to `most` */
     double least, most;
     bool whole; /* the number must be whole */
     const char *hint;
     double *strict; /* gets the limit of --strict, --strict=off or --strict=LIMIT */
-    bool *flag;     /* is set by an option without a value */
+    bool *flag;     /* set by an option without a value */
     bool is_bare;   /* an option without a value: text gets its word */
 } own_option;
 
@@ -185,31 +180,29 @@ typedef struct own_option {
 
 typedef struct target_reader {
     const char *command;
-    const command_usage *usage; /* names the groups of common options that are accepted */
-    const own_option *table;    /* own options, ended by one without a word; or NULL */
-    char **many;                /* gets all targets, for a command that takes several; else NULL */
+    const command_usage *usage; /* also has the groups of common options */
+    const own_option *table;    /* own options, ended by a row without a word; or NULL */
+    char **many;                /* gets all targets, if the command takes several; else NULL */
     int *many_count;
-    char **passed; /* gets the words of all common options of `whirl run`, for runs; or NULL */
+    char **passed; /* gets the words of common options, to pass to `whirl run`; or NULL */
     int *passed_count;
-    const char *one; /* word for a target in the error about a second target; NULL: "scene" */
+    const char *one; /* what a target is called in messages; NULL: "scene" */
     bool none;       /* the command may have no target */
-    /* The work of target_command(). work_on() gets the opened target; if it is NULL, work() runs without a target. Both
-     * return an exit status. */
+    /* The work of target_command(), returning an exit status: work_on() with the opened target, or, if NULL, work(). */
     int (*work_on)(source_model *from, void *options);
     int (*work)(void *options);
 } target_reader;
 
-/* Takes all common and own options, and checks the files that they name. *target is the only other word, the last of `many`, or NULL. Returns false after an
- * error, which is reported. `common` may be NULL for a command without common options. */
+/* Takes all options, and checks the files that they name. *target: the only other word, the last of `many`, or NULL.
+ * Returns false after an error (reported). `common` may be NULL if the command has no common options. */
 bool target_read(const target_reader *reader, int count, char **words, common_options *common,
                  const char **target);
 
-/* load() of the named or only scene, with the common options. One of several that is to be written must be named. */
+/* load() of the named or only scene. If the scene is to be written, one of several must be named. */
 int target_load(loaded *made, source_model *from, const common_options *common,
                 load_request request);
 
-/* Runs a whole command: prints the help text, or reads the words and does the work. Frees the options. Returns an exit
- * status. */
+/* Runs a whole command: prints the help text, or reads the words and works. Frees the options. Returns an exit code. */
 int target_command(const target_reader *reader, int count, char **words, common_options *common,
                    void *options, const char **target);
 

@@ -86,7 +86,7 @@ typedef struct pil_options {
     char machine[GUEST_MACHINE_BYTES]; /* QEMU's machine in the board's folder; "": none */
     const char *tape;
     const char *replay;
-    const char *read; /* name of a tape to show */
+    const char *read; /* a tape to print */
     const char *csv;
     const char *every;
     const char *bind;
@@ -122,7 +122,6 @@ static bool is_read_alone(const pil_options *o) {
 
 static double baud_of(const pil_options *o) { return o->baud > 0.0 ? o->baud : BAUD; }
 
-/* Valid combinations of options. */
 static bool go_together(const pil_options *o) {
     if (o->kinds) {
         return true;
@@ -164,7 +163,7 @@ static bool go_together(const pil_options *o) {
     return true;
 }
 
-/* The list of boards is compiled in: the program must know them without the source tree. */
+/* The boards are compiled in: the program must know them without the source tree. */
 static bool is_known_board(pil_options *o) {
     static const struct {
         const char *word;
@@ -211,7 +210,7 @@ static int tell(const pil_options *o, const lockstep_request *request, const ima
     return code == EXIT_DONE && !fault_all_occurred(&o->faults) ? EXIT_RUN_FAILED : code;
 }
 
-/* Opens the serial line of --port, if this option is given. */
+/* Does nothing without --port. */
 static bool open_line(const pil_options *o, lockstep_request *request, port *line) {
     if (o->port == NULL) {
         return true;
@@ -274,7 +273,7 @@ static int run_image(const pil_options *o, const source_model *from, const image
     return tell(o, request, im, &report);
 }
 
-/* Loads the plant. Parameters changed by faults come after those of --set, and so replace them. */
+/* Parameters changed by faults come after --set, and so replace its values. */
 static int load_plant(pil_options *o, source_model *from, const mechanism *of, const scene *in,
                       loaded *made) {
     overrides *changes = &o->common.changes;

@@ -1,4 +1,4 @@
-/* pricing.c: `whirl price` and `whirl choose`, which print the same table of error against cost (host/study/price_table.h). */
+/* pricing.c: `whirl price` and `whirl choose`, with the same table of error and cost (host/study/price_table.h). */
 #include "pricing.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ typedef struct pricing_command {
     const char *name;   /* "price" */
     unsigned bit;       /* PRICING_PRICE or PRICING_CHOOSE */
     const char *head;   /* head of the help text */
-    const char *failed; /* why the command's exit status may be 1 */
+    const char *failed; /* why the exit status may be 1 */
     int (*work)(void *options);
 } pricing_command;
 
@@ -84,7 +84,6 @@ static int run_command(const pricing_command *c, int count, char **words) {
     return code;
 }
 
-/* Reports that --measure is impossible. */
 static void says_missing(const pricing *p, const char *why) {
     fprintf(
         stderr,
@@ -124,10 +123,10 @@ const cost_board *pricing_board(const char *command, const char *value) {
     return chosen < 0 ? NULL : &cost_boards[chosen];
 }
 
-/* Operations that all trials may evaluate without --effort. */
+/* Limit of the operations of all trials without --effort. */
 #define EFFORT 1e9
 
-/* Reads --error. Its dimension is that of the quantity in --error or --of; an unknown quantity is reported later. */
+/* Reads --error, in the dimension of its quantity or of --of. An unknown quantity is reported later. */
 static bool read_error(pricing *p) {
     const char *text = p->value[PRICING_ERROR];
     const char *command = p->command;
@@ -182,7 +181,7 @@ static bool read_methods(pricing *p) {
     return true;
 }
 
-/* The table that the options ask for. All processors compute it, and a terminal shows the progress. */
+/* The requested table: on all processors, with progress on a terminal. */
 static table_request wish_of(const pricing *p) {
     const bool shows = p->value[PRICING_QUIET] == NULL && isatty(STDERR_FILENO);
     return (table_request){.operations = p->effort,
@@ -217,7 +216,7 @@ static bool read_ranges(pricing *p) {
     return true;
 }
 
-/* Checks that the varied values are used by the scenes, and that every point can start. */
+/* Do the scenes use the varied values, and can every point start? */
 static bool can_start(pricing *p, const instance *inst) {
     if (!changes_take_part(&p->grid, inst)) {
         return false;
@@ -269,7 +268,7 @@ int pricing_open(pricing *p) {
     p->changes = p->common.changes;
     p->changes.balance = p->balance;
     overrides asked = p->changes;
-    asked.until = NULL; /* printed command lines get their own --until */
+    asked.until = NULL; /* printed command lines get an --until each */
     p->words = pricing_words(&asked, false);
     p->target = pricing_quoted(p->typed);
     p->board = pricing_board(p->command, p->value[PRICING_BOARD]);
@@ -350,7 +349,7 @@ static bool write_csv(const char *file, const trials *t, const table *made) {
     return out != NULL && plot_run_csv_end(out, file, true, "price", t->image[0]->name);
 }
 
-/* Prints the cheapest row within --error. Returns an exit status. */
+/* Returns an exit status. */
 static int say_cheapest(FILE *out, const pricing *p, const table *made) {
     for (int i = 0; i < made->count; i++) {
         const table_row *row = &made->row[i];
@@ -480,7 +479,7 @@ static bool fits(const pricing *p) {
     return p->value[PRICING_ERROR] != NULL;
 }
 
-/* Reads a number of bytes: "32KB", "2048", "1 MiB", "100 bytes". */
+/* Reads "32KB", "2048", "1 MiB" or "100 bytes". */
 static bool read_bytes(const char *option, const char *text, double *bytes) {
     const char *rest;
     *bytes = decimal_read(text, &rest);
@@ -512,8 +511,8 @@ static bool read_limits(const pricing *p, choice_request *w) {
            (v[PRICING_RAM] == NULL || read_bytes("--ram", v[PRICING_RAM], &w->ram_bytes));
 }
 
-/* Spaces the records by 1, 2, 5, 10, ... periods of --rate, so that they are not too many. Returns false, and reports
- * the reason, if the horizon is shorter than a period or the rate is too high. */
+/* Spaces the records by the first of 1, 2, 5, 10, ... periods of --rate that gives at most 2.5 PRICING_RECORDS. Reports
+ * a horizon shorter than a period, and a rate that is too high. */
 static bool space_records(const pricing *p, choice_request *w, whole_ratio *spacing) {
     w->table.periods = 1;
     if (!(w->table.rate_Hz > 0.0)) {
@@ -543,7 +542,7 @@ static bool space_records(const pricing *p, choice_request *w, whole_ratio *spac
     return true;
 }
 
-/* Says that a run with contacts has no predicted cost. */
+/* Reports that contacts have no predicted cost. */
 static int says_contacts(const pricing *p, const char *missing) {
     fprintf(stderr,
             "whirl choose: error: the cost of contacts must be counted: %s\n"

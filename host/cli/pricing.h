@@ -1,4 +1,4 @@
-/* pricing.h: the common part of `whirl price` and `whirl choose`: options, scene, references. */
+/* pricing.h: the common part of `whirl price` and `whirl choose`: options, scene and references. */
 #ifndef CLI_PRICING_H
 #define CLI_PRICING_H
 
@@ -7,10 +7,9 @@
 #include "options.h"
 #include "pricing_scene.h"
 
-/* The commands that accept an option. */
 enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
 
-/* X(id, commands, word, its value or NULL, text). */
+/* X(id, commands, word, value or NULL, text) */
 #define PRICING_OPTION_ROWS(X) \
     X(PRICING_BOARD, BOTH, "--board", "B", \
       "the board of the costs: an emulated board of docs/boards.md, or host (default: " \
@@ -69,11 +68,11 @@ enum { PRICING_GROUPS = OPTIONS_CHANGE };
 typedef struct pricing {
     const char *command; /* "price" */
     common_options common;
-    const char *typed;                  /* name of the target, as typed */
-    const char *value[PRICING_OPTIONS]; /* as typed; NULL: not given; always NULL for --vary */
+    const char *typed;                  /* the target as typed */
+    const char *value[PRICING_OPTIONS]; /* as typed; NULL: not given, and for --vary */
     const char **vary;                  /* [word count] */
     int vary_count;
-    bool balance; /* value of overrides.balance */
+    bool balance; /* overrides.balance */
 
     source_model from;
     const mechanism *of;
@@ -82,33 +81,33 @@ typedef struct pricing {
     grid grid;
     pricing_scene *scene;
     const cost_board *board;
-    const char *quantity; /* the name in --of, or in --error X=0.1mm; NULL: the worst component */
+    const char *quantity; /* of --of or --error X=0.1mm; NULL: the worst component */
     char *named;          /* the name in --error, owned */
-    double error_si;      /* the limit of --error */
-    double until_s;       /* the horizon, or the scene's end */
-    double effort;        /* operations */
+    double error_si;
+    double until_s; /* the horizon, or the scene's end */
+    double effort;  /* operations */
     bool method[WH_METHODS];
     char *words;  /* changes of the scene, as typed */
-    char *target; /* name of the target, quoted for a shell */
+    char *target; /* the target, quoted for a shell */
     trials trial;
 } pricing;
 
-/* Options without values; pricing_close() frees them. */
+/* To be freed with pricing_close(). */
 pricing pricing_defaults(const char *command, int word_count);
-/* Reads the values of the options, and the scene. Returns an exit code, with errors reported; pricing_close() in any case. */
+/* Reads the options and the scene. Returns an exit status; call pricing_close() in any case. */
 int pricing_open(pricing *p);
 void pricing_close(pricing *p);
-/* The board of --board, which must have prices. Returns NULL, and reports the reason, if there is no such board. */
+/* The board of --board. Returns NULL (reported) if it is unknown or has no prices. */
 const cost_board *pricing_board(const char *command, const char *value);
-/* Reads a positive quantity of the command line, in SI. Returns false, and reports the reason, if it is invalid. Its
- * dimension is that of the quantity `name`, or, if that is NULL, `wanted`. */
+/* Reads a positive quantity in SI, in the dimension of the quantity `name`, or, without a name, in the `wanted` one.
+ * Returns false after an error (reported). */
 bool pricing_quantity(const char *command, const mechanism *of, const char *name, const char *what,
                       const char *text, dimension wanted, double *value);
-/* Computes the references at records of this spacing up to the horizon. Returns an exit status. */
+/* Computes the references at records of this spacing. Returns an exit status. */
 int pricing_begin(pricing *p, whole_ratio spacing);
-/* Least number of records of `whirl price` until the horizon; the largest number is two and a half times as many. */
+/* Records of `whirl price` until the horizon: at least this number, at most 2.5 times it. */
 #define PRICING_RECORDS 1000.0
-/* Chooses a spacing of 1, 2 or 5 times a power of ten, with `count` to two and a half times `count` records. */
+/* Chooses a spacing of 1, 2 or 5 times a power of ten, with `count` to 2.5 `count` records. */
 whole_ratio pricing_spacing(double until_s, double count);
 
 #endif

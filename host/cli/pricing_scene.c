@@ -59,7 +59,7 @@ char *pricing_words(const overrides *c, bool as_label) {
     return text;
 }
 
-/* Is this point the scene without changes? */
+/* Is this point the scene with its own values? */
 static bool is_own(const pricing_scene *p, int point) {
     return p->grid->count == 0 || (p->has_own && point == p->source.points - 1);
 }
@@ -94,13 +94,13 @@ static const char *name_of(void *context, int point) {
 
 /* --- images ----------------------------------------------------------------------------------------*/
 
-/* The changes of the command line, and after them the varied values, which replace them; free with changes_forget(). */
+/* The command line's changes, then the varied values, which replace them. Free with changes_forget(). */
 static overrides changes_in(const pricing_scene *p, int point) {
     static const grid none = {0};
     return changes_at(is_own(p, point) ? &none : p->grid, p->changes, (uint64_t)point);
 }
 
-/* Do these settings make the same lists? The method and the form of angles are read when an image runs. */
+/* Do these settings give the same operation lists? Method and angles matter only with a matrix or --stabilized. */
 static bool same_lists(const image_settings *a, const image_settings *b) {
     const bool matrix = a->matrix != MATRIX_NONE;
     return a->compensated == b->compensated && a->stabilized == b->stabilized &&
@@ -108,8 +108,8 @@ static bool same_lists(const image_settings *a, const image_settings *b) {
            (!(matrix || a->stabilized) || (a->method == b->method && a->angles == b->angles));
 }
 
-/* The image of a point with the lists of these settings, made once, with the scene's step and end. NULL if the scene
- * refuses the settings, or after an error, which is reported. */
+/* The point's image for these settings, with the scene's step and end, made once. NULL if the scene refuses the
+ * settings, or after an error (reported). */
 static const image *base_of(pricing_scene *p, int point, const image_settings *settings) {
     for (int i = 0; i < p->made_count; i++) {
         if (p->made[i].point == point && same_lists(&p->made[i].settings, settings)) {

@@ -1,5 +1,4 @@
-/* pricing_scene.h: a scene and the points of its varied values as a source of images for trials of settings
- * (host/study/trial.h). */
+/* pricing_scene.h: a scene with varied values, as a source of images for trials of settings (host/study/trial.h). */
 #ifndef CLI_PRICING_SCENE_H
 #define CLI_PRICING_SCENE_H
 
@@ -7,7 +6,7 @@
 #include "host/study/grid.h"
 #include "host/study/trial.h"
 
-/* An image that was already made. Images of the same point and setting have the same lists. */
+/* An image; others of this point and setting have the same operation lists. */
 typedef struct pricing_made {
     int point;
     image_settings settings;
@@ -18,32 +17,32 @@ typedef struct pricing_made {
 typedef struct pricing_scene {
     const mechanism *mechanism;
     const scene *scene;       /* NULL for a bare mechanism */
-    const overrides *changes; /* the changes of the command line, without the varied values */
+    const overrides *changes; /* of the command line, without the varied values */
     const grid *grid;         /* the varied values; may have no axes */
     diags *errors;
-    instance **instance;   /* [points] instances of the equations */
+    instance **instance;   /* [points] of the equations */
     equations **equations; /* [points] NULL: not yet derived */
     pricing_made *made;    /* [made_count] */
     int made_count;
-    bool has_own; /* the last point is the scene's own values, which are no point of the grid */
-    char *name;   /* text of the last requested point */
+    bool has_own; /* the last point is the scene's own values, outside the grid */
+    char *name;   /* of the last requested point */
     trial_source source;
 } pricing_scene;
 
-/* PRICING_PLACES_MAX: most points of the grid of all varied values. PRICING_PLACES: values of a range without a count. */
+/* PRICING_PLACES_MAX: most points of the grid. PRICING_PLACES: values of a range without a count. */
 enum { PRICING_PLACES_MAX = 64, PRICING_PLACES = 3 };
 
 pricing_scene *pricing_scene_new(const mechanism *of, const scene *in, const overrides *changes,
                                  const grid *g, diags *errors);
-/* If the scene's own values are not a point of the grid, they become an additional point. Call it before making any image. */
+/* Adds a point with the scene's own values, unless the grid has it. Call this before making an image. */
 void pricing_scene_add_own(pricing_scene *p, const instance *own);
-/* Lends an image that was made with these settings; the caller still frees it. NULL is allowed. */
+/* Lends an image, or NULL, made with these settings. The caller still frees it. */
 void pricing_scene_lend(pricing_scene *p, const image_settings *settings, const image *lent);
-void pricing_scene_free(pricing_scene *p); /* NULL is fine */
+void pricing_scene_free(pricing_scene *p); /* NULL is allowed */
 
-/* A word of a command line, quoted for a shell if necessary. To be freed. */
+/* A word, quoted for a shell if necessary; to be freed. */
 char *pricing_quoted(const char *word);
-/* The options that make these changes, each after a blank; or the label "m=2, with drag", without step and end. To be freed. */
+/* These changes as options, each after a blank; or as the label "m=2, with drag", without step and end. To be freed. */
 char *pricing_words(const overrides *c, bool as_label);
 
 #endif

@@ -19,7 +19,7 @@
 #include "options.h"
 #include "trusting.h"
 
-/* EFFORT: the limit of operations without --effort. PRODUCTS_1S: products of enclosures per second. */
+/* EFFORT: limit of operations without --effort. PRODUCTS_1S: products of enclosures per second. */
 #define EFFORT 1.5e10
 #define PRODUCTS_1S 1e8
 
@@ -58,7 +58,7 @@ typedef struct prove_options {
     bool quiet;
 } prove_options;
 
-/* Fills within[states], SI; 0 for a state without --within. False: reported. */
+/* Fills within[states], SI; 0 for a state without --within. Returns false after an error (reported). */
 static bool read_within(const prove_options *o, const mechanism *of, const exact_motion *m,
                         double *within, diags *errors) {
     struct arena *memory = arena_new();
@@ -99,7 +99,7 @@ static void write_row(void *context, uint64_t step, const enclosure *exact, cons
     containment_row(r->file, r->request, step, exact, run);
 }
 
-/* The reason why the tube ended early. */
+/* Prints why the tube ended early. */
 static void say_end(const containment_found *h, double end_s) {
     switch (h->end) {
     case CONTAINMENT_AT_END:
@@ -184,7 +184,7 @@ static int prove_loaded(const prove_options *o, const loaded *made, const mechan
                         diags *errors) {
     const image *im = made->image;
     exact_motion *m = NULL;
-    /* two runs: one for the range, one to compare with; the tube has its own limit */
+    /* one run for the range, one to compare with; the tube has its own limit */
     if (effort_suffices("prove", o->effort, step_doubling_operations(im, im),
                         "use an earlier --until, or a longer --step",
                         "two runs of %.3g steps, before the proof", (double)im->steps) &&

@@ -14,13 +14,13 @@
 
 /* --- the rows --------------------------------------------------------------------------------------*/
 
-/* The number type: that of the command line or, without one, that of the board's programs. */
+/* The number type of the command line, else of the board's programs. */
 static const engine_kind *number_of(const rating_request *w) {
     const bool pc = strcmp(w->board->name, "host") == 0;
     return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
 }
 
-/* Prints why there are no rows, and the command that shows them, if there is one. */
+/* Prints why there are no rows, and the command that shows them, or NULL. */
 static void say_none(FILE *out, const rating_request *w, const char *why, const char *command) {
     fprintf(out, "accuracy and cost  not shown: %s", why);
     if (command != NULL) {
@@ -38,15 +38,15 @@ static void say_none(FILE *out, const rating_request *w, const char *why, const 
     fputc('\n', out);
 }
 
-/* RECORDS_MOST: most records of the run. SPACING: a record's spacing is a multiple of this many steps. */
+/* RECORDS_MOST: most records of the run. SPACING: a record's interval is a multiple of this many steps. */
 enum { ROWS = 3, RECORDS_MOST = 20000, SPACING = 2 };
-/* Computed steps for each step of the run: ROWS_STEPS in the rows, REFERENCE_STEPS in the reference's two runs. */
+/* Computed steps per step of the run: in the rows (half, one and two), and in the reference's two runs. */
 #define ROWS_STEPS (0.5 + 1.0 + 2.0)
 #define REFERENCE_STEPS (4.0 + 2.0)
 
 static double operations_of(const rating_request *w, const setting *s, double steps) {
     const double runs =
-        setting_is_fixed(s) ? 2.0 : 1.0; /* in fixed point a first run finds the ranges */
+        setting_is_fixed(s) ? 2.0 : 1.0; /* a first run finds the ranges of fixed point */
     const double each = ROWS_STEPS * runs * wh_methods[s->image.method].stages +
                         REFERENCE_STEPS * wh_methods[step_doubling_method(w->image)].stages;
     return steps * each * (double)engine_evaluation(w->image);
@@ -80,8 +80,8 @@ static void print_row(FILE *out, const trials *t, const table_row *row) {
             r->ran ? trial_column(t, r->column, name) : "no such step");
 }
 
-/* Prints the rows of a run of `steps` steps, at least two: error and cost at twice its step, at its step and at half of
- * it. This is a short form of the table of `whirl price`. The reference is a run in double at a quarter of the step. */
+/* Prints error and cost at twice the step, at the step and at half of it: a short form of the table of `whirl price`.
+ * The reference is in double, at a quarter of the step. `steps`: at least two. */
 static void print_rows(FILE *out, const rating_request *w, const pricing_scene *p, const setting *s,
                        const image_settings *plain, uint64_t steps) {
     const uint64_t pairs = steps / SPACING;
@@ -123,7 +123,7 @@ static void print_rows(FILE *out, const rating_request *w, const pricing_scene *
     trial_end(&t);
 }
 
-/* Why a run of this many trusted steps has no rows; NULL: it has some. *command: the command that shows them, or NULL. */
+/* Why a run of this many trusted steps has no rows, or NULL. *command: the command that shows them, or NULL. */
 static const char *why_none(const rating_request *w, const setting *s,
                             const simulation_trust *trust, double steps, const char **command) {
     const bool on_board = strcmp(w->board->name, "host") != 0;
@@ -175,14 +175,13 @@ void rating_say(FILE *out, const rating_request *w, const simulation_trust *trus
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
 
-/* PACES: number of paces. The steps of the first PACES_LONG are multiples of a record's interval. The others are decimal
- * fractions of the interval, five a decade. */
+/* PACES: tried steps ("paces"). PACES_LONG: multiples of a record's interval; then decimal fractions, five a decade. */
 enum { PACES = 32, PACES_LONG = 10 };
 
-/* Most operations of all tried runs together. Their comparison with the reference takes as long again. */
+/* Most operations of all tries. Their comparison with the reference takes the same time again. */
 #define TRIES_OPERATIONS (BUDGET_LEAST / 2.0)
 
-/* Pace `i`, from long to short steps. */
+/* From long to short steps. */
 static deviation_pace pace_at(int i) {
     static const uint64_t spacings[PACES_LONG] = {50, 40, 25, 20, 16, 10, 8, 5, 4, 2};
     static const uint64_t parts[] = {1, 2, 4, 5, 8};
@@ -196,8 +195,8 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
-/* Reports that no pace satisfies the error. `least`: the least error of all tries; `rounds`: shorter steps do not reduce it;
- * `slow`: NULL, or the first pace that was not tried, because all tries would take this many operations. */
+/* Reports that no pace satisfies the error. `least`: smallest error; `rounds`: round-off limits it; `slow`: the first
+ * pace that the limit of operations excludes, or NULL; with it, `operations` would be needed. */
 static void say_no_pace(const trials *t, const setting *s, double least, bool rounds,
                         const deviation_pace *slow, double operations) {
     char text[NUMBER_SIZE];
@@ -223,16 +222,14 @@ static void say_no_pace(const trials *t, const setting *s, double least, bool ro
             s->number == &engine_float ? ", or --number double" : "");
 }
 
-/* The index of the first pace that satisfies the error; *longest: it is the first pace that was tried. Returns -1, and
- * reports the reason, if there is none. */
+/* Returns the first pace that satisfies the error, or -1 (reported). *longest: no longer pace was tried. */
 static int find_pace(trials *t, const setting *s, deviation_pace *pace, trial_result *r,
                      bool *longest) {
     double least = (double)INFINITY;
-    double operations = 0.0; /* of all tried runs */
+    double operations = 0.0; /* of all tries */
     bool slow = false;
     int falls = 0; /* tries with an error below 0.7 times the least error before */
-    /* tries since the last fall; after three falls, two such tries show round-off */
-    int stuck = 0;
+    int stuck = 0; /* tries since the last fall; after three falls, two of them show round-off */
     *longest = true;
     for (int i = 0; i < PACES && !t->stopped && !(falls >= 3 && stuck >= 2); i++) {
         *pace = pace_at(i);
@@ -278,8 +275,7 @@ static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace)
     return warned;
 }
 
-/* Among the next few paces after number `at`, finds the first that satisfies the error without a warning. Returns true
- * if there is one; otherwise the pace does not change. */
+/* Finds the first of six paces after `at` that satisfies the error without a warning; else keeps *pace. */
 static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *pace,
                           trial_result *r) {
     enum { MORE = 6 };
@@ -289,7 +285,6 @@ static bool find_unwarned(trials *t, const setting *s, int at, deviation_pace *p
     double operations = 0.0;
     for (int i = at + 1; i < PACES && i <= at + MORE && !t->stopped; i++) {
         const deviation_pace next = pace_at(i);
-        /* operations of the trial, of the run and of its finer run */
         operations += 4.0 * trial_operations(t, s, next);
         if (next.records <= (uint64_t)t->records && operations <= TRIES_OPERATIONS) {
             const trial_result one = trial_run(t, s, next);

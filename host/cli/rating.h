@@ -13,21 +13,21 @@ typedef struct rating_request {
     const char *target;
     const cost_board *board;
     const char *board_word;    /* NULL: the default board */
-    const engine_kind *number; /* the number type of the command line; NULL: the board's */
+    const engine_kind *number; /* of the command line; NULL: the board's */
     const image_settings *settings;
     const overrides *changes;
     const mechanism *of;
     const scene *in;
     diags *errors;
-    const image *image; /* image of the run */
+    const image *image;
     const image *plain; /* trusting_plain() */
 } rating_request;
 
-/* Prints the rows, or a line with the reason for their absence. */
+/* Prints the rows, or why there are none. */
 void rating_say(FILE *out, const rating_request *w, const simulation_trust *trust);
 
-/* The largest step of a run that satisfies `--error X=0.1mm`: *step, and *chosen, its description; both to be freed.
- * Opens the target, as source_open() does. Returns an exit status. */
+/* The largest step of a run that satisfies `--error X=0.1mm`: *step, and its description *chosen, both to be freed.
+ * Opens the target like source_open(). Returns an exit status. */
 int rating_choose(const common_options *common, const char *target, const char *error,
                   source_model *from, char **step, char **chosen);
 

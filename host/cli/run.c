@@ -70,7 +70,7 @@ typedef struct run_options {
     const char *error;
     const char *board_word;
     const cost_board *board;
-    const engine_kind *number; /* from the command line; NULL: not given */
+    const engine_kind *number; /* of the command line, or NULL */
     simulation_settings settings;
 } run_options;
 
@@ -116,7 +116,7 @@ static bool read_options(int count, char **words, run_options *o) {
     return true;
 }
 
-/* The interval of --every as a number of steps. Returns false after an error, which is reported. */
+/* The interval of --every in steps. Returns false after an error (reported). */
 static bool count_every(const run_options *o, const mechanism *of, const image *im,
                         uint64_t *steps) {
     double spacing_s;
@@ -166,7 +166,7 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     return simulation_status(result, &trust);
 }
 
-/* Opens the model. With --error, also chooses *step, and describes it in *chosen; both to be freed. */
+/* Opens the model. With --error, chooses *step, and describes it in *chosen; both to be freed. */
 static int open_source(run_options *o, source_model *from, char **step, char **chosen) {
     if (o->error == NULL) {
         return source_open(from, o->target);

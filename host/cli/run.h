@@ -13,7 +13,7 @@
     "  --title TEXT         the title\n" \
     "  --xlabel TEXT        the label of the horizontal axis\n" \
     "  --ylabel TEXTS       the labels of the panels, between commas\n"
-/* Rows of own_option for these options, which set a plot_choice. */
+/* Rows of own_option for them, which set a plot_choice. */
 #define RUN_CHOICE_ROWS(choice) \
     {.word = "--y", .text = &(choice).y}, \
         {.word = "--panel", \
@@ -25,8 +25,8 @@
         .word = "--ylabel", .text = &(choice).ylabel \
     }
 
-/* Like command_run() with these words and --quiet, but draws no picture: *taken gets its data, decimated for this choice.
- * Call plot_run_close() in any case. */
+/* Like command_run() with these words and --quiet, but without a picture: *taken gets its data, decimated for this
+ * choice. Call plot_run_close() in any case. */
 int run_to_take(int count, char **words, const plot_choice *choice, plot_run *taken);
 
 #endif

@@ -1,4 +1,4 @@
-/* scenes.c: for the project's own build: every built-in scene, or every scene of some files, as C, and its state hash. */
+/* scenes.c: for the project's build: every built-in scene, or every scene of some files, as C, with its state hash. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "host/os/atomic_file.h"
 #include "host/show/show.h"
 
-/* Is called for each scene. Returns an exit status. */
+/* Called for each scene. Returns an exit status. */
 typedef int scene_visitor(void *context, const char *file, const loaded *made);
 
 /* Visits every scene of an opened source, also after a refused one. Returns an exit status. */
@@ -34,7 +34,7 @@ static int each_scene_of(source_model *from, scene_visitor *visit, void *context
     return code;
 }
 
-/* The scenes of the files, or, without files, every built-in one. Returns an exit status. */
+/* Visits the scenes of the files, or, without files, the built-in ones. Returns an exit status. */
 static int each_scene(int files, char **file, scene_visitor *visit, void *context) {
     int code = EXIT_DONE;
     for (int i = 0; i < files && code == EXIT_DONE; i++) {
@@ -52,7 +52,7 @@ static int each_scene(int files, char **file, scene_visitor *visit, void *contex
     return code;
 }
 
-/* The file FOLDER/NAME + ending, to write; NULL, reported. */
+/* Opens FOLDER/NAME + ending for writing. Returns NULL after an error (reported). */
 static FILE *scenes_open(const char *folder, const char *name, const char *ending) {
     char *path = alloc_words("%s/%s%s", folder, name, ending);
     FILE *out = atomic_file_open_in_place(path);
@@ -67,7 +67,7 @@ typedef struct emission {
     bool all_forms; /* also write text, LaTeX, Octave and the runs' hashes */
 } emission;
 
-/* Writes the scene's run as a line with the hash of its last state: "WHAT NAME steps N hash 0x... ok". */
+/* Writes the line of a run, "WHAT NAME steps N hash 0x... ok", with the hash of the last state. */
 static void scenes_write_hash(FILE *out, const char *what, const engine_kind *kind,
                               const image *im) {
     void *run = kind->start(im);

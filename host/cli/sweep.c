@@ -1,5 +1,5 @@
-/* sweep.c: `whirl sweep` and `whirl map`. A sweep runs every point of a grid and writes a row of measures each. A map sweeps
- * two axes and measures if a run stays bounded, keeps its energy and meets a tolerance. */
+/* sweep.c: `whirl sweep` and `whirl map`. A sweep writes a row of measures for the run of each point of a grid. A map
+ * sweeps two axes, and measures if a run stays bounded, keeps its energy and meets a tolerance. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,12 +23,12 @@
 #include "options.h"
 #include "trusting.h"
 
-/* AXES: number of axes of a map. PAIRS_MOST: most pairs of values. */
+/* AXES: axes of a map. PAIRS_MOST: most pairs of values. */
 enum { AXES = 2 };
 #define PAIRS_MOST 250000
-/* Operations of a map without --effort. */
+/* Limit of the operations of a map without --effort. */
 #define EFFORT 1.5e11
-/* Operations of checks, balance and comparison per step, approximately, besides the step's lists. */
+/* Approximate operations of checks, balance and comparison per step, besides the step's lists. */
 #define OPERATIONS_A_STEP 200.0
 
 static const command_usage sweep_usage = {
@@ -100,7 +100,7 @@ typedef struct sweep_options {
     int over_count;
     const char **measure; /* [word count] */
     int measure_count;
-    /* Options as typed; NULL: not given. */
+    /* as typed, or NULL */
     const char *from, *csv, *shard_text, *plot;
     shard part;
     double jobs;
@@ -110,7 +110,7 @@ typedef struct sweep_options {
     bool maps, fresh, quiet, json;
 } sweep_options;
 
-/* "K/N", a part of the sweep. */
+/* Reads "K/N", a part of the sweep. */
 static bool read_shard(const char *text, sweep_options *o) {
     const char *slash;
     const char *end;
@@ -124,7 +124,6 @@ static bool read_shard(const char *text, sweep_options *o) {
     return true;
 }
 
-/* Checks for missing and contradicting options. */
 static bool is_whole_sweep(sweep_options *o) {
     if (o->shard_text != NULL && !read_shard(o->shard_text, o)) {
         return false;
@@ -183,7 +182,7 @@ static int sweep_loaded(const sweep_options *o, const source_model *from, const 
     return code;
 }
 
-/* Takes --from, which may name parameters, and --measure, to be freed. Returns NULL after an error. */
+/* Reads --from, which may name parameters, and --measure, to be freed. Returns NULL after an error. */
 static measures *take_measures(const sweep_options *o, sweep *s, diags *errors) {
     const mechanism *of = s->mechanism;
     if (o->from != NULL &&
@@ -196,7 +195,7 @@ static measures *take_measures(const sweep_options *o, sweep *s, diags *errors) 
     return wanted;
 }
 
-/* Do --from and the ends of all points agree with the run? Otherwise reports the reason. */
+/* Do --from and the ends of all points fit the run? If not, reports the reason. */
 static bool ends_fit(const sweep *s, const loaded *base) {
     if (s->from_s > base->instance->until_s) {
         return options_fail("sweep", "--from %.9g s is after the end, %.9g s", s->from_s,
@@ -244,7 +243,7 @@ static void show_progress(double runs, void *context) {
     fprintf(stderr, "\r%.1f of %llu runs ", runs, (unsigned long long)g->points);
 }
 
-/* Estimated operations of all runs. A run with half the step of the unchanged scene counts twice. */
+/* Estimated operations of all runs. A run with half of the scene's step counts twice. */
 static double operations_of(const grid *g, const image *base) {
     double runs = 0.0;
     for (int i = 0; i < AXES; i++) {
@@ -299,7 +298,7 @@ static int map_loaded(const sweep_options *o, const sweep *s, const image *base)
 
 /* --- the commands ------------------------------------------------------------------------------*/
 
-/* Reports errors that all points have in common, once for the scene without changes; returns false after one. */
+/* Reports errors that all points share, once for the unchanged scene; returns false after one. */
 static bool begins(const sweep_options *o, const sweep *s, const loaded *base, diags *errors) {
     if (!o->maps && !ends_fit(s, base)) {
         return false;

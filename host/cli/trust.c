@@ -19,7 +19,7 @@
 #include "options.h"
 #include "trusting.h"
 
-/* Default limit of operations without --effort. */
+/* Limit of operations without --effort. */
 #define EFFORT 1.5e10
 
 static const command_usage usage = {
@@ -192,7 +192,7 @@ static int trust_source(source_model *from, void *options) {
     return code;
 }
 
-/* Removes the word --proved. Returns true if it was present. */
+/* Removes the word --proved. Returns false if there is none. */
 static bool take_proved(int *count, char **words) {
     for (int i = 0; i < *count; i++) {
         if (strcmp(words[i], "--proved") == 0) {
@@ -210,7 +210,7 @@ int command_trust(int count, char **words) {
     }
     trust_options o = {
         .common = options_defaults(), .tolerance = HORIZON_TOLERANCE, .effort = EFFORT};
-    bool proved; /* only so that the list of options has --proved; command_prove() reads it */
+    bool proved; /* never read: the row makes the help list --proved, which take_proved() handles */
     const own_option own[] = {OWN_TOLERANCE(o.tolerance),
                               OWN_EFFORT(o.effort, "1.5e11"),
                               {.word = "--csv", .text = &o.csv, .file = FILE_WRITTEN_LATE},
