@@ -210,7 +210,6 @@ enum { REMEDY_TEXT = 120 };
 
 typedef struct search {
     const image *image;
-    const image *plain;
     const engine_kind *kind;
     budget *budget;
     double part;   /* factor of the limits (run_checks.h) */
@@ -289,7 +288,7 @@ static bool try(search *s, const request *w) {
     }
     const engine_kind *kind = w->in_double ? &engine_double : s->kind;
     void *run = kind->start(&with);
-    run_checks *v = run_checks_open(&with, s->plain, kind, run, s->budget);
+    run_checks *v = run_checks_open(&with, kind, run, s->budget);
     v->part = s->part;
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .pays = s->budget, .see = see, .of = v};
@@ -382,7 +381,6 @@ static remedy_outcome remedy_find(const run_checks *v, double parts, char text[R
     const double steps = number_most((double)v->kind->steps(v->run), 1.0);
     budget_begin(v->budget);
     search s = {.image = v->image,
-                .plain = v->plain,
                 .kind = v->kind,
                 .budget = v->budget,
                 .part = LEAVES,
@@ -394,10 +392,9 @@ static remedy_outcome remedy_find(const run_checks *v, double parts, char text[R
     return found;
 }
 
-bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind) {
+bool remedy_not_needed(const image *im, const engine_kind *kind) {
     budget all = {0};
-    search s = {
-        .image = im, .plain = plain, .kind = kind, .budget = &all, .part = 1.0, .stages = 1.0};
+    search s = {.image = im, .kind = kind, .budget = &all, .part = 1.0, .stages = 1.0};
     const request own = {im->step_s, im->settings.method, im->settings.compensated, false};
     budget_begin(&all);
     return try(&s, &own);

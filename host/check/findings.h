@@ -22,6 +22,6 @@ void findings_say_failed(FILE *out, const run_checks *v);
 void failure_say(FILE *out, wh_status status, const run_checks *v);
 
 /* Is a run of this image without findings? */
-bool remedy_not_needed(const image *im, const image *plain, const engine_kind *kind);
+bool remedy_not_needed(const image *im, const engine_kind *kind);
 
 #endif

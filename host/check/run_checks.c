@@ -12,8 +12,8 @@
 /* Operations that no run takes. */
 #define UNLIMITED ((uint64_t)1 << 62)
 
-static run_checks *checks_of(const image *im, const image *plain, const engine_kind *kind,
-                             void *run, budget *of, bool whole) {
+static run_checks *checks_of(const image *im, const engine_kind *kind, void *run, budget *of,
+                             bool whole) {
     run_checks *v = alloc(1, sizeof *v);
     v->whole = whole;
     v->own.own = whole ? UNLIMITED : 0;
@@ -21,21 +21,17 @@ static run_checks *checks_of(const image *im, const image *plain, const engine_k
     v->kind = kind;
     v->run = run;
     v->part = 1.0;
-    v->plain = plain;
     v->budget = of != NULL ? of : &v->own;
     v->books = books_open(im);
     v->jumped = pole_crossing_open(im);
-    plain = plain != NULL ? plain : im;
-    if (whole ||
-        (im->steps > 0 && step_doubling_finer_operations(im, plain) <= budget_left(v->budget))) {
-        v->doubling = step_doubling_open(im, plain, kind, run, v->jumped);
+    if (whole || (im->steps > 0 && step_doubling_finer_operations(im) <= budget_left(v->budget))) {
+        v->doubling = step_doubling_open(im, kind, run, v->jumped);
     }
     return v;
 }
 
-run_checks *run_checks_open(const image *im, const image *plain, const engine_kind *kind, void *run,
-                            budget *of) {
-    return checks_of(im, plain, kind, run, of, false);
+run_checks *run_checks_open(const image *im, const engine_kind *kind, void *run, budget *of) {
+    return checks_of(im, kind, run, of, false);
 }
 
 void run_checks_close(run_checks *v) {
@@ -332,9 +328,9 @@ static bool see(void *of, uint64_t step) {
     return true;
 }
 
-run_checks *run_checks_whole(const image *im, const image *plain, const engine_kind *kind,
+run_checks *run_checks_whole(const image *im, const engine_kind *kind,
                              void (*progress)(double share, void *context), void *context) {
-    observer o = {checks_of(im, plain, kind, kind->start(im), NULL, true), progress, context};
+    observer o = {checks_of(im, kind, kind->start(im), NULL, true), progress, context};
     const loop l = {.kind = kind, .run = o.checks->run, .steps = im->steps, .see = see, .of = &o};
     wh_status status;
     o.checks->interrupted = loop_run(&l, &status) == LOOP_INTERRUPTED;

@@ -23,9 +23,8 @@ typedef struct run_checks {
     const image *image;
     const engine_kind *kind;
     void *run;
-    const image *plain; /* image of the finer run */
-    bool whole;         /* made by run_checks_whole() */
-    bool interrupted;   /* set by run_checks_whole() */
+    bool whole;       /* made by run_checks_whole() */
+    bool interrupted; /* set by run_checks_whole() */
     budget own;
     budget *budget; /* shared by all checks: &own, or the caller's */
     double part;    /* factor of the limits of energy and accuracy: 1, and less for a remedy */
@@ -43,13 +42,11 @@ typedef struct run_checks {
     unsigned warned; /* the warnings, as bits */
 } run_checks;
 
-/* `plain` is the image of the finer run (step_doubling_plain()). If it is NULL, `im` serves both runs. If the budget is NULL,
- * the checks have one of their own, and the run's loop fills it. All arguments must outlive the result. */
-run_checks *run_checks_open(const image *im, const image *plain, const engine_kind *kind, void *run,
-                            budget *of);
+/* If the budget is NULL, the checks have one of their own, and the run's loop fills it. All arguments must outlive the result. */
+run_checks *run_checks_open(const image *im, const engine_kind *kind, void *run, budget *of);
 /* Makes a run to its end, or to an interrupt (host/os/system.h), with all checks whatever they cost. `progress` is called from
  * time to time with the share of completed steps; or NULL. run_checks_close() ends the run. */
-run_checks *run_checks_whole(const image *im, const image *plain, const engine_kind *kind,
+run_checks *run_checks_whole(const image *im, const engine_kind *kind,
                              void (*progress)(double share, void *context), void *context);
 void run_checks_close(run_checks *v); /* NULL is fine */
 /* Enter the state after each step, the start included. */

@@ -445,7 +445,7 @@ simulation_result simulate(const image *im, const simulation_settings *s,
     if (open_files(&sim)) {
         bool ended = false;
         sim.run = s->kind->start(im);
-        sim.checks = run_checks_open(im, s->plain, s->kind, sim.run, NULL);
+        sim.checks = run_checks_open(im, s->kind, sim.run, NULL);
         sim.undefined = diags_new();
         sim.records->out = sim.csv;
         sim.records->plain = sim.columns;

@@ -23,7 +23,6 @@ typedef struct simulation_settings {
     bool json;     /* one object on standard output in place of the summary (run_json.h) */
     double strict; /* argument of run_checks_fails() */
     bool progress;
-    const image *plain; /* the finer run's image (step_doubling_plain()); NULL: the run's */
 } simulation_settings;
 
 typedef enum simulation_result {

@@ -122,14 +122,6 @@ int step_doubling_order(const image *im) {
     return op_list_has_kinks(im->list[IMAGE_STEP]) ? 1 : wh_methods[step_doubling_method(im)].order;
 }
 
-bool step_doubling_plain(const image_settings *of, image_settings *plain) {
-    *plain = *of;
-    plain->tables = TABLES_NONE;
-    plain->cells = 0;
-    plain->compensated = of->compensated || of->matrix == MATRIX_EXACT;
-    return plain->tables != of->tables || plain->compensated != of->compensated;
-}
-
 /* Gives the finer run constants that are folded with other roundings. With the same constants both runs would have the
  * same round-off. */
 static void fold_the_other_way(image *im) {
@@ -146,8 +138,10 @@ static void fold_the_other_way(image *im) {
     }
 }
 
-static void make_finer(step_doubling *t, const image *im, const image *plain) {
-    t->finer = *plain;
+static const image *of_finer(const image *im) { return im->finer != NULL ? im->finer : im; }
+
+static void make_finer(step_doubling *t, const image *im) {
+    t->finer = *of_finer(im);
     t->finer.fixed = NULL;
     fold_the_other_way(&t->finer);
     t->finer.settings.compensated = true;
@@ -170,18 +164,18 @@ static void make_finer(step_doubling *t, const image *im, const image *plain) {
     }
 }
 
-double step_doubling_finer_operations(const image *im, const image *plain) {
+double step_doubling_finer_operations(const image *im) {
     const double each = im->settings.matrix == MATRIX_EXACT ? 1.0 : 2.0;
     return (double)im->steps * each * wh_methods[step_doubling_method(im)].stages *
-           (double)engine_evaluation(plain);
+           (double)engine_evaluation(of_finer(im));
 }
 
-double step_doubling_operations(const image *im, const image *plain) {
+double step_doubling_operations(const image *im) {
     const double stages = wh_methods[im->settings.method].stages;
     const double events = im->contacts > 0 ? EVALUATIONS_OF_EVENTS : 0.0;
     const double each = stages + 3.0 * events;
     return (double)im->steps * each * (double)engine_evaluation(im) +
-           step_doubling_finer_operations(im, plain);
+           step_doubling_finer_operations(im);
 }
 
 /* --- passages -----------------------------------------------------------------------------------------*/
@@ -437,10 +431,10 @@ void step_doubling_enter(step_doubling *t) {
     }
 }
 
-step_doubling *step_doubling_open(const image *im, const image *plain, const engine_kind *kind,
-                                  void *run, const pole_crossing *jumped) {
+step_doubling *step_doubling_open(const image *im, const engine_kind *kind, void *run,
+                                  const pole_crossing *jumped) {
     step_doubling *t = alloc(1, sizeof *t);
-    make_finer(t, im, plain);
+    make_finer(t, im);
     t->otherwise = im->ways > 0;
     t->shape = records_open(NULL, im, kind);
     t->columns = t->shape->columns - im->own_outputs;

@@ -93,18 +93,13 @@ typedef struct step_doubling {
     uint64_t looks;
 } step_doubling;
 
-/* *plain: the settings of the finer run's image, without tables, and with compensated sums for a matrix. Returns false
- * if the run's settings are the same. */
-bool step_doubling_plain(const image_settings *of, image_settings *plain);
-
 /* The method of the finer run, and the order by which its error falls as the step gets shorter. */
 wh_method step_doubling_method(const image *im);
 int step_doubling_order(const image *im);
 
-/* Starts the finer run of a run that the caller steps. `plain`: the image from step_doubling_plain(), or the run's own if
- * that returned false. `jumped`: the run's search for poles; NULL: the scene needs none. All must outlive the result. */
-step_doubling *step_doubling_open(const image *im, const image *plain, const engine_kind *kind,
-                                  void *run, const pole_crossing *jumped);
+/* Starts the finer run of a run that the caller steps. `jumped`: the run's search for poles; NULL: the scene needs none. All must outlive the result. */
+step_doubling *step_doubling_open(const image *im, const engine_kind *kind, void *run,
+                                  const pole_crossing *jumped);
 /* Call it at the start of the run and after each step. */
 void step_doubling_enter(step_doubling *t);
 /* The run has ended; `status` is that of its last step. */
@@ -112,7 +107,7 @@ void step_doubling_end(step_doubling *t, wh_status status);
 void step_doubling_free(step_doubling *t); /* NULL is fine */
 
 /* Estimated number of operations of both runs; and that of the finer run alone, without its events. */
-double step_doubling_operations(const image *im, const image *plain);
-double step_doubling_finer_operations(const image *im, const image *plain);
+double step_doubling_operations(const image *im);
+double step_doubling_finer_operations(const image *im);
 
 #endif

@@ -185,7 +185,7 @@ static int prove_loaded(const prove_options *o, const loaded *made, const mechan
     const image *im = made->image;
     exact_motion *m = NULL;
     /* one run for the range, one to compare with; the tube has its own limit */
-    if (effort_suffices("prove", o->effort, step_doubling_operations(im, im),
+    if (effort_suffices("prove", o->effort, step_doubling_operations(im),
                         "use an earlier --until, or a longer --step",
                         "two runs of %.3g steps, before the proof", (double)im->steps) &&
         start_has_method(im, im->settings.method, errors) &&

@@ -166,9 +166,9 @@ void rating_say(FILE *out, const rating_request *w, const simulation_trust *trus
     const grid none = {0};
     pricing_scene *p = pricing_scene_new(w->of, w->in, w->changes, &none, w->errors);
     image_settings plain;
-    step_doubling_plain(w->settings, &plain);
+    image_settings_finer(w->settings, &plain);
     pricing_scene_lend(p, w->settings, w->image);
-    pricing_scene_lend(p, &plain, w->plain);
+    pricing_scene_lend(p, &plain, w->image->finer);
     print_rows(out, w, p, &s, &plain, (uint64_t)steps);
     pricing_scene_free(p);
 }
@@ -265,13 +265,14 @@ static bool is_warned_of(const trials *t, const setting *s, deviation_pace pace)
     const trial_source *from = t->request.source;
     char text[NUMBER_SIZE];
     setting finer = *s;
-    const bool other = step_doubling_plain(&s->image, &finer.image);
+    const bool other = image_settings_finer(&s->image, &finer.image);
     trial_step_text(t, pace, text);
     image *im = from->make(from->context, 0, s, text, NULL);
-    image *plain = other ? from->make(from->context, 0, &finer, text, NULL) : NULL;
-    const bool warned = im != NULL && !remedy_not_needed(im, plain, s->number);
+    if (im != NULL && other) {
+        im->finer = from->make(from->context, 0, &finer, text, NULL);
+    }
+    const bool warned = im != NULL && !remedy_not_needed(im, s->number);
     image_free(im);
-    image_free(plain);
     return warned;
 }
 

@@ -20,7 +20,6 @@ typedef struct rating_request {
     const scene *in;
     diags *errors;
     const image *image;
-    const image *plain; /* trusting_plain() */
 } rating_request;
 
 /* Prints the rows, or why there are none. */

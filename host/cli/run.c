@@ -142,7 +142,7 @@ static bool shows_progress(const simulation_settings *s) {
     return !s->quiet && isatty(STDERR_FILENO);
 }
 
-static int run_image(run_options *o, const source_model *from, const image *im, const image *plain,
+static int run_image(run_options *o, const source_model *from, const image *im,
                      rating_request *rated) {
     if (!start_has_method(im, im->settings.method, from->errors) ||
         !start_is_possible(im, o->settings.kind, from->errors)) {
@@ -152,12 +152,10 @@ static int run_image(run_options *o, const source_model *from, const image *im, 
     apart_say(stderr, "whirl run", im);
     interrupts_catch();
     o->settings.progress = shows_progress(&o->settings);
-    o->settings.plain = plain;
     simulation_trust trust;
     const simulation_result result = simulate(im, &o->settings, &trust);
     if (result == SIMULATION_DONE && !o->settings.quiet && !o->settings.json) {
         rated->image = im;
-        rated->plain = plain;
         rating_say(simulation_summary(&o->settings), rated, &trust);
     }
     if (result == SIMULATION_DONE && trust.fails != 0) {
@@ -194,14 +192,13 @@ static int run_target(run_options *o) {
         overrides changes = o->common.changes;
         changes.balance = true;
         const load_request request = {.settings = o->common.integration,
-                                      .use = IMAGE_TO_RUN,
+                                      .use = IMAGE_TO_CHECK,
                                       .hints = !o->settings.quiet,
                                       .conserve = true};
         code = load(&made, &from, of, in, &changes, &request);
         if (code == EXIT_DONE && !count_every(o, of, made.image, &o->settings.every)) {
             code = EXIT_BAD_INPUT;
         }
-        image *plain = trusting_plain(&made);
         if (code == EXIT_DONE && o->settings.kind == &engine_float) {
             say_float_range(made.image);
         }
@@ -223,10 +220,9 @@ static int run_target(run_options *o) {
                                     .of = of,
                                     .in = in,
                                     .errors = from.errors};
-            code = run_image(o, &from, made.image, plain, &rated);
+            code = run_image(o, &from, made.image, &rated);
         }
         fixed_plan_free(plan);
-        image_free(plain);
         unload(&made);
     }
     source_close(&from);

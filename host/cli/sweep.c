@@ -255,7 +255,7 @@ static double operations_of(const grid *g, const image *base) {
     }
     runs = runs > 0.0 ? runs : (double)g->points;
     const double operations =
-        step_doubling_operations(base, base) + OPERATIONS_A_STEP * (double)base->steps;
+        step_doubling_operations(base) + OPERATIONS_A_STEP * (double)base->steps;
     return runs * operations;
 }
 

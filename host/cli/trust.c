@@ -104,10 +104,9 @@ static int write_rows(const trust_options *o, const horizon *h) {
                : EXIT_RUN_FAILED;
 }
 
-static int answer(const trust_options *o, const image *im, const image *plain) {
+static int answer(const trust_options *o, const image *im) {
     const engine_kind *kind = o->common.number;
-    run_checks *v =
-        run_checks_whole(im, plain, kind, shows_progress(o) ? show_progress : NULL, NULL);
+    run_checks *v = run_checks_whole(im, kind, shows_progress(o) ? show_progress : NULL, NULL);
     const step_doubling *t = v->doubling;
     if (shows_progress(o)) {
         fprintf(stderr, "\r        \r");
@@ -138,9 +137,9 @@ static int answer(const trust_options *o, const image *im, const image *plain) {
     return code;
 }
 
-static int trust_loaded(const trust_options *o, image *im, const image *plain, diags *errors) {
+static int trust_loaded(const trust_options *o, image *im, diags *errors) {
     fixed_plan *plan = NULL;
-    if (!effort_suffices("trust", o->effort, step_doubling_operations(im, plain),
+    if (!effort_suffices("trust", o->effort, step_doubling_operations(im),
                          "use an earlier --until, or a longer --step: a chaotic motion loses its "
                          "accuracy early anyway",
                          "two runs of %.3g and %.3g steps", (double)im->steps,
@@ -155,7 +154,7 @@ static int trust_loaded(const trust_options *o, image *im, const image *plain, d
         code = trusting_plan("trust", im, shows_progress(o), errors, &plan);
     }
     if (code == EXIT_DONE) {
-        code = answer(o, im, plain);
+        code = answer(o, im);
     }
     fixed_plan_free(plan);
     return code;
@@ -177,17 +176,15 @@ static int trust_source(source_model *from, void *options) {
     overrides changes = o->common.changes;
     changes.balance = true;
     const load_request request = {
-        .settings = o->common.integration, .use = IMAGE_TO_RUN, .conserve = true};
+        .settings = o->common.integration, .use = IMAGE_TO_CHECK, .conserve = true};
     loaded made;
     code = load(&made, from, of, in, &changes, &request);
-    image *plain = code == EXIT_DONE ? trusting_plain(&made) : NULL;
     if (code == EXIT_DONE && o->common.number == &engine_float) {
         say_float_range(made.image);
     }
     if (code == EXIT_DONE) {
-        code = trust_loaded(o, made.image, plain != NULL ? plain : made.image, from->errors);
+        code = trust_loaded(o, made.image, from->errors);
     }
-    image_free(plain);
     unload(&made);
     return code;
 }

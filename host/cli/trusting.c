@@ -2,23 +2,9 @@
 
 #include <stdarg.h>
 
-#include "host/check/step_doubling.h"
 #include "host/number/functions.h"
 #include "host/os/system.h"
 #include "options.h"
-
-image *trusting_plain(const loaded *made) {
-    const image *im = made->image;
-    image_settings plain;
-    if (im == NULL || !step_doubling_plain(&im->settings, &plain)) {
-        return NULL;
-    }
-    diags *unsaid = diags_new(); /* discarded: the run's image had the same messages */
-    image *without = image_make(made->equations, made->equations->instance->conserve, &plain,
-                                IMAGE_TO_RUN, unsaid);
-    diags_free(unsaid);
-    return without;
-}
 
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan) {
     interrupts_catch();

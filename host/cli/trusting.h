@@ -7,8 +7,6 @@
 #include "host/cli/load.h"
 #include "host/fixed/fixed_plan.h"
 
-/* The finer run's image (step_doubling_plain()), to be freed. NULL: it uses the run's image. */
-image *trusting_plain(const loaded *made);
 /* Adds the step in fixed point, *plan (to be freed). Undeclared ranges take a run. Returns an exit status. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 

@@ -279,7 +279,7 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     copy_quantities(d, p, e->instance);
     start_components(d);
     copy_ranges(d, e, &p->layout);
-    if (use == IMAGE_TO_RUN) {
+    if (use != IMAGE_TO_WRITE) {
         diagnostics_make(d, e);
     }
     image *made = with_matrix(d, e, errors);
@@ -373,12 +373,18 @@ image *image_make(const equations *e, const bool *conserve, const image_settings
     if (im == NULL) {
         return NULL;
     }
-    const bool asks = use == IMAGE_TO_RUN && nearest.lost > FOLDED_MUCH;
+    const bool asks = use != IMAGE_TO_WRITE && nearest.lost > FOLDED_MUCH;
     for (int way = FOLDING_OTHER; way < FOLDING_WAYS && asks; way++) {
         image *other = make_otherwise(im, e, conserve, settings, way);
         if (other != NULL) {
             im->otherwise[im->ways++] = other;
         }
+    }
+    image_settings finer;
+    if (use == IMAGE_TO_CHECK && image_settings_finer(settings, &finer)) {
+        diags *unsaid = diags_new(); /* discarded: the run's image had the same messages */
+        im->finer = image_make(e, conserve, &finer, IMAGE_TO_RUN, unsaid);
+        diags_free(unsaid);
     }
     return im;
 }

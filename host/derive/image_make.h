@@ -6,8 +6,8 @@
 #include "host/image/image.h"
 
 /* The purpose of an image. An image to run also has the expressions that may be undefined, in the spelling of the
- * file, so that a message can quote the failed one (host/check/nonfinite.h). */
-typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN } image_use;
+ * file, so that a message can quote the failed one (host/check/nonfinite.h). One to check has its `finer`, too. */
+typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN, IMAGE_TO_CHECK } image_use;
 
 /* Returns an image with the lists of `base`, and with the starts, inputs, step and end of `inst`, which must be an
  * instance of the same mechanism and scene with the same parameters. If the step differs, the image gets its own

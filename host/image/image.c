@@ -39,7 +39,18 @@ void image_free(image *im) {
     for (int k = 0; k < im->ways && im->base == NULL; k++) {
         image_free(im->otherwise[k]);
     }
+    if (im->base == NULL || im->finer != im->base->finer) {
+        image_free(im->finer);
+    }
     arena_free(im->memory);
+}
+
+bool image_settings_finer(const image_settings *of, image_settings *finer) {
+    *finer = *of;
+    finer->tables = TABLES_NONE;
+    finer->cells = 0;
+    finer->compensated = of->compensated || of->matrix == MATRIX_EXACT;
+    return finer->tables != of->tables || finer->compensated != of->compensated;
 }
 
 component image_component(const image *im, int i) {

@@ -303,6 +303,7 @@ typedef struct image {
      * of these variants are used. */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
+    struct image *finer;    /* the finer run's image (image_settings_finer()); NULL: this one */
     bool unbounded;         /* in a variant, a number of the file is not finite */
     image_unknown *unknown; /* [count] */
     component *angle;       /* [angles] */
@@ -344,6 +345,10 @@ typedef struct image {
 } image;
 
 void image_free(image *im); /* `im` may be NULL */
+
+/* *finer: the settings of the finer run (host/check/step_doubling.h), without tables, and with compensated sums for a
+ * matrix. Returns false if they are the run's. */
+bool image_settings_finer(const image_settings *of, image_settings *finer);
 
 /* Returns component i of the state; angles come first. */
 component image_component(const image *im, int i);

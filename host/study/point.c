@@ -359,12 +359,11 @@ typedef struct meter {
     bool good;
 } meter;
 
-static meter meter_open(const sweep *sw, const image *im, const image *plain, void *run,
-                        diags *errors, FILE *reason) {
+static meter meter_open(const sweep *sw, const image *im, void *run, diags *errors, FILE *reason) {
     const int count = sw->measures->count;
     meter m = {
         .sweep = sw, .image = im, .run = run, .errors = errors, .reason = reason, .good = true};
-    m.verdict = run_checks_open(im, plain, sw->kind, run, NULL);
+    m.verdict = run_checks_open(im, sw->kind, run, NULL);
     m.gauges = alloc(count, sizeof *m.gauges);
     m.component = alloc(count, sizeof *m.component);
     m.output = alloc(im->outputs, sizeof *m.output);
@@ -489,11 +488,11 @@ static bool read_measures(const meter *m, double *value, point_notes *notes) {
     return true;
 }
 
-bool sweep_measure(const sweep *s, const image *im, const image *plain, double *value,
-                   diags *errors, FILE *reason, point_notes *notes) {
+bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors, FILE *reason,
+                   point_notes *notes) {
     void *run = s->kind->start(im);
     notes->end_s = ratio_times(im->steps, im->step);
-    meter m = meter_open(s, im, plain, run, errors, reason);
+    meter m = meter_open(s, im, run, errors, reason);
     const bool good = run_through(&m) && read_measures(&m, value, notes);
     meter_close(&m);
     s->kind->stop(run);
@@ -551,9 +550,9 @@ bool sweep_ends_are_alike(const sweep *s, double until_s) {
 }
 
 bool sweep_can_share(const grid *g, const image *im) {
-    image_settings plain;
+    image_settings finer;
     return !grid_varies_parameters(g) && im->recovered == 0 &&
-           !step_doubling_plain(&im->settings, &plain);
+           !image_settings_finer(&im->settings, &finer);
 }
 
 /* --- the point in numbers ----------------------------------------------------------------------*/
@@ -571,24 +570,21 @@ static void tell_first(diags *errors, FILE *reason) {
     free(text);
 }
 
-static image *image_at(const sweep *s, const instance *inst, image **plain, diags *errors) {
-    image_settings other;
+static image *image_at(const sweep *s, const instance *inst, diags *errors) {
     if (s->shared != NULL) {
         return image_again(s->shared, inst, errors);
     }
     equations *e = equations_derive(inst, errors);
-    image *im = e == NULL ? NULL : image_make(e, inst->conserve, &s->engine, IMAGE_TO_RUN, errors);
-    if (im != NULL && step_doubling_plain(&s->engine, &other)) {
-        *plain = image_make(e, inst->conserve, &other, IMAGE_TO_RUN, errors);
-    }
+    image *im =
+        e == NULL ? NULL : image_make(e, inst->conserve, &s->engine, IMAGE_TO_CHECK, errors);
     equations_free(e);
     return im;
 }
 
-image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors) {
+image *sweep_image(const sweep *s, uint64_t point, diags *errors) {
     overrides changes = changes_at(s->grid, s->changes, point);
     instance *inst = instance_make(s->mechanism, s->scene, &changes, errors);
-    image *im = inst != NULL ? image_at(s, inst, plain, errors) : NULL;
+    image *im = inst != NULL ? image_at(s, inst, errors) : NULL;
     instance_free(inst); /* only the image is needed from here on */
     changes_forget(s->changes, &changes);
     if (im != NULL && !(start_has_method(im, s->engine.method, errors) &&
@@ -602,14 +598,12 @@ image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors)
 static bool measure_point(const sweep *s, uint64_t point, double *value, FILE *reason,
                           point_notes *notes) {
     diags *errors = diags_new();
-    image *plain = NULL;
-    image *im = sweep_image(s, point, &plain, errors);
-    const bool good = im != NULL && sweep_measure(s, im, plain, value, errors, reason, notes);
+    image *im = sweep_image(s, point, errors);
+    const bool good = im != NULL && sweep_measure(s, im, value, errors, reason, notes);
     if (diags_count(errors) > 0) {
         tell_first(errors, reason);
     }
     image_free(im);
-    image_free(plain);
     diags_free(errors);
     return good;
 }

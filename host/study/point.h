@@ -128,14 +128,13 @@ void sweep_header(const sweep *s, FILE *out);
 char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 
-/* The image of a point. *plain: the image of the finer run if step_doubling_plain() requires one, otherwise unchanged.
- * Returns NULL, and reports the reason, if the point has no image that can start. */
-image *sweep_image(const sweep *s, uint64_t point, image **plain, diags *errors);
+/* The image of a point. Returns NULL, and reports the reason, if the point has no image that can start. */
+image *sweep_image(const sweep *s, uint64_t point, diags *errors);
 
 /* Runs the image of a point; value[measures + 1] gets the measures and the energy residual (NAN if unknown). Returns false
  * if the run failed or something was not a finite number, with a message on `reason` or reported. */
-bool sweep_measure(const sweep *s, const image *im, const image *plain, double *value,
-                   diags *errors, FILE *reason, point_notes *notes);
+bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors, FILE *reason,
+                   point_notes *notes);
 
 /* Runs the point and writes its row, including the line's end. The columns stay empty if the run fails, or
  * if a measure, an energy or a contact's expression is not finite. Then the result is false and one line

@@ -113,13 +113,12 @@ static void show_share(double share, void *context) {
 static void try_point(row_runs *p, uint64_t point) {
     const map_request *w = p->request;
     diags *unsaid = diags_new();
-    image *plain = NULL;
-    image *im = sweep_image(&w->of, point, &plain, unsaid);
+    image *im = sweep_image(&w->of, point, unsaid);
     map_cell cell = {.verdict = MAP_NONE, .left_over = (double)NAN};
     bool whole = true;
     if (im != NULL) {
         run_checks *v =
-            run_checks_whole(im, plain, w->of.kind, w->progress != NULL ? show_share : NULL, p);
+            run_checks_whole(im, w->of.kind, w->progress != NULL ? show_share : NULL, p);
         whole = !v->interrupted;
         if (whole) {
             cell = cell_of(p, v);
@@ -127,7 +126,6 @@ static void try_point(row_runs *p, uint64_t point) {
         run_checks_close(v);
     }
     image_free(im);
-    image_free(plain);
     diags_free(unsaid);
     if (whole) {
         p->map->cell[point] = cell;

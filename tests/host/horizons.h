@@ -22,7 +22,6 @@ typedef struct horizons {
     derived made;
     image *image; /* image with the settings of the run */
     /* image with the settings of the finer run (host/check/step_doubling.h); the reference uses it, too */
-    image *plain;
     run_checks *checks;
     const step_doubling *doubling;
     horizon estimate;

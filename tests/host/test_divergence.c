@@ -351,7 +351,7 @@ static void hold_growth(dice *d, wh_method method, int order) {
     derived made = derived_scene(text, "s");
     derived_expect(&made, text);
     made.image->settings.method = method;
-    run_checks *v = run_checks_whole(made.image, NULL, &engine_double, NULL, NULL);
+    run_checks *v = run_checks_whole(made.image, &engine_double, NULL, NULL);
     const step_doubling *t = v->doubling;
     horizon h = horizon_of(t, tolerance);
     const double rough = factor(order, z);
@@ -488,7 +488,7 @@ static void expect_words(const run_checks *v, const horizon *h) {
 TEST(horizon, words_and_rows) {
     derived made = derived_scene(springs, "s");
     derived_expect(&made, springs);
-    run_checks *v = run_checks_whole(made.image, NULL, &engine_double, NULL, NULL);
+    run_checks *v = run_checks_whole(made.image, &engine_double, NULL, NULL);
     const step_doubling *t = v->doubling;
     horizon h = horizon_of(t, 0.01);
     TEST_ASSERT_TRUE(h.first > 0 && t->shape->column[h.first].unknown == 0);
@@ -704,7 +704,7 @@ static void write_spring(char *text, const char *unit, double a, double w, doubl
 }
 
 static run_checks *twins_of(const motion *m, const image *im) {
-    return run_checks_whole(im, m->image, m->kind, NULL, NULL);
+    return run_checks_whole(im, m->kind, NULL, NULL);
 }
 
 /* The finer run must have exactly half the step, whatever fraction the step is. The step of an exact matrix must not
@@ -728,6 +728,7 @@ TEST(doubling, the_finer_run) {
                                         .compensated = of == 2,
                                         .matrix = matrix});
             image im = *m.image;
+            im.finer = m.image;
             const whole_ratio steps[] = {im.step,
                                          {1U + dice_one_of(&d, 1000), 1U + dice_one_of(&d, 1000)},
                                          {2U * (1U + dice_one_of(&d, 1000)), UINT64_C(1) << 61},
@@ -774,7 +775,7 @@ TEST(doubling, plain_settings) {
                                    .method = i < 12U ? WH_RK4 : WH_LEAPFROG};
         image_settings plain;
         const bool sums = of.compensated || of.matrix == MATRIX_EXACT;
-        const bool other = step_doubling_plain(&of, &plain);
+        const bool other = image_settings_finer(&of, &plain);
         TEST_ASSERT_EQUAL(i % 2U == 1 || sums != of.compensated, other);
         TEST_ASSERT_EQUAL(TABLES_NONE, plain.tables);
         TEST_ASSERT_EQUAL(0, plain.cells);
@@ -885,7 +886,7 @@ TEST(doubling, what_they_take) {
         motion_open_text(
             &m, text,
             (stepping){.kind = i % 2U == 0 ? &engine_double : &engine_float, .method = method});
-        const double told = step_doubling_operations(m.image, m.image);
+        const double told = step_doubling_operations(m.image);
         const int own = wh_methods[method].order >= 4 ? (int)method : (int)WH_METHOD_DEFAULT;
         const int methods[] = {(int)method, own, own}; /* the finer run has two steps */
         double counted = 0.0;

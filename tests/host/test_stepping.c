@@ -38,7 +38,7 @@ static measured_point measured_run(const char *text, const char *const *asked, i
     m.sweep.from_s = from_s;
     FILE *reason = alloc_text(&p.reason, &length[0]);
     FILE *out = alloc_text(&p.errors, &length[1]);
-    p.good = sweep_measure(&m.sweep, m.image, NULL, p.value, m.errors, reason, &p.notes);
+    p.good = sweep_measure(&m.sweep, m.image, p.value, m.errors, reason, &p.notes);
     diags_flush(m.errors, out);
     alloc_text_end(reason);
     alloc_text_end(out);
