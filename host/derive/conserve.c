@@ -8,8 +8,7 @@
 
 /* === the influences on a coordinate, and of a coordinate ====================================== */
 
-/* Finds the first force, loss or contact that changes the momentum of unknown i. Returns what it is
- * called, such as "the Q", and its place. */
+/* Finds the first force, loss or contact that changes the momentum of unknown i. Returns its word, such as "the Q". */
 static const char *influence_on(const equations *e, int i, place *at) {
     algebra *a = e->algebra;
     const mechanism *m = e->instance->mechanism;
@@ -32,10 +31,10 @@ static const char *influence_on(const equations *e, int i, place *at) {
             return contact_called(law->from->kind);
         }
     }
-    return "nothing"; /* not reached: `conserve` takes no driven coordinate */
+    return "nothing"; /* not reached: driven coordinates cannot be conserved */
 }
 
-/* Does a force, a loss or a contact depend on the coordinate's position? (Energies are not checked.) */
+/* Does a force, a loss or a contact depend on the coordinate's position? Energies are not checked. */
 static bool influence_of(const equations *e, const symbol *q) {
     const mechanism *m = e->instance->mechanism;
     bool found = false;
@@ -64,8 +63,8 @@ static double at_start(const equations *e, const poly *p) {
     return poly_evaluate(p, start_value, (void *)(uintptr_t)e->instance);
 }
 
-/* Returns the antiderivative of a term with respect to q. The term must be a power of q times a factor without q, or
- * a sine or cosine whose angle is linear in q. Returns NULL for any other term. */
+/* Returns the antiderivative of a term with respect to q, or NULL. The term must be a power of q times a factor without
+ * q, or a sine or cosine whose angle is linear in q. */
 static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *q) {
     const mono *m = t->mono;
     const poly *factors = poly_number(a, t->coefficient);
@@ -98,8 +97,8 @@ static const poly *integrate_term(algebra *a, const poly_term *t, const symbol *
     return poly_mul(a, factors, turned);
 }
 
-/* Returns the function G with dG/dq_j = mass[j] for every unknown j, or NULL if there is none. Powers of sums are
- * multiplied out first, because they could prevent a result. */
+/* Returns the function G with dG/dq_j = mass[j] for every unknown j, or NULL if there is none. Powers of sums, which
+ * integrate_term() rejects, are multiplied out first. */
 static const poly *potential_of(const equations *e, const poly *const *mass) {
     algebra *a = e->algebra;
     const poly *g = poly_number(a, 0.0);
@@ -161,7 +160,7 @@ typedef struct momentum_law {
     const poly *others; /* the terms of G without conserved coordinates */
 } momentum_law;
 
-/* Solves sum_l m_kl x_l = right_k for x by Cramer's rule. The sum is over the conserved coordinates l. */
+/* Solves sum_l m_kl x_l = right_k for x by Cramer's rule, over the conserved coordinates l. */
 static void solve_conserved(const equations *e, const conservation *c, const momentum_law *laws,
                             const poly *const *right, const poly **x) {
     algebra *a = e->algebra;
@@ -185,8 +184,8 @@ static void solve_conserved(const equations *e, const conservation *c, const mom
 
 const symbol conservation_time = {.kind = SYM_INPUT, .name = "time", .text = "", .unit = "s"};
 
-/* Solves for the conserved rates: each momentum minus the terms of the other rates. If `closed`, also solves for the
- * coordinates: G(start) + p t minus `others`. */
+/* Solves for the conserved rates: each momentum minus the terms of the other rates. If `closed`, also for the
+ * coordinates. */
 static void recover(const equations *e, conservation *c, const momentum_law *laws) {
     algebra *a = e->algebra;
     const poly *rates[CONSERVED_MAX];
@@ -223,7 +222,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
         law->mass[j] = equations_fold(e, e->mass[i * n + j]);
         c->closed = c->closed && (c->number[j] < 0 || poly_is_number(law->mass[j], &value));
     }
-    /* if a force depends on the coordinate, it is integrated: `closed` needs the time, which a step does not know */
+    /* a coordinate on which a force depends must be integrated: `closed` needs the time, which a step does not know */
     c->closed = c->closed && !influence_of(e, e->unknowns[i].symbol);
     if (energy_momentum_is_linear(e, i)) {
         return true;
@@ -233,7 +232,7 @@ static bool make_law(const equations *e, conservation *c, int k, momentum_law *l
     return false;
 }
 
-/* Finds G for each law. If one law has none, the coordinates are integrated. */
+/* Finds G for each law. If one law has no G, the coordinates are integrated. */
 static void make_potentials(const equations *e, conservation *c, momentum_law *laws) {
     algebra *a = e->algebra;
     for (int k = 0; k < c->count && c->closed; k++) {

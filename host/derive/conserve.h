@@ -1,14 +1,13 @@
 /* conserve.h: coordinates recovered from their conserved momentum instead of being integrated (Routh's procedure;
  * Goldstein, Classical Mechanics, section 8.3).
  *
- * A coordinate X that appears in no energy and feels no force keeps its momentum
+ * A coordinate X that appears in no energy and feels no force has a constant momentum
  *
  *     p = dL/dX' = sum_j m_Xj(q) q_j',
  *
- * so X' follows from the other rates. If the momentum is the rate of a function G(q) (a centre of mass times the total
- * mass), X follows, too: G(q) = G(q0) + p t. Then neither X nor X' is part of the state, and their drift is round-off
- * only. Otherwise X is integrated from X'. X is integrated, too, if a force or a contact depends on X, because a step
- * does not know the time. */
+ * so X' follows from the other rates. If the momentum is the rate of a function G(q), such as total mass times centre
+ * of mass, X follows, too: G(q) = G(q0) + p t. Then neither X nor X' is part of the state, and their drift is round-off
+ * only. Otherwise, or if a force or contact depends on X, X is integrated from X': a step does not know t. */
 #ifndef DERIVE_CONSERVE_H
 #define DERIVE_CONSERVE_H
 
@@ -24,14 +23,12 @@ typedef struct conservation {
     const poly **value;
 } conservation;
 
-/* Largest number of coordinates of one scene that are recovered from momenta. */
-#define CONSERVED_MAX 3
+#define CONSERVED_MAX 3 /* coordinates of one scene that are recovered from momenta */
 
-/* The symbol of time in the polys above. */
-extern const symbol conservation_time;
+extern const symbol conservation_time; /* the symbol of time in value[] */
 
-/* Recovers the coordinates for which wanted[equations->count] is true (NULL: none). Returns NULL, and reports the
- * reason, if such a coordinate's momentum is not conserved. */
+/* Recovers the coordinates for which wanted[equations->count] is true (NULL: none). Returns NULL, reported, if the
+ * momentum of such a coordinate is not conserved. */
 conservation *conservation_make(const equations *e, const bool *wanted, diags *errors);
 void conservation_free(conservation *c);
 

@@ -1,4 +1,4 @@
-/* diagnostic_expressions.c: the list of the file's expressions as written, and of the derivatives of energies and gaps. */
+/* diagnostic_expressions.c: the expressions as written in the model file, and the derivatives of energies and gaps. */
 #include "diagnostic_expressions.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include "host/base/alloc.h"
 
-/* The nodes of the polys or atoms that are already entered: node[id] is the node plus one, or 0. */
+/* The nodes of the polys or atoms entered so far: node[id] is the node plus one, or 0. */
 typedef struct known {
     int *node;
     unsigned room;
@@ -60,7 +60,7 @@ static int enter_symbol(maker *k, const symbol *s, int primes) {
 
 static int of_expr(maker *k, const expr *tree);
 
-/* A let may be used in many expressions, but its nodes are entered once. */
+/* The nodes of a let are entered once. */
 static int of_let(maker *k, const symbol *let) {
     if (k->let[let->index] < 0) {
         k->let[let->index] = of_expr(k, let->value);
@@ -97,7 +97,7 @@ static int of_expr(maker *k, const expr *tree) {
     return node;
 }
 
-/* Returns the place of the node with this id, which is valid until the next call. */
+/* Returns the place of this id in node[], which is valid until the next call. */
 static int *node_of(known *of, unsigned id) {
     if (id >= of->room) {
         of->node = alloc_more(of->node, 2 * (int64_t)id + 1, sizeof *of->node);
@@ -161,7 +161,8 @@ static int of_poly(maker *k, const poly *p) {
     return node;
 }
 
-/* Returns true for sums and products of numbers, symbols and waves, which are differentiable at every state. */
+/* Is p built only from numbers, symbols, sines and cosines by sums and products? Then it is differentiable
+ * everywhere. */
 static bool has_slopes(const poly *p) {
     for (int i = 0; i < p->count; i++) {
         const mono *m = p->terms[i].mono;
@@ -194,7 +195,7 @@ static void ask_value(maker *k, place where, const expr *tree, const char *what)
     }
 }
 
-/* Enters the derivatives of an expression by all coordinates (primes 0) or by all rates (primes 1). */
+/* Enters the derivatives by all coordinates (primes 0) or by all rates (primes 1). */
 static void ask_slopes(maker *k, place where, const expr *tree, const char *what, int primes) {
     const equations *e = k->equations;
     const poly *value = poly_from_expr(e->algebra, tree);

@@ -5,8 +5,7 @@
 #include "host/derive/equations.h"
 #include "image_parts.h"
 
-/* Enters the expressions into the image's blame list, with the conditions of each contact. The image must already
- * have its inputs and contacts. */
+/* Enters the expressions and the contacts' conditions into the image, which must have its inputs and contacts. */
 void diagnostics_make(image_draft *d, const equations *e);
 
 #endif

@@ -9,7 +9,6 @@
 
 static void contact_laws_free(contact_laws *laws);
 
-/* Returns the rate of `value`: sum_i d(value)/dq_i q_i'. */
 static const poly *rate_of(algebra *a, const mechanism *m, const poly *value) {
     const poly *sum = poly_number(a, 0.0);
     for (int i = 0; i < m->coordinate_count; i++) {
@@ -77,7 +76,7 @@ bool contact_loosens(const contact_statement *h) {
     return h->kind == CONTACT_WHEN && h->normal != NULL;
 }
 
-/* Does the motion change the value? Inputs change it only between steps. */
+/* Does the value change within a step? Inputs change only between steps. */
 static bool moves(algebra *a, const mechanism *m, const poly *value) {
     for (int i = 0; i < m->coordinate_count; i++) {
         for (int primes = 0; primes < 2; primes++) {
@@ -332,8 +331,8 @@ static const poly *no_rate(void *context, algebra *a, const symbol *s, int prime
     return s->kind == SYM_COORDINATE && primes == 1 ? poly_number(a, 0.0) : NULL;
 }
 
-/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? If the masses contain no rates, and the
- * momenta are their products with the rates, only a part of T without rates could be left. */
+/* Is T a homogeneous quadratic form of the rates, and does V contain no rate? If the masses contain no rates and the
+ * momenta are linear, T = q' M q'/2 plus at most a part without rates. */
 static bool is_quadratic(const equations *e) {
     bool quadratic = !has_rates(e, e->stored) && !energy_mass_has_rates(e);
     for (int i = 0; i < e->count && quadratic; i++) {

@@ -37,11 +37,11 @@ typedef struct contact_laws {
     int loosening;
 } contact_laws;
 
-/* True for the crossing at which a friction's varying normal force reaches or leaves zero. The force has a kink there,
- * and a step of fourth order must not span it. The crossing sets nothing. */
+/* True for the crossing at which a friction's varying normal force reaches or leaves zero. It sets nothing. The force
+ * has a kink there, which a step of fourth order must not span. */
 bool contact_loosens(const contact_statement *h);
 
-/* The active contacts of the instance; NULL without any. */
+/* The active contacts of the instance, or NULL. */
 contact_laws *contact_laws_make(algebra *a, const instance *inst);
 
 /* Can this contact, or any of these contacts, change the momentum of coordinate i? */
@@ -50,21 +50,20 @@ bool contact_laws_push(const contact_laws *laws, int i);
 
 /* === forces =================================================================================== */
 
-/* The forces of one statement Q or F: Q_i or -dF/dq_i', and their power, the sum of force times rate. Positive power
- * adds energy. The equations of motion, the power balance and the ledger's entries all use them. */
+/* The forces of one statement Q or F, Q_i or -dF/dq_i', and their power sum_i force_i q_i', which is positive if it
+ * adds energy. The equations of motion, the power balance and the ledger use them. */
 typedef struct statement_force {
     const term *from;
     const poly **force; /* [coordinates] of the mechanism */
     const poly *power;
 } statement_force;
 
-/* Returns the forces of the active statements, in the order of the file; *count: their number, 0 for a system. The
- * algebra may overflow. Free with forces_free(). */
+/* Returns the forces of the active statements in the file's order; *count is 0 for a system. The algebra may
+ * overflow. */
 statement_force *forces_derive(algebra *a, const instance *inst, int *count);
 
-/* Returns the total of these forces on coordinate i. */
 const poly *forces_on(algebra *a, const statement_force *forces, int count, int i);
-/* Returns the power of all statements of a kind, TERM_Q or TERM_F. */
+/* The power of all statements of a kind, TERM_Q or TERM_F. */
 const poly *forces_power(algebra *a, const statement_force *forces, int count, term_kind kind);
 
 typedef struct unknown {
@@ -99,17 +98,16 @@ typedef struct equations {
 
 void equations_free(equations *e);
 
-/* Returns expression i of contact k: its law's, then its row or the values that it sets. NULL after the last one. */
+/* Returns expression i of contact k: those of its law, then of its row or the values that it sets; NULL after the
+ * last. */
 const poly *contact_law_poly(const equations *e, int k, int i);
 
-/* The place of the first kinetic energy. */
 place equations_kinetic_place(const instance *inst);
 
-/* Returns the value of a coordinate, a rate or an input at the generic state `seed`: a hash of seed and symbol, between
- * 0.1 and 1.8 for even seeds, and between -0.9 and 0.8 for odd ones. */
+/* Returns the value of a coordinate, rate or input at the generic state `seed`: a hash of seed and symbol, between 0.1
+ * and 1.8 for even seeds, and between -0.9 and 0.8 for odd seeds. */
 double equations_generic(uint64_t seed, const symbol *s, int primes);
 
-/* Reports that the equations exceed the limits of size. */
 void equations_report_growth(const equations *e, diags *errors);
 
 /* Returns the right-hand side f_i of M q'' = f: all terms without the highest derivatives. */
@@ -119,24 +117,23 @@ const poly *equations_force(const equations *e, int i);
 const poly *equations_fold(const equations *e, const poly *p);
 
 /* === the energy in the balance ================================================================ */
-/* The quantity in the energy balance.
- *
- * Lagrange's equations with forces Q and a dissipation function F change the energy integral (Jacobi's)
+/* Lagrange's equations with forces Q and a dissipation function F change the energy integral (Jacobi's)
  *
  *     h = sum_i q_i' dL/dq_i' - L,      dh/dt = sum_i q_i' (Q_i - dF/dq_i') - (dL/dt of the inputs),
  *
  * and no other sum of energies (Goldstein, Classical Mechanics, section 2.7). If T is a homogeneous quadratic form of
- * the rates and V contains no rate, h is T + V. On a turntable, in a magnetic potential or at relativistic speeds it is
- * not. There T + V also changes by the work of the turntable's drive, which no statement of the file mentions. */
+ * the rates and V contains no rate, h is T + V. Otherwise, as on a turntable, in a magnetic potential or at
+ * relativistic speeds, T + V also changes by work that no statement of the file mentions, such as that of the
+ * turntable's drive. */
 
-/* Returns the energy integral h, with folded constants, if it differs from T + V; otherwise, and for a system, NULL.
- * If h equals T + V, no expression is added to the algebra, so that the generated code does not change. */
+/* Returns h, with folded constants, or NULL if it equals T + V, or for a system. In the first case it adds no
+ * expression to the algebra, so that the generated code does not change. */
 const poly *energy_integral(const equations *e);
 
 /* Returns the power of the drive of unknown i, which is an input with a rate. Contacts are not included. */
 const poly *energy_drive(const equations *e, int i);
 
-/* Is the momentum of unknown i linear in the rates, p_i = sum_j m_ij q_j'? */
+/* Is p_i = sum_j m_ij q_j'? */
 bool energy_momentum_is_linear(const equations *e, int i);
 
 /* Does any mass depend on a rate? Then an impulse is not mass times the change of the rates. */

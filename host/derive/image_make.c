@@ -1,4 +1,4 @@
-/* image_make.c: the image, and its variants with other ways of folding numbers. */
+/* image_make.c: the image, and its variants with other roundings of folded numbers. */
 #include "host/derive/image_make.h"
 
 #include <stdio.h>
@@ -40,11 +40,10 @@ static void time_it(image *im, const instance *inst) {
     im->until_s = inst->until_s;
 }
 
-/* Largest number of parts of a start value that is_written() examines. The number of parts may double with each level
- * of lets, as in p*p with p = q*q. */
+/* Largest number of parts that is_written() examines. Each level of lets may double them, as in p*p with p = q*q. */
 enum { MOST_PARTS = 1000 };
 
-/* Is the expression a product of literal numbers? Otherwise a value near zero may be the round-off of a sum. */
+/* Is the expression a product of literal numbers? If not, a value near zero may be the round-off of a sum. */
 static bool is_written(const instance *inst, const expr *e, int *parts) {
     if (++*parts > MOST_PARTS) {
         return false;
@@ -81,7 +80,6 @@ static void start_unknown(image_draft *d, const instance *inst, int i) {
                        is_written(inst, inst->start_given[i][0].value, &parts);
 }
 
-/* Sets the starts of the components and the inputs from those of the unknowns. */
 static void start_components(image_draft *d) {
     image *im = d->made;
     im->start_rad = image_room(d, im->angles, sizeof *im->start_rad);
@@ -98,7 +96,6 @@ static void start_components(image_draft *d) {
     }
 }
 
-/* Returns the unit of a momentum: energy divided by rate. */
 static const char *momentum_unit(image_draft *d, const symbol *q) {
     char si[DIM_TEXT_SIZE];
     dimension dim = dim_none();
@@ -156,7 +153,7 @@ static const char *primed_name(image_draft *d, const char *name, int primes) {
     return image_text(d, text);
 }
 
-/* Returns the range of a symbol's derivative, or one that is not declared. */
+/* Returns the range of a symbol's derivative. It may be undeclared. */
 static image_range range_of(image_draft *d, const instance *inst, const char *name, place at,
                             const symbol *s, int primes) {
     image_range made = {.name = name, .at = at};
@@ -169,7 +166,7 @@ static image_range range_of(image_draft *d, const instance *inst, const char *na
     return made;
 }
 
-/* Copies the declared ranges of components and inputs, which fixed point uses. */
+/* Copies the declared ranges of components and inputs, for fixed point. */
 static void copy_ranges(image_draft *d, const equations *e, const layout *map) {
     image *im = d->made;
     const instance *inst = e->instance;
@@ -197,7 +194,6 @@ static void *copy(image_draft *d, const void *from, int count, size_t size) {
     return made;
 }
 
-/* Returns the number in the image of an input of the mechanism. */
 static int input_number(const layout *map, const symbol *input) {
     int number = 0;
     while (map->input[number] != input->index) {
@@ -220,7 +216,6 @@ static void take_drives(image_draft *d, const layout *map) {
     }
 }
 
-/* Copies the layout of the state. */
 static void copy_layout(image_draft *d, const program *p) {
     image *im = d->made;
     const layout *map = &p->layout;
@@ -238,7 +233,7 @@ static void copy_layout(image_draft *d, const program *p) {
     take_drives(d, map);
 }
 
-/* Makes the requested matrix, if any. Returns the image, or NULL after reporting the reason. */
+/* Makes the requested matrix, if any. Returns the image, or NULL (reported). */
 static image *with_matrix(image_draft *d, const equations *e, diags *errors) {
     const bool good = d->made->settings.matrix == MATRIX_NONE || matrix_make(d, e, errors);
     image *made = image_draft_done(d);
@@ -249,7 +244,7 @@ static image *with_matrix(image_draft *d, const equations *e, diags *errors) {
     return made;
 }
 
-/* As image_make(), but without the variants of other ways of folding. */
+/* As image_make(), without variants. */
 static image *image_once(const equations *e, const bool *conserve, const image_settings *settings,
                          image_use use, diags *errors) {
     program *p = program_make(e, conserve, settings, errors);
@@ -259,8 +254,8 @@ static image *image_once(const equations *e, const bool *conserve, const image_s
     }
     image_draft *d = &p->draft;
     image *im = d->made;
-    /* Lists are scaled for compensated steps only. Three kinds stay unscaled: variants are not run in float, contacts
-     * use the same mass matrix, and tables are rounded separately. */
+    /* Only lists of compensated steps are scaled, with three exceptions: variants are not run in float, contacts use
+     * the same mass matrix, and tables are rounded separately. */
     if (settings->compensated && im->contacts == 0 && settings->tables == TABLES_NONE &&
         folding_way() == FOLDING_NEAREST) {
         op_list_scale(&im->list[IMAGE_STEP], op_list_scaling_price(im->list[IMAGE_STEP]));
@@ -317,13 +312,11 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* If folding loses more than this, relative to the folded number, an image to run gets variants, which show the
- * effect. */
+/* An image to run gets variants, which show the effect of folding, if that loses more than this (relative). */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");
 
-/* Do the two images have the same state and the same signals? */
 static bool is_alike(const image *im, const image *other) {
     bool alike = im->form == other->form && im->coordinates == other->coordinates &&
                  im->angles == other->angles && im->reals == other->reals &&
@@ -341,7 +334,7 @@ static bool is_alike(const image *im, const image *other) {
     return alike;
 }
 
-/* Evaluates and derives the scene again with another way of folding. Returns NULL if the result has another form. */
+/* Evaluates and derives the scene again in another way of folding. Returns NULL if the result is not alike. */
 static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();

@@ -5,18 +5,18 @@
 #include "host/derive/equations.h"
 #include "host/image/image.h"
 
-/* The purpose of an image. An image to run also has the expressions that may be undefined, in the spelling of the
- * file, so that a message can quote the failed one (host/check/nonfinite.h). One to check has its `finer`, too. */
+/* An image to run also has the expressions that may be undefined as written, for messages (host/check/nonfinite.h).
+ * One to check has its `finer`, too. */
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN, IMAGE_TO_CHECK } image_use;
 
-/* Returns an image with the lists of `base`, and with the starts, inputs, step and end of `inst`, which must be an
- * instance of the same mechanism and scene with the same parameters. If the step differs, the image gets its own
- * matrix. Returns NULL, and reports the reason, if there is no such matrix. Free `base` last. */
+/* Returns an image with the lists of `base`, and the starts, inputs, step and end of `inst`, an instance of the same
+ * mechanism and scene with the same parameters. For another step it gets its own matrix; if there is none, returns NULL
+ * (reported). Free `base` last. */
 image *image_again(const image *base, const instance *inst, diags *errors);
 
-/* Returns the image of an instance with the equations `e`, and its variants. `conserve` [count] names the coordinates
- * to recover from their momentum, or is NULL. The image has no pointers to `e`, the instance or the model, so all
- * three may be freed. Returns NULL after an error, reported (see program_make()). */
+/* Returns the image of an instance with the equations `e`, and its variants; NULL after an error (reported, see
+ * program_make()). `conserve` [count] selects the coordinates to recover from their momentum, or is NULL. The image has
+ * no pointers to `e`, the instance or the model. */
 image *image_make(const equations *e, const bool *conserve, const image_settings *settings,
                   image_use use, diags *errors);
 

@@ -17,16 +17,15 @@ image_draft image_draft_new(void);
 /* Frees the helper data, and returns the image. */
 image *image_draft_done(image_draft *d);
 
-/* Returns zeroed memory of the image for `count` elements; NULL for count 0. */
+/* Returns zeroed memory of the image, or NULL for count 0. */
 void *image_room(image_draft *d, int count, size_t size);
 const char *image_text(image_draft *d, const char *text);
 
-/* Converts a source place to one in the image's copy of the source; each source is copied once. */
+/* Converts a place to one in the image's copy of the source. */
 place image_place(image_draft *d, place at);
 
-/* Returns the unit of a symbol's derivative with `primes` primes. */
+/* The unit of a symbol's derivative with `primes` primes. */
 image_unit image_unit_of(image_draft *d, const symbol *s, int primes);
-/* Returns a quantity with this value, SI. */
 image_quantity image_quantity_of(image_draft *d, const symbol *s, double value);
 
 #endif

@@ -11,10 +11,8 @@
 #include "host/number/functions.h"
 #include "host/number/gauss.h"
 
-/* Number of passes over rows and over columns. Each pass halves the error of the scales' logarithms. */
-#define PASSES 16
-/* A pivot below this, relative to the scaled size, is round-off even if the entries are exact. */
-#define NO_PIVOT 4e-14
+#define PASSES 16 /* over rows and over columns; each halves the error of the scales' logarithms */
+#define NO_PIVOT 4e-14 /* relative to the scaled size: round-off, even of exact entries */
 
 /* The power of two nearest to 1/sqrt(x); 1 for zero. */
 static double scale_for(double x) {
@@ -58,7 +56,7 @@ static double largest_of(const double *m, int n, line of) {
     return largest;
 }
 
-/* Scales all rows in one pass, and all columns in the next pass. Each is divided by the root of its largest entry. */
+/* Scales all rows, then all columns, in each of PASSES rounds: divides by the root of the largest entry. */
 static void scale_general(double *m, double *error, int n) {
     for (int pass = 0; pass < 2 * PASSES; pass++) {
         for (int i = 0; i < n; i++) {
@@ -102,15 +100,12 @@ bool rank_is_positive(double *m, int n) {
 }
 
 /* === can the equations be solved for the highest derivatives? ================================= */
-/* Number of generic states at which the mass matrix is tested. */
 
-#define TRIES 24
+#define TRIES 24 /* generic states at which the mass matrix is tested */
 /* The last tried state is the start of the run, because some mass matrices are defined only there. */
 #define TRY_START TRIES
-/* Round-off of an entry, relative to the sum of its terms' sizes. */
-#define ENTRY_ROUNDING 4e-16
-/* If the relative error of the mass matrix is below this, no better state is searched for. */
-#define MASS_BLUR_FINE 1e-10
+#define ENTRY_ROUNDING 4e-16 /* of an entry, relative to the sum of its terms' sizes */
+#define MASS_BLUR_FINE 1e-10 /* below this, no state with a smaller mass_blur is searched for */
 
 enum { HINT_SIZE = 320 };
 
@@ -119,8 +114,8 @@ typedef struct generic_state {
     uint64_t seed;
 } generic_state;
 
-/* At TRY_START, every symbol has its value at the start. At other states, parameters and inputs have their values, and
- * other symbols those of a generic state. */
+/* At TRY_START, every symbol has its start value; elsewhere only parameters and inputs have it, and others are
+ * generic. */
 static double generic_value(void *context, const symbol *s, int primes) {
     const generic_state *state = context;
     if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT || state->seed == TRY_START) {
@@ -129,11 +124,9 @@ static double generic_value(void *context, const symbol *s, int primes) {
     return equations_generic(state->seed, s, primes);
 }
 
-/* Memory for four n by n matrices; the caller frees it. */
 static double *room_for(int n) { return alloc(4 * (int64_t)n * n, sizeof(double)); }
 
-/* Computes the mass matrix at one tried state, and the error bounds of its entries. Returns false if one is not
- * finite. */
+/* Computes the mass matrix at a tried state, and the error bounds of its entries. Returns false if it is not finite. */
 static bool mass_at(const equations *e, int try, double *m, double *error) {
     generic_state state = {e->instance, (uint64_t)try};
     bool finite = true;
@@ -145,8 +138,7 @@ static bool mass_at(const equations *e, int try, double *m, double *error) {
     return finite;
 }
 
-/* Returns the first row whose highest derivatives depend on those of the rows above, at the first try with finite
- * values; -1 if all rows are independent. */
+/* Returns the first row of the mass matrix that depends on those above, at the first try with finite values, or -1. */
 static int dependent_row(const equations *e) {
     const int n = e->count;
     double *m = room_for(n);
@@ -182,7 +174,7 @@ static place place_of_equation(const equations *e, int row) {
     return m->at;
 }
 
-/* Has the row no highest derivative? Then the equation constrains the states, but does not move them. */
+/* Has the row no highest derivative? Then its equation constrains the states, but does not move them. */
 static bool row_is_empty(const equations *e, int row) {
     bool empty = true;
     for (int j = 0; j < e->count; j++) {
@@ -223,7 +215,7 @@ static const char *effect_with_inertia(const equations *e, const symbol *s) {
     return NULL;
 }
 
-/* Returns the number of tried states at which this part of the kinetic energy is negative. */
+/* Returns the number of tried states at which this term of the kinetic energy is negative. */
 static int times_negative(const equations *e, const term *t) {
     const poly *value = poly_from_expr(e->algebra, t->value);
     int negative = 0;
@@ -234,8 +226,7 @@ static int times_negative(const equations *e, const term *t) {
     return negative;
 }
 
-/* Returns the part of the kinetic energy that is negative at the largest number of states, which is *most. NULL if no
- * part is ever negative. */
+/* Returns the term of the kinetic energy that is negative at the most states, *most; NULL if none ever is. */
 static const term *negative_part(const equations *e, int *most) {
     const mechanism *of = e->instance->mechanism;
     const term *found = NULL;
@@ -297,8 +288,7 @@ static void report_singular(const equations *e, diags *errors) {
         e->instance->mechanism->name);
 }
 
-/* Are the energies finite, including constant parts? Constants vanish from the equations, but 1/0 in a constant is a
- * mistake of the user. */
+/* Constants vanish from the equations, but are checked, too: a 1/0 in one is a mistake of the user. */
 static bool energies_finite(const equations *e, generic_state *state) {
     return e->kinetic == NULL || (isfinite(poly_evaluate(e->kinetic, generic_value, state)) &&
                                   isfinite(poly_evaluate(e->stored, generic_value, state)));
@@ -307,7 +297,7 @@ static bool energies_finite(const equations *e, generic_state *state) {
 /* The result of one tried state, from worst to best. */
 typedef enum solvability { NOWHERE_FINITE, SINGULAR, NOT_POSITIVE, SOLVABLE } solvability;
 
-/* Returns the largest error of a regular matrix after rank_of(), divided by its smallest pivot. */
+/* The largest error of a regular matrix after rank_of(), divided by its smallest pivot. */
 static double blur_of(const double *m, const double *error, int n) {
     double least = (double)INFINITY;
     double most = 0.0;
@@ -318,7 +308,7 @@ static double blur_of(const double *m, const double *error, int n) {
     return most / least;
 }
 
-/* Returns the result at one tried state. *blur is set if it is SOLVABLE. `m` comes from room_for(n). */
+/* *blur is set if the result is SOLVABLE. `m` comes from room_for(n). */
 static solvability solvability_at(const equations *e, int try, double *m, double *blur) {
     const int n = e->count;
     generic_state state = {e->instance, (uint64_t)try};
@@ -339,14 +329,14 @@ static solvability solvability_at(const equations *e, int try, double *m, double
         return SINGULAR;
     }
     *blur = blur_of(m, error, n);
-    /* The elimination of a mechanism relies on a positive definite matrix. A system's equations may have any order and sign. */
+    /* Eliminating a mechanism needs a positive definite matrix. A system's equations may have any order and sign. */
     return is_system || rank_is_positive(kept, n) ? SOLVABLE : NOT_POSITIVE;
 }
 
-/* Tries the mass matrix at generic states and at the start. Returns false, with an error that names the cause, if the
- * matrix is singular or undefined at all of them. The mass matrix of a mechanism given by energies must also be
- * positive definite at one of them; otherwise a mass is negative. A matrix that is singular only at some states, such
- * as a pole of spherical coordinates, passes: the run finds such states. Sets e->mass_blur. */
+/* Returns false, with an error that names the cause, if the mass matrix is singular or undefined at all tried states.
+ * That of a mechanism given by energies must also be positive definite at one of them; otherwise a mass is negative. A
+ * matrix that is singular only at some states, such as a pole of spherical coordinates, passes: the run finds these
+ * states. Sets e->mass_blur. */
 static bool equations_check_solvable(equations *e, diags *errors) {
     const int n = e->count;
     double *m = room_for(n);
@@ -417,8 +407,7 @@ static const poly *acceleration_of(algebra *a, const symbol *driven) {
     return input != NULL ? poly_symbol(a, input, 0) : poly_number(a, 0.0);
 }
 
-/* Sets the equation of a driven coordinate: q'' is the acceleration of its input. A driven coordinate has no
- * momentum, and no force moves it. */
+/* A driven coordinate's equation is q'' = its input's acceleration. It has no momentum, and no force moves it. */
 static void drive(equations *e, int i) {
     algebra *a = e->algebra;
     e->momentum[i] = e->velocity[i] = e->potential[i] = poly_number(a, 0.0);
@@ -542,7 +531,6 @@ static bool derive_system(equations *e, diags *errors) {
 
 static const poly **polys(int count) { return alloc(count, sizeof(const poly *)); }
 
-/* Do the equations exceed the limits of the algebra, or are they larger than POLY_SIZE_MAX? */
 static bool too_large(const equations *e) {
     if (algebra_overflow(e->algebra)) {
         return true; /* the result is then incomplete */

@@ -8,22 +8,20 @@
 
 /* === the rank of a matrix of numbers, independent of its units ================================ */
 
-/* The rank of m[n * n], by rows, with entries known to within error[n * n] >= 0. Both are overwritten. If the
- * matrix is regular, each row of m then has one pivot, and else zeros.
+/* The rank of m[n * n], by rows, with entries known to within error[n * n] >= 0. Both are overwritten. If the matrix is
+ * regular, each row of m then has one pivot, and zeros elsewhere.
  *
- * Rows and columns are first scaled by powers of two. With a positive diagonal and `symmetric`, the diagonal
- * becomes about one (van der Sluis, "Condition numbers and equilibration of matrices", 1969: no scaling of a
- * positive definite matrix does much better). Otherwise the largest entries become about one (Ruiz, 2001). So
- * the units of coordinates and the ratios of masses do not matter, only the independence of the directions. A
- * pivot counts as zero if it is within the error bound of its elimination. */
+ * Rows and columns are first scaled by powers of two, so that units of coordinates and ratios of masses do not matter.
+ * If `symmetric` and the diagonal is positive, the diagonal becomes about one (van der Sluis, "Condition numbers and
+ * equilibration of matrices", 1969: no scaling of a positive definite matrix does much better). Otherwise the largest
+ * entries become about one (Ruiz, 2001). A pivot counts as zero if it is within the error bound of its elimination. */
 int rank_of(double *m, double *error, int n, bool symmetric);
 
-/* Is a regular symmetric matrix positive definite? m is destroyed. */
+/* Is a regular symmetric matrix positive definite? m is overwritten. */
 bool rank_is_positive(double *m, int n);
 
-/* Derives the equations. Returns NULL after an error, reported to `errors`. Errors are a coordinate without kinetic
- * energy, a singular mass matrix, an equation that is nonlinear in the highest derivative, and an expression above the
- * limit of size. */
+/* Returns NULL after an error (reported): a coordinate without kinetic energy, a singular mass matrix, an equation that
+ * is nonlinear in the highest derivative, or an expression above the limit of size. */
 equations *equations_derive(const instance *inst, diags *errors);
 
 #endif

@@ -6,8 +6,7 @@
 #include "host/base/alloc.h"
 #include "host/base/hashing.h"
 
-/* Returns the operation that adds a noise to `node`. The seed includes the hash of the output's name, so that the
- * noises of two outputs differ if their seeds are equal. */
+/* Adds noise to `node`. The output's name enters the seed, so that outputs with equal seeds have different noise. */
 static int with_noise(const equations *e, lowering *l, const noise *each, int node) {
     op_list *t = l->list;
     const poly *deviation = poly_from_expr(e->algebra, each->deviation);
@@ -33,7 +32,7 @@ const poly *layout_recorded(const layout *map, const symbol *record) {
     return layout_ready(map, poly_from_expr(map->equations->algebra, record->value));
 }
 
-/* Returns the operation for a recorded output: the output with its active noises. */
+/* The operation for a recorded output with its active noises. */
 static int record_leaf(const layout *map, const symbol *record) {
     const mechanism *m = map->equations->instance->mechanism;
     int node = lower(map->recording, layout_recorded(map, record));
@@ -56,7 +55,7 @@ static int layout_turn(void *context, const symbol *s) {
     return moves ? map->angle_number[s->index] : -1;
 }
 
-/* Returns the operation for an input. An input of an inactive effect cannot change, so it is a constant. */
+/* The operation for an input. An input of an inactive effect cannot change, so it is a constant. */
 static int input_leaf(const layout *map, op_list *t, const symbol *s) {
     for (int i = 0; i < map->inputs; i++) {
         if (map->input[i] == s->index) {
@@ -90,8 +89,7 @@ static int layout_leaf(void *context, op_list *t, const symbol *s, int primes) {
     return op_list_leaf(t, OP_LINEAR, real);
 }
 
-/* Is this derivative of unknown i in the state? If the unknown is conserved, its rate is not in the state, and its
- * value only if it is integrated. */
+/* Is this derivative in the state? A conserved unknown's rate is not, and its value only if it is integrated. */
 static bool in_state(const layout *map, int i, int primes) {
     if (map->conserved->number[i] < 0) {
         return primes < map->equations->unknowns[i].order;
@@ -104,7 +102,7 @@ static int add_real(layout *map, int i, int primes) {
     return map->reals++;
 }
 
-/* Arranges the inputs, without those of inactive effects. */
+/* Skips the inputs of inactive effects. */
 static void arrange_inputs(layout *map, const instance *inst) {
     const mechanism *m = inst->mechanism;
     map->input = alloc(m->input_count, sizeof *map->input);

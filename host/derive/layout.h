@@ -10,8 +10,8 @@
 
 /* === noise on recorded quantities: on outputs, and on measures of recorded outputs ============ */
 
-/* Adds the active noises to the outputs of the mechanism in result[mechanism->output_count]. In a sweep, measures
- * take the place of outputs; measures get no noise. */
+/* Adds the active noises to result[mechanism->output_count], or nothing in a sweep, in which measures replace
+ * outputs. */
 void noise_on_outputs(const equations *e, lowering *l, int *result);
 
 typedef struct layout {
@@ -30,25 +30,25 @@ typedef struct layout {
     int *angle_number; /* [unknown] turn angle, or -1 */
     int *real_number;  /* [unknown * order_room + primes] real component, or -1 */
     int order_room;
-    /* while a list is entered: operations of the highest derivatives by unknown; else NULL */
+    /* while a list is entered: the operation of each unknown's highest derivative; else NULL */
     const int *highest;
     /* while a list with recorded outputs (SYM_RECORD, the inputs of measures) is entered; else NULL */
     lowering *recording;
 } layout;
 
-/* Arranges the state. An angle that dynamics[count] contain only inside sines and cosines becomes a turn angle.
- * Returns false if there are too many components. */
+/* An angle that dynamics[count] contain only inside sines and cosines becomes a turn angle. Returns false if there are
+ * too many components. */
 bool layout_arrange(layout *map, const equations *e, const conservation *conserved,
                     const poly *const *dynamics, int count);
 void layout_free(layout *map);
 
-/* Returns p ready for a list: folded, and without conserved coordinates. */
+/* Makes p ready for a list: folds it, and replaces conserved coordinates. */
 const poly *layout_ready(const layout *map, const poly *p);
 
-/* Returns the output of a record without its noise, ready for a list. */
-const poly *layout_recorded(const layout *map, const symbol *record);
+const poly *layout_recorded(const layout *map,
+                            const symbol *record); /* without its noise, ready for a list */
 
-/* Returns a lowering onto `t` that finds its leaves and turn angles by this layout. */
+/* The leaves and turn angles of the lowering come from this layout. */
 lowering layout_lowering(layout *map, op_list *t);
 
 #endif

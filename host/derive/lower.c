@@ -55,21 +55,18 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
 
 /* === powers from multiple angles ============================================================== */
 /* With s = sin(x)^2 and c = cos(x)^2, a sum over k = 0 ... n of a_k cos 2kx is a sum of products s^j c^(n-j). A sum of
- * sin 2kx is sin x cos x times such a sum of degree n - 1. If the sum cancels near x = 0, the coefficient of c^n is
- * zero, and the products keep the digits. Near x = pi/2 the same is true of s^n. */
+ * sin 2kx is sin x cos x times such a sum of degree n - 1. If the sum vanishes at x = 0, the coefficient of c^n is
+ * zero, and the products keep the digits that the sum loses by cancellation. At x = pi/2 the same is true of s^n. */
 
-/* Coefficients whose relative difference is smaller than this come from the same number. */
-#define SAME_PIECE 1e-13
-/* A sum that is smaller than this, relative to its addends, counts as cancelled, as in the algebra. */
-#define CANCELLED 1e-14
-/* Powers up to sin(x)^16, from k = 0 ... 8. */
-#define MULTIPLE_MAX 8
+#define SAME_PIECE 1e-13 /* relative difference of coefficients that come from one number */
+#define CANCELLED 1e-14  /* relative to the addends, as in host/algebra */
+#define MULTIPLE_MAX 8   /* largest k: powers up to sin(x)^16 */
 #define INDICES (MULTIPLE_MAX + 1)
-/* The powers' products may be larger than the terms of the original sum. If they are larger by more than this factor at some
- * angle, the digits lost there exceed the digits gained near the zero, and the sum is not rewritten. */
+/* If the products exceed the terms of the original sum by more than this factor at some angle, more digits are lost
+ * there than gained near the zero, and the sum is not rewritten. */
 #define GROWTH_MAX 8.0
 
-/* Compares member by member, because padding bytes between a 32-bit pointer and a double are undefined. */
+/* By member, because padding bytes between a 32-bit pointer and a double are undefined. */
 static bool same_factors(const mono *x, const mono *y) {
     bool same = x->count == y->count;
     for (int i = 0; i < x->count && same; i++) {
@@ -110,8 +107,8 @@ static int multiple_of(const poly *angle, const poly *base) {
     return good ? (int)m : 0;
 }
 
-/* Collects the terms of the family of term `base`. Returns false if the angle of `base` is itself a multiple of
- * another term's angle. */
+/* Collects the terms whose angle is a multiple of that of term `base`. Returns false if that is a multiple of
+ * another. */
 static bool collect(const poly *p, const bool *used, int base, family *f) {
     const mono *lead = p->terms[base].mono;
     *f = (family){.trig = lead->trig};
@@ -137,7 +134,7 @@ static bool collect(const poly *p, const bool *used, int base, family *f) {
     return true;
 }
 
-/* A sum of coefficient[j] s^j c^(degree-j). `added` has the sums of the absolute values of the addends. */
+/* The sum of coefficient[j] s^j c^(degree-j). added[j]: the absolute values of its addends. */
 typedef struct expansion {
     int degree;
     double coefficient[INDICES];
@@ -152,8 +149,8 @@ static void times_one(double *p, int degree) {
     }
 }
 
-/* Returns the family's sum, without a factor sin x cos x. P_k is cos 2kx, or sin 2kx / (sin x cos x). From P_0 = 1,
- * or from P_1 = 2, the recurrence is P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1). */
+/* Returns the family's sum, without the factor sin x cos x. P_k is cos 2kx, or sin 2kx / (sin x cos x): P_0 = 1, or P_1
+ * = 2, then P_(k+1) = 2 (c - s) P_k - (c + s)^2 P_(k-1). */
 static expansion expand(const family *f) {
     const int first = f->trig == TRIG_SIN ? 1 : 0;
     double before[INDICES + 1] = {0};
@@ -186,13 +183,13 @@ static expansion expand(const family *f) {
     return sum;
 }
 
-/* Returns the largest value of |sin x|^a |cos x|^b. */
+/* The largest value of |sin x|^a |cos x|^b. */
 static double largest_product(int a, int b) {
     const double share = a + b > 0 ? (double)a / (a + b) : 0.0;
     return number_power(share, a / 2.0) * number_power(1.0 - share, b / 2.0);
 }
 
-/* Writes the family's expansion to pieces[]. Returns the number of pieces, or 0 if the family should not change. */
+/* Writes the family's expansion to pieces[]. Returns the number of pieces, or 0 to leave the family unchanged. */
 static int products_of(algebra *a, const poly *p, int base, const family *f, piece *pieces) {
     const expansion sum = expand(f);
     double before = 0.0;
@@ -221,7 +218,7 @@ static int products_of(algebra *a, const poly *p, int base, const family *f, pie
     return f->last > 1 && vanishes && after <= GROWTH_MAX * before ? count : 0;
 }
 
-/* Expands every family, and marks its terms as used. Returns the number of pieces. */
+/* Expands families, and marks their terms as used. Returns the number of pieces. */
 static int find_families(algebra *a, const poly *p, bool *used, piece *pieces) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {
@@ -242,7 +239,7 @@ static int find_families(algebra *a, const poly *p, bool *used, piece *pieces) {
     return count;
 }
 
-/* Finds c (1 - cos 2x) and c (1 + cos 2x), also if other multiples of x are present. */
+/* Finds c (1 - cos 2x) and c (1 + cos 2x), which find_families() misses if other multiples of x are present. */
 static int find_squares(algebra *a, const poly *p, bool *used, piece *pieces) {
     int count = 0;
     for (int i = 0; i < p->count; i++) {
@@ -284,10 +281,9 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 }
 
 /* === which sines are evaluated ================================================================ */
-/* Sines and cosines of several angles are computed with as few evaluations as possible. Evaluating a pair costs some
- * thirty instructions, sin(a + b) from known pairs at most six. So the angles are taken in order of size, and a sum, a
- * difference or a double of earlier angles is computed from their pairs. solve.c also tries other angles as the
- * first. */
+/* Few sines and cosines are evaluated: an evaluated pair costs some thirty instructions, sin(a + b) from known pairs at
+ * most six. So the angles are taken in order of size, and a sum, a difference or a double of earlier angles is computed
+ * from their pairs. solve.c also tries other angles as the first. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
@@ -305,8 +301,7 @@ struct wave {
     int cosine;
 };
 
-/* Only this many of the smallest known angles are tried as parts of another angle. */
-#define PARTS_MAX 96
+#define PARTS_MAX 96 /* the smallest known angles, which are tried as parts of another angle */
 #define BETWEEN_MAX 32
 
 static int find(const lowering *l, const poly *angle) {
@@ -326,7 +321,7 @@ static int append(lowering *l, wave w) {
     return l->wave_count++;
 }
 
-/* Returns the size of an angle: the sum of the absolute coefficients, and a little for each term. */
+/* The sum of the absolute coefficients, plus a little for each term. */
 static double size_of(const poly *angle) {
     double size = 0.0;
     for (int i = 0; i < angle->count; i++) {
@@ -335,14 +330,12 @@ static double size_of(const poly *angle) {
     return size + 0.01 * angle->count;
 }
 
-/* Makes the first coefficient of an angle positive. *flipped: the sign has changed (cos(-x) = cos(x), sin(-x) =
- * -sin(x)). */
+/* Makes the first coefficient of an angle positive. *flipped: its sign has changed, and so has the sine's. */
 static const poly *upright(lowering *l, const poly *angle, bool *flipped) {
     *flipped = angle->count > 0 && angle->terms[0].coefficient < 0.0;
     return *flipped ? poly_scale(l->algebra, angle, -1.0) : angle;
 }
 
-/* Returns the nesting depth of sines in p. */
 static int sines_inside(const poly *p) {
     int most = 0;
     for (int i = 0; i < p->count; i++) {
@@ -361,13 +354,13 @@ static int sines_inside(const poly *p) {
     return most;
 }
 
-/* May a wave be part of this angle's rule? Not if the wave has more nested sines than the angle, because the angle's
- * own sine could be among them, and the recursion would not end. */
+/* May this wave be part of the angle's rule? Not if it has more nested sines, because the angle's own sine could be
+ * among them, and the recursion would not end. */
 static bool may_be_part(const lowering *l, int part, const poly *angle) {
     return sines_inside(l->waves[part].angle) <= sines_inside(angle);
 }
 
-/* Finds a rule that computes `angle` from two known angles. Returns false if there is none. */
+/* Finds a rule that computes `angle` from one or two known angles. */
 static bool rule_for(lowering *l, const poly *angle, wave *w) {
     for (int i = 0; i < l->wave_count && i < PARTS_MAX; i++) {
         bool flipped;
@@ -392,7 +385,7 @@ static bool rule_for(lowering *l, const poly *angle, wave *w) {
     return false;
 }
 
-/* Returns the turn angle if the term is a number times a turn angle, otherwise -1. */
+/* Returns the turn angle if the term is a number times a turn angle; otherwise -1. */
 static int turn_of(const lowering *l, const poly_term *t) {
     const mono *m = t->mono;
     const bool alone = m->trig == TRIG_NONE && m->count == 1 && m->factors[0].exponent == 1.0;
@@ -400,7 +393,6 @@ static int turn_of(const lowering *l, const poly_term *t) {
     return alone && x->kind == ATOM_SYMBOL && x->primes == 0 ? l->turn(l->context, x->symbol) : -1;
 }
 
-/* Does this angle contain a turn angle times a number? */
 static bool waves_turns(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (turn_of(l, &angle->terms[i]) >= 0) {
@@ -410,7 +402,7 @@ static bool waves_turns(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Does the angle contain a turn angle times a fraction, such as half a turn angle? */
+/* Does the angle contain a fraction of a turn angle, such as half of it? */
 static bool has_part(const lowering *l, const poly *angle) {
     for (int i = 0; i < angle->count; i++) {
         if (!op_list_is_whole(angle->terms[i].coefficient) && turn_of(l, &angle->terms[i]) >= 0) {
@@ -420,8 +412,8 @@ static bool has_part(const lowering *l, const poly *angle) {
     return false;
 }
 
-/* Removes angles with fractions of turn angles, which occur only in records. Their sines are evaluated, for full
- * precision. No other sine is computed from them, so the other results keep their bits. */
+/* Removes angles with fractions of turn angles, which occur only in records. Their sines are evaluated for full
+ * precision. No other sine is computed from them, so that records do not change the bits of other results. */
 static int without_parts(const lowering *l, const poly **angles, int count) {
     int kept = 0;
     for (int i = 0; i < count; i++) {
@@ -432,7 +424,6 @@ static int without_parts(const lowering *l, const poly **angles, int count) {
     return kept;
 }
 
-/* Chooses rules for `count` different angles. */
 static void waves_plan(lowering *l, const poly **angles, int count) {
     count = without_parts(l, angles, count);
     for (int i = 1; i < count; i++) { /* a stable sort, smallest first */
@@ -458,7 +449,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
             append(l, w);
             continue;
         }
-        /* One intermediate angle may suffice: 3a = 2a + a. */
+        /* an intermediate angle may help: 3a = 2a + a */
         bool made = false;
         const int known = l->wave_count;
         for (int k = 0; k < known && k < BETWEEN_MAX && !made; k++) {
@@ -475,8 +466,7 @@ static void waves_plan(lowering *l, const poly **angles, int count) {
     }
 }
 
-/* Returns the operation for an angle's phase: turn angles times numbers, a fixed offset, and the other terms in
- * radians. */
+/* The operation for an angle's phase: turn angles times numbers, a fixed offset, and the other terms in radians. */
 static int phase_of(lowering *l, const poly *angle) {
     double *multiple = alloc(l->list->angles, sizeof *multiple);
     double offset = 0.0;
@@ -498,11 +488,10 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
-/* In this file each operation is entered by its own statement. C does not fix the order in which arguments are
- * evaluated, and that order would become the order of the list. */
+/* Here each operation is entered by its own statement, because C does not fix the order in which arguments are
+ * evaluated, which would become the order of the list. */
 static int wave_node(lowering *l, int i, trig which);
 
-/* Returns the product of two waves. */
 static int waves_product(lowering *l, int p, trig of_p, int q, trig of_q) {
     const int x = wave_node(l, p, of_p);
     return op_list_mul(l->list, x, wave_node(l, q, of_q));
@@ -526,7 +515,6 @@ static int wave_enter(lowering *l, wave w, trig which) {
     return (w.rule == WAVE_SUM) == sine ? op_list_add(t, x, y) : op_list_sub(t, x, y);
 }
 
-/* Returns the operation for the sine or cosine of wave i. */
 static int wave_node(lowering *l, int i, trig which) {
     const wave w = l->waves[i];
     int node = which == TRIG_SIN ? w.sine : w.cosine;
@@ -542,7 +530,7 @@ static int planned(lowering *l, const poly *angle) {
     return i >= 0 ? i : append(l, (wave){angle, WAVE_EVALUATED, -1, -1, -1, -1});
 }
 
-/* Returns the operation for the sine or cosine of `angle`. If no identity was planned for it, the core's sine computes it. */
+/* The operation for the sine of `angle`. Without a planned identity, the core's sine computes it. */
 static int waves_sine(lowering *l, const poly *angle) {
     return wave_node(l, planned(l, angle), TRIG_SIN);
 }
@@ -553,8 +541,7 @@ static int waves_cosine(lowering *l, const poly *angle) {
 
 /* === polys to operations ====================================================================== */
 
-/* Coefficients whose relative difference is smaller than this come from the same number. */
-#define SAME 1e-13
+#define SAME 1e-13 /* coefficients within this relative difference come from the same number */
 
 typedef struct angle_list {
     const poly **angles;
@@ -608,8 +595,8 @@ void lower_done(lowering *l) {
     l->wave_count = l->uses_room = 0;
 }
 
-/* Whole exponents above this are not expanded to products, here or in op_list_power(). The test compares doubles,
- * because an int would truncate large exponents. */
+/* Larger whole exponents are not expanded to products, here or in op_list_power(). An int would truncate large
+ * exponents. */
 #define EXPONENT_MAX 64.0
 
 void lower_multiply(lowering *l, node_product *p, int node, int exponent) {
@@ -639,7 +626,7 @@ static int atom_node(lowering *l, const atom *x) {
     if (x->kind == ATOM_SYMBOL) {
         return l->leaf(l->context, l->list, x->symbol, x->primes);
     }
-    /* a tangent of turn angles is sine / cosine; others are not, because a phase resolves only 1.5e-9 rad */
+    /* a tangent of turn angles is sine / cosine; other tangents are called, because a phase resolves only 1.5e-9 rad */
     if (lower_is_tangent(x) && waves_turns(l, x->argument[0])) {
         const int s = waves_sine(l, x->argument[0]);
         return op_list_div(l->list, s, waves_cosine(l, x->argument[0]));
@@ -677,7 +664,7 @@ static void product_factor(lowering *l, node_product *p, const mono_factor *f) {
     lower_multiply(l, p, node, (int)size);
 }
 
-/* Returns the sum of the products' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
+/* Returns the sum of the members' nodes, with the common size of their coefficients taken out: c (x - y + ...). */
 static int sum_of_like(lowering *l, const node_product *products, const int *nodes,
                        const bool *member, int count, double size) {
     op_list *t = l->list;
@@ -719,7 +706,7 @@ static int sum_flat(lowering *l, const node_product *products, int count) {
         }
         const int part =
             sum_of_like(l, products, nodes, member, count, all_negative ? -size : size);
-        /* sum_of_like() subtracts negative products. With -size outside, `part` then has the wrong sign. */
+        /* sum_of_like() subtracts negative products, so with -size outside, `part` has the wrong sign */
         sum = all_negative ? op_list_add(t, sum, op_list_unary(t, OP_NEG, part))
                            : op_list_add(t, sum, part);
     }
@@ -729,8 +716,7 @@ static int sum_flat(lowering *l, const node_product *products, int count) {
     return sum;
 }
 
-/* Returns the node that the largest number of products share, or -1. Rates are preferred, so that sums of sines are
- * not split. */
+/* Returns the node that the most products share, or -1. Rates are preferred, so that sums of sines are not split. */
 static int most_shared(lowering *l, const node_product *products, int count) {
     int best = -1;
     int best_uses = 1;

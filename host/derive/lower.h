@@ -7,7 +7,7 @@
 
 /* === powers from multiple angles ============================================================== */
 
-/* One term: coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines. */
+/* coefficient * the mono's factors * sin(angle)^sines * cos(angle)^cosines */
 typedef struct piece {
     double coefficient;
     /* the original product; `sines` and `cosines` replace its sine or cosine */
@@ -17,10 +17,10 @@ typedef struct piece {
     int cosines;
 } piece;
 
-/* Converts terms that cancel near x = 0 or x = pi/2 to powers. Examples: c (1 - cos 2x) = 2 c sin(x)^2, and c (3 - 4
- * cos 2x + cos 4x) = 8 c sin(x)^4 (the poles of spherical coordinates). The same is done for their derivatives: 2 sin
- * 2x - sin 4x = 8 sin(x)^3 cos(x). Near such x the sums lose all digits by cancellation; the powers do not. x must be a
- * whole multiple of the coordinates. Writes to piece[p->count]; returns the number of pieces. */
+/* Converts sums that cancel at x = 0 or x = pi/2, and so lose all digits near it, to powers, which keep them: c (1 -
+ * cos 2x) = 2 c sin(x)^2. Others are c (3 - 4 cos 2x + cos 4x) = 8 c sin(x)^4 (the poles of spherical coordinates), and
+ * the derivatives: 2 sin 2x - sin 4x = 8 sin(x)^3 cos(x). x must be a whole multiple of the coordinates. Writes to
+ * piece[p->count]; returns the number of pieces. */
 int pieces_of(algebra *a, const poly *p, piece *pieces);
 
 typedef struct wave wave;
@@ -28,23 +28,22 @@ typedef struct wave wave;
 typedef struct lowering {
     algebra *algebra;
     op_list *list;
-    /* Returns the operation for a symbol outside sines (a leaf of the list). */
+    /* the operation for a symbol outside sines (a leaf of the list) */
     int (*leaf)(void *context, op_list *t, const symbol *sym, int primes);
-    /* Returns the index of the symbol's turn angle, or -1. */
+    /* the index of the symbol's turn angle, or -1 */
     int (*turn)(void *context, const symbol *sym);
     void *context;
-    /* The planned angle that is evaluated first: its rank by size, 0 for the smallest. */
+    /* rank by size of the planned angle that is evaluated first, 0 for the smallest */
     int lead;
     wave *waves;
     int wave_count;
-    int *uses; /* [uses_room] working memory, one entry per operation, all zero between uses */
+    int *uses; /* [uses_room] working memory, one entry for each operation, zero between uses */
     int uses_room;
 } lowering;
 
-/* Announces all polys before the first one is lowered: the choice of evaluated sines depends on all of them. */
+/* Announces all polys before the first is lowered, because the choice of evaluated sines depends on all of them. */
 void lower_plan(lowering *l, const poly *const *polys, int count);
 
-/* Returns the operation that computes p. */
 int lower(lowering *l, const poly *p);
 
 void lower_done(lowering *l);
@@ -70,13 +69,12 @@ void lower_multiply(lowering *l, node_product *p, int node, int exponent);
 /* Returns the operation for the sum of the products, which are overwritten. Shared factors are taken out. */
 int lower_sum(lowering *l, node_product *products, int count);
 
-/* Is x a tangent? No other atom can be computed from a turn angle's sine and cosine. */
+/* Only tangents, of all atoms, can be computed from a turn angle's sine and cosine. */
 static inline bool lower_is_tangent(const atom *x) {
     return x->kind == ATOM_CALL && x->function == FN_TAN;
 }
 
-/* True if the symbol (without primes) occurs in p only inside sines and cosines, with whole factors. Then it can be a
- * turn angle. */
+/* Does `sym` occur in p only inside sines and cosines, with whole factors? Then it can be a turn angle. */
 bool lower_only_in_waves(const poly *p, const symbol *sym);
 
 #endif

@@ -11,14 +11,13 @@
 #include "host/number/folding.h"
 #include "host/number/functions.h"
 
-/* A sum that is smaller than this, relative to its addends, counts as zero, as in host/algebra. Otherwise the round-off
- * of decimal parameters would be a spurious spring between two masses that move together. */
+/* A sum below this, relative to its addends, counts as zero, as in host/algebra. Otherwise the round-off of decimals
+ * would be a spurious spring between two masses that move together. */
 #define GHOST 1e-14
 
 static int affine_states(const image *im) { return im->angles + im->reals; }
 int affine_columns(const image *im) { return affine_states(im) + im->inputs + 1; }
 
-/* Returns the column of a state, a rate or an input. */
 static int column_of(const image *im, const op *o) {
     if (o->code == OP_LINEAR) {
         return im->angles + o->a;
@@ -55,8 +54,7 @@ static void multiply(const twofold *a, twofold factor, int columns, twofold *to)
     }
 }
 
-/* Computes the coefficients of operation `o` from those of all earlier operations. Returns false if `o` is not
- * affine. */
+/* Computes the coefficients of operation `o` from those of its operands. Returns false if `o` is not affine. */
 static bool step(const image *im, const op *o, const twofold *all, twofold *to) {
     const int columns = affine_columns(im);
     const twofold *a = all + (ptrdiff_t)(o->a >= 0 ? o->a : 0) * columns;
@@ -134,10 +132,9 @@ bool affine_rates(const image *im, twofold *rates) {
 
 /* === the report of a nonlinear statement ====================================================== */
 
-/* The degree of an expression that is not a polynomial. */
-#define NO_DEGREE ((double)INFINITY)
+#define NO_DEGREE ((double)INFINITY) /* of an expression that is not a polynomial */
 
-/* Returns the degree of p in the states, the rates and the inputs together. */
+/* The degree of p in the states, the rates and the inputs together. */
 static double degree_of(const poly *p) {
     double most = 0.0;
     for (int i = 0; i < p->count; i++) {
@@ -192,14 +189,13 @@ static void report_nonlinear(const image *im, const equations *e, diags *errors)
 
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
 
-/* Each halving of the step needs a squaring, which may lose one of the 104 bits. After 50 squarings, a double's digits
- * remain. */
+/* Each halving of the step needs a squaring, which may lose one of 104 bits. 50 squarings leave a double's digits. */
 enum { HALVINGS_MOST = 50 };
 
-/* Number of terms of the series. For a matrix of norm 1/2 or less, the remainder is then 2^-110 of the matrix. */
+/* Number of terms of the series. For a matrix of norm 1/2 or less, the remainder is below 2^-110 of the matrix. */
 enum { POWERS = 26 };
 
-/* Computes the product to = a * b, with the first `states` columns of `a`; `b` has as many columns as `to`. */
+/* Computes to = a * b, with the first `states` columns of `a`; `b` has as many columns as `to`. */
 static void product(const twofold *a, const twofold *b, int states, int columns, twofold *to) {
     for (int i = 0; i < states; i++) {
         for (int k = 0; k < columns; k++) {
@@ -213,8 +209,8 @@ static void product(const twofold *a, const twofold *b, int states, int columns,
     }
 }
 
-/* As exponential_exact(), but without scaling, and with a series that ends with the power `order`. A Runge-Kutta
- * method with that order and as many stages gives this result, whatever its weights. */
+/* As exponential_exact(), but without scaling, and with a series up to the power `order`. Every Runge-Kutta method with
+ * that order and as many stages gives this result. */
 static void exponential_series(twofold *step, int states, int columns, int order) {
     const int count = states * columns;
     twofold *power = alloc(count, sizeof *power);
@@ -234,7 +230,6 @@ static void exponential_series(twofold *step, int states, int columns, int order
     free(of);
 }
 
-/* Returns the largest sum of absolute entries in a row of A. */
 static double norm(const twofold *a, int states, int columns) {
     double most = 0.0;
     for (int i = 0; i < states; i++) {
@@ -247,7 +242,7 @@ static double norm(const twofold *a, int states, int columns) {
     return most;
 }
 
-/* Returns the sum of the absolute values in row i of A (`row`), or in column i, without the diagonal. */
+/* The sum of the absolute values in row i of A (`row`), or in column i, without the diagonal. */
 static double off_diagonal(const twofold *a, int i, bool row, int states, int columns) {
     double sum = 0.0;
     for (int j = 0; j < states; j++) {
@@ -266,9 +261,8 @@ static void in_units(twofold *a, int i, double by, int states, int columns) {
     }
 }
 
-/* Balances A by powers of two, which makes corresponding rows and columns similar in size (Parlett & Reinsch,
- * Numerische Mathematik 13 (1969) 293). Otherwise a stiffness of 1e9 N/m next to a rate of 1e-3 m/s would need many
- * halvings. */
+/* Balances A by powers of two, so that corresponding rows and columns have similar sizes (Parlett & Reinsch, Numerische
+ * Mathematik 13 (1969) 293). Otherwise a stiffness of 1e9 N/m next to a rate of 1e-3 m/s would need many halvings. */
 static void balance(twofold *a, double *unit, int states, int columns) {
     for (int i = 0; i < states; i++) {
         unit[i] = 1.0;
@@ -291,8 +285,7 @@ static void balance(twofold *a, double *unit, int states, int columns) {
 }
 
 /* An entry below this, relative to the largest in its row in balanced units, becomes zero. Example: the last of twenty
- * masses in a row contributes 1e-60 to the first one's motion within a millisecond, which is below the range of
- * float. */
+ * masses in a row contributes 1e-60 to the first one's motion within a millisecond, below the range of float. */
 #define LEAST_PART 0x1p-100
 
 static void drop_least(twofold *step, int states, int columns) {
@@ -310,11 +303,10 @@ static void drop_least(twofold *step, int states, int columns) {
     }
 }
 
-/* On entry, step[states * columns] has the rates A | B | c times the step. On return, it has exp([A B c; 0 0 0] h) -
- * 1 without its lower rows: the change of the states in one step. The method is scaling and squaring of the
- * exponential minus one, which keeps the digits of small changes (Moler & Van Loan, Nineteen Dubious Ways to Compute
- * the Exponential of a Matrix, method 3). The matrix is balanced first. Returns false if
- * the scaled steps are so small that digits would be lost; step[] is then invalid. */
+/* On entry, step[states * columns] has A | B | c times the step h. On return, it has exp([A B c; 0 0 0] h) - 1 without
+ * its lower rows: the change of the states in one step. A is balanced, then the exponential minus one is scaled and
+ * squared, which keeps the digits of small changes (Moler & Van Loan, Nineteen Dubious Ways to Compute the Exponential
+ * of a Matrix, method 3). Returns false if so many halvings are needed that digits are lost; step[] is then invalid. */
 static bool exponential_exact(twofold *step, int states, int columns) {
     const int count = states * columns;
     double *unit = alloc(states, sizeof *unit);
@@ -377,7 +369,7 @@ static bool is_possible(const image *im, diags *errors) {
     return false;
 }
 
-/* Returns the operation for a column: a state, an input or the constant. Columns of turn angles have no entries. */
+/* The operation for a column: a state, an input or the constant. Columns of turn angles have no entries. */
 static int leaf(const image *im, op_list *t, int column) {
     const int real = column - im->angles;
     const int linears = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;
@@ -391,7 +383,7 @@ static int leaf(const image *im, op_list *t, int column) {
                           : op_list_leaf(t, OP_RATE, real - linears);
 }
 
-/* Enters the sum of a row's entries, each rounded by constant(), times their columns. */
+/* Enters the sum of a row's entries, rounded by constant(), times their columns. */
 static int enter_row(const image *im, op_list *t, const twofold *row,
                      double (*constant)(twofold entry)) {
     int sum = op_list_constant(t, 0.0);
@@ -413,14 +405,14 @@ static int enter_near(const image *im, op_list *t, twofold *row, int of) {
     return op_list_add(t, leaf(im, t, of), enter_row(im, t, row, double_double_constant));
 }
 
-/* Returns the part of an entry beyond a float's digits; 0 if a float cannot represent that part. */
+/* The part of an entry beyond a float's digits; 0 if a float cannot represent that part. */
 static double rest(twofold entry) {
     const double beyond = double_double_beyond_float(entry);
     return fits_float(beyond) ? beyond : 0.0;
 }
 
-/* Enters the mean rate of turn angle i over a step of length h, from the angle's change row[]. For a coordinate it is
- * nearly the rate. */
+/* Enters the mean rate (in second order nearly the rate) of turn angle i over a step of length h, from its change
+ * row[]. */
 static int enter_angle(const image *im, op_list *t, twofold *row, int i, twofold h) {
     for (int k = 0; k < affine_columns(im); k++) {
         row[k] = double_double_div(row[k], h);
@@ -433,7 +425,7 @@ static int enter_angle(const image *im, op_list *t, twofold *row, int i, twofold
     return enter_near(im, t, row, rate);
 }
 
-/* Returns the list of a step. `change` has the change in a step of length h, and is overwritten. */
+/* Returns the list of a step. `change`, the changes in a step of length h, is overwritten. */
 static op_list *make_list(const image *im, twofold *change, twofold h) {
     const int states = affine_states(im);
     const bool compensated = im->settings.compensated;
@@ -469,7 +461,7 @@ static void keep_numbers(image_draft *d, const twofold *change) {
     }
 }
 
-/* Makes the matrix and its list. On entry, change[] has the rates. */
+/* On entry, change[] has the rates. */
 static bool make(image_draft *d, twofold *change, diags *errors) {
     image *im = d->made;
     const int states = affine_states(im);

@@ -9,18 +9,17 @@
 
 /* === an affine right-hand side ================================================================ */
 
-/* Number of columns of an affine right-hand side x' = A x + B u + c: states (angles first), inputs, and the
- * constant. */
+/* Number of columns of x' = A x + B u + c: states (angles first), inputs, and the constant. */
 int affine_columns(const image *im);
 
-/* Computes rates[states * columns], the coefficients of the states' rates, row by row. Each operation of the list is
- * repeated on the coefficients of its operands, so the round-off is that of the list. Returns false, and leaves
- * rates[] unchanged, if an operation is not affine. */
+/* Computes rates[states * columns], the coefficients of the states' rates, by rows. The list is evaluated on
+ * coefficients, so the round-off is that of the list. If it is not affine, returns false and leaves rates[]
+ * unchanged. */
 bool affine_rates(const image *im, twofold *rates);
 
-/* Makes the matrix and its list, as the image's settings require; the image must be otherwise complete. Returns false,
- * reported, if there is no such matrix: because of events, a ledger, another method, a nonlinear term, or numbers that
- * grow too large. `e` locates the nonlinear term; it may be NULL if the lists already have a matrix for another step. */
+/* Makes the matrix and its list, as the settings of the otherwise complete image require. Returns false (reported) if
+ * there is none, because of events, a ledger, another method, a nonlinear term, or numbers that grow too large. `e`
+ * locates the nonlinear term; it may be NULL if the lists already have a matrix for another step. */
 bool matrix_make(image_draft *d, const equations *e, diags *errors);
 
 #endif

@@ -20,7 +20,7 @@ CONTACT_KIND_ROWS(SAME_KIND)
 _Static_assert((int)CONTACTS_MAX == WH_CONTACTS_LIMIT && (int)SETS_MAX == WH_SETS_MAX,
                "the core has room for what a run may have");
 
-/* Fills p[] (if not NULL) with every poly of the scene's contacts, ready for a list. Returns their number. */
+/* Fills p[] (if not NULL) with the polys of the scene's contacts, ready for a list. Returns their number. */
 static int contact_lists_polys(const equations *e, const conservation *c, const poly **p) {
     int count = 0;
     for (int k = 0; k < (e->contacts != NULL ? e->contacts->count : 0); k++) {
@@ -34,7 +34,7 @@ static int contact_lists_polys(const equations *e, const conservation *c, const 
     return count;
 }
 
-/* Returns a list that computes wanted[count], which must be ready for a list (layout_ready()). */
+/* Returns a list that computes wanted[count], which layout_ready() has made ready. */
 static op_list *enter_ready(layout *map, const poly *const *wanted, int count) {
     op_list *t = op_list_new(map->angles, count);
     lowering l = layout_lowering(map, t);
@@ -86,8 +86,7 @@ static op_list *make_sets(layout *map) {
     return t;
 }
 
-/* Makes the list of the contacts' rows J and their responses M^-1 J^T, by the same elimination as the
- * accelerations. */
+/* The list of the contacts' rows J and responses M^-1 J^T, with the same elimination as the accelerations. */
 static op_list *make_forces(layout *map, const linear_system *s) {
     const contact_laws *laws = map->equations->contacts;
     const int n = map->equations->count;
@@ -106,7 +105,8 @@ static op_list *make_forces(layout *map, const linear_system *s) {
             row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
-        for (int i = 0; i < n; i++) { /* a driven coordinate moves the contact but is not pushed */
+        for (int i = 0; i < n;
+             i++) { /* a driven coordinate moves the contact, but is not accelerated */
             row[i] = layout_ready(map, law->row[i]);
         }
         row[n + WH_LAW_FIRST] = layout_ready(map, law->first);
@@ -130,7 +130,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
     return t;
 }
 
-/* Returns the only scene coordinate with an entry in the row, if the entry is a number; else -1. */
+/* The scene's number of the only coordinate with an entry in the row, if that entry is a number; else -1. */
 static int pin_of(const layout *map, const contact_law *law) {
     int pin = -1;
     for (int i = 0; i < map->equations->count; i++) {
@@ -147,7 +147,7 @@ static int pin_of(const layout *map, const contact_law *law) {
     return pin;
 }
 
-/* Returns the state component of an assignment, or -1: a conserved coordinate has none. */
+/* Returns the state component that a crossing sets, or -1 for a conserved coordinate. */
 static int component_of(const layout *map, const assignment *set) {
     const component *const lists[] = {map->angle, map->real};
     const int counts[] = {map->angles, map->reals};
@@ -161,7 +161,7 @@ static int component_of(const layout *map, const assignment *set) {
     return -1;
 }
 
-/* Returns 2 if an input with a rate moves the stop, 1 if another input moves it between steps, 0 if the stop is fixed. */
+/* Returns 2 if an input with a rate moves the stop, 1 if another input moves it between steps, 0 if it is fixed. */
 static int stop_moves(const equations *e, const contact_law *law) {
     const mechanism *m = e->instance->mechanism;
     int moves = law->driven ? 2 : 0;
@@ -171,7 +171,7 @@ static int stop_moves(const equations *e, const contact_law *law) {
     return moves;
 }
 
-/* Makes row k of the contacts. Holds without a pin, and the values that crossings set, are counted in the image. */
+/* Makes row k of the contacts, and counts holds without a pin and the values that crossings set. */
 static void make_row(program *p, const contact_law *law, image_contact *row) {
     image *im = p->draft.made;
     const layout *map = &p->layout;
@@ -206,8 +206,8 @@ static void make_row(program *p, const contact_law *law, image_contact *row) {
     }
 }
 
-/* Are all numbers in these expressions finite, with the parameters' values? A `max` may hide an infinite number, so
- * each expression is checked in its original form. */
+/* Are all numbers finite, with the parameters' values? The original expressions are checked: a `max` may hide
+ * infinity. */
 static bool are_finite(const equations *e, const expr *const *each, int count) {
     for (int i = 0; i < count; i++) {
         if (each[i] != NULL &&
@@ -218,7 +218,7 @@ static bool are_finite(const equations *e, const expr *const *each, int count) {
     return true;
 }
 
-/* Are all laws finite? Parameter values may produce 1/0, and then the side of a contact would be undefined. */
+/* With a 1/0 from parameter values, the side of a contact would be undefined. */
 static bool have_finite_laws(const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, a root or logarithm of a negative number, or too large values";
@@ -241,7 +241,7 @@ static bool have_finite_laws(const equations *e, diags *errors) {
     return finite;
 }
 
-/* An impulse is computed with the mass matrix before the impact, so the matrix must not depend on rates. */
+/* The impulse comes from the mass matrix before the impact, so the matrix must not depend on rates. */
 static bool have_impulses(const equations *e, diags *errors) {
     for (int k = 0; k < e->contacts->count; k++) {
         const contact_statement *h = e->contacts->law[k].from;
@@ -255,7 +255,7 @@ static bool have_impulses(const equations *e, diags *errors) {
     return true;
 }
 
-/* Enters the rows and lists of the contacts. `s` is the folded system. Returns false after an error, reported. */
+/* `s` is the folded system. Returns false after an error (reported). */
 static bool make_contacts(program *p, const linear_system *s, diags *errors) {
     image *im = p->draft.made;
     layout *map = &p->layout;
@@ -285,12 +285,11 @@ static bool make_contacts(program *p, const linear_system *s, diags *errors) {
 
 /* === the ledger =============================================================================== */
 
-/* The entries while they are made: the image's, and their rates. */
 typedef struct entries {
     image_draft *draft;
     image_ledger *ledger;
     const layout *map;
-    const poly **power; /* [ledger->smooth] */
+    const poly **power; /* [ledger->smooth] rates of the entries */
 } entries;
 
 /* Adds an entry, unless its rate is zero. `at` may be NULL. */
@@ -347,7 +346,7 @@ static void smooth_entries(entries *to) {
     }
 }
 
-/* Finds the inputs in the energies. Their changes between steps are entries. */
+/* Finds the inputs in the energies, because their changes between steps are entries. */
 static void find_inputs(image_ledger *l, const layout *map) {
     const equations *e = map->equations;
     const poly *kinetic = layout_ready(map, e->kinetic);
@@ -388,7 +387,7 @@ static bool can_keep(const layout *map, diags *errors) {
     return true;
 }
 
-/* Enters the entries and lists of the ledger. Returns false after an error, reported. */
+/* Returns false after an error (reported). */
 static bool make_ledger(program *p, diags *errors) {
     image *im = p->draft.made;
     layout *map = &p->layout;
@@ -412,7 +411,7 @@ static bool make_ledger(program *p, diags *errors) {
     if (l->kept) {
         im->list[IMAGE_POWERS] = enter_ready(map, to.power, l->smooth);
         im->list[IMAGE_LEVELS] = make_levels(l, p->integral, map);
-        /* an angle that the equations contain only inside sines may occur elsewhere in an entry's rate */
+        /* an angle that is only inside sines in the equations may occur elsewhere in an entry's rate */
         l->turned = op_list_reads_turns(im->list[IMAGE_POWERS]);
     } else {
         diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
@@ -427,8 +426,7 @@ static bool make_ledger(program *p, diags *errors) {
 
 static const char no_stabilized[] = "leave out --stabilized";
 
-/* Checks, before the ledger exists, that a step can be stabilized. The scene needs an energy, a method with stages, and
- * no contacts: a correction would undo their energy changes. Returns false, and reports the place, if it is impossible. */
+/* Checks the conditions of a stabilized step that do not need the ledger. Returns false (reported) if one fails. */
 static bool stabilizing_possible(const program *p, diags *errors) {
     const equations *e = p->layout.equations;
     const image_settings *settings = &p->draft.made->settings;
@@ -470,7 +468,7 @@ static bool stabilizing_possible(const program *p, diags *errors) {
     return false;
 }
 
-/* Checks with the ledger that nothing adds or removes energy, which a stabilized step requires. */
+/* A stabilized step requires that nothing adds or removes energy. */
 static bool stabilizing_conserves(const image_ledger *l, const equations *e, diags *errors) {
     for (int i = 0; i < l->smooth; i++) {
         if (l->entry[i].account == 0) {
@@ -493,7 +491,6 @@ static bool stabilizing_conserves(const image_ledger *l, const equations *e, dia
 
 /* === the lists of an instance ================================================================= */
 
-/* Returns the derivative of a component of a first-order scene. */
 static int slope_of(layout *map, lowering *l, component of, const int *highest) {
     const int k = map->conserved->number[of.unknown];
     if (k >= 0) {
@@ -535,8 +532,7 @@ static op_list *make_step(layout *map, const linear_system *s) {
     return t;
 }
 
-/* Makes a list that first solves for the highest derivatives, then computes `wanted`. With `keep`, the highest
- * derivatives are the first results. */
+/* Makes a list that solves for the highest derivatives, its first results if `keep`, and then computes `wanted`. */
 static op_list *make_observer(layout *map, const linear_system *s, const poly *const *wanted,
                               int count, bool keep) {
     const equations *e = map->equations;
@@ -587,7 +583,7 @@ static op_list *make_observer(layout *map, const linear_system *s, const poly *c
     return t;
 }
 
-/* Makes the list of the mechanism's outputs, then value and rate of each conserved coordinate. */
+/* The list of the mechanism's outputs, then value and rate of each conserved coordinate. */
 static op_list *make_observe(layout *map, const linear_system *s) {
     const equations *e = map->equations;
     const int own = e->instance->mechanism->output_count;
@@ -636,7 +632,7 @@ static op_list *make_books(const poly *integral, layout *map, const linear_syste
     return t;
 }
 
-/* Are all constants finite? Parameter values may produce 1/0 or too large a number; such a program cannot run. */
+/* Parameter values may give 1/0 or too large numbers. A program with such a constant cannot run. */
 static bool lists_finite(const image *im, const equations *e, diags *errors) {
     static const char hint[] =
         "look for a division by zero, or values that are too large or too small";
@@ -657,8 +653,7 @@ static bool lists_finite(const image *im, const equations *e, diags *errors) {
     return finite && output < 0;
 }
 
-/* Does the step use turn angles only as phases? Otherwise a factor of an angle became too large when the equations were
- * solved. */
+/* Does the step use turn angles only as phases? If not, a factor of an angle became too large in the solution. */
 static bool steps_need_no_turns(const image *im, const equations *e, diags *errors) {
     const op_list *const lists[] = {im->list[IMAGE_STEP], im->list[IMAGE_SIGNALS],
                                     im->list[IMAGE_FORCES], im->list[IMAGE_SETS]};
@@ -673,8 +668,8 @@ static bool steps_need_no_turns(const image *im, const equations *e, diags *erro
     return true;
 }
 
-/* Makes the ledger, if the instance or a stabilized step asks for it. Otherwise a scene with contacts has one to
- * balance the run, if that is possible. */
+/* Makes the ledger that the instance or a stabilized step asks for, or that balances a run with contacts, if
+ * possible. */
 static bool make_ledger_asked(program *p, diags *errors) {
     image *im = p->draft.made;
     const equations *e = p->layout.equations;
@@ -692,7 +687,7 @@ static bool make_ledger_asked(program *p, diags *errors) {
     return make_ledger(p, errors) && (!stabilized || stabilizing_conserves(&im->ledger, e, errors));
 }
 
-/* Makes the lists. `s` is the folded system. Returns false after an error, reported. */
+/* `s` is the folded system. Returns false after an error (reported). */
 static bool make_lists(program *p, const linear_system *s, diags *errors) {
     image *im = p->draft.made;
     layout *map = &p->layout;

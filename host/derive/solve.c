@@ -1,8 +1,8 @@
-/* solve.c: the solution for the highest derivatives in the cheapest of several arrangements. Arrangements differ in the
- * scale of the equations, the order of elimination, the evaluated sines, and the symbolic elimination. Coordinates with
- * a constant diagonal may be eliminated symbolically (a carriage's total mass, a body on a hinge). The remaining
- * equations return to normal form and may shrink. Two remaining equations are solved by Cramer's rule, with one
- * division. op_list_weight() measures the cost. */
+/* solve.c: the solution for the highest derivatives in the arrangement with the least op_list_weight(). Arrangements
+ * differ in the scale of the equations, the order of elimination, the first evaluated sine, and the symbolic
+ * elimination. That removes coordinates with a constant diagonal (a carriage's total mass, a body on a hinge). The
+ * remaining equations return to normal form and may shrink. The last ones are solved by Cramer's rule, with one
+ * division. */
 #include "host/derive/solve.h"
 
 #include <math.h>
@@ -19,8 +19,7 @@ static int minus_product(op_list *t, int from, int x, int y) {
     return op_list_sub(t, from, op_list_mul(t, x, y));
 }
 
-/* mass[n * n] and force[n] are operations, and are overwritten. solution[n] receives the operations of the
- * unknowns. */
+/* Below, mass[n * n] and force[n] are operations, and are overwritten. solution[n] receives operations. */
 
 /* Enters the determinant of the equations rows[] in the unknowns columns[], by cofactors (size <= 3). */
 static int determinant(op_list *t, int n, const int *mass, const int *rows, const int *columns,
@@ -77,11 +76,10 @@ static void substitute_back(op_list *t, int n, const int *mass, const int *force
     solution[k] = op_list_div(t, rest, mass[k * n + k]);
 }
 
-/* Eliminates in the order order[n]. The first `done` unknowns are already eliminated symbolically, and need only back
- * substitution. */
+/* Eliminates in the order order[n]. The first `done` unknowns, eliminated symbolically, need only back substitution. */
 static void eliminate_symmetric(op_list *t, int n, int *mass, int *force, const int *order,
                                 int done, int *solution) {
-    int left = n - 1; /* the last index with a value that is still needed */
+    int left = n - 1; /* index in order[] of the last unknown without a solution */
     double value;
     for (int at = done; at < n - 1; at++) {
         const int k = order[at];
@@ -113,7 +111,7 @@ static double generic(void *context, const symbol *s, int primes) {
     return equations_generic(0, s, primes);
 }
 
-/* Returns the values of the polys p[count] at a generic state, which shows pivots that vanish. */
+/* Returns the values of p[count] at a generic state, where a pivot that is zero by identity shows. */
 static double *sample(const poly *const *p, int count) {
     double *value = alloc(count, sizeof *value);
     for (int i = 0; i < count; i++) {
@@ -128,8 +126,7 @@ static void exchange(int *a, int *b) {
     *b = kept;
 }
 
-/* Moves the best pivot among the equations and unknowns from `at` on to position `at`. A constant pivot is best;
- * otherwise the largest at a generic state. Returns true if the pivot is constant. */
+/* Moves the best pivot from `at` on to `at`: a constant (returns true), or else the largest at a generic state. */
 static bool bring_pivot(const op_list *t, int n, const int *mass, const double *value, int *rows,
                         int *columns, int at) {
     double best = -1.0;
@@ -155,8 +152,8 @@ static bool bring_pivot(const op_list *t, int n, const int *mass, const double *
     return best_constant;
 }
 
-/* Eliminates with the largest pivot at a generic state, at which the matrix has the values value[n * n], and solves the last three equations by Cramer's rule. If the
- * determinant is nonzero, no division by a vanishing pivot occurs. */
+/* Eliminates with the largest pivot at a generic state, where the matrix is value[n * n], and solves the last three
+ * equations by Cramer's rule. If the determinant is not identically zero, neither is a divisor. */
 static void eliminate_general(op_list *t, int n, int *mass, int *force, double *value,
                               int *solution) {
     int *rows = alloc(2 * (int64_t)n, sizeof *rows);
@@ -197,26 +194,22 @@ static void eliminate_general(op_list *t, int n, int *mass, int *force, double *
 }
 
 /* === a coordinate that hangs on a hinge ======================================================= */
-/* Symbolic elimination of a coordinate on a hinge.
- *
- * A body on a hinge with the angle q has this row of the equations:
+/* A body on a hinge with the angle q has this row of the equations:
  *
  *     A q'' + sum_j P_j x_j = f,        P_j = Re(z_j exp(i c q)),    f = Re(w exp(i c q)) + rest
  *
- * z_j and w do not contain q. Gaussian elimination adds -P_i P_j / A to the other rows' m_ij, the total effect of the
- * body on them. With the quadratures P~_j = Im(z_j exp(i c q)),
+ * z_j and w do not contain q. Elimination adds -P_i P_j / A, the effect of the body, to the other rows' m_ij. With the
+ * quadratures P~_j = Im(z_j exp(i c q)), which are -1/c times the derivatives of P_j by q,
  *
  *     P_i P_j = Re(z_i conj(z_j)) - P~_i P~_j
  *
- * The first part has no q and joins m_ij in the normal form. The second part acts as a mass that moves only along the
- * line from the hinge to the body. The same is true of the forces: their common factor is the pull along that line.
- * P~ is minus the derivative of P by q, divided by c. */
+ * The first term has no q and joins m_ij in the normal form. The second acts as a mass that moves only along the line
+ * from the hinge to the body. The forces split in the same way: their common factor is the pull along that line. */
 
 static const poly *bend(algebra *a, const poly *p, const symbol *q) {
     return poly_derivative(a, poly_derivative(a, p, q, 0), q, 0);
 }
 
-/* Returns c^2 if p'' = -c^2 p and p is not zero; else 0. */
 static double frequency_squared(algebra *a, const poly *p, const symbol *q) {
     const poly *bent = bend(a, p, q);
     if (poly_is_zero(p) || bent->count != p->count) {
@@ -241,7 +234,6 @@ static const poly *without_turn(algebra *a, wave_of x, wave_of y) {
     return poly_add(a, poly_mul(a, x.here, y.here), poly_mul(a, x.across, y.across));
 }
 
-/* Returns the common frequency of all entries of row k, or 0. */
 static double shared_frequency(algebra *a, int n, const poly *const *mass, const bool *gone, int k,
                                const symbol *q) {
     double squared = 0.0;
@@ -288,13 +280,13 @@ static double take_pull(algebra *a, int n, const poly **force, const poly *const
     return g;
 }
 
-/* Eliminates the angle `turning`, unknown k of n, from the remaining equations mass[n * n] and force[n]. This is possible
- * if the diagonal entry of row k is a number, *own, and its other entries are waves of the angle with one frequency. Then
+/* Eliminates the angle `turning`, unknown k, from the remaining equations mass[n * n] and force[n]. In row k, the
+ * diagonal entry must be a number, *own, and the others sinusoids of the angle with one frequency. Then
  *
  *     mass_ij + across_i across_j / own,        force_i + across_i across_n / own
  *
- * replace the entries of the other equations; row k is unchanged. across[n + 1] is 0 for k and for eliminated unknowns.
- * Otherwise returns false and changes nothing. */
+ * replace the other equations; row k is unchanged. across[n + 1] is 0 for k and for eliminated unknowns. Otherwise
+ * returns false and changes nothing. */
 static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **force,
                             const bool *gone, int k, const symbol *turning, double *own,
                             const poly **across) {
@@ -340,18 +332,17 @@ static bool hinge_eliminate(algebra *a, int n, const poly **mass, const poly **f
 
 /* === forms of the equations =================================================================== */
 
-/* The choices of an arrangement. */
 typedef struct arrangement {
     bool scaled;
-    bool rescaled; /* rescale the equations after symbolic elimination */
-    bool hinged;   /* eliminate unknowns on hinges first, in the order below */
+    bool rescaled; /* equations are rescaled after symbolic elimination */
+    bool hinged;   /* unknowns on hinges are eliminated first, in the order below */
     int lead;      /* rank of the angle that is evaluated first (lower.h) */
     /* unknown that is eliminated symbolically; -1: none; -2: all with a constant diagonal */
     int first;
     int order[COORDINATES_MAX]; /* order of elimination */
 } arrangement;
 
-/* The equations of an arrangement: all polys in one array, for lower_plan(). */
+/* The equations of an arrangement, with all polys in one array for lower_plan(). */
 typedef struct arranged {
     int n;
     int polys;
@@ -366,13 +357,11 @@ typedef struct arranged {
     int eliminated;
 } arranged;
 
-/* Symbolic elimination stops before an entry gets more terms than this. */
-#define SYMBOLIC_TERMS_MAX 60
+#define SYMBOLIC_TERMS_MAX 60 /* elimination stops before an entry gets more terms */
 
-/* Largest number of different numbers in a tally. Further numbers are not counted. */
-#define TALLY_MAX 128
+#define TALLY_MAX 128 /* different numbers in a tally; further numbers are not counted */
 
-/* Counts numbers by their size. Its initial value is {0}. */
+/* Counts numbers by their size. It starts as {0}. */
 typedef struct tally {
     double size[TALLY_MAX];
     int uses[TALLY_MAX];
@@ -405,8 +394,7 @@ static double tally_favourite(const tally *t) {
     return best < 0 ? 1.0 : t->size[best];
 }
 
-/* Chooses scale[i] for row and column i, and returns a common divisor, so that as many coefficients as possible
- * become one. */
+/* Chooses scale[i] for row and column i, and returns a common divisor, so that most coefficients become one. */
 static double choose_scales(const linear_system *s, double *scale) {
     const int n = s->n;
     tally all = {.count = 0};
@@ -441,8 +429,7 @@ static double choose_scales(const linear_system *s, double *scale) {
     return common;
 }
 
-/* Returns c * scale. A result within round-off of a simple fraction becomes that fraction, because 1.0000000000000002
- * would cost a product. */
+/* Returns c * scale, rounded to a simple fraction within round-off: 1.0000000000000002 would cost a product. */
 static double scale_number(double c, double scale) {
     const double scaled = folding_product(c, scale);
     const double nearest = number_floor(scaled * 48.0 + 0.5) / 48.0;
@@ -453,8 +440,7 @@ static const poly *scale_simply(algebra *a, const poly *p, double scale) {
     return poly_each_number(a, p, scale_number, scale);
 }
 
-/* Eliminates unknown k from the other equations symbolically. Returns false, and changes nothing, if an entry would
- * grow too much. */
+/* Eliminates unknown k from the other equations. If an entry would grow too much, returns false and changes nothing. */
 static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone, int k) {
     double diagonal;
@@ -483,8 +469,7 @@ static bool eliminate_symbolic(algebra *a, int n, const poly **mass, const poly 
     return true;
 }
 
-/* Deletes the equations of the first eliminated unknowns, up to the first wanted one, because no wanted solution
- * depends on these equations. */
+/* Deletes the equations of the first eliminated unknowns, up to the first wanted one: no wanted solution needs them. */
 static void forget_unwanted(algebra *a, const linear_system *s, const poly **mass,
                             const poly **force, const int *order, int eliminated) {
     const int n = s->n;
@@ -513,7 +498,7 @@ static void scale_equations(algebra *a, int n, const poly **mass, const poly **f
     }
 }
 
-/* Divides the remaining equations by the most frequent size of their numbers, which becomes one. */
+/* Makes the most frequent size of the remaining equations' numbers one. */
 static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone) {
     tally all = {.count = 0};
@@ -558,7 +543,6 @@ static void put_away(arranged *w, int k) {
     w->order[w->eliminated++] = k;
 }
 
-/* Does unknown k occur in none of the hinges found so far? */
 static bool off_hinges(const arranged *w, int k) {
     bool off = true;
     for (int h = 0; h < w->hinges; h++) {
@@ -584,7 +568,6 @@ static bool eliminate_hinged(algebra *a, const linear_system *s, const arrangeme
     return w->hinges > 0;
 }
 
-/* Scales the remaining equation of unknown i, its column, and its entries in `across`. */
 static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     const int n = w->n;
     for (int j = 0; j < n; j++) {
@@ -599,8 +582,7 @@ static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     w->scale[i] *= scale;
 }
 
-/* Makes the most frequent numbers of the remaining equations one: scales all equations, then the rows and columns of
- * unknowns that are not angles. */
+/* Makes the most frequent numbers of the remaining equations one, first in all, then per unknown (except angles). */
 static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
     const int n = s->n;
     const double common = 1.0 / w->inverse[0];
@@ -626,7 +608,7 @@ static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w)
     }
 }
 
-/* Builds one arrangement of the system. Returns false if it is impossible. The caller frees w->mass in both cases. */
+/* Returns false if the arrangement is impossible. The caller frees w->mass in both cases. */
 static bool arrange(algebra *a, const linear_system *s, const arrangement *how, arranged *w) {
     const int n = s->n;
     *w = (arranged){.n = n, .polys = n * n + n + n * (n + 1)};
@@ -663,11 +645,10 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 
 /* === the cheapest of several arrangements ===================================================== */
 
-/* All orders of elimination are tried if neither limit is exceeded; otherwise only the first order is tried. */
+/* All orders of elimination are tried within both limits; otherwise only the first. */
 #define PERMUTED_MAX 4           /* unknowns */
 #define PERMUTED_SIZE_MAX 4000.0 /* operands in the equations */
-/* This many angles, besides the smallest one, are tried as the first evaluated angle. */
-#define LEADS_MAX 5
+#define LEADS_MAX 5 /* angles, besides the smallest, that are tried as the first evaluated angle */
 
 /* Adds a hinge's terms, across_i across_j * inverse, to the mass matrix and the forces. */
 static void add_across(op_list *t, int n, const int *across, double inverse, int *mass,
@@ -685,8 +666,7 @@ static void add_across(op_list *t, int n, const int *across, double inverse, int
     }
 }
 
-/* Enters the solution on `t`; solution[] receives the operations. If the arrangement is impossible, enters nothing and
- * returns false. */
+/* Enters the solution into `t`. If the arrangement is impossible, enters nothing and returns false. */
 static bool enter(const lowering *like, op_list *t, const linear_system *s, const arrangement *how,
                   int *solution) {
     const int n = s->n;
@@ -725,7 +705,7 @@ static bool enter(const lowering *like, op_list *t, const linear_system *s, cons
     return can;
 }
 
-/* Returns the weight of the list of an arrangement, or -1 if the arrangement is impossible. */
+/* Returns the weight of an arrangement's list, or -1 if the arrangement is impossible. */
 static int weigh(const lowering *l, const linear_system *s, const arrangement *how) {
     op_list *t = op_list_new(l->list->angles, s->n);
     int weight = -1;
@@ -743,7 +723,6 @@ static int weigh(const lowering *l, const linear_system *s, const arrangement *h
     return weight;
 }
 
-/* Makes the next permutation in lexical order. Returns false after the last one. */
 static bool next_order(int *order, int n) {
     int i = n - 2;
     while (i >= 0 && order[i] > order[i + 1]) {
@@ -787,7 +766,6 @@ static void try_it(const lowering *l, const linear_system *s, const arrangement 
     }
 }
 
-/* Tries the system without rescaling, and rescaled if that may help. */
 static void try_scales(const lowering *l, const linear_system *s, arrangement how, bool rescales,
                        choice *best) {
     for (int again = 0; again <= rescales; again++) {
@@ -814,7 +792,6 @@ static void try_order(const lowering *l, const linear_system *s, const arrangeme
     }
 }
 
-/* Tries the best arrangement again with other sines evaluated first. */
 static void try_leads(const lowering *l, const linear_system *s, choice *best) {
     arrangement how = best->how;
     for (how.lead = 1; how.lead <= LEADS_MAX; how.lead++) {

@@ -15,16 +15,15 @@ typedef struct linear_system {
     const symbol *const *unknown; /* [n] */
     const bool *turning; /* [n] true: the unknown is an angle, whose row gets no scale of its own */
     const bool *wanted;  /* [n] the unknown's solution is needed, so its cost counts */
-    /* true: unwanted solutions need not be correct, which allows more arrangements; false: contacts solve with the same
-     * matrix, and the bits of their steps must not change */
+    /* true: unwanted solutions need not be correct, which allows more arrangements; false with contacts, which use the
+     * same matrix, so that the bits of their steps do not change */
     bool sparing;
-    /* true: no hinge is eliminated (solve.c), because that would multiply the round-off by two to five
-     * (docs/dev/numerics.md) */
+    /* true: no hinge is eliminated (solve.c), which multiplies the round-off by 2 to 5 (docs/dev/numerics.md) */
     bool precise;
 } linear_system;
 
-/* Enters the solution into l->list, and stores the operation for each unknown in solution[n]. The caller sets `leaf`,
- * `turn` and `context` of *l. Several arrangements are tried on separate lists; the cheapest is entered. */
+/* Enters the cheapest of several arrangements into l->list. solution[n] receives operations. The caller sets `leaf`,
+ * `turn` and `context` of *l. */
 void solve_highest(lowering *l, const linear_system *system, int *solution);
 
 #endif

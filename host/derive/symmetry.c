@@ -1,4 +1,4 @@
-/* symmetry.c: the search for affine symmetries as the null space of linear conditions (symmetry.h has the theory). */
+/* symmetry.c: the search for affine symmetries as the null space of linear conditions (theory: symmetry.h). */
 #include "host/derive/symmetry.h"
 
 #include <math.h>
@@ -11,17 +11,15 @@
 #include "host/number/gauss.h"
 
 /* === the null space =========================================================================== */
-/* The null space of many linear conditions is found by Gauss elimination. */
 
-/* Conditions row . v = 0, with rows of length 1. Without any, `row` is NULL. The owner frees it. */
+/* Conditions row . v = 0, with rows of length 1. `row` is NULL for none, and is freed by the owner. */
 typedef struct conditions {
     int columns;
     int count;
     double *row; /* [count * columns] */
 } conditions;
 
-/* Entries of a symmetry differ from whole numbers by less than this only by round-off. So does one that depends on
- * others from their sum. */
+/* Entries within this of a whole number become whole; a vector within this of a sum of others depends on them. */
 #define NULL_SPACE_ROUNDING 1e-8
 
 static double vector_length(const double *row, int columns) {
@@ -36,7 +34,6 @@ static double vector_length(const double *row, int columns) {
     return most * number_root(sum);
 }
 
-/* Adds a condition, with its row scaled to length 1. */
 static void conditions_take(conditions *c, const double *row) {
     const double length = vector_length(row, c->columns);
     if (length > 0.0) {
@@ -54,9 +51,8 @@ static void conditions_add(conditions *c, const conditions *more) {
     }
 }
 
-/* Finds independent vectors that meet all conditions, as rows of basis[columns * columns], and returns their number.
- * They are in reduced echelon form from the last column on, which is easy to read. A pivot counts as zero if it is
- * below `zero` times the largest entry. */
+/* Finds independent vectors that meet all conditions, the rows of basis[columns * columns]; returns their number. They
+ * are in reduced echelon form from the last column on. A pivot below `zero` times the largest entry counts as zero. */
 static int null_space(const conditions *c, double zero, double *basis) {
     const int n = c->columns;
     const int64_t entries = (int64_t)c->count * n;
@@ -91,17 +87,15 @@ static int null_space(const conditions *c, double zero, double *basis) {
 
 /* === symmetries =============================================================================== */
 
-/* A pivot below this, relative to the largest entry, counts as zero. Parts of an energy down to a millionth of
- * it must still count. */
+/* A pivot below this, relative to the largest entry, is zero. Terms of a millionth of the energy must still count. */
 #define ZERO_OF_TERMS 1e-12  /* conditions from coefficients */
 #define ZERO_OF_VALUES 1e-11 /* conditions from values at random states */
-/* Number of attempts to find a random state at which all functions are defined. */
-#define DRAWS 50
+#define DRAWS 50 /* attempts to find a random state at which all functions are defined */
 
-/* Returns the number of columns: the entries of A, row by row, then those of b. */
+/* Columns: the entries of A by rows, then those of b. */
 static int columns_of(const equations *e) { return e->count * (e->count + 1); }
 
-/* Returns the change of an energy by the motion of column k alone. */
+/* The change of an energy by the motion of column k alone. */
 static const poly *change_by(const equations *e, const poly *energy, int k) {
     algebra *a = e->algebra;
     const int n = e->count;
@@ -115,7 +109,6 @@ static const poly *change_by(const equations *e, const poly *energy, int k) {
                     poly_mul(a, poly_derivative(a, energy, moved, 1), poly_symbol(a, with, 1)));
 }
 
-/* Returns the angle without its constant term, which goes to *number. */
 static const poly *angle_without_number(algebra *a, const poly *angle, double *number) {
     *number = 0.0;
     for (int i = 0; i < angle->count; i++) {
@@ -154,7 +147,7 @@ static const poly *without_phases(algebra *a, const poly *p) {
     return sum;
 }
 
-/* Returns the power of a generalized force, or the rate of a gap, in the motion of column k alone. */
+/* The power of a generalized force, or the rate of a gap, in the motion of column k alone. */
 static const poly *power_by(const equations *e, const poly *const *row, int k) {
     const int n = e->count;
     const poly *on = equations_fold(e, row[k < n * n ? k / n : k - n * n]);
@@ -176,7 +169,7 @@ static int by_mono(const void *left, const void *right) {
                                       : x->column - y->column;
 }
 
-/* Adds a condition for each term of the normal form. Its entries are the coefficients of that term in each column. */
+/* Adds a condition for each term of the normal form: its coefficient in the change by each column. */
 static void take_terms(conditions *s, const poly *const *change) {
     int64_t count = 0;
     for (int k = 0; k < s->columns; k++) {
@@ -205,7 +198,7 @@ static void take_terms(conditions *s, const poly *const *change) {
     free(all);
 }
 
-/* Adds the condition that the power of a generalized force, or the rate of a gap, vanishes. */
+/* Adds the condition that the power of a force, or the rate of a gap, vanishes. */
 static void take_row(const equations *e, conditions *s, const poly *const *row,
                      const poly **change) {
     for (int k = 0; k < s->columns; k++) {
@@ -214,8 +207,7 @@ static void take_row(const equations *e, conditions *s, const poly *const *row,
     take_terms(s, change);
 }
 
-/* Adds the conditions of a symbol that a crossing sets, because this changes every momentum that depends on the
- * symbol. */
+/* A crossing that sets a symbol changes every momentum that depends on it. */
 static void take_set(const equations *e, conditions *s, const assignment *set,
                      const poly **change) {
     for (int k = 0; k < s->columns; k++) {
@@ -247,8 +239,7 @@ static double drawn_value(void *context, const symbol *s, int primes) {
     return equations_generic(*seed, s, primes);
 }
 
-/* Returns the number of motions that leave an energy unchanged, computed from its changes at random states; -1 if no
- * state has a finite value. */
+/* Returns the number of motions that leave an energy unchanged at random states; -1 if no state has a finite value. */
 static int count_by_values(const equations *e, const poly *const *change) {
     const int columns = columns_of(e);
     conditions of_values = {.columns = columns};
@@ -315,7 +306,6 @@ typedef struct finding {
     double *basis; /* [columns * columns] working memory */
 } finding;
 
-/* Is v independent of the symmetries found? If so, adds it to them. */
 static bool is_new(finding *f, const double *v, int columns) {
     const int rows = f->count + 1;
     const size_t row = (size_t)columns * sizeof *v;
@@ -330,7 +320,7 @@ static bool is_new(finding *f, const double *v, int columns) {
     return rank == rows;
 }
 
-/* Finds new symmetries that meet all conditions. Returns the number of all symmetries that meet them. */
+/* Adds the symmetries that meet all conditions and are new. Returns the number of all that meet them. */
 static int find_more(finding *f, const conditions *c, bool of_both, bool conserved) {
     const int count = null_space(c, ZERO_OF_TERMS, f->basis);
     for (int i = 0; i < count; i++) {
@@ -352,7 +342,7 @@ static int find_more(finding *f, const conditions *c, bool of_both, bool conserv
     return count;
 }
 
-/* Adds the conditions that every entry of A is zero, so that only shifts remain. */
+/* Adds the conditions A = 0, so that only shifts remain. */
 static void take_no_turning(conditions *s, int n) {
     double *row = alloc(s->columns, sizeof *row);
     for (int k = 0; k < n * n; k++) {

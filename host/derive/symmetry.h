@@ -1,14 +1,14 @@
 /* symmetry.h: affine symmetries of a mechanism, and their momenta (Noether, "Invariante Variationsprobleme", 1918).
  *
- * A motion of the coordinates q -> q + e*(A q + b), with constant A and b, changes the kinetic energy by e*dT. All (A,
- * b) with dT = 0 for every state form a linear space: dT is linear in A and b, and each term of its normal form must
- * vanish. The potential energy has the same condition. Lagrange's equations then give the rate of the momentum P = sum
+ * A motion of the coordinates q -> q + e*(A q + b), with constant A and b, changes the kinetic energy by e*dT. dT is
+ * linear in A and b, and each term of its normal form must vanish, so all (A, b) with dT = 0 for every state form a
+ * linear space. The potential energy has the same condition. Lagrange's equations give the rate of the momentum P = sum
  * dT/dq_i' (A q + b)_i:
  *
  *     dP/dt = -dV + sum (Q_i - dF/dq_i') (A q + b)_i + contacts
  *
- * Translations and rotations are affine in Cartesian coordinates and in joint angles. In others, such as spherical
- * ones, a direction is not affine: the search then finds no symmetry, although there is one. */
+ * Translations and rotations are affine in Cartesian coordinates and in joint angles. In spherical coordinates, for
+ * example, they are not, and the search does not find them. */
 #ifndef DERIVE_SYMMETRY_H
 #define DERIVE_SYMMETRY_H
 
@@ -22,23 +22,20 @@ typedef struct symmetry {
 } symmetry;
 
 typedef struct symmetries {
-    /* number of symmetries: first those with a conserved momentum, then other symmetries of T and V, then shifts (A
-     * = 0) of T only */
+    /* first those with a conserved momentum, then other symmetries of T and V, then shifts (A = 0) of T only */
     int count;
     symmetry *each; /* [count] */
     int broken;     /* number of symmetries of T only that are not shifts */
-    /* true: values at random states confirm that no affine symmetry of T or V is missing */
+    /* values at random states confirm that no affine symmetry of T or V is missing */
     bool complete;
     bool flat; /* T has constant coefficients: every direction and rotation is affine */
 } symmetries;
 
-/* Finds the symmetries of a mechanism given by energies, with the values of its parameters. Returns NULL if the
- * algebra overflows. */
+/* Finds the symmetries of a mechanism given by energies. Returns NULL if the algebra overflows. */
 symmetries *symmetries_find(const equations *e);
 void symmetries_free(symmetries *s);
 
-/* Returns the sum of row[i] times the symmetry's motion of coordinate i: the power of a generalized force, or the rate
- * of a gap. */
+/* The sum of row[i] times the symmetry's motion of coordinate i: the power of a force, or the rate of a gap. */
 const poly *symmetry_along(const equations *e, const symmetry *s, const poly *const *row);
 
 #endif

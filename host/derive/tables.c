@@ -1,4 +1,5 @@
-/* tables.c: a step's list as sums of products of rates, inputs and reals, with coefficients that depend on turn angles only. */
+/* tables.c: a step's list as sums of products of rates, inputs and reals, whose coefficients depend only on turn
+ * angles. */
 #include "host/derive/tables.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ typedef struct turn_value {
 
 #define TURN_RAD 6.283185307179586477
 
-/* Sine and cosine of a fraction of a turn. They are exact at quarter turns, and have exact symmetries. */
+/* Sine and cosine, exact at quarter turns and with exact symmetries. */
 static void turn_wave_of(double turns, double *sine, double *cosine) {
     const double quarters = number_even(4.0 * turns);
     const double rest_rad = (turns - 0.25 * quarters) * TURN_RAD;
@@ -67,9 +68,8 @@ static turn_value of_wave(op_code code, double turns, int multiple) {
                               multiple != 0 ? 1.0 : fabs(cosine)};
 }
 
-/* Evaluates all operations of the list to value[t->count] at an angle of `turns`. Phase i is multiple[i] times this
- * angle; entries of other operations are unused. All operations must be functions of that angle, without rates or
- * reals. */
+/* Evaluates a list of functions of one angle, without rates or reals, to value[t->count]. Phase i is multiple[i] times
+ * the angle `turns`; other entries of multiple[] are unused. */
 static void turn_evaluate(const op_list *t, const int *multiple, double turns, turn_value *value) {
     for (int i = 0; i < t->count; i++) {
         const op *o = &t->ops[i];
@@ -98,8 +98,8 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
         case OP_SQRT: value[i] = turn_function_of(FN_SQRT, x, y); break;
         case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
-        case OP_PHASE:  /* a phase has no value */
-        case OP_LINEAR: /* the operations from here on do not occur in such lists */
+        case OP_PHASE:  /* not a number */
+        case OP_LINEAR: /* from here on, not in such lists */
         case OP_RATE:
         case OP_INPUT:
         case OP_ACCEL:
@@ -118,21 +118,19 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
 }
 
 /* === the numbers in the cells of tables ======================================================= */
-/* A table's pieces meet at knots. If straight pieces took the function's values at the knots, their error would be at
- * most h^2/8 f'', and h^2/12 f'' on average. The error of cubic pieces, which take the slopes, too, would be at most
- * h^4/384 f'''', and h^4/720 f'''' on average. A rotating mechanism would accumulate the average. So each knot is moved
- * by the average error, estimated from differences between knots. Then the average vanishes, and the largest error
- * falls by a third (straight) or a half (cubic). */
+/* A table's pieces meet at knots. With the function's values at the knots, straight pieces err by at most h^2/8 f'',
+ * and h^2/12 f'' on average. Cubic pieces with its slopes, too, err by h^4/384 f'''' and h^4/720 f''''. A rotating
+ * mechanism accumulates the average, so each knot is moved by it, as estimated from differences between knots. Then the
+ * average vanishes, and the largest error falls by a third (straight) or a half (cubic). */
 
-/* The functions to be tabled: operations of a list of functions of one angle. Phase i is multiple[i] times the
- * angle. */
+/* The tabled functions: operations of a list of functions of one angle. Phase i is multiple[i] times the angle. */
 typedef struct table_functions {
     const op_list *list;
     const int *multiple; /* [list->count] */
     const int *function; /* [tables] operations */
 } table_functions;
 
-/* Returns the value at knot `at`. Knots form a ring, and `cells` is a power of two. */
+/* Knots form a ring, and `cells` is a power of two. */
 static double knot(const double *of, int cells, int at) { return of[at & (cells - 1)]; }
 
 static double second_difference(const double *of, int n, int i) {
@@ -144,7 +142,7 @@ static double fourth_difference(const double *of, int n, int i) {
            4.0 * (knot(of, n, i - 1) + knot(of, n, i + 1)) + 6.0 * of[i];
 }
 
-/* Writes cell i of the table, between knots i and i + 1. */
+/* Writes cell i, between knots i and i + 1. */
 static void write_linear(const double *value, int n, int i, double *number) {
     const double left = value[i] - second_difference(value, n, i) / 12.0;
     const int next = (i + 1) & (n - 1);
@@ -169,7 +167,7 @@ static void write_cubic(const double *value, const double *slope, int n, int i, 
     number[1] = rise - 0.25 * number[3];
 }
 
-/* Is table k an even function of the angle, or, if `odd` is true, an odd one, to the last bit? */
+/* Is table k an even function of the angle, or, if `odd`, an odd one, to the last bit? */
 static bool mirrors(const op_list_tables *of, int k, bool odd) {
     const int n = 1 << of->bits;
     for (int i = 0; i <= n / 2; i++) {
@@ -193,7 +191,7 @@ static void find_mirrors(op_list_tables *of) {
     }
 }
 
-/* Finds the largest error of each table at TRIED points per cell, which include the middle and the knots. */
+/* Finds the largest errors at TRIED points of each cell, including the middle and the knots. */
 static void set_errors(const table_functions *f, op_list_tables *of) {
     enum { TRIED = 16 };
     const op_list *c = f->list;
@@ -217,7 +215,6 @@ static void set_errors(const table_functions *f, op_list_tables *of) {
     free(all);
 }
 
-/* Fills in all fields of the tables except count, bits and terms. */
 static void table_numbers(const table_functions *f, op_list_tables *into) {
     const op_list *c = f->list;
     const int n = 1 << into->bits;
@@ -253,8 +250,8 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
 }
 
 /* === a list as sums of products =============================================================== */
-/* The state of the conversion. The operations are taken in order: sums are added, multiplied out, and divided by
- * functions of the angles alone. */
+/* The state of the conversion. In list order, sums are added, multiplied out, and divided by functions of the
+ * angles. */
 
 typedef struct collecting {
     products *made;
@@ -283,7 +280,7 @@ static void find_symbols(collecting *c) {
     }
 }
 
-/* At least one byte is allocated, so that every product has its own address. */
+/* At least one byte, so that every product has its own address. */
 static unsigned char *powers_new(const products *p) {
     return arena_alloc(p->memory, (size_t)p->symbols + 1U);
 }
@@ -293,7 +290,7 @@ static bool is_zero(const op_list *t, int a) {
     return op_list_is_constant(t, a, &value) && value == 0.0;
 }
 
-/* Adds coefficient * powers to the sum. Cancelled terms are removed. */
+/* Adds coefficient * powers to the sum. A term that cancels is removed. */
 static void enter(collecting *c, product_sum *sum, const unsigned char *power, int coefficient) {
     products *p = c->made;
     for (int i = 0; i < sum->count; i++) {
@@ -324,7 +321,7 @@ static product_sum of_angles(collecting *c, int coefficient) {
     return sum;
 }
 
-/* Does the sum depend only on the angles? Then *coefficient is the operation of its value. */
+/* Does the sum depend only on the angles? *coefficient: the operation of its value. */
 static bool is_of_angles(collecting *c, product_sum sum, int *coefficient) {
     bool alone = sum.count <= 1;
     for (int i = 0; i < c->made->symbols && sum.count == 1; i++) {
@@ -395,7 +392,7 @@ static product_sum divided(collecting *c, product_sum x, product_sum y) {
     return sum;
 }
 
-/* Enters a function of one or two operands, which must depend only on the angles. */
+/* Enters a function whose one or two operands depend only on the angles. */
 static product_sum function_of(collecting *c, const op *o) {
     op_list *t = c->made->coefficients;
     int a;
@@ -503,11 +500,9 @@ static void products_free(products *p) {
 
 /* === tables in the place of sines and divisions =============================================== */
 
-/* Number of angles at which coefficients are compared. */
-enum { TRIES = 4096 };
+enum { TRIES = 4096 }; /* angles at which coefficients are compared */
 
-/* A value below this, relative to the sum of absolute addends, counts as zero. Values that differ by less are
- * equal. */
+/* Values closer than this, relative to the sum of absolute addends, are equal. */
 #define ALIKE 1e-13
 
 /* A denominator counts as reaching zero if its size falls below this part of its maximum. */
@@ -539,7 +534,6 @@ int tables_cells(image_tables form) {
     return form == TABLES_CUBIC ? TABLES_CELLS_CUBIC : TABLES_CELLS_LINEAR;
 }
 
-/* Returns the first angle with a nonzero factor in a phase. */
 static int leading(const int *turns, int angles) {
     int k = 0;
     while (k < angles - 1 && turns[k] == 0) {
@@ -548,7 +542,7 @@ static int leading(const int *turns, int angles) {
     return k;
 }
 
-/* Are both multiples of one phase? Then *turns becomes the largest such phase. */
+/* Are both multiples of one phase? *turns becomes the largest such phase. */
 static bool shares(int *turns, const int *other, int angles) {
     const int k = leading(turns, angles);
     const int common = (int)ratio_divisor((uint64_t)abs(turns[k]), (uint64_t)abs(other[k]));
@@ -592,7 +586,6 @@ typedef struct span_of {
     double most;
 } span_of;
 
-/* Evaluates all coefficients at the tried angles, and finds poles. */
 static void try_angles(tabling *t) {
     const op_list *c = t->from->coefficients;
     turn_value *value = alloc(c->count, sizeof *value);
@@ -628,7 +621,6 @@ static void try_angles(tabling *t) {
     free(span);
 }
 
-/* Returns the tried angle at which the coefficient is largest. */
 static int peak_of(const coefficient *c) {
     int at = 0;
     for (int s = 1; s < TRIES; s++) {
@@ -646,7 +638,7 @@ static bool is_constant(const coefficient *c) {
     return true;
 }
 
-/* Is `c`, which is largest at `peak`, a multiple of `of`? *factor is the multiple. */
+/* Is `c`, which is largest at `peak`, a multiple of `of`? */
 static bool is_multiple(const coefficient *c, int peak, const coefficient *of, double *factor) {
     *factor = of->value[peak] != 0.0 ? c->value[peak] / of->value[peak] : 0.0;
     const double size = c->size + fabs(*factor) * of->size;
@@ -689,7 +681,7 @@ static void sort_out(tabling *t) {
     free(first);
 }
 
-/* Returns the operation for a result. Its coefficients begin with number `at`. */
+/* The coefficients of the result begin with number `at`. */
 static int write_result(const tabling *t, const op_list *list, lowering *l, int cell, int result,
                         int at) {
     const product_sum *sum = &t->from->result[result];
@@ -737,7 +729,7 @@ static op_list *write_list(const tabling *t, const op_list *list, image_tables f
     return made;
 }
 
-/* Turns the coefficients' list into the list that computes the tables' functions exactly. */
+/* Makes the coefficients' list compute the tables' functions exactly. */
 static op_list *take_exact(tabling *t) {
     op_list *exact = t->from->coefficients;
     t->from->coefficients = NULL;

@@ -6,9 +6,8 @@
 #include "host/image/op_list.h"
 
 /* === a list as sums of products =============================================================== */
-/* Largest number of products in a sum. */
 
-enum { PRODUCTS_MOST = 128 };
+enum { PRODUCTS_MOST = 128 }; /* products in a sum */
 
 /* coefficient * symbol[0]^power[0] * symbol[1]^power[1] ... */
 typedef struct term_product {
@@ -30,24 +29,23 @@ typedef struct products {
     struct arena *memory;
 } products;
 
-/* The reason why a list cannot have tables, as words that follow "the accelerations ", and a hint. */
+/* The reason why a list cannot have tables, in words that follow "the accelerations ", and a hint. */
 typedef struct refusal {
     const char *reason;
     const char *hint;
     int angle; /* the turn angle that the message names, or -1 */
 } refusal;
 
-/* Default number of cells of a table, for one turn. */
+/* Default number of cells of a table for one turn. */
 enum { TABLES_CELLS_LINEAR = 256, TABLES_CELLS_CUBIC = 64 };
 
-/* Returns `list` with table look-ups. The accelerations (or derivatives) are written as sum_k c_k(phase) m_k, with
- * products m_k of rates, inputs and reals. Each c_k that is not constant becomes a table; c_k that differ by a factor
- * share one. All c_k must be functions of one phase: a turn angle, or a whole multiple or a sum of turn angles. *exact
- * is a list of the tables' functions. Returns NULL, and the reason in *why, if the list has no such form. */
+/* Returns `list` with table look-ups. Accelerations (or derivatives) become sum_k c_k(phase) m_k, with products m_k of
+ * rates, inputs and reals. Each c_k that is not constant becomes a table; c_k that differ by a factor share one. All
+ * c_k must be functions of one phase: a turn angle, a whole multiple, or a sum of turn angles. *exact: a list of the
+ * tables' functions. If the list has no such form, returns NULL, and the reason in *why. */
 op_list *tables_make(const op_list *list, image_tables form, int cells, op_list **exact,
                      refusal *why);
 
-/* Returns the default number of cells of a table of that form. */
 int tables_cells(image_tables form);
 
 #endif
