@@ -16,10 +16,9 @@ typedef struct figure {
     const figure_data *data;
     int count;
     int panels;
-    int curves; /* number of curves in this panel */
-    int named;  /* number of curves in the legend */
-    /* true: the runs have changed options, so marks of the original motion are omitted */
-    bool varied;
+    int curves;  /* curves in this panel */
+    int named;   /* curves in the legend */
+    bool varied; /* the runs have changed options: omit marks of the original motion */
     double
         trusted_s; /* shortest trusted time among the panel's curves over time; 0: all are trusted to the end */
     char *plot; /* gnuplot text of the curves */
@@ -50,7 +49,7 @@ static void join(char **text, const char *more) {
     *text = longer;
 }
 
-/* Writes an expression for gnuplot, in which {name} becomes column("name"). */
+/* Writes an expression for gnuplot: {name} becomes column("name"). */
 static void write_expression(FILE *to, const char *text) {
     fputc('(', to);
     for (const char *at = text; *at != '\0'; at++) {
@@ -91,7 +90,7 @@ static void end_panel(figure *f) {
     f->trusted_s = 0.0;
 }
 
-/* Split "A | B | C" in place; returns the number of fields. */
+/* Splits "A | B | C" in place; returns the number of fields. */
 static int split(char *text, char *field[FIELDS]) {
     int count = 0;
     for (char *at = text; at != NULL && count < FIELDS; count++) {
@@ -107,7 +106,7 @@ static int split(char *text, char *field[FIELDS]) {
     return count;
 }
 
-/* Returns true if the first line of the CSV text has a column of this name. */
+/* Does the first line of the CSV text have a column of this name? */
 static bool has_column(const char *csv, const char *name, size_t length) {
     while (*csv != '\0' && *csv != '\r' && *csv != '\n') {
         const bool quoted = *csv == '"';
@@ -122,7 +121,7 @@ static bool has_column(const char *csv, const char *name, size_t length) {
     return false;
 }
 
-/* Checks that the records have every column {name} of the expression. */
+/* Do the records have every column {name} of the expression? If not, reports the column. */
 static bool has_columns(const figure *f, const figure_data *d, const char *text) {
     for (const char *at = strchr(text, '{'); at != NULL; at = strchr(at + 1, '{')) {
         const size_t length = strcspn(at + 1, "}");
@@ -259,7 +258,7 @@ static void write_figure(FILE *to, const figure *f, const char *title, const cha
     }
     fprintf(to, "set multiplot layout %d,1 title ", f->panels);
     gnuplot_quote(to, title);
-    /* space between the title and a legend below it */
+    /* leave space between the title and a legend below it */
     fprintf(to, ".\"\\n\"\n%sunset multiplot\n", commands);
 }
 

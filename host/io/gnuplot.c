@@ -25,10 +25,9 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
     return can;
 }
 
-/* A character, text[at], between gnuplot's double quotes. Letters and bytes of UTF-8 are literal. Other characters are
- * octal codes, so that they cannot form a `command`, a @macro, an escape or a quote. Digits are octal, too: they could
- * extend a preceding code. XML has no control characters: each becomes a blank. "]]>" must not occur in XML, and
- * gnuplot does not escape its >: a zero-width character (U+2060) splits it. */
+/* Letters and UTF-8 are literal. Other characters are octal codes, which cannot form a `command`, a @macro, an escape
+ * or a quote. Digits are octal, too, because they could extend a code. Control characters become blanks: XML has none.
+ * Nor may XML have "]]>", whose > gnuplot does not escape: an invisible character (U+2060) splits it. */
 void gnuplot_character(FILE *to, const char *text, size_t at) {
     const unsigned char code = (unsigned char)text[at];
     const unsigned char lower = code | 0x20;
@@ -50,7 +49,7 @@ void gnuplot_quote(FILE *to, const char *text) {
     fputc('"', to);
 }
 
-/* Shows gnuplot's messages. A panel without points makes it complain about an axis: Whirl says the reason instead. */
+/* Shows gnuplot's messages. Its complaint about the axis of a panel without points is replaced by the reason. */
 static void show_said(FILE *said) {
     char *text = NULL;
     size_t size = 0;
@@ -92,7 +91,6 @@ static void set_look(gnuplot *g, int height) {
           g->to);
 }
 
-/* Cleans up after a picture failed to begin. */
 static bool give_up(gnuplot *g) {
     FILE *const files[] = {g->drawn, g->said};
     (void)atomic_file_close(g->picture, g->file, false);
@@ -115,8 +113,7 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
         perror("whirl: error: a temporary file");
         return give_up(g);
     }
-    /* gnuplot draws to its standard output, so it never receives the file's name, which could begin with | or ~. Its
-     * messages are shown only after a failure. */
+    /* gnuplot draws to standard output, because a file name could begin with | or ~. Messages are for failures. */
     g->to = system_write_to("LC_ALL=C.UTF-8 gnuplot", g->drawn, g->said);
     if (g->to == NULL) {
         perror("whirl: error: gnuplot");
@@ -126,7 +123,7 @@ bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, c
     return true;
 }
 
-/* XML text: a control character becomes a blank. */
+/* Control characters become blanks, because XML has none. */
 static void put_xml(FILE *to, const char *text) {
     for (const char *at = text; *at != '\0'; at++) {
         const unsigned char code = (unsigned char)*at;
@@ -139,14 +136,14 @@ static void put_xml(FILE *to, const char *text) {
     }
 }
 
-/* A style by which an SVG is dark on a dark page. gnuplot writes colours in exactly these words. */
+/* Makes an SVG dark on a dark page. gnuplot writes colours in exactly these words. */
 static const char dark[] =
     "<style>@media (prefers-color-scheme:dark){#gnuplot_canvas>rect{fill:" PALETTE_DARK "}"
     "text{fill:#e6edf3}[color=\"black\"]{color:#e6edf3}"
     "[stroke='rgb(216, 216, 216)'],[stroke=\"rgb(216, 216, 216)\"]{stroke:#30363d}"
     "[fill='rgb(228, 228, 228)'],[fill = 'rgb(228, 228, 228)']{fill:#262c36}}</style>\n";
 
-/* Copies gnuplot's picture. In an SVG, the title and the alternative text replace those of gnuplot. */
+/* In an SVG, our title and alternative text replace those of gnuplot. */
 static void copy_picture(const gnuplot *g) {
     char line[4096];
     size_t length;
@@ -173,7 +170,7 @@ static void copy_picture(const gnuplot *g) {
     }
 }
 
-/* Does the picture end as its format requires? gnuplot does not notice a full disk. */
+/* Does the picture end as its format requires? gnuplot does not report a full disk. */
 static bool is_whole(const gnuplot *g) {
     char last[17] = {0};
     const bool there = fseek(g->drawn, -16, SEEK_END) == 0 && fread(last, 1, 16, g->drawn) == 16;

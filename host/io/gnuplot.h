@@ -6,10 +6,9 @@
 #include <stdio.h>
 
 /* === colours and shapes ================================================================================== */
-/* The colours and point shapes of all pictures, on white and dark pages. Every line colour has a contrast of 3:1 (WCAG
- * 2.1, 1.4.11) with both backgrounds. Any two line colours differ by at least 13 (CIELAB), in normal vision and with
- * each kind of colour blindness (Machado, Oliveira and Fernandes, 2009). tests/host/test_plot.c computes both.
- * mk/curves/chart.sh also reads the rows of lines. */
+/* Every line colour has a contrast of 3:1 (WCAG 2.1, 1.4.11) with a white and a dark page. Two line colours differ by
+ * at least 13 (CIELAB), in normal vision and with each colour blindness (Machado, Oliveira and Fernandes, 2009).
+ * tests/host/test_plot.c computes both. mk/curves/chart.sh also reads the rows of lines. */
 
 #define PALETTE_LINE_ROWS(X) \
     X("#0072b2") \
@@ -21,7 +20,7 @@
     X("#c2058b") \
     X("#b87289")
 
-/* Colours of areas, from good to bad. They differ in lightness, so that they can be distinguished without colour. */
+/* Colours of areas, from good to bad; their lightness differs, so that they are distinguishable without colour. */
 #define PALETTE_AREA_ROWS(X) \
     X("#d0e6f0") \
     X("#8fbf7f") \
@@ -30,7 +29,7 @@
 
 #define PALETTE_WHITE "#ffffff"
 #define PALETTE_DARK "#0d1117"
-/* Colour of frames, tics and a figure's laws. Its contrast is 3:1 with both backgrounds, like that of the lines. */
+/* Frames, tics and a figure's laws. Its contrast with both pages is 3:1, too. */
 #define PALETTE_FRAME "#767676"
 #define PALETTE_GRID "#d8d8d8"
 #define PALETTE_SHADE "#e4e4e4"
@@ -42,7 +41,7 @@ enum {
     PALETTE_AREAS = PALETTE_AREA_ROWS(PALETTE_ONE)
 };
 
-/* Colour of line i of a picture, from 0. Colours repeat after the last one, with another palette_dash(). */
+/* Colour of line i, from 0. Colours repeat after the last one, with another palette_dash(). */
 static inline const char *palette_line(int i) {
     static const char *const lines[] = {PALETTE_LINE_ROWS(PALETTE_WORD)};
     return lines[i % PALETTE_LINES];
@@ -55,38 +54,37 @@ static inline const char *palette_area(int i) {
     return areas[i];
 }
 
-/* gnuplot's number of the shape of point i. */
+/* gnuplot's number for the shape of point i. */
 static inline int palette_point(int i) {
     static const int points[] = {7, 5, 9, 11, 13, 15, 1, 2, 3};
     return points[i % 9];
 }
 
 typedef struct gnuplot {
-    FILE *to;      /* stream for gnuplot's commands */
-    FILE *said;    /* gnuplot's messages, shown after a failure */
-    FILE *drawn;   /* the picture from gnuplot */
-    FILE *picture; /* the final picture: an SVG gets a title and alternative text */
+    FILE *to;      /* gnuplot's commands */
+    FILE *said;    /* gnuplot's messages */
+    FILE *drawn;   /* the picture by gnuplot */
+    FILE *picture; /* the final file */
     const char *file;
     const char *title;
     const char *text;
 } gnuplot;
 
-/* Does the file's name end in .svg, .png or .pdf? If not, reports the option that named the file. */
+/* Does the file's name end in .svg, .png or .pdf? If not, reports the option. */
 bool gnuplot_can_draw_for(const char *command, const char *option, const char *file);
 
-/* False, reported on standard error, if gnuplot is missing. */
+/* Returns false (reported) if gnuplot is missing. */
 bool gnuplot_is_there(void);
 
-/* Begin a picture of 900 by `height` pixels in `file`, in the common look (gnuplot.h). An SVG gets `title` and the
- * alternative `text`; both must live until gnuplot_close(). Returns false, and reports the reason, if the file cannot
- * be written. Whether gnuplot is there shows at the end. */
+/* Begins a picture of 900 by `height` pixels. An SVG gets `title` and the alternative `text`, which must live until
+ * gnuplot_close(). Returns false (reported) if the file cannot be written. A missing gnuplot fails in _close(). */
 bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, const char *text);
-/* Finish the picture. False, reported, after a failure. */
+/* Finishes the picture. Returns false after a failure (reported). */
 bool gnuplot_close(gnuplot *g);
 
-/* Literal text, for places with gnuplot's "noenhanced". */
+/* Writes literal text in quotes, for places with gnuplot's "noenhanced". */
 void gnuplot_quote(FILE *to, const char *text);
-/* Write one character, text[at], between gnuplot's double quotes. */
+/* Writes one character, text[at], between gnuplot's double quotes. */
 void gnuplot_character(FILE *to, const char *text, size_t at);
 
 #endif

@@ -11,16 +11,16 @@
 typedef struct extent {
     double least;
     double most;
-    bool falls; /* the greatest value came before the least */
+    bool falls; /* the greatest value precedes the least */
 } extent;
 
 struct decimation {
     int columns;
-    bool samples;    /* true: a bucket keeps its first row, not its extremes */
+    bool samples;    /* a bucket keeps its first row instead of its extremes */
     uint64_t size;   /* steps per bucket */
     uint64_t filled; /* steps in the last bucket */
-    unsigned count;  /* buckets, the last one included */
-    extent *extents; /* [DECIMATION_ROOM * columns], bucket by bucket */
+    unsigned count;  /* buckets, including the last one */
+    extent *extents; /* [DECIMATION_ROOM * columns] by bucket */
 };
 
 decimation *decimation_new(int columns, bool samples) {
@@ -39,8 +39,7 @@ void decimation_free(decimation *v) {
     }
 }
 
-/* The union of two extents. Among equal values the earlier counts. If one extent is not finite, the other is
- * returned. */
+/* The union of two extents; of equal values, the earlier one. An extent that is not finite is ignored. */
 static extent joined(extent earlier, extent later) {
     if (!isfinite(later.least) || !isfinite(later.most)) {
         return earlier;

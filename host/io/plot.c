@@ -1,4 +1,4 @@
-/* plot.c: curves of runs: their data, a choice of quantities, and the commands for gnuplot. */
+/* plot.c: curves of runs: data, choice of quantities, and gnuplot's commands. */
 #include "host/io/plot.h"
 
 #include <ctype.h>
@@ -16,7 +16,7 @@
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 
-/* der(der(x)) as x''. The caller frees the result. */
+/* Converts der(der(x)) to x''. The caller frees the result. */
 static char *shown_name(const char *name) {
     size_t length = strlen(name);
     static const char primes[] = "'''''''''''''''";
@@ -64,8 +64,7 @@ static bool same_unit(const char *a, const char *b) {
 
 static const char *unit_words(const char *unit) { return unit == NULL ? "an unknown unit" : unit; }
 
-/* The quantity's columns and its unit. Returns false, and reports the reason, if no run has the quantity, or the runs'
- * units differ. */
+/* Finds the quantity's columns and unit. Reports a quantity that no run has, and runs with different units. */
 static bool find_columns(const char *command, const char *name, const plot_run *runs, int count,
                          int *column, const char **unit) {
     int first = -1;
@@ -92,7 +91,7 @@ static bool find_columns(const char *command, const char *name, const plot_run *
     return first >= 0;
 }
 
-/* Adds a quantity to a panel; with `panel` < 0, to the panel with the quantity's unit. */
+/* Adds a quantity to a panel; `panel` < 0: to the panel of its unit. */
 static bool add(panels *p, const char *command, const char *name, const plot_run *runs, int panel) {
     panels_quantity *q = &p->quantity[p->quantities];
     const char *unit = NULL;
@@ -132,8 +131,7 @@ static bool add(panels *p, const char *command, const char *name, const plot_run
     return true;
 }
 
-/* The next entry of a list separated by commas, without blanks at its ends; NULL at the end of the list. The caller
- * frees the result. */
+/* The next entry of a list separated by commas, trimmed, or NULL. The caller frees it. */
 static char *panels_next(const char **list) {
     if (*list == NULL) {
         return NULL;
@@ -192,7 +190,7 @@ static bool name_runs(panels *p, const char *command, const char *legend, const 
     return list == NULL;
 }
 
-/* If there are more labels than axes, reports this and returns false. */
+/* Reports more labels than axes, and returns false. */
 static bool labels_fit(const panels *p, const char *command, const char *labels) {
     int more = 0;
     for (const char *at = labels; at != NULL && *at != '\0'; at++) {
@@ -211,7 +209,7 @@ bool plot_is_path(const plot_choice *choice) {
     return choice->x != NULL && strcmp(choice->x, "t") != 0 && strcmp(choice->x, "time") != 0;
 }
 
-/* Returns false after an error, which it has reported. Call panels_free() in any case. */
+/* Returns false after an error (reported). Call panels_free() in any case. */
 static bool panels_make(panels *p, const char *command, const plot_choice *choice,
                         const plot_run *runs, int count) {
     *p = (panels){.runs = count, .x = alloc(count, sizeof *p->x)};
@@ -259,7 +257,7 @@ bool plot_fits(const char *command, const plot_choice *choice, const plot_run *r
 }
 
 /* === plot run ================================================================================= */
-/* Reading and writing of runs. CSV follows RFC 4180, with comment lines after a #. The description is TOML 1.0. */
+/* CSV follows RFC 4180, with comment lines after a #. The description is TOML 1.0. */
 
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns) {
     *run = (plot_run){.title = alloc_words("%s", title),
@@ -347,7 +345,7 @@ static void write_texts(FILE *to, const plot_run *run, bool units) {
     }
 }
 
-/* Writes CSV.toml. Returns false after an error, which it has reported. */
+/* Writes CSV.toml. Returns false after an error (reported). */
 static bool write_beside(const char *csv, const char *text) {
     char *file = alloc_words("%s.toml", csv);
     FILE *to = atomic_file_open(file);
@@ -356,7 +354,7 @@ static bool write_beside(const char *csv, const char *text) {
     }
     const bool good = to != NULL && atomic_file_close(to, file, true);
     if (!good) {
-        atomic_file_not_whole(); /* too late for bad input */
+        atomic_file_not_whole(); /* too late for "bad input" */
     }
     free(file);
     return good;
@@ -391,7 +389,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene) {
     const bool described = keep && csv != NULL && csv != stdout && atomic_file_is_regular(csv);
-    /* The description is written last: if the CSV cannot be written, the old CSV and its description remain. */
+    /* Last, so that a failed CSV leaves the old CSV and its description. */
     const bool closed = atomic_file_close(csv, name, keep);
     if (!closed || !described) {
         return closed;
@@ -403,7 +401,7 @@ bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *comman
     return good;
 }
 
-/* The string at *at, which advances past it; NULL if it is missing. The caller frees the result. */
+/* Reads the string at *at, and advances *at. Returns NULL if it is missing. The caller frees the result. */
 static char *string_at(const char **at) {
     char *made = alloc_words("%s", *at);
     size_t length = 0;
@@ -413,7 +411,7 @@ static char *string_at(const char **at) {
     }
     for (; **at != '"' && **at != '\0'; (*at)++) {
         if (**at == '\\' && (*at)[1] == 'u' && strlen(*at) > 6) {
-            *at += 5; /* a control character, which becomes a blank */
+            *at += 5; /* a control character: a blank */
             made[length++] = ' ';
             continue;
         }
@@ -439,7 +437,7 @@ static void take_marks(plot_run *run, const char *at) {
     }
 }
 
-/* Takes a line "NAME" = "TEXT" of the table of units or of descriptions. */
+/* Takes a line "NAME" = "TEXT" of the table of units, or of descriptions. */
 static void take_text(plot_run *run, const char *line, bool units) {
     char *name = string_at(&line);
     line += strspn(line, " =");
@@ -493,7 +491,7 @@ static void read_about(const char *csv, plot_run *run) {
     free(file);
 }
 
-/* The next line other than a comment, without its end, as UTF-8 text; false at the file's end. */
+/* Reads the next line except comments, as UTF-8, without its end. Returns false at the end of the file. */
 static bool next_line(FILE *from, char **line, size_t *size) {
     ssize_t length;
     do {
@@ -510,7 +508,7 @@ static bool next_line(FILE *from, char **line, size_t *size) {
     return length > 0;
 }
 
-/* The next field, without quotes and blanks at its ends; NULL at the line's end. */
+/* The next field, without quotes, trimmed; NULL at the end of the line. */
 static char *next_field(char **line) {
     char *at = *line;
     if (at == NULL) {
@@ -532,7 +530,7 @@ static double number_of(const char *field) {
     return end == field || end[strspn(end, " ")] != '\0' ? (double)NAN : value;
 }
 
-/* The spellings of NaN in other programs. */
+/* Do other programs write NaN like this? */
 static bool is_nan(const char *field) {
     return strcasecmp(field + (field[0] == '-'), "nan") == 0 || strcmp(field, "NA") == 0;
 }
@@ -545,7 +543,7 @@ static void name_columns(plot_run *run, char *line) {
     }
 }
 
-/* Reads the rows. An empty cell, or a missing one at a row's end, becomes NaN. */
+/* Empty cells, and missing ones at a row's end, become NaN. */
 static bool take_rows(const char *csv, FILE *from, char **line, size_t *size, plot_run *run) {
     int64_t most = 0;
     while (next_line(from, line, size)) {
@@ -573,7 +571,6 @@ static bool take_rows(const char *csv, FILE *from, char **line, size_t *size, pl
     return true;
 }
 
-/* The file's name without folders and ending. */
 static char *name_of(const char *csv) {
     const char *slash = strrchr(csv, '/');
     const char *name = slash != NULL ? slash + 1 : csv;
@@ -624,19 +621,17 @@ bool plot_run_read(const char *command, const char *csv, plot_run *run) {
 
 /* === the plot ================================================================================= */
 
-/* Left margin of all panels, in characters: room for y tics such as -2.5x10^-300 and the axis's label, so that the x
- * axes align. */
+/* Left margin of all panels in characters, so that their x axes align: for tics such as -2.5x10^-300, and a label. */
 #define LEFT_MARGIN 15
 #define RIGHT_MARGIN 4
 #define AXIS_MOST 26
 #define TEXT_MOST 60
 
-/* In pixels: height of a panel with a one-line legend, height of a further line, width of a legend, width of a sample. */
+/* In pixels: a panel with a one-line legend, a further line of the legend, the legend's width, a sample's width. */
 enum { PANEL_HEIGHT = 260, KEY_LINE = 21, KEY_WIDTH = 760, KEY_SAMPLE = 60 };
 #define KEY_LETTER 8.5
 
-/* A part of gnuplot's enhanced text, with its special characters escaped. With `raised`, the exponent after ^ is
- * raised: 1/2 in "m^(1/2)". */
+/* Writes gnuplot's enhanced text, with escapes. `raised`: the exponent after ^ is raised, such as 1/2 in "m^(1/2)". */
 static void write_part(FILE *to, const char *text, bool raised) {
     for (const char *at = text; *at != '\0'; at++) {
         if (*at != '^' || !raised) {
@@ -663,10 +658,10 @@ static void write_axis(FILE *to, const char *axis, const char *name, const char 
     fputs("\"\n", to);
 }
 
-/* A curve counts as flat if its range is below this part of its size: the tics could not show the range. */
+/* A curve is flat if its range relative to its size is smaller: tics could not show the range. */
 #define FLAT 1e-10
 
-/* Sets the range of an axis. For one value or no value, gnuplot's own range would cause warnings or errors. */
+/* Sets the range of an axis. For one value or none, gnuplot's own range would cause warnings or errors. */
 static void write_range(FILE *to, const char *axis, double least, double most) {
     if (!(least <= most)) {
         fprintf(to, "set %srange [-1:1]\n", axis);
@@ -686,7 +681,7 @@ typedef struct extent {
     double most;
 } extent;
 
-/* Extends `e` by the finite values of a run's column; if there are no finite values, least is above most. */
+/* Extends `e` by the finite values of a column; without any, least stays above most. */
 static extent joined(extent e, const plot_run *run, int column) {
     for (int r = 0; r < run->rows && column >= 0; r++) {
         const double value = run->data[(size_t)r * (size_t)run->columns + (size_t)column];
@@ -714,8 +709,7 @@ static int quantities_in(const panels *p, int panel) {
     return count;
 }
 
-/* The names of a panel's quantities, or of all (-1), separated by commas. If they are too long for an axis, the number
- * of quantities. The caller frees the result. */
+/* A panel's quantities (-1: all), separated by commas; if longer than `most`, their number. The caller frees it. */
 static char *names_of(const panels *p, int panel, size_t most) {
     char *names;
     size_t length;
@@ -734,7 +728,7 @@ static char *names_of(const panels *p, int panel, size_t most) {
     return names;
 }
 
-/* For one run: the quantity's name, with its description if there is room. For several runs: the run's label. */
+/* One run: the quantity's name, with its description if that fits. Several runs: the run's label. */
 static char *legend_of(const panels *p, const panels_quantity *q, int k, const plot_run *run) {
     const char *text = run->column[q->column[k]].text;
     const int together = quantities_in(p, q->panel);
@@ -745,8 +739,8 @@ static char *legend_of(const panels *p, const panels_quantity *q, int k, const p
                            : alloc_words("%s, %s", q->name, p->label[k]);
 }
 
-/* For one run: a colour for each quantity of the panel. For several: a colour for each run, and a dash for each curve,
- * so that five are distinguishable without colours. */
+/* One run: a colour for each quantity. Several runs: a colour for each run, and one of five dashes for each curve, so
+ * that curves are distinguishable without colour. */
 static void write_style(FILE *to, const panels *p, int of_panel, int k, bool points) {
     const int line = p->runs == 1 ? of_panel : k;
     const int dash = p->runs == 1 ? palette_dash(line) : 1 + (of_panel * p->runs + k) % 5;
@@ -766,8 +760,7 @@ static double first_trusted_s(const plot_run *runs, int count) {
     return least;
 }
 
-/* The legend's entry for the shaded time; "" if the whole time is trusted. The entry is short for several runs, because
- * a legend's columns are as wide as its longest entry. */
+/* The legend's entry for the shade, or "". Short for several runs: the longest entry sets the legend's column width. */
 static char *trust_sign(const plot_run *runs, int count) {
     const double until_s = first_trusted_s(runs, count);
     return !(until_s > 0.0) ? alloc_words("%s", "")
@@ -784,7 +777,7 @@ static int marks_in(const plot_run *runs, int count) {
     return marks;
 }
 
-/* The number of lines of a panel's legend, whose columns are as wide as its longest entry. */
+/* The lines of a panel's legend, whose columns are as wide as its longest entry. */
 static int key_lines(const panels *p, const plot_run *runs, int panel, bool time) {
     const bool signs = time && panel == 0;
     char *trusted = trust_sign(runs, p->runs);
@@ -804,7 +797,7 @@ static int key_lines(const panels *p, const plot_run *runs, int panel, bool time
     return (entries + columns - 1) / columns;
 }
 
-/* Writes the entries of the first panel's legend for the shade and for events. */
+/* Writes the first panel's legend for the shade and for events. */
 static void write_signs(FILE *to, const plot_run *runs, int count) {
     char *trusted = trust_sign(runs, count);
     if (trusted[0] != '\0') {
@@ -819,7 +812,7 @@ static void write_signs(FILE *to, const plot_run *runs, int count) {
     }
 }
 
-/* Writes a panel. `ylabel`, which is freed, is its label; NULL: the quantities' names and unit. */
+/* Writes a panel. `ylabel` is freed; NULL: quantities and unit. */
 static void write_panel(FILE *to, const panels *p, const plot_run *runs, int panel, bool time,
                         char *ylabel) {
     extent e = nothing;
@@ -867,7 +860,7 @@ void plot_shade(FILE *to, double from_s) {
             from_s);
 }
 
-/* Writes for every panel the shade after the shortest trusted time, and a cross on the time axis for each event. */
+/* For every panel: shades the time after the shortest trusted time, and marks events by a cross on the time axis. */
 static void write_times(FILE *to, const plot_run *runs, int count) {
     const double trusted_s = first_trusted_s(runs, count);
     if (trusted_s > 0.0) {
@@ -893,7 +886,7 @@ static void write_data(FILE *to, const plot_run *run, int number) {
     fputs("EOD\n", to);
 }
 
-/* The picture's title: the requested one, the run's, or its axes in words. The caller frees the result. */
+/* The requested title, the run's, or the axes in words. The caller frees the result. */
 static char *title_of(const panels *p, const plot_choice *choice, const plot_run *runs) {
     bool alike = true;
     for (int k = 1; k < p->runs; k++) {
@@ -908,7 +901,7 @@ static char *title_of(const panels *p, const plot_choice *choice, const plot_run
     return title;
 }
 
-/* A description of the picture for readers who cannot see it; to be freed. */
+/* For readers who cannot see the picture; to be freed. */
 static char *alternative_text(const panels *p, const plot_run *runs) {
     char *text;
     size_t length;

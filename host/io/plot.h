@@ -10,74 +10,71 @@
 typedef struct plot_column {
     char *name;  /* x, der(x), der(der(x)), ... */
     char *shown; /* x, x', x'', ... */
-    char *unit;  /* unit, as declared; NULL: unknown */
+    char *unit;  /* declared unit; NULL: unknown */
     char *text;  /* the quantity in words, or "" */
 } plot_column;
 
-/* Owner of all its data. Column 0 is the time, or the first swept value. */
+/* Owns its data. Column 0 is the time, or the first swept value. */
 typedef struct plot_run {
-    char *title; /* title of a picture of this run alone */
-    char *label; /* label in the legend of a picture of several runs */
+    char *title; /* title if the run is alone in the picture */
+    char *label; /* label in the legend of several runs */
     plot_column *column;
     int columns;
-    double *data; /* [rows * columns] row by row; a single row is drawn as points */
+    double *data; /* [rows * columns] by row; a single row is drawn as points */
     int rows;
-    double trusted_s; /* the picture is shaded after this time; below or at 0: no shade */
+    double trusted_s; /* shade the picture from this time on; <= 0: no shade */
     double *mark_s;   /* [marks] times of events */
     int marks;
 } plot_run;
 
-/* Opens a run without data, whose columns have no names yet. Texts are copied; `unit` may be NULL. */
+/* Opens a run without data and names of columns. Texts are copied; `unit` may be NULL. */
 void plot_run_open(plot_run *run, const char *title, const char *label, int columns);
 void plot_run_name(plot_run *run, int column, const char *name, const char *unit, const char *text);
-/* Names a column by its heading: the name, or NAME [UNIT]. The time is in seconds. */
+/* Names a column by its heading, NAME or NAME [UNIT]. The time is in seconds. */
 void plot_run_head(plot_run *run, int column, const char *heading);
 void plot_run_close(plot_run *run);
 
-/* Read the CSV file, and its description CSV.toml if that exists. A quantity's field that is not a number is NaN.
- * Returns false after an error, which it has reported. Call plot_run_close() in any case. */
+/* Reads the CSV file, and CSV.toml if it exists. Fields that are not numbers are NaN. Returns false after an error
+ * (reported). Call plot_run_close() in any case. */
 bool plot_run_read(const char *command, const char *csv, plot_run *run);
 
-/* Write CSV.toml, which describes the run: `facts` are lines of TOML for its head, `tables` for its end. Returns
- * false after an error, which it has reported. */
+/* Writes CSV.toml about the run: lines `facts` first, `tables` last. Returns false after an error (reported). */
 bool plot_run_about(const char *csv, const plot_run *run, const char *facts, const char *tables);
 
-/* Close the CSV file of a command about a scene ("" for none), as atomic_file_close() does. If it is a regular file,
- * then write CSV.toml, with version, command and scene. Returns false after an error, which it has reported. */
+/* Closes the CSV file of a command about a scene (or ""), like atomic_file_close(). For a regular file, then writes
+ * CSV.toml with version, command and scene. Returns false after an error (reported). */
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene);
 
-/* A TOML string, in quotes. The caller frees the result. */
+/* A TOML string in quotes. The caller frees it. */
 char *plot_run_quoted(const char *text);
 
 /* === a choice of quantities, resolved to panels and curves ==================================== */
 
 enum { PLOT_PANELS = 16 };
 
-/* The choice of curves. All zero: every coordinate and output, without rates, a panel for each unit. */
+/* All zero: every coordinate and output, without rates, a panel for each unit. */
 typedef struct plot_choice {
     const char *x;                  /* a quantity; NULL: column 0 */
-    const char *y;                  /* quantities separated by commas, a panel for each unit; or
-                                     * NULL */
+    const char *y;                  /* quantities, a panel for each unit; or NULL */
     const char *panel[PLOT_PANELS]; /* quantities that share a panel */
     int panels;
-    const char *legend; /* labels of the runs, separated by commas; or NULL */
+    const char *legend; /* labels of the runs; or NULL */
     const char *title;
     const char *xlabel; /* NULL: quantity and unit */
-    /* labels of the panels, separated by commas; default: quantities and unit */
-    const char *ylabel;
+    const char *ylabel; /* labels of the panels; NULL: quantities and unit */
 } plot_choice;
 
-/* Does each name have a quantity, and each panel one unit? If not, reports it. Needs columns, but no data. */
+/* Does each name have a quantity, and each panel one unit? If not, reports it. Needs no data. */
 bool plot_fits(const char *command, const plot_choice *choice, const plot_run *runs, int count);
-/* True if x is a quantity other than column 0. */
+/* Is x a quantity other than column 0? */
 bool plot_is_path(const plot_choice *choice);
 
 enum { PANELS_QUANTITIES = 256 };
 
-/* A drawn quantity: its column in each run, or -1. */
+/* A drawn quantity, with its column in each run, or -1. */
 typedef struct panels_quantity {
-    char *name;  /* name as displayed: theta' */
+    char *name;  /* as displayed: theta' */
     int *column; /* [runs] */
     int panel;
 } panels_quantity;
@@ -94,32 +91,30 @@ typedef struct panels {
     int runs;
 } panels;
 
-/* Draw to `file` (gnuplot.h). Titles and names (UTF-8) appear literally, with blanks for control characters. In a unit,
- * the exponent after ^ is raised. No text and no file name can act as a gnuplot command. Returns false after an error,
- * which it has reported: the choice does not fit, the file cannot be written, or gnuplot is missing or fails. */
+/* Draws to `file`. Titles and names (UTF-8) appear literally, with blanks for control characters; exponents after ^ in
+ * a unit are raised. No text or file name can act as a gnuplot command. Returns false after an error (reported): the
+ * choice does not fit, the file cannot be written, or gnuplot is missing or fails. */
 bool plot_draw(const char *command, const char *file, const plot_choice *choice,
                const plot_run *runs, int count);
 
-/* Write gnuplot's command that shades the background of a panel from this time on. */
+/* Writes gnuplot's command that shades a panel's background from this time on. */
 void plot_shade(FILE *to, double from_s);
 
 /* === a figure from its description ============================================================= */
 /* mk/figures/figures.sh documents the format of a .fig text. */
 
-/* The records of a run, sweep or table of the figure. */
+/* Records of a run, sweep or table of the figure. */
 typedef struct figure_data {
     char *name;
     char *csv;        /* text with a header line */
-    double trusted_s; /* end of the trusted time; 0: the whole time, or unknown */
+    double trusted_s; /* end of the trusted time; 0: not limited, or unknown */
 } figure_data;
 
-/* Finds the next line, from *at on, that begins with `word` and a blank. Returns the rest of the line, which the caller
- * frees; NULL if there is none. */
+/* Finds the next line from *at on that begins with `word` and a blank. Returns its rest, to be freed, or NULL. */
 char *figure_line(const char **at, const char *word);
 
-/* Draws the figure. `varied` has the options that change its runs, or "". If there are options, the title names them,
- * and the caption, which describes the original, is omitted. Returns false, and reports the reason, if the description
- * is wrong (`where` names it) or the picture cannot be drawn. */
+/* Draws the figure. `varied`: options that change its runs, or "". They appear in the title, and replace the caption,
+ * which describes the original. Returns false (reported) if the description (`where`) is wrong, or drawing fails. */
 bool figure_draw(const char *file, const char *where, const char *text, const figure_data *data,
                  int count, const char *varied);
 

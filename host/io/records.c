@@ -11,7 +11,6 @@
 #include "host/io/vcd.h"
 #include "host/number/functions.h"
 
-/* Columns of the unknowns and their derivatives, integrated or recovered. */
 static int state_columns(const image *im) {
     int columns = 0;
     for (int i = 0; i < im->count; i++) {
@@ -20,7 +19,7 @@ static int state_columns(const image *im) {
     return columns;
 }
 
-/* Names the columns: all values first, then all rates, and so on; then the outputs. */
+/* In this order: values, rates and so on of all unknowns; then the outputs. */
 static void name_columns(records *r) {
     const image *im = r->image;
     int column = 1;
@@ -71,11 +70,9 @@ static int column_of(const records *r, int unknown_index, int primes) {
     return column;
 }
 
-/* The text around the columns of a line. */
 typedef struct layout {
     const char *header, *between, *end;
-    const char
-        *unit; /* text before a unit's bracket: in plain columns a blank would split the column */
+    const char *unit; /* before a unit's bracket: a blank would split plain columns */
 } layout;
 
 static const layout csv = {"", ",", "\r\n", " "};
@@ -148,7 +145,7 @@ void records_read(records *r, void *run, double time_s) {
 
 static bool write_row(const records *r, FILE *out, const layout *l) {
     for (int i = 0; i < r->columns; i++) {
-        /* 15 digits for the time, because it is exact in every number type */
+        /* the time is exact in every number type: 15 digits */
         if (i == 0) {
             fprintf(out, "%.15g", r->row[i]);
         } else {
@@ -167,9 +164,9 @@ bool records_write(const records *r) {
 
 /* === waves of a run =========================================================================== */
 
-/* Most units of time in a dump. Doubles represent all whole numbers up to twice this. */
+/* Most units of time in a dump; doubles represent all whole numbers up to 2^53. */
 #define TICKS_MOST 0x1p52
-/* Fewest units of time in a step, if the end permits: times are rounded, and events within a step differ. */
+/* Fewest units of time in a step, if the end permits: they resolve events within a step. */
 #define TICKS_LEAST 1e3
 
 struct traces {
@@ -177,9 +174,9 @@ struct traces {
     vcd *vcd;
     FILE *out;
     double units_per_s;
-    int *signal;   /* [columns] signal of each column; the time has none */
-    int *mode_of;  /* [contacts] wire of a contact */
-    int *event_of; /* [contacts] event signal of a contact, or -1 */
+    int *signal;   /* [columns]; the time has none */
+    int *mode_of;  /* [contacts] wires */
+    int *event_of; /* [contacts] event signals, or -1 */
     int *mode;     /* [contacts] scratch */
 };
 
@@ -288,7 +285,7 @@ traces *traces_open(FILE *out, const records *form) {
     return w;
 }
 
-/* The value of a contact's wire when the contact is in this mode. */
+/* The level of a contact's wire in this mode. */
 static double shown_mode(int kind, int mode) {
     switch ((wh_contact_kind)kind) {
     case WH_STOP:

@@ -9,12 +9,11 @@
 #include "core/version.h"
 #include "host/base/alloc.h"
 
-/* Size of a value's text. */
 enum { VALUE_SIZE = 40 };
 
 typedef struct vcd_signal {
     vcd_kind kind;
-    char value[VALUE_SIZE]; /* the last written value; "": not written yet */
+    char value[VALUE_SIZE]; /* last written value, or "" */
 } vcd_signal;
 
 typedef struct change {
@@ -26,11 +25,11 @@ typedef struct change {
 struct vcd {
     FILE *out;
     int digits;
-    int scopes; /* number of open scopes */
+    int scopes; /* open scopes */
     vcd_signal *signal;
     int64_t signals;
     bool begun;
-    bool timed; /* a time has been written */
+    bool timed; /* a time was written */
     int64_t time;
     int64_t last;    /* the latest time of a change */
     change *waiting; /* ordered by time */
@@ -43,7 +42,7 @@ static bool is_simple(char c) {
            c == '$';
 }
 
-/* Writes a name without colons, which some viewers read as vectors. */
+/* Omits colons, because some viewers read such names as vectors. */
 static void write_name(FILE *out, const char *name) {
     char *copy = alloc_words("%s", name);
     char *to = copy;
@@ -60,7 +59,7 @@ static void write_name(FILE *out, const char *name) {
     free(copy);
 }
 
-/* Writes a comment. "$end" in its text would end it, and becomes "$ end". */
+/* "$end" would end the comment, and becomes "$ end". */
 static void write_comment(FILE *out, const char *text) {
     fputs("$comment ", out);
     for (const char *at = text; *at != '\0'; at++) {
@@ -81,7 +80,7 @@ static void open_scope(vcd *v, const char *scope) {
 
 vcd *vcd_new(FILE *out, const char *what, int power, const char *scope, int digits) {
     static const char *const unit[] = {"s", "ms", "us", "ns", "ps", "fs"};
-    /* a unit may have the factor 1, 10 or 100: 0.1 s is 100 ms */
+    /* units have the factor 1, 10 or 100: 0.1 s is 100 ms */
     static const char *const number[] = {"1", "100", "10"};
     vcd *v = alloc(1, sizeof *v);
     v->out = out;
@@ -101,7 +100,7 @@ void vcd_scope(vcd *v, const char *scope) {
     open_scope(v, scope);
 }
 
-/* The identifier of a signal: digits, the least significant first, of the printable characters from '!' on. */
+/* Writes a signal's identifier, a number whose digits are the printable characters from '!' on, lowest digit first. */
 static void write_mark(FILE *out, int64_t signal) {
     enum { DIGITS = '~' - '!' + 1 };
     do {
