@@ -16,8 +16,8 @@
 typedef struct command {
     const char *name;
     int (*run)(int count, char **words);
-    const char *takes; /* the command's arguments, for the list of commands */
-    const char *text;  /* the command's purpose; NULL hides a command of the project's own build */
+    const char *takes; /* arguments, for the list of commands */
+    const char *text;  /* purpose; NULL hides a command of the project's own build */
 } command;
 
 static const command commands[] = {
@@ -102,7 +102,7 @@ static bool is_one_of(const char *word, const char *a, const char *b, const char
     return strcmp(word, a) == 0 || strcmp(word, b) == 0 || (c != NULL && strcmp(word, c) == 0);
 }
 
-/* Runs the command that words[1] names. After that, output may still be in a buffer. */
+/* Runs the command words[1]. Output may remain in a buffer. */
 static int answer(int count, char **words) {
     static char help_word[] = "--help";
     char *help[] = {help_word, NULL};
@@ -127,8 +127,7 @@ static int answer(int count, char **words) {
     return asks_for_help ? named->run(1, help) : named->run(count - 2, words + 2);
 }
 
-/* Checks that all output was written, because an incomplete answer is useless. An early part may have failed although
- * the last one was written. */
+/* Fails if any part of the output was not written, even if the last part was: an incomplete answer is useless. */
 static int after_writing(int code) {
     errno = 0;
     const bool last_part = fflush(stdout) == 0;

@@ -70,11 +70,9 @@ typedef enum option_group {
 typedef struct command_usage {
     const char *head;
     unsigned groups; /* groups of options in the help text */
-    bool
-        described; /* a line for each option; else only the words, with a reference to `whirl run` */
+    bool described;  /* a line for each option; else only words, and a reference to `whirl run` */
     const char *tail;
-    const char *why
-        [EXITS]; /* [EXITS] the meaning of each exit status (host/base/exit.h); all NULL: omitted */
+    const char *why[EXITS]; /* meaning of each exit status (host/base/exit.h); all NULL: omitted */
 } command_usage;
 
 void options_usage(FILE *out, const command_usage *usage);
@@ -105,9 +103,8 @@ typedef struct common_options {
     overrides changes; /* --set, --start, --with, --without, --step, --until, --name */
     char **owned;      /* names of comma-separated lists */
     int owned_count;
-    image_settings
-        integration; /* --method, --compensated, --stabilized, --angles, --matrix, --tables, --cells */
-    const engine_kind *number; /* --number: the number type */
+    image_settings integration; /* --method, --compensated, --stabilized, --angles, --matrix, ... */
+    const engine_kind *number;  /* --number: the number type */
 } common_options;
 
 common_options options_defaults(void);

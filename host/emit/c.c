@@ -13,10 +13,8 @@
 #include "host/number/decimal.h"
 
 /* === c names ================================================================================== */
-/* Names that a scene cannot have in generated C. A scene is a global object, and its name appears in arbitrary programs
- * among arbitrary headers. Any name of C's library would conflict with a header's declaration, a macro, or the
- * library's definition at link time. So would a function built into the compiler ("conflicting types for built-in
- * function"). tests/host/test_c_names.c checks the list with the compilers. */
+/* A scene is a global object in arbitrary programs. So its name cannot be a name of C's library, which would conflict
+ * with a declaration, macro or definition, nor a built-in function. tests/host/test_c_names.c checks the lists. */
 
 /* Keywords, up to C23. */
 static const char words_of_c[] =
@@ -25,7 +23,7 @@ static const char words_of_c[] =
     "return short signed sizeof static static_assert struct switch thread_local true typedef "
     "typeof typeof_unqual union unsigned void volatile while";
 
-/* Words of C++ up to C++20 that C does not have, and built-in functions of C++ compilers for coroutines. */
+/* Words of C++ up to C++20 that C does not have, and built-in functions for coroutines. */
 static const char words_of_cpp[] =
     "and and_eq bitand bitor catch char8_t class co_await co_return co_yield compl concept "
     "const_cast consteval constinit coro_destroy coro_done coro_promise coro_resume decltype delete dynamic_cast explicit export friend "
@@ -33,8 +31,7 @@ static const char words_of_cpp[] =
     "reinterpret_cast requires static_cast std template this throw try typeid typename using "
     "virtual xor xor_eq";
 
-/* Objects and functions of a generated file itself. Names of local variables are not among them, because the scene is
- * declared after all functions. */
+/* Objects and functions of a generated file. Local variables may have the scene's name, because it is declared last. */
 static const char own[] =
     "main accelerations slopes step_matrix one_step advance ahead observe start_angle start_real "
     "start_input contacts contact_signals contact_forces contact_sets contact_table "
@@ -46,7 +43,7 @@ static const char own[] =
 static const char predefined[] =
     "AVR MIPSEB MIPSEL WIN32 WINNT i386 linux mc68000 mips sparc sun unix";
 
-/* Functions of <math.h> and <complex.h>: each has variants for other types. */
+/* Functions of <math.h> and <complex.h>, which have variants for other types. */
 static const char maths[] =
     "M_1_PI M_2_PI M_2_SQRTPI M_E M_LN10 M_LN2 M_LOG10E M_LOG2E M_PI M_PI_2 M_PI_4 M_SQRT1_2 "
     "M_SQRT2 acos acosh acospi asin asinh asinpi atan atan2 atan2pi atanh atanpi cabs cacos "
@@ -62,7 +59,6 @@ static const char maths[] =
     "setpayload setpayloadsig signbit significand sin sincos sinh sinpi sqrt tan tanh tanpi "
     "tgamma totalorder totalordermag trunc ufromfp ufromfpx y0 y1 yn";
 
-/* Types, macros and objects in headers. */
 static const char types_and_macros[] =
     "BIG_ENDIAN BUFSIZ CHAR_BIT CHAR_MAX CHAR_MIN CLOCKS_PER_SEC DECIMAL_DIG EDOM EILSEQ EOF "
     "ERANGE EXIT_FAILURE EXIT_SUCCESS FD_SETSIZE FILE FILENAME_MAX FOPEN_MAX HUGE_VAL "
@@ -124,16 +120,15 @@ static const char functions[] =
     "wcstoll wcstombs wcstoul wcstoull wcstoumax wcsxfrm wctob wctomb wctrans wctype wmemchr "
     "wmemcmp wmemcpy wmemmove wmemset wprintf wscanf";
 
-/* Reserved prefixes. */
 static const char families[] =
     "FLT_ DBL_ LDBL_ DEC32_ DEC64_ DEC128_ FE_ LC_ FP_ ATOMIC_ atomic_ memory_order_ mtx_ "
     "cnd_ thrd_ tss_ pthread_ stdc_ ckd_ wh_ WH_ _";
 
-/* The suffixes of a function's variants for other types. */
+/* Suffixes of a function for other types. */
 static const char *const variants[] = {"",     "f",    "l",     "f16",  "f32", "f64", "f128",
                                        "f32x", "f64x", "f128x", "bf16", "d32", "d64", "d128"};
 
-/* The first word in `words`, separated by spaces; NULL at the end. */
+/* The first word of a list separated by spaces, or NULL. */
 static const char *next_word(const char *words, size_t *length) {
     words += strspn(words, " ");
     *length = strcspn(words, " ");
@@ -170,7 +165,7 @@ static bool is_in_a_family(const char *name) {
     return false;
 }
 
-/* Is it a function of `maths` or its variant, such as fabs, fabsf, fabsl, fabsf64x, lgammaf_r? */
+/* Is it a function of `maths`, or a variant such as fabsf, fabsl, fabsf64x, lgammaf_r? */
 static bool is_maths(const char *name) {
     const size_t whole = strlen(name);
     const size_t length = ends(name, "_r") ? whole - 2 : whole;
@@ -184,7 +179,7 @@ static bool is_maths(const char *name) {
     return false;
 }
 
-/* Is it a name of <stdint.h> or <inttypes.h>, such as int8_t, INT8_C, UINT_LEAST16_MAX, PRIdPTR? */
+/* Is it a name of <stdint.h> or <inttypes.h>, such as INT8_C, UINT_LEAST16_MAX, PRIdPTR? */
 static bool is_of_integers(const char *name) {
     const bool format = begins(name, "PRI") || begins(name, "SCN");
     const char *upper = name + (name[0] == 'U');
@@ -230,7 +225,6 @@ static void c_contacts_include(FILE *out, const image *im) {
 static const char *const kinds[WH_CONTACT_KIND_COUNT] = {WH_CONTACT_KINDS(KIND_TEXT)};
 #undef KIND_TEXT
 
-/* Writes a table of small numbers, unless it is empty. */
 static void write_bytes(FILE *out, const char *name, const int *number, int count) {
     for (int i = 0; i < count; i++) {
         if (i == 0) {
@@ -251,7 +245,6 @@ static void write_table(FILE *out, const image *im) {
     write_bytes(out, "contact_target", im->target, im->set_count);
 }
 
-/* Writes the contacts' lists, their table, and one_step(). */
 static void c_contacts_write(FILE *out, const image *im) {
     char hex[HEX_SIZE];
     const bool sets = im->list[IMAGE_SETS] != NULL;
@@ -297,7 +290,7 @@ static void c_contacts_write(FILE *out, const image *im) {
 
 /* === a scene's ledger as C ==================================================================== */
 
-/* Writes the declared bounds, which must precede the core's headers. */
+/* These bounds must precede the core's headers. */
 static void c_ledger_bounds(FILE *out, const image *im) {
     const image_ledger *l = &im->ledger;
     fprintf(out, "#define WH_LEDGER 1\n#define WH_LEDGER_MAX %d\n#define WH_ACCOUNTS_MAX %d\n",
@@ -311,7 +304,7 @@ static void write_phases(FILE *out, const image *im, const char *angle) {
             im->angles, im->angles, angle);
 }
 
-/* Writes a wh_levels_fn, indented for a name as long as "ledger_levels" or "ledger_powers". */
+/* The indentation fits a name as long as "ledger_levels" or "ledger_powers". */
 static void write_of_angles(FILE *out, const image *im, const op_list *t, const char *name,
                             const char *result) {
     fprintf(out,
@@ -398,7 +391,6 @@ static void write_observer(FILE *out, const image *im) {
     c_list_body(out, t, C_PHASES, "output");
 }
 
-/* Writes a table of numbers, unless it is empty. */
 static void write_reals(FILE *out, const char *name, const double *number, int count) {
     char hex[HEX_SIZE];
     for (int i = 0; i < count; i++) {
@@ -428,14 +420,14 @@ static void write_starts(FILE *out, const image *im) {
     fprintf(out, "\n");
 }
 
-/* Can the scene use wh_multi_step()? It does not update the data of contacts, ledgers and inputs with a rate. */
+/* wh_multi_step() does not update the data of contacts, ledgers and inputs with a rate. */
 static bool has_multi_step(const image *im) {
     return im->contacts == 0 && !im->ledger.kept && im->drives == 0;
 }
 
 static void write_scene(FILE *out, const image *im) {
     char hex[HEX_SIZE];
-    /* the scene comes after the functions, because their local names would hide its name */
+    /* the scene follows the functions, because their local names would hide it */
     c_header_link(out, "wh_scene", im->name, c_header_of_image, im);
     fprintf(out, "const wh_scene %s = {\n    .name = \"%s\",\n    .form = %s,\n    .method = %s,\n",
             im->name, im->name, im->form == WH_SECOND_ORDER ? "WH_SECOND_ORDER" : "WH_FIRST_ORDER",
@@ -469,7 +461,7 @@ static void write_scene(FILE *out, const image *im) {
             im->outputs > 0 ? "observe" : "NULL");
 }
 
-/* The list that a step computes: the matrix, or the right-hand side of each stage. */
+/* The list that a step computes: the matrix, or each stage's right-hand side. */
 static const op_list *moving(const image *im) {
     return im->list[im->list[IMAGE_MATRIX] != NULL ? IMAGE_MATRIX : IMAGE_STEP];
 }
@@ -525,7 +517,7 @@ static void write_includes(FILE *out, const image *im) {
     }
 }
 
-/* Writes one_step() for a scene without contacts. */
+/* For a scene without contacts. */
 static void write_one_step(FILE *out, const image *im) {
     const bool second = im->form == WH_SECOND_ORDER;
     const char *method = wh_methods[im->settings.method].name;
@@ -588,8 +580,7 @@ static void write_advance(FILE *out, const image *im) {
     }
 }
 
-/* The number of stages for which memory is reserved. Fewer than four would not lower the number of values that gcc
- * spills. */
+/* Stages with reserved memory. Fewer than four would not reduce the values that gcc spills. */
 static int most_stages(const image *im) {
     const int stages = wh_methods[im->settings.method].stages;
     return stages > 4 ? stages : 4;

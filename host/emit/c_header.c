@@ -1,7 +1,7 @@
-/* c_header.c: a scene's C header for C11 and C++11: the indices of its components, inputs and outputs, by name, with
- * their units, and the size of its memory. Every name is SCENE_KIND_NAME, with scene and name spelled as in the file.
- * The names of a scene differ, since no KIND is another one plus an underscore. None is a word of C or C++. All are
- * macros or enumerators of one type (C++20 deprecates adding two enumeration types), so unused ones take no memory. */
+/* c_header.c: a scene's header for C11 and C++11: the indices of components, inputs and outputs, by name, their units,
+ * and the size of memory. Every name is SCENE_KIND_NAME, with scene and name as in the file. Names are unique, because
+ * no KIND is another one plus an underscore, and no words of C or C++. They are macros or enumerators of one type
+ * (C++20 deprecates adding two enumeration types), so unused ones take no memory. */
 #include "c_header.h"
 
 #include <inttypes.h>
@@ -13,7 +13,7 @@
 #include "host/base/hashing.h"
 #include "host/image/core_rows.h"
 
-/* Length in bytes of the character at `text` if it changes the writing direction, else 0: compilers warn of these characters. */
+/* Length in bytes of a character that changes the writing direction, else 0: compilers warn of these. */
 static size_t turns_direction(const char *text) {
     const unsigned char *c = (const unsigned char *)text;
     if (c[0] == 0xe2 && ((c[1] == 0x80 && c[2] >= 0x8e && c[2] <= 0xae) ||
@@ -44,8 +44,8 @@ void c_comment(FILE *out, const char *text) {
 typedef enum list { LIST_ANGLES, LIST_REALS, LIST_INPUTS, LIST_OUTPUTS, LISTS } list;
 
 static const struct {
-    const char *counted; /* last word of SCENE_ANGLES and of SCENE_NAMES_OF_ANGLES */
-    const char *value;   /* the KIND of a component; `rate`: the KIND of its rate */
+    const char *counted; /* last word of SCENE_ANGLES and SCENE_NAMES_OF_ANGLES */
+    const char *value;   /* the KIND of a component, and of its rate */
     const char *rate;
     const char *where;
 } lists[LISTS] = {
@@ -121,7 +121,7 @@ static void write_items(FILE *out, const image *im, list of, const char *where) 
     fprintf(out, "    %s_%s = %d,\n\n", prefix, lists[of].counted, count_of(im, of));
 }
 
-/* Names and units as strings: the initializer of an array. */
+/* Writes the initializer of an array of strings. */
 static void write_strings(FILE *out, const image *im, list of) {
     if (count_of(im, of) == 0) {
         return;
@@ -148,7 +148,7 @@ static void write_memory(FILE *out, const image *im) {
         im->name, im->angles, core_memory_reals(im), im->contacts, im->name, im->name);
 }
 
-/* A number in the core's format: WH_R() needs a point or an exponent. */
+/* WH_R() needs a point or an exponent. */
 static void define_number(FILE *out, const image *im, const char *kind, const char *name,
                           double value) {
     char text[40];
@@ -228,7 +228,7 @@ void c_header_fixed_state(FILE *out, const image *im) {
                 "fixed-point code computes no outputs: these number a table of your own");
 }
 
-/* The name "SCENE_HEADER_1a2b3c4d", with a hash of the body without comments. To be freed. */
+/* "SCENE_HEADER_1a2b3c4d", with a hash of the body without comments; to be freed. */
 static char *linked_name(const char *scene, c_header_body *body, const void *of) {
     char *text;
     size_t length;

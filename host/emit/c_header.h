@@ -6,31 +6,30 @@
 
 #include "host/image/image.h"
 
-/* Writes `text` as part of a comment, on one line. The text cannot end the comment, and causes no compiler warnings. */
+/* Writes one line of a comment. The text cannot end the comment, and causes no compiler warnings. */
 void c_comment(FILE *out, const char *text);
 
-/* Writes the names of components, inputs and outputs as lines of a comment. */
+/* Writes the names of components, inputs and outputs in a comment. */
 void c_header_names(FILE *out, const image *im);
 
-/* Enumerators of components, inputs and outputs of a scene in fixed point, one a line. */
+/* Writes enumerators of components, inputs and outputs for fixed point. */
 void c_header_fixed_state(FILE *out, const image *im);
 
-/* The first lines of a header's comment; `form` follows the scene's name. */
+/* Writes a header's first lines; `form` follows the scene's name. */
 void c_header_title(FILE *out, const image *im, const char *file, const char *form);
 
-/* Parts of headers in floating and fixed point. The first writes the line about the licence, the second the check that
- * core and scene have the same version. */
+/* Write the line about the licence, and the check that core and scene have one version. */
 void c_header_licence(FILE *out);
 void c_header_version(FILE *out);
-/* Writes the whole header after the scene's declaration. */
+/* Writes the header after the scene's declaration. */
 typedef void c_header_body(FILE *out, const void *of);
-/* Writes a header's declaration of the scene, by WH_LINKS_TO() of version.h, and its body. */
+/* Writes the scene's declaration by WH_LINKS_TO() of version.h, and the body. */
 void c_header_declare(FILE *out, const char *type, const char *scene, c_header_body *body,
                       const void *of);
 /* Writes the scene's declaration in its .c file, and its second name by WH_LINKED_AS(). */
 void c_header_link(FILE *out, const char *type, const char *scene, c_header_body *body,
                    const void *of);
-/* The body for a scene in floating point, an image. */
+/* The body in floating point; `of` is an image. */
 c_header_body c_header_of_image;
 void c_header_strings(FILE *out, const image *im);
 void c_header_values(FILE *out, const image *im);

@@ -1,6 +1,5 @@
-/* c_list.c: an operation list as C. Every operation becomes one statement, so that the compiler and the interpreter
- * have the same operations in the same order. Constants are hexadecimal: the float build rounds the double exactly as
- * the interpreter does. */
+/* c_list.c: an operation list as C. An operation is one statement, so that compiler and interpreter have the same
+ * operations in the same order. Constants are hexadecimal, so that float rounds the double as in the interpreter. */
 #include "host/emit/c_list.h"
 
 #include <inttypes.h>
@@ -18,7 +17,7 @@ static void operands(FILE *out, const op_list *t, const op *o, const op_style *s
     }
 }
 
-/* Writes "|| b != b", which is true for a NaN; nothing if b is a constant. */
+/* Writes "|| b != b", which is true for NaN, unless b is a constant. */
 static void or_no_number(FILE *out, const op_list *t, int b, const op_style *style) {
     if (t->ops[b].code != OP_CONSTANT) {
         fputs(" || ", out);
@@ -54,19 +53,16 @@ void op_text(FILE *out, const op_list *t, const op *o, const char *form, const o
 
 /* === the list ================================================================================= */
 
-/* A list with more operations is called at each stage and not inlined. On the Cortex-M4F this costs 7 to 12 % more
- * instructions and saves half of the flash or more: seven links of a pendulum take 8 instead of 15 KB, ten take 14
- * instead of 33. */
+/* Longer lists are called at each stage, not inlined. On the Cortex-M4F this costs 7 to 12 % more instructions and
+ * saves about half of the flash: seven links of a pendulum take 8 instead of 15 KB, ten take 14 instead of 33. */
 enum { INLINED_MOST = 150 };
 
-/* From this number of operations on, the compiler should keep their order (WH_LONG_LIST of core/step.h). On the
- * Cortex-M4F, a list of 67 operations then takes 1 % fewer instructions but 2 % more cycles; a list of
- * 131 operations takes 4 % fewer instructions and 2 % fewer cycles. */
+/* For longer lists, the compiler should keep the order (WH_LONG_LIST of core/step.h). On the Cortex-M4F, 67 operations
+ * then take 1 % fewer instructions but 2 % more cycles; 131 operations, 4 and 2 % fewer. */
 enum { LONG_LEAST = 100 };
 
 bool c_list_is_long(const op_list *t) { return op_list_operations(t) >= LONG_LEAST; }
 
-/* An operand; constants are written in place. */
 static const char *operand(const op_list *t, int a, char text[static 48]) {
     if (t->ops[a].code == OP_CONSTANT) {
         const double value = t->ops[a].value;
@@ -78,7 +74,7 @@ static const char *operand(const op_list *t, int a, char text[static 48]) {
     return text;
 }
 
-/* Writes "wh_phase_times(...)", a multiple of an angle. Integers that the float build needs are computed here. */
+/* Writes "wh_phase_times(...)", a multiple of an angle, with the integers that float needs. */
 static void write_part(FILE *out, int angle, double multiple) {
     uint32_t whole;
     uint64_t part;
@@ -90,7 +86,7 @@ static void write_part(FILE *out, int angle, double multiple) {
             angle, hex_write(multiple, hex), whole, part);
 }
 
-/* Writes the phase's constant and its whole multiples of angles. Returns the sign before the next term. */
+/* Writes the phase's constant and whole multiples of angles. Returns the sign before the next term. */
 static const char *write_turns(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     if (o->value != 0.0 || (o->turns == NULL && o->parts == NULL && o->b < 0)) {
@@ -136,7 +132,7 @@ static void write_operand(FILE *out, const op_list *t, int a) {
     fputs(operand(t, a, text), out);
 }
 
-/* Does the list contain the operation `code`, OP_SIN or OP_COS, of phase i? */
+/* Does the list have `code`, OP_SIN or OP_COS, of phase i? */
 static bool takes(const op_list *t, op_code code, int i) {
     bool found = false;
     for (int k = i + 1; k < t->count; k++) {
@@ -145,7 +141,7 @@ static bool takes(const op_list *t, op_code code, int i) {
     return found;
 }
 
-/* Writes the sine and cosine of phase i, read from wave[`wave`]. */
+/* Writes sine and cosine of phase i, read from wave[`wave`]. */
 static void write_pair(FILE *out, const op_list *t, int i, int wave) {
     if (takes(t, OP_SIN, i)) {
         fprintf(out, "    const wh_real s%d = wave[%d].sine;\n", i, wave);
@@ -171,7 +167,7 @@ static void write_cell(FILE *out, const op_list *t, int i) {
     fprintf(out, ");\n");
 }
 
-/* Is it a look-up in an odd table with folding? */
+/* Is it a look-up in an odd table that folds? */
 static bool is_mirrored(const op_list *t, const op *o) {
     return op_rows[o->code].kind == OP_IS_LOOKUP && t->tables.folds &&
            t->tables.odd[(int)o->value / t->tables.terms];
@@ -279,8 +275,7 @@ void c_list_matrix(FILE *out, const op_list *t) {
     write_function(out, t, C_PHASES, "step_matrix", true, "WH_INLINE");
 }
 
-/* Writes the rate of a wave times `scale`, summed as in the interpreter. If the wave has a single angle, its factor is
- * multiplied by `scale` first. */
+/* Writes a wave's rate times `scale`, summed as in the interpreter. A single angle's factor is scaled first. */
 static void write_rate(FILE *out, const op_list *t, const op *o) {
     const char *plus = "";
     int terms = 0;

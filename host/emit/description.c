@@ -45,7 +45,6 @@ static void put_unit(json *j, const image_unit *unit) {
     json_number(j, "unit_si", image_shows_si(unit) ? 1.0 : unit->scale / unit->divisor);
 }
 
-/* The range in fixed point, if declared. */
 static void put_range(json *j, const image_range *range) {
     if (!range->declared) {
         json_null(j, "range");
@@ -68,7 +67,7 @@ static void put_quantity(json *j, const image_quantity *q, int index, bool has_v
     put_place(j, q->at);
 }
 
-/* `range`: the quantities' ranges, or NULL. */
+/* `range`: ranges of the quantities, or NULL */
 static void put_quantities(json *j, const char *key, const image_quantity *q, int count,
                            const image_range *range) {
     json_open(j, key, '[');
@@ -83,7 +82,6 @@ static void put_quantities(json *j, const char *key, const image_quantity *q, in
     json_close(j, ']');
 }
 
-/* Name, derivative and unit of a component, or of a recovered coordinate. */
 static void put_component(json *j, const image *im, component c, int index) {
     const image_unknown *u = &im->unknown[c.unknown];
     json_whole(j, "index", index);
@@ -118,8 +116,9 @@ static void put_state(json *j, const image *im) {
 static void put_outputs(json *j, const image *im) {
     json_open(j, "outputs", '[');
     for (int i = 0; i < im->outputs; i++) {
-        /* if not negative: index among values and rates of recovered coordinates */
-        const int k = i - im->own_outputs;
+        const int k =
+            i -
+            im->own_outputs; /* if >= 0: index among values and rates of recovered coordinates */
         json_open(j, NULL, '{');
         if (k < 0) {
             put_quantity(j, &im->output[i], i, false);
@@ -202,7 +201,7 @@ static void put_lists(json *j, const image *im) {
     json_close(j, '}');
 }
 
-/* Writes the table look-ups of a step; null if the step computes all functions of angles. */
+/* null if the step looks up no tables. */
 static void put_tables(json *j, const image *im) {
     const op_list_tables *of = &im->list[IMAGE_STEP]->tables;
     if (of->count == 0) {
@@ -271,7 +270,7 @@ static void put_matrix_rows(json *j, const image *im, const char *key, int first
     json_close(j, ']');
 }
 
-/* Writes the setting; for an image with a matrix also "phi", "gamma" and "g", rows of the components in their order. */
+/* With a matrix also "phi", "gamma" and "g", rows of the components in their order. */
 static void put_matrix(json *j, const image *im) {
     const int states = im->matrix.states;
     json_text(j, "matrix", image_matrix_words[im->settings.matrix]);
@@ -394,7 +393,7 @@ static void tell_ledger(FILE *out, const image *im) {
     }
 }
 
-/* Writes the declared ranges only; fixed point finds the others in a run. */
+/* Undeclared ranges are found in a run. */
 static void put_ranges(FILE *out, const image *im) {
     bool any = false;
     for (int i = 0; i < im->reals + im->inputs; i++) {

@@ -2,10 +2,10 @@
 
 #include "emit.h"
 
-/* BESIDE: largest number of columns that are printed next to each other. Widths are in characters. */
+/* BESIDE: most columns in a row of the print. Widths are in characters. */
 enum { BESIDE = 5, NAME_WIDTH = 14, NUMBER_WIDTH = 17 };
 
-/* The label of column or row k, a state or an input: its name with primes, in text[size]. */
+/* Writes the label of column or row k, a state or an input: its name with primes. */
 static const char *name_of(const image *im, int k, char *text, size_t size) {
     const int states = im->matrix.states;
     if (k >= states + im->inputs) {
@@ -33,7 +33,7 @@ static double entry(const image *im, int i, int k) {
     return im->matrix.entry[i * im->matrix.columns + k];
 }
 
-/* "(X, Y, X', Y')", of columns from `first` to before `end`; `units` as well: "(X [m], ...)". */
+/* Writes "(X, Y, X', Y')", of columns from `first` to before `end`; with `units`, "(X [m], ...)". */
 static void put_names(FILE *out, const image *im, int first, int end, bool units) {
     char name[256];
     fputc('(', out);

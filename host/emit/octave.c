@@ -7,7 +7,7 @@
 #include "host/base/alloc.h"
 #include "host/emit/c_list.h"
 
-/* The index k of y(k), from 1: first the values, then the rates, and so on. */
+/* The index k of y(k), from 1: values, then rates, and so on. */
 static int y_number(const image *im, component of) {
     int number = 1;
     for (int i = 0; i < im->count; i++) {
@@ -58,7 +58,7 @@ static void write_leaf(FILE *out, const void *context, char what, int a) {
     }
 }
 
-/* Writes an operation of a step's list; a constant is written where it is used. */
+/* A constant is written at its use. */
 static void write_operation(FILE *out, const image *im, int i) {
     const op_style style = {write_operand, write_leaf, im};
     const op_list *t = im->list[IMAGE_STEP];
@@ -76,7 +76,7 @@ static void write_operation(FILE *out, const image *im, int i) {
     fputs(";\n", out);
 }
 
-/* Does a list contain an operation that gives NaN in C but a complex number in Octave? */
+/* Has the list an operation that gives NaN in C but a complex number in Octave? */
 static bool may_be_complex(const op_list *t) {
     bool found = false;
     for (int i = 0; i < t->count; i++) {
@@ -161,7 +161,7 @@ void emit_octave(FILE *out, const image *im, const char *file, const char *conta
 }
 
 bool emit_octave_variable_is_free(const char *name) {
-    /* Keywords of Octave or of Matlab; then names of the file itself, and functions that it calls. */
+    /* keywords; names of the file; functions that it calls */
     static const char taken[] =
         "arguments break case catch classdef continue do else elseif end end_try_catch "
         "end_unwind_protect endarguments endclassdef endenumeration endevents endfor endfunction "
@@ -170,7 +170,7 @@ bool emit_octave_variable_is_free(const char *name) {
         "try until unwind_protect unwind_protect_cleanup while "
         "t y dy Phi Gamma g0 zeros isreal ode45 odeset save NaN";
     function_id called;
-    /* Matlab's names begin with a letter. */
+    /* Matlab's names begin with a letter */
     return name[0] != '_' && !function_find(name, strlen(name), &called) &&
            !emit_is_among(taken, name, strlen(name));
 }

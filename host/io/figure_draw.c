@@ -16,12 +16,11 @@ typedef struct figure {
     const figure_data *data;
     int count;
     int panels;
-    int curves;  /* curves in this panel */
-    int named;   /* curves in the legend */
-    bool varied; /* the runs have changed options: omit marks of the original motion */
-    double
-        trusted_s; /* shortest trusted time among the panel's curves over time; 0: all are trusted to the end */
-    char *plot; /* gnuplot text of the curves */
+    int curves;       /* curves in this panel */
+    int named;        /* curves in the legend */
+    bool varied;      /* the runs have changed options: omit marks of the original motion */
+    double trusted_s; /* shortest trusted time of the panel's curves over time; 0: no limit */
+    char *plot;       /* gnuplot text of the curves */
     char *xlabel;
 } figure;
 

@@ -24,8 +24,7 @@ void vcd_scope(vcd *v, const char *scope);
  * removed. Other names that are no identifier, such as der(x), get a backslash. `note`: a comment, or NULL. */
 int vcd_add(vcd *v, vcd_kind kind, const char *name, const char *note);
 
-/* The value from this time on; times below 0 are 0. A wire is 0 for 0, unknown for NaN, else 1. An event occurs
- * then. */
+/* The value from this time on; times below 0 count as 0. A wire is 0 for 0, unknown for NaN, and 1 for other values. */
 void vcd_change(vcd *v, int signal, int64_t time, double value);
 
 /* No change before this time will follow. */

@@ -17,18 +17,18 @@ enum { LIGHT_ROOM = 8192 };
 extern const char *const light_names[LIGHT_FIELDS];
 
 typedef struct light {
-    char text[LIGHT_ROOM];  /* the record as the board wrote it, a line feed after each line */
-    size_t length;          /* its length */
-    char lines[LIGHT_ROOM]; /* the record split into words */
-    const char *value[LIGHT_FIELDS]; /* the value of each field of light_names[] */
+    char text[LIGHT_ROOM]; /* the record, a line feed after each line */
+    size_t length;
+    char lines[LIGHT_ROOM];          /* a copy, split into words */
+    const char *value[LIGHT_FIELDS]; /* values of light_names[] */
     uint32_t crc;
 } light;
 
-/* Reads bytes[count]: noise, then one record at the end. Carriage returns come from a terminal and are dropped. Returns NULL if the record is whole; otherwise the error in words, and sets *hint. */
+/* Reads bytes[count]: noise, then one record. Drops the carriage returns of terminals. Returns NULL if the record is
+ * whole, else the error in words, with *hint. */
 const char *light_read(light *l, const char *bytes, size_t count, const char **hint);
 
-/* light_begin() finds the beginning of the last record, light_end() the first byte after a record's end; both return
- * NULL if it is missing. */
+/* Returns the beginning of the last record (light_begin), the first byte after a record (light_end), or NULL. */
 const char *light_begin(const char *bytes, size_t count);
 const char *light_end(const char *from, const char *end);
 

@@ -1,4 +1,4 @@
-/* recording.c: the recording of a rig's telemetry by the schema that the rig describes (`tel schema`). */
+/* recording.c: the recording of a rig's telemetry, by the schema from `tel schema`. */
 #include "host/monitor/recording.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "host/io/plot.h"
 #include "host/number/decimal.h"
 
-/* The text after " name=" in the line; NULL without it. */
+/* The text after " name=" in the line, or NULL. */
 static const char *value_of(const char *line, const char *name) {
     const size_t length = strlen(name);
     for (const char *at = strchr(line, ' '); at != NULL; at = strchr(at + 1, ' ')) {
@@ -30,7 +30,7 @@ static bool read_whole(const char *at, double most, uint32_t *number) {
     return true;
 }
 
-/* The characters up to one of `ends`, at most SCHEMA_NAME - 1; NULL if there are none or too many. */
+/* Copies the characters before one of `ends`, at most SCHEMA_NAME - 1. Returns NULL if there are none or too many. */
 static const char *copy_word(char *to, const char *from, const char *ends) {
     const size_t length = strcspn(from, ends);
     if (length == 0 || length >= SCHEMA_NAME) {
@@ -41,7 +41,7 @@ static const char *copy_word(char *to, const char *from, const char *ends) {
     return from + length;
 }
 
-/* "load[N]" as "load [N]" */
+/* Stores "load[N]" as "load [N]". */
 static bool set_name(schema_field *field, const char *word) {
     const char *unit = strchr(word, '[');
     if (unit == NULL || unit == word) {
@@ -55,7 +55,7 @@ static bool set_name(schema_field *field, const char *word) {
     return true;
 }
 
-/* "name[unit]:i2:scale:offset"; the offset is optional. Returns the following text, or NULL if unreadable. */
+/* Reads "name[unit]:i2:scale:offset"; the offset is optional. Returns the remaining text, or NULL if unreadable. */
 static const char *read_field(schema_field *field, const char *at) {
     char word[SCHEMA_NAME];
     *field = (schema_field){.scale = 1.0};
@@ -83,7 +83,7 @@ static const char *read_field(schema_field *field, const char *at) {
     return at;
 }
 
-/* Reads fields, separated by commas, up to a blank, a colon or the end. Returns their number; -1: unreadable. */
+/* Reads fields, separated by commas, up to a blank, a colon or the end. Returns their number, or -1 if unreadable. */
 static int read_fields(schema_field *fields, const char *at) {
     int count = 0;
     if (at == NULL) {
@@ -117,7 +117,7 @@ static bool take_channel(schema *s, const char *line) {
     return true;
 }
 
-/* Takes an answer about the rate, which has the new period of the first channel. */
+/* Takes an answer with the new period of the first channel. */
 static bool take_rate(schema *s, const char *line) {
     uint32_t period_ticks = 0;
     if (!s->channel[0].known ||
@@ -138,7 +138,7 @@ bool schema_take(schema *s, const char *line) {
     return strncmp(line, "OK 0=", 5) == 0;
 }
 
-/* Reads a field's value from bytes[field->size]. Returns false for the number that means "no value". */
+/* Reads bytes[field->size]. Returns false for the number that means "no value". */
 static bool schema_value(const schema_field *field, const uint8_t *bytes, double *value) {
     const uint32_t raw = wire_number(bytes, field->size);
     const uint32_t top = field->size > 0 ? 1U << (8U * field->size - 1U) : 0;
@@ -159,13 +159,12 @@ unsigned schema_bytes(const schema_field *fields, int count) {
 
 /* === the recording ============================================================================ */
 
-/* The rig's clock is 1 MHz. */
 #define TICKS_PER_S 1e6
-/* An event comes at most this long after its time stamp. Usually it comes after one or two control steps. */
+/* Longest delay of an event after its time stamp; usually one or two control steps. */
 #define SETTLED_US 50000
 /* Displayed length of a pulse if the rig does not report ends. */
 #define PULSE_US 100
-/* A larger gap in a channel's count means that the rig has restarted. */
+/* A larger gap in a channel's count is a restart of the rig. */
 #define GAP_MOST 0x8000U
 
 enum { EVENT_PULSE, EVENT_STATE, EVENT_TRIP, EVENT_END };
@@ -182,7 +181,7 @@ static int64_t time_of(recording *r, uint32_t ticks) {
     return r->time_us + (int32_t)(ticks - r->ticks);
 }
 
-/* Stores the latest ticks: time_of() counts other ticks from them. */
+/* time_of() measures later ticks from these. */
 static void go_on(recording *r, uint32_t ticks) {
     r->time_us = time_of(r, ticks);
     r->ticks = ticks;
@@ -191,7 +190,7 @@ static void go_on(recording *r, uint32_t ticks) {
 void recording_anew(recording *r) {
     r->counts.restarts += r->timed;
     r->time_us = r->expects ? r->expected_us : r->time_us;
-    r->timed = false; /* the next frame sets the clock: its ticks count as r->time_us */
+    r->timed = false; /* the next frame's ticks count as r->time_us */
     memset(r->channel, 0, sizeof r->channel);
     r->expects = false;
     r->ends = r->high[0] = r->high[1] = false; /* the new program may report no ends of pulses */
@@ -222,7 +221,7 @@ static void put_number(FILE *to, bool there, double value) {
     }
 }
 
-/* Writes the names of the columns and signals, once. */
+/* Names columns and signals, once. */
 static void head(recording *r, const schema_channel *c) {
     if (r->headed) {
         return;
@@ -256,7 +255,7 @@ static void head(recording *r, const schema_channel *c) {
     }
 }
 
-/* Takes one sample: its own values, then those that the whole frame has in common. */
+/* A sample has its own values, then those of the whole frame. */
 static void take_sample(recording *r, const schema_channel *c, int64_t time_us, const uint8_t *each,
                         const uint8_t *once) {
     double values[1 + 2 * SCHEMA_FIELDS];
@@ -405,7 +404,7 @@ bool recording_plot(const recording *r, const schema *s, const char *file) {
     for (int i = 1; i < r->columns; i++) {
         const schema_field *field = i <= c->eaches ? &c->each[i - 1] : &c->once[i - 1 - c->eaches];
         const bool has_unit = strchr(field->name, '[') != NULL;
-        /* the plot omits the rates, and so a column without a unit */
+        /* the plot omits rates, and so a column without a unit */
         plot_run_head(&run, i, has_unit ? field->name : "der()");
         any = any || has_unit;
     }

@@ -1,4 +1,4 @@
-/* recording.h: the recording of a rig's telemetry: records, waves, the plot, and counts of losses. */
+/* recording.h: the recording of a rig's telemetry: records, waves, plot, and counts of losses. */
 #ifndef MONITOR_RECORDING_H
 #define MONITOR_RECORDING_H
 
@@ -15,7 +15,7 @@
 enum { SCHEMA_CHANNELS = 8, SCHEMA_FIELDS = 8, SCHEMA_NAME = 32 };
 
 typedef struct schema_field {
-    char name[SCHEMA_NAME]; /* name with its unit: "load [N]" */
+    char name[SCHEMA_NAME]; /* "load [N]" */
     unsigned size;          /* bytes */
     bool is_signed;
     double scale;
@@ -25,7 +25,7 @@ typedef struct schema_field {
 typedef struct schema_channel {
     bool known;
     char name[SCHEMA_NAME];
-    uint32_t period_ticks; /* period of periodic frames; 0: not periodic */
+    uint32_t period_ticks; /* period of frames; 0: not periodic */
     schema_field once[SCHEMA_FIELDS];
     int onces;
     schema_field each[SCHEMA_FIELDS];
@@ -36,20 +36,19 @@ typedef struct schema {
     schema_channel channel[SCHEMA_CHANNELS];
 } schema;
 
-/* Takes an answer of the console. Returns true if it describes a channel or a new rate, which is stored, or if it lists
- * the states, "OK 0=idle 1=armed ...". An answer that cannot be read changes nothing. */
+/* Takes an answer of the console. Returns true if it describes a channel or a new rate, or lists the states, "OK 0=idle
+ * 1=armed ...". An unreadable answer changes nothing. */
 bool schema_take(schema *s, const char *line);
 
 unsigned schema_bytes(const schema_field *fields, int count);
 
-/* Counts of frames, samples, pulses, losses and restarts. */
 typedef struct recording_counts {
     uint64_t frames;
     uint64_t samples;
     uint64_t pulses;
     uint64_t lost;         /* missing frames */
     uint64_t dropped;      /* missing frames that the rig dropped for lack of space */
-    uint64_t lost_samples; /* missing samples, counted by time stamps */
+    uint64_t lost_samples; /* missing samples, by time stamps */
     uint64_t strange;      /* frames that fit no known schema */
     uint64_t restarts;     /* restarts of the rig */
 } recording_counts;
@@ -70,37 +69,37 @@ typedef struct recording {
     bool ring_headed;
     recording_channel channel[SCHEMA_CHANNELS];
     bool timed;
-    uint32_t ticks;  /* ticks of the last frame */
-    int64_t time_us; /* time of the last frame since the first one */
+    uint32_t ticks;  /* of the last frame */
+    int64_t time_us; /* of the last frame since the first one */
     bool expects;    /* the next sample is expected at expected_us */
     int64_t expected_us;
     int signal[2 * SCHEMA_FIELDS]; /* signals of the run's fields */
     int pulse[2];
     bool ends;    /* the rig reports the ends of pulses */
-    bool high[2]; /* the pulse of this sensor has not ended yet */
+    bool high[2]; /* the sensor's pulse has not ended yet */
     int trip;
     int columns;      /* the time and the run's fields */
-    decimation *plot; /* the rows for a picture; or NULL */
+    decimation *plot; /* rows for a picture, or NULL */
     recording_counts counts;
 } recording;
 
-/* The channels of runs, events and the ring, numbered as in core/station/telemetry.h. */
+/* Channels, numbered as in core/station/telemetry.h. */
 enum { RECORDING_RUN, RECORDING_EVENT, RECORDING_RING };
 
 void recording_begin(recording *r, FILE *csv, FILE *waves, FILE *ring, bool plots);
 
-/* The rig has restarted: its clock and counts are unrelated to earlier ones. */
+/* The rig has restarted: its clock and counts begin again. */
 void recording_anew(recording *r);
 
-/* Samples were requested again, perhaps at another rate. The gap before the next sample is not a loss. */
+/* Samples were requested again: the gap before the next one is no loss. */
 void recording_asked(recording *r);
 
 void recording_frame(recording *r, const schema *s, const wire_frame *frame);
 
-/* Draw the plot, if there is one; false after a failure, reported. */
+/* Draws the plot, if there is one. Returns false after a failure (reported). */
 bool recording_plot(const recording *r, const schema *s, const char *file);
 
-/* Write pending data and free all memory. */
+/* Writes pending data and frees all memory. */
 void recording_end(recording *r);
 
 #endif

@@ -47,7 +47,7 @@ static wire_event end_chunk(wire *w) {
     return WIRE_FRAME;
 }
 
-/* Adds a byte. If the second byte after a zero is at least 0x80, both bytes belong to a frame, otherwise to text. */
+/* Adds a byte. Two bytes after a zero belong to a frame if the second one is at least 0x80, else to text. */
 static wire_event add(wire *w, uint8_t byte) {
     if (!w->is_frame && w->length == 1U) {
         w->is_frame = byte >= 0x80U;
@@ -82,7 +82,7 @@ wire_event wire_take(wire *w, uint8_t byte) {
     wire_event event = WIRE_NOTHING;
     if (w->is_frame) {
         event = end_chunk(w);
-    } else if (w->length == 1U) { /* one byte of text between two frames, such as an echo */
+    } else if (w->length == 1U) { /* one byte of text between frames, such as an echo */
         event = add_text(w, (char)w->chunk[0]);
     }
     begin_chunk(w);
@@ -96,8 +96,8 @@ void wire_forget(wire *w) {
 
 /* === questions before a recording ============================================================= */
 
-/* The questions, in order. The rate comes last, because its frames can be read only after their schema. Only the first
- * answer is unique: earlier lines may be answers to another program's questions. */
+/* The rate comes last: its frames can be read only after their schema. Only the first answer is unique: earlier lines
+ * may answer another program's questions. */
 static const struct {
     const char *words;
     const char *answer; /* beginning of the answer */
@@ -125,7 +125,7 @@ const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]) {
     return line;
 }
 
-/* Does the line begin with the answer? A bare OK must be the whole line. */
+/* A bare OK must be the whole line. */
 static bool begins(const char *line, const char *answer) {
     return strcmp(answer, "OK") == 0 ? strcmp(line, answer) == 0
                                      : strncmp(line, answer, strlen(answer)) == 0;
@@ -138,7 +138,7 @@ bool dialogue_answer(dialogue *d, const char *line) {
     }
     question[strcspn(question, "\n")] = '\0';
     if (strcmp(line, question) == 0) {
-        return true; /* the echo of the question */
+        return true; /* the echo */
     }
     const bool met = d->asked >= DIALOGUE_MET;
     const char *from =

@@ -20,54 +20,51 @@ typedef enum wire_event { WIRE_NOTHING, WIRE_TEXT, WIRE_FRAME } wire_event;
 
 /* All zeros at the start. */
 typedef struct wire {
-    uint8_t chunk[WIRE_ROOM]; /* bytes of a frame since the last zero */
+    uint8_t chunk[WIRE_ROOM]; /* bytes since the last zero */
     unsigned length;
-    bool is_text;  /* the bytes since the last zero are text */
-    bool is_frame; /* the bytes are a frame; if neither flag is set, this is not known yet */
+    bool is_text;  /* the chunk is text */
+    bool is_frame; /* the chunk is a frame; neither flag: not known yet */
     bool too_long;
-    char line[WIRE_LINE + 1]; /* text received so far; complete after WIRE_TEXT */
+    char line[WIRE_LINE + 1]; /* received text; complete after WIRE_TEXT */
     unsigned columns;
     bool line_done;
-    bool torn; /* the line may begin with a part of a frame: a zero came within it, or it is the
-                * first after wire_forget() */
+    bool torn; /* may begin with a frame's bytes: had a zero, or is first after wire_forget() */
     wire_frame frame; /* valid after WIRE_FRAME, until the next byte */
-    uint64_t damaged; /* chunks between two zeros that are no frame */
+    uint64_t damaged; /* chunks between zeros that are no frame */
 } wire;
 
-/* Take the next byte. A line of text ends with a line feed, which is not stored. */
+/* Takes the next byte. The line feed that ends a text is not stored. */
 wire_event wire_take(wire *w, uint8_t byte);
 
-/* The number in bytes[size], the least significant first; size is at most 4. */
+/* The number in bytes[size], lowest byte first; size <= 4. */
 uint32_t wire_number(const uint8_t *bytes, unsigned size);
 
-/* Discard an incomplete line or frame: the line was interrupted. */
+/* Drops an incomplete line or frame after an interruption. */
 void wire_forget(wire *w);
 
 /* === questions before a recording ============================================================= */
-/* The dialogue before a recording: it asks the rig for its telemetry's schema, then for telemetry. */
+/* The dialogue asks the rig for its telemetry's schema, then for telemetry. */
 
 enum { DIALOGUE_LINE = 48, DIALOGUE_REFUSAL = 160 };
 
-/* Number of answers until the rig is present (MET), was_off is known (LISTED), or earlier telemetry has ended (OFF). */
+/* Answers until the rig is present (MET), was_off is known (LISTED), and earlier telemetry has ended (OFF). */
 enum { DIALOGUE_MET = 1, DIALOGUE_LISTED = 3, DIALOGUE_OFF = 4 };
 
-/* All zeros except `rate`: no question was asked yet. */
+/* All zeros, except `rate`, before the first question. */
 typedef struct dialogue {
     int rate;  /* samples a second */
-    int asked; /* the current question */
+    int asked; /* number of the current question */
     bool done;
     bool rate_refused;
-    bool was_off; /* true: telemetry was off before, so the rig has restarted or is another one */
-    char refused
-        /* the first question with an answer other than OK, and this answer; or "" */
-        [DIALOGUE_REFUSAL];
+    bool was_off; /* telemetry was off, so the rig has restarted, or is another one */
+    char refused[DIALOGUE_REFUSAL]; /* the first refused question, and its answer; or "" */
 } dialogue;
 
-/* The line to send now, with its end; NULL after the last answer. */
+/* The line to send, with its end; NULL after the last answer. */
 const char *dialogue_question(const dialogue *d, char line[DIALOGUE_LINE]);
 
-/* Takes a received line. Returns true if the line belongs to the dialogue: an answer, or the echo of a question. Lines
- * from before the first question, and repeated answers, leave `asked` unchanged. */
+/* Takes a received line. Returns true if it is an answer or the echo of a question. Repeated answers, and lines from
+ * before the first question, leave `asked` unchanged. */
 bool dialogue_answer(dialogue *d, const char *line);
 
 #endif

@@ -37,7 +37,7 @@ static bool can_be_replaced(const char *name, struct stat *there) {
     return S_ISREG(there->st_mode) && there->st_nlink == 1 && access(name, W_OK) == 0;
 }
 
-/* Is the open file the one at the path `name`? */
+/* Is the open file still the one at the path? */
 static bool is_at(FILE *file, const char *name) {
     struct stat one;
     struct stat other;
@@ -45,8 +45,7 @@ static bool is_at(FILE *file, const char *name) {
            one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/* Opens an ordinary file for this process alone; other files are shared. NULL, with errno: EBUSY if another process writes
- * the file, or has just replaced it. */
+/* Opens a file, and locks an ordinary one. NULL, with errno: EBUSY if another process writes or just replaced it. */
 static FILE *open_alone(const char *name, bool empties) {
     FILE *file = fopen(name, "ab");
     if (file != NULL && atomic_file_is_regular(file)) {
@@ -61,7 +60,7 @@ static FILE *open_alone(const char *name, bool empties) {
     return file;
 }
 
-/* Opens NAME.part; or `name` itself if that file cannot be replaced. It is then emptied if `empties` is true. */
+/* Opens NAME.part, or `name` itself if it cannot be replaced; `name` is emptied if `empties`. */
 static FILE *open_part(const char *name, bool empties) {
     struct stat there;
     if (!can_be_replaced(name, &there)) {
@@ -69,7 +68,7 @@ static FILE *open_part(const char *name, bool empties) {
     }
     FILE *old = there.st_mode != 0 ? open_alone(name, false) : NULL;
     if (old == NULL ? there.st_mode != 0 : fclose(old) != 0) {
-        return NULL; /* a sweep, for example, writes it in place */
+        return NULL; /* another process, such as a sweep, writes it in place */
     }
     char *part = part_of(name);
     FILE *file = open_alone(part, true);
@@ -106,12 +105,12 @@ bool atomic_file_close(FILE *file, const char *name, bool keep) {
     const bool in_place = !is_at(file, part);
     errno = 0;
     const bool taken = fflush(file) == 0 && ferror(file) == 0;
-    /* an earlier write failed, and its errno is lost: a new write sets errno */
+    /* an earlier write failed, and its errno is lost: write again to set errno */
     if (!taken && errno == 0) {
         fputc('\n', file);
         (void)fflush(file);
     }
-    /* Renamed and removed while it is locked: afterwards NAME.part may belong to another process. */
+    /* before the lock ends: afterwards NAME.part may belong to another process */
     bool good = taken && (in_place || !keep || rename(part, name) == 0);
     if (!in_place && !(good && keep)) {
         (void)unlink(part);

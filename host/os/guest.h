@@ -1,6 +1,6 @@
-/* guest.h: the process that runs a firmware image, and the line to it. Two pipes are the guest's descriptors
- * HAL_LINK_DOWN and HAL_LINK_UP (hal/link.h). They have no name, so opening them cannot block, and they leave no file.
- * On Linux, the guest is killed when this process ends. A guest that does not exit after the line is closed is killed. */
+/* guest.h: the process that runs a firmware image, and the line to it: two pipes, which are the guest's descriptors
+ * HAL_LINK_DOWN and HAL_LINK_UP (hal/link.h). Pipes have no name, so opening cannot block, and no file remains. On
+ * Linux, the guest is killed when this process ends. */
 #ifndef OS_GUEST_H
 #define OS_GUEST_H
 
@@ -11,20 +11,19 @@
 
 #define GUEST_LINE_BYTES 4096
 
-/* QEMU's instruction count: an instruction is 2^GUEST_SHIFT ns of the guest's time, which a timer of 25 MHz resolves. */
+/* An instruction in QEMU takes 2^GUEST_SHIFT ns of the guest's time, which a timer of 25 MHz resolves. */
 #define GUEST_SHIFT 6
 
-/* Exit status of a program that cannot be run, as in shells. */
+/* Exit status if a program cannot be run, as in shells. */
 #define GUEST_NOT_RUN 127
 
 typedef struct guest_request {
-    /* true: no process is started; the firmware is at the other end of `line` */
-    bool by_line;
+    bool by_line; /* starts no process: the firmware is at the other end of `line` */
     int line;
-    const char *image; /* an ELF file: for Arm, or a program of this machine */
+    const char *image; /* an ELF file, for Arm or for this machine */
     const char *board; /* QEMU's machine */
     bool mute;         /* hide the guest's console */
-    double patience_s; /* longest silence, and longest time that the guest may take to exit, s */
+    double patience_s; /* longest silence, and longest time to exit */
 } guest_request;
 
 typedef struct guest {
@@ -42,33 +41,30 @@ typedef struct guest {
 
 typedef enum guest_heard {
     GUEST_FRAME,
-    GUEST_ENDED,  /* the guest closed the line: it is exiting, or has died */
+    GUEST_ENDED,  /* the guest closed the line: it is exiting, or dead */
     GUEST_SILENT, /* no message for patience_s */
     GUEST_STOPPED /* the user interrupted */
 } guest_heard;
 
-/* Reads the machine from BOARD_MACHINE in boards/NAME/board.mk, below the working directory. Returns false if there is
- * none. */
+/* Reads BOARD_MACHINE of boards/NAME/board.mk, below the working directory. Returns false if there is none. */
 #define GUEST_MACHINE_BYTES 64
 bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]);
 
-/* Starts the guest. Returns false, and reports the reason, if the image cannot be run. Call guest_end() in any
- * case. */
+/* Starts the guest. Returns false (reported) if the image cannot be run. Call guest_end() in any case. */
 bool guest_start(guest *g, const guest_request *request);
 
 guest_heard guest_receive(guest *g, wh_frame *frame);
-/* Sends bytes. Returns GUEST_FRAME on success. */
+/* Returns GUEST_FRAME on success. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count);
 
 typedef struct guest_end_status {
-    bool killed;       /* guest_end() killed the process, which did not exit by itself */
+    bool killed;       /* the process did not exit, so guest_end() killed it */
     int status;        /* exit status, or -1 */
-    int signal_number; /* signal that ended the process, or 0 */
+    int signal_number; /* the signal that ended the process, or 0 */
     const char *signal_name;
 } guest_end_status;
 
-/* Closes the line, waits for patience_s, then kills the process if it still runs. A second call, or a call after a
- * failed start, does nothing. */
+/* Closes the line, waits for patience_s, then kills the process if it still runs. Repeated calls do nothing. */
 guest_end_status guest_end(guest *g);
 
 #endif

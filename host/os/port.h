@@ -1,4 +1,4 @@
-/* port.h: a serial line, a pseudo-terminal, or a file recorded from one. A program has one at a time. */
+/* port.h: a serial line, a pseudo-terminal, or a file recorded from one; one at a time. */
 #ifndef OS_PORT_H
 #define OS_PORT_H
 
@@ -9,32 +9,30 @@
 typedef struct port {
     int file;
     int failed;   /* errno of a failed read, or 0 */
-    bool is_line; /* a terminal with a peer; else a file or a pipe, which ends */
+    bool is_line; /* a terminal with a peer; else a file or pipe, which has an end */
 } port;
 
 #define PORT_SPEEDS "9600, 19200, 38400, 57600, 115200 or 230400"
-/* Returns true if the system supports this speed. */
 bool port_has_speed(double baud);
 
-/* Opens and locks a line at this speed, without echo and conversion. Returns false, with errno, if the line is missing,
- * or (EBUSY) if another program has locked it. */
+/* Opens and locks a line, without echo and conversion. Returns false, with errno: EBUSY if another program has it. */
 bool port_open(port *p, const char *name, double baud);
 
-/* Discards the received bytes of a line that were not read. */
+/* Discards received bytes. */
 void port_forget(const port *p);
 
-/* Reports on standard error that the line cannot be opened, with the reason from errno and the hint. */
+/* Reports that the line cannot be opened, with errno and the hint. */
 void port_say_unopened(const char *name, const char *hint);
 
 /* Restores the line's settings. */
 void port_close(port *p);
 
-/* Reads at most `room` bytes, after waiting at most wait_ms for them. If `typed` is not NULL, a line on standard input
- * also ends the wait, and *typed is true. Returns the number of bytes, 0 if none have come yet, or -1 if the peer is
- * gone, the file has ended or the read failed (`failed`). */
+/* Waits at most wait_ms, then reads at most `room` bytes. If `typed` is not NULL, a line on standard input also ends
+ * the wait, and sets *typed. Returns the number of bytes, 0 if there are none yet, or -1 if the peer is gone, the file
+ * has ended, or the read failed (`failed`). */
 int port_read(port *p, uint8_t *bytes, size_t room, int wait_ms, bool *typed);
 
-/* Writes all bytes. Returns false if the peer is gone, or accepts nothing for a second. */
+/* Returns false if the peer is gone, or accepts nothing for a second. */
 bool port_write(port *p, const char *bytes, size_t count);
 
 #endif

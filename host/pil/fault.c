@@ -1,4 +1,4 @@
-/* fault.c: faults of sensors, supply, drive stage, mechanism, line and processor in a run in the loop. */
+/* fault.c: injected faults in a run in the loop. */
 #include "host/pil/fault.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 /* === faults of readings ======================================================================= */
 
-/* The next random number, at least 0 and below 1. */
+/* Next random number of the fault, in [0, 1). */
 static double fault_draw(const fault_plan *plan, fault_case *f) {
     uint64_t hash = wh_hash_u64(WH_HASH_START, plan->seed);
     hash = wh_hash_u64(hash, (uint64_t)(f - plan->fault));
@@ -26,7 +26,7 @@ static double fault_draw(const fault_plan *plan, fault_case *f) {
 #define TURN_RAD 6.283185307179586477
 #define INVENTED_S 0.1 /* longest interval between false pulses */
 #define SPIKES_ONE_IN 50.0
-#define TOLD_S 1e-9 /* round-off of times */
+#define TOLD_S 1e-9
 
 static bool is_of(const fault_case *f, unsigned channel) {
     const bool samples = fault_rows[f->kind].place == FAULT_SAMPLES;
@@ -35,7 +35,7 @@ static bool is_of(const fault_case *f, unsigned channel) {
 
 /* --- edges ---------------------------------------------------------------------------------------------------*/
 
-/* Inserts the edge in order of the time stamps, as a timer reports edges; drops it if there is no space. */
+/* Inserts the edge in order of time stamps, like a timer; drops it if there is no space. */
 static void add_edge(wh_readings *r, wh_edge edge) {
     if (r->edges == WH_EDGES_MAX) {
         return;
@@ -57,7 +57,7 @@ static uint32_t ticks_of(const fault_plan *plan, double time_s) {
     return (uint32_t)(int64_t)number_floor(time_s * plan->ticks_per_s);
 }
 
-/* Changes one pulse. Returns false if the pulse is lost or comes later. */
+/* Returns false if the pulse is lost or delayed. */
 static bool break_edge(const fault_plan *plan, fault_case *f, double time_s, wh_edge *edge) {
     fault_pending later = {.at_s = time_s + f->size, .is_edge = true, .edge = *edge};
     switch (f->kind) {
@@ -206,7 +206,7 @@ static void tell_pending(fault_case *f, double time_s, wh_readings *r) {
     f->pending_count = kept;
 }
 
-/* Apply an active fault, or its pending readings, to the readings at time_s. */
+/* Applies an active fault, or its pending readings, to the readings at time_s. */
 static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_readings *r) {
     const fault_place at = fault_rows[f->kind].place;
     if (f->active && at == FAULT_EDGES) {
@@ -222,12 +222,10 @@ static void fault_readings(fault_plan *plan, fault_case *f, double time_s, wh_re
 
 /* === when faults begin and end ================================================================ */
 
-/* The inputs of the scene that a fault changes, and the change. */
 static const struct {
     fault_kind kind;
     const char *input;
-    /* true: the input is multiplied by the fault's size; false: it gets a new value */
-    bool times;
+    bool times;   /* true: input times the fault's size; false: a new value */
     double value; /* the new value; 0: the fault's size */
 } inputs[] = {
     {FAULT_CELL_TURNED, "cell_gain", false, -1.0},
@@ -261,7 +259,7 @@ static bool find_inputs(const fault_case *f, const image *im) {
     return true;
 }
 
-/* Finds the fault's note in orders.output[], where the notes follow the outputs. */
+/* Finds the fault's note in orders.output[], after the outputs. */
 static bool find_note(fault_case *f, const wh_hello *hello) {
     const unsigned outputs = hello_channels(hello, WH_SIGNAL_OUTPUT);
     const wh_signal *s;
@@ -309,7 +307,7 @@ static void set_inputs(const fault_plan *plan, const fault_case *f, bool broken)
     }
 }
 
-/* Changes sensor positions or jitter. The size of a position is in degrees for an angle, else in SI. */
+/* Positions are in degrees for an angle, else in SI. */
 static void set_sensors(const fault_plan *plan, const fault_case *f, bool broken) {
     plant *p = plan->plant;
     if (f->kind == FAULT_EDGE_JITTER) {
@@ -347,7 +345,7 @@ static double due_ticks(const fault_plan *plan, const fault_case *f) {
     return (f->begin_s + f->after_s) * plan->ticks_per_s;
 }
 
-/* After a reset, delayed readings are lost, outputs are 0, and the fault that caused the reset has happened. */
+/* After a reset: drops delayed readings, zeroes outputs, and marks the fault that caused the reset. */
 static void see_reset(fault_plan *plan) {
     const double then_ticks = plan->plant->reset.last_ticks;
     plan->last = (wh_orders){.outputs = plan->last.outputs};
@@ -362,7 +360,7 @@ static void see_reset(fault_plan *plan) {
     }
 }
 
-/* Tells the plant the next reset in advance, because a reset may happen between two messages. */
+/* The plant must know the next reset in advance, because resets happen between messages. */
 static void order_reset(fault_plan *plan, const fault_case *f) {
     plant_resets *r = &plan->plant->reset;
     if (f->kind == FAULT_RESET && f->reached && !f->happened && due_ticks(plan, f) < r->at_ticks) {
@@ -388,14 +386,14 @@ static void look_for_resets(fault_plan *plan) {
     }
 }
 
-/* Begin a fault at its time, and end it after its duration. */
+/* Begins and ends faults that are due. */
 static void look_at_time(fault_plan *plan, double time_s) {
     for (unsigned i = 0; i < plan->count; i++) {
         fault_case *f = &plan->fault[i];
         if (fault_rows[f->kind].place == FAULT_PARAMETER) {
             f->happened = true;
         } else if (f->kind == FAULT_RESET) {
-            continue; /* order_reset() handles resets */
+            continue; /* see order_reset() */
         } else if (!f->happened && f->reached && time_s >= f->begin_s + f->after_s) {
             change(plan, f, time_s, true);
         } else if (f->active && time_s >= f->begin_s + f->duration_s) {
@@ -525,7 +523,7 @@ tap fault_tap(fault_plan *plan) {
 const fault_row fault_rows[FAULT_KINDS] = {FAULT_ROWS(FAULT_ROW)};
 #undef FAULT_ROW
 
-/* The reading position in the words of one fault. */
+/* The reading position in one fault's words. */
 typedef struct words_of_fault {
     const char *begin;
     const char *at;
@@ -548,7 +546,7 @@ static bool read_number(words_of_fault *w, double *number) {
     return w->at > begin && isfinite(*number);
 }
 
-/* Reads a time, such as 20us, 1.5ms, 0.2s, or 0.2 for seconds. */
+/* Reads 20us, 1.5ms, 0.2s, or 0.2 (seconds). */
 static bool read_time(words_of_fault *w, double *time_s) {
     static const struct {
         const char *word;

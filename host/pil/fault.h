@@ -1,11 +1,8 @@
-/* fault.h: faults in a run in the loop. They affect sensors, load cell, supply, drive stage, mechanism, line, and the
- * controller's computing time. Others press stop, or reset the controller's processor. The controller's code itself has
- * no faults.
- *
- * The syntax of a fault is KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1; without it,
- * all edges or the first sample. WHEN is a time, or NOTE=VALUE, when the firmware's note of that name reaches that
- * value; NOTE=VALUE~TIME is this time later. Without WHEN a fault begins at the start, without DURATION it lasts to the
- * end. */
+/* fault.h: injected faults in a run in the loop: of sensors, load cell, supply, drive stage, mechanism, line, computing
+ * time; or a pressed stop, or a processor reset. The controller's code has no injected faults. The syntax is
+ * KIND[:CHANNEL][=SIZE][@WHEN][+DURATION]. CHANNEL counts edges or samples from 1; without it, all edges or the first
+ * sample. WHEN is a time, or NOTE=VALUE, the moment when the firmware's note equals the value, or NOTE=VALUE~TIME, this
+ * time later. Without WHEN, a fault begins at the start; without DURATION, it lasts to the end. */
 #ifndef PIL_FAULT_H
 #define PIL_FAULT_H
 
@@ -14,15 +11,15 @@
 typedef enum fault_place {
     FAULT_EDGES,
     FAULT_SAMPLES,
-    FAULT_INPUT,  /* an input of the scene, with the name in fault.c */
-    FAULT_ORDERS, /* the orders, and their computing time */
-    FAULT_LINE,   /* messages lost on the line */
-    FAULT_PARAMETER, /* a parameter of the scene, for the whole run: the loader calls fault_parameter() */
-    FAULT_SENSORS,  /* edge positions, and their jitter */
-    FAULT_PROCESSOR /* the processor restarts */
+    FAULT_INPUT,     /* an input of the scene (table in fault.c) */
+    FAULT_ORDERS,    /* orders, and their computing time */
+    FAULT_LINE,      /* messages lost on the line */
+    FAULT_PARAMETER, /* a parameter during the whole run: the loader calls fault_parameter() */
+    FAULT_SENSORS,   /* edge positions and jitter */
+    FAULT_PROCESSOR  /* the processor restarts */
 } fault_place;
 
-/* X(which, word, place, default size, least, most, unit, words). If least equals most, the fault has no size. */
+/* X(which, word, place, default size, least, most, unit, words). least = most: no size. */
 #define FAULT_EDGE_ROWS(X) \
     X(FAULT_EDGE_DEAD, "edge-dead", FAULT_EDGES, 0, 0, 0, "", "no pulses come") \
     X(FAULT_EDGE_LOST, "edge-lost", FAULT_EDGES, 1, 1, 1e6, "", "this number of pulses is lost") \
@@ -119,7 +116,7 @@ typedef enum fault_kind { FAULT_ROWS(FAULT_NAME) } fault_kind;
 #define FAULT_ONE(which, word, place, size, least, most, unit, words) +1
 enum { FAULT_KINDS = FAULT_ROWS(FAULT_ONE) };
 #undef FAULT_ONE
-/* The cases of a group of faults in a switch. If a new fault is missing there, the compiler names it. */
+/* A group of faults as cases of a switch, so that the compiler reports a missing one. */
 #define FAULT_CASE(which, word, place, size, least, most, unit, words) case which:
 
 typedef struct fault_row {
@@ -149,20 +146,20 @@ typedef struct fault_case {
     fault_kind kind;
     int channel; /* -1: not given */
     double size;
-    char note[32]; /* "": only the time counts */
-    double value;  /* value of the note that begins the fault */
+    char note[32]; /* "": no note */
+    double value;  /* the note's value that begins the fault */
     double after_s;
     double duration_s;
     /* While it runs: */
-    int note_at;  /* index of the note in orders.output */
-    bool reached; /* the note has reached its value, or there is no note */
+    int note_at;  /* the note's index in orders.output */
+    bool reached; /* the note has reached `value`, or there is no note */
     bool active;
-    bool happened; /* the fault was active at least once */
+    bool happened; /* active at least once */
     double begin_s;
     uint64_t draws;
     uint32_t left; /* pulses still to be lost or added */
     double next_s; /* time of the next false pulse */
-    bool holds;    /* true: `held` is the value of the last good sample */
+    bool holds;    /* `held` is the last good sample's value */
     int32_t held;
     unsigned pending_count;
     fault_pending pending[FAULT_PENDING];
@@ -177,20 +174,19 @@ typedef struct fault_plan {
     const wh_hello *hello;
     double ticks_per_s;
     wh_orders last;  /* the last orders that were not lost */
-    unsigned resets; /* resets of the plant so far */
+    unsigned resets; /* the plant's resets so far */
 } fault_plan;
 
-/* Adds the faults in `text`, separated by commas, to the plan. Returns false after an error, which it has reported. */
+/* Adds the faults in `text`, separated by commas. Returns false after an error (reported). */
 bool fault_read(fault_plan *plan, const char *text);
 
-/* Returns the --set option of fault i, such as "inertia=2", which the caller frees; NULL if the fault changes no
- * parameter. */
+/* The --set option of fault i, such as "inertia=2", to be freed; NULL if it changes no parameter. */
 char *fault_parameter(const fault_plan *plan, unsigned i);
 
-/* Returns a tap that applies the faults, for one run. */
+/* The tap that applies the faults, for one run. */
 tap fault_tap(fault_plan *plan);
 
-/* After a run: reports each fault that never occurred. Returns true if all occurred. */
+/* After a run: reports faults that never occurred. Returns true if all occurred. */
 bool fault_all_occurred(const fault_plan *plan);
 
 void fault_print_kinds(FILE *out);

@@ -1,4 +1,4 @@
-/* lockstep.c: the exchange of frames between firmware and plant, in turns. */
+/* lockstep.c: the exchange of frames between firmware and plant. */
 #include "host/pil/lockstep.h"
 
 #include <inttypes.h>
@@ -9,7 +9,7 @@
 #include "host/number/functions.h"
 #include "host/os/system.h"
 
-#define ASK_S 0.25 /* interval between requests for a hello */
+#define ASK_S 0.25 /* interval of requests for a hello */
 
 static bool ends(lockstep_report *r, lockstep_end end) {
     r->end = end;
@@ -24,7 +24,7 @@ static void keep_on_tape(talk *t, const uint8_t *bytes, unsigned count) {
     }
 }
 
-/* Record a received frame by coding it again: the coding of a frame is unique. */
+/* Records a received frame, by coding it again: a frame has only one coding. */
 static void keep_heard(talk *t, const wh_frame *frame) {
     uint8_t coded[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
     keep_on_tape(t, coded, wh_frame_write(frame, coded, sizeof coded));
@@ -41,7 +41,7 @@ static void say_silent(const talk *t) {
                                         "without end");
 }
 
-/* If the user interrupts, the firmware may end before Whirl notices the interrupt. */
+/* The user's interrupt may end the firmware before Whirl notices it. */
 static lockstep_end when_ended(void) { return interrupted ? LOCKSTEP_STOPPED : LOCKSTEP_DONE; }
 
 static bool hear_frame(talk *t, wh_frame *frame) {
@@ -77,7 +77,7 @@ static bool say(talk *t, const wh_frame *frame) {
     case GUEST_ENDED:
     case GUEST_SILENT: break;
     }
-    t->report->end = when_ended(); /* the guest's exit status gives the details */
+    t->report->end = when_ended(); /* the guest's exit status has the details */
     return false;
 }
 
@@ -91,7 +91,7 @@ bool talk_tell(talk *t, uint32_t ticks, const wh_readings *readings) {
     return say(t, &frame);
 }
 
-/* Asks the firmware for its next message: its hello, or the message after its program has ended. */
+/* Asks the firmware for its hello, or for the message after its program's end. */
 static guest_heard ask(talk *t) {
     uint8_t coded[WH_FRAME_BYTES(0)];
     const wh_frame frame = {.kind = WH_FRAME_ASK};
@@ -109,8 +109,7 @@ static bool take_end(talk *t, const wh_frame *frame) {
     return ends(t->report, when_ended());
 }
 
-/* The next frame other than remembered data. It skips repeated hellos, which a firmware sends before its first
- * orders if it was asked repeatedly. */
+/* Receives the next frame except remembered data and repeated hellos, which answer repeated requests. */
 static bool hear_past_remembered(talk *t, wh_frame *frame) {
     while (hear_frame(t, frame)) {
         if (frame->kind == WH_FRAME_END) {
@@ -174,7 +173,7 @@ uint64_t talk_hash_bytes(uint64_t hash, const uint8_t *bytes, unsigned count) {
     return hash;
 }
 
-/* Report that the firmware ended before its first message. If the image could not be run, the child has reported that. */
+/* Reports that the firmware ended before its hello. If the image could not run, the child has reported that. */
 static void say_no_hello(talk *t) {
     const guest_end_status end = guest_end(&t->guest);
     t->report->end = LOCKSTEP_BAD;
@@ -192,7 +191,6 @@ static void say_no_hello(talk *t) {
     }
 }
 
-/* Reads a hello into the caller's texts and signals. */
 static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh_signal *signal,
                              uint8_t *words, unsigned room) {
     if (frame->kind != WH_FRAME_HELLO || frame->length > room) {
@@ -209,7 +207,7 @@ static bool take_hello_frame(talk *t, const wh_frame *frame, wh_hello *hello, wh
 static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *words, unsigned room) {
     wh_frame frame;
     if (!hear_frame(t, &frame)) {
-        if (t->report->end == LOCKSTEP_DONE) { /* the firmware ended before its first message */
+        if (t->report->end == LOCKSTEP_DONE) { /* ended before its hello */
             say_no_hello(t);
         }
         return false;
@@ -217,8 +215,7 @@ static bool take_hello(talk *t, wh_hello *hello, wh_signal *signal, uint8_t *wor
     return take_hello_frame(t, &frame, hello, signal, words, room);
 }
 
-/* On a serial line: a firmware that waits for a plant's first message sends its hello again. Other frames are from an
- * earlier run. */
+/* On a serial line, the firmware sends its hello until the first message comes. Other frames are of an earlier run. */
 static bool ask_for_hello(talk *t) {
     const double patience_s = t->guest.request.patience_s;
     wh_frame frame;
@@ -291,7 +288,6 @@ bool talk_start(talk *t, const lockstep_request *request, lockstep_report *repor
     return hear_hello(t);
 }
 
-/* The previous process's exit status does not matter. */
 bool talk_restart(talk *t, uint32_t ticks, const wh_reset *reset) {
     uint8_t words[GUEST_LINE_BYTES];
     wh_signal signal[WH_SIGNALS_MAX];
@@ -350,11 +346,11 @@ void talk_end(talk *t) {
 
 /* === turns ==================================================================================== */
 
-/* Most exchanges without an advance of the plant's time. A firmware that catches up on missed periods has several. */
+/* Most exchanges at one plant time: a firmware that catches up on missed periods has several. */
 #define STANDING_MOST 10000U
 #define PIECE_S 0.1
 #define WATCHED_PIECE_S 1e-3
-#define PIECE_STEPS 1e4 /* most steps in one part, because steps may be arbitrarily short */
+#define PIECE_STEPS 1e4 /* most steps in a piece: steps may be arbitrarily short */
 
 static void note_most(peak *m, double value, double at_s) {
     if (value > m->value) {
@@ -368,9 +364,9 @@ typedef struct loop {
     binding binding;
     lockstep_report *report;
     double ticks_per_s;
-    double per_count; /* instructions in a tick of the firmware's timer; 0: not counted */
+    double per_count; /* instructions per tick of the firmware's timer; 0: not counted */
     bool watched;
-    unsigned standing; /* exchanges since the plant's time last advanced */
+    unsigned standing; /* exchanges at the present plant time */
 } loop;
 
 static double plant_s(const loop *l) { return plant_now(&l->plant) / l->ticks_per_s; }
@@ -414,7 +410,7 @@ static void let_taps_watch(const loop *l) {
     }
 }
 
-/* The time of the next readings: the later of the requested time and the end of computing. */
+/* The next readings come at the requested time, or at the end of computing if that is later. */
 static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     const double now = plant_now(&l->plant);
     const int32_t ahead = (int32_t)(orders->until_ticks - plant_ticks(&l->plant));
@@ -428,8 +424,7 @@ static double next_ticks(loop *l, const wh_orders *orders, double busy_ticks) {
     return wanted;
 }
 
-/* Advances the plant, at most to the run's end. It does so in pieces, so that an interrupt is noticed soon. Returns
- * false, and reports it, if the plant diverged. */
+/* Advances the plant, at most to the run's end, in pieces, so that an interrupt is noticed. Reports divergence. */
 static bool advance(loop *l, double until_ticks) {
     const double end = number_least(until_ticks, l->talk.request->until_s * l->ticks_per_s);
     const double piece = number_least((l->watched ? WATCHED_PIECE_S : PIECE_S) * l->ticks_per_s,
@@ -468,7 +463,7 @@ static bool plant_goes_on(loop *l, const wh_orders *orders, double late_s) {
     return true;
 }
 
-/* An output that is NaN is a bug of the firmware, with unknown effect on real hardware. */
+/* NaN is a bug of the firmware; its effect on real hardware is unknown. */
 static bool are_numbers(loop *l, const wh_orders *orders) {
     for (unsigned i = 0; i < l->binding.count; i++) {
         const bound *b = &l->binding.bound[i];
@@ -483,7 +478,7 @@ static bool are_numbers(loop *l, const wh_orders *orders) {
     return true;
 }
 
-/* Does the plant's time advance? Only this check ends a run in which firmware and readings take no time. */
+/* Without this check, a firmware that always asks for readings at once would run forever. */
 static bool time_goes_on(loop *l, double before_ticks) {
     l->standing = plant_now(&l->plant) > before_ticks ? 0 : l->standing + 1;
     if (l->standing < STANDING_MOST) {
@@ -504,7 +499,6 @@ static bool is_over(loop *l) {
     return over;
 }
 
-/* The processor was reset: wait for the reset time, then restart it. */
 static bool restart(loop *l) {
     plant *p = &l->plant;
     wh_reset reset = l->talk.remembered;
@@ -631,7 +625,7 @@ static void print_notes(FILE *out, const lockstep_report *r) {
     fputs(r->notes > 0 ? "\n" : "", out);
 }
 
-/* For a replay: the result of comparing the orders with the tape. */
+/* For a replay: how the orders compare with the tape. */
 static const char *as_on_tape(lockstep_end end) {
     return end == LOCKSTEP_DONE || end == LOCKSTEP_LET_GO ? ", as on the tape"
            : end == LOCKSTEP_DIFFERENT                    ? ", not as on the tape"

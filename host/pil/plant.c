@@ -1,4 +1,4 @@
-/* plant.c: a scene as the hardware of a controller: signals, sensors, actuators, records. */
+/* plant.c: a scene as the hardware of a controller. */
 #include "host/pil/plant.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 #include "host/number/functions.h"
 #include "host/os/atomic_file.h"
 
-/* An angle is a number: rad equals 1, rad/s equals 1/s. */
+/* rad is 1, and rad/s is 1/s. */
 static bool is_same_unit(const char *one, const char *other) {
     char both[2][BOUND_NAME];
     const char *const of[2] = {one, other};
@@ -75,7 +75,7 @@ static const char *find_set(bound *b, const image *im, const char *name) {
     return b->index >= 0 ? im->input[b->index].unit.si : NULL;
 }
 
-/* `name`: the scene's name that the signal is bound to. */
+/* `name`: the scene's name for the signal */
 static void say_unknown(const bound *b, const image *im, const char *name) {
     const char *kind = is_output(b) ? "input" : "output or coordinate";
     nearest search = nearest_start(name, strlen(name));
@@ -141,8 +141,7 @@ static bool bind_one(bound *b, const image *im) {
     return has_good_range(b);
 }
 
-/* Takes the words NAME=OTHER of --bind, each for a signal of its own. Returns false, and reports the reason, for another
- * word. */
+/* Reads the words NAME=OTHER of --bind, each for a different signal. Returns false, reporting another word. */
 static bool take_renames(binding *b, const char *renames) {
     for (const char *at = renames; at != NULL;) {
         const size_t length = strcspn(at, ",");
@@ -202,7 +201,7 @@ bool bind_signals(binding *b, const wh_hello *hello, const image *im, const char
     return good;
 }
 
-/* === records of the plant of a run in the loop as comma-separated values ====================== */
+/* === records of the plant as comma-separated values ============================================ */
 
 #define EVERY_S 1e-3
 
@@ -238,7 +237,7 @@ bool recorded_close(recorded *r) {
 
 #define TURN_RAD 6.283185307179586477
 #define TURN_DEG 360.0
-/* A step end counts as reaching an instant if only round-off separates them. */
+/* The end of a step has reached an instant if it is at most this part of a tick earlier (round-off). */
 #define NEARLY 1e-6
 
 static int components(const plant *p) { return p->image->angles + p->image->reals; }
@@ -331,7 +330,7 @@ double plant_now(const plant *p) { return (double)p->steps * p->step_ticks; }
 
 bool plant_has_reached(const plant *p, double ticks) { return plant_now(p) + NEARLY >= ticks; }
 
-/* The reading of the controller's timer, which has whole ticks and wraps. */
+/* The controller's timer: whole ticks, which wrap. */
 static uint32_t shown(const plant *p, double ticks) {
     return p->start_ticks + (uint32_t)(uint64_t)number_floor(ticks + NEARLY);
 }
@@ -392,7 +391,7 @@ static void watch(plant *p) {
 
 /* --- a reset of the controller ----------------------------------------------------------------------------*/
 
-/* Begins a reset that is due, and returns true if it did. Orders that still wait then never take effect. */
+/* Begins a reset that is due, and returns true if it did. Waiting orders are dropped. */
 static bool is_reset(plant *p) {
     if (!p->reset.now && plant_has_reached(p, p->reset.at_ticks)) {
         p->reset.now = true;
@@ -427,7 +426,7 @@ static void enqueue(plant_queue *q, plant_event event) {
     q->event[at] = event;
 }
 
-/* The quantity of an edge over a step: its values at both ends, and its rates at both ends times the step. */
+/* An edge's quantity over a step: values, and rates times the step, at both ends. */
 typedef struct span_of_step {
     double from;
     double to;
@@ -455,7 +454,7 @@ static double at_part(const span_of_step *s, double part) {
     return s->from + ((a * part + b) * part + s->slope_from) * part;
 }
 
-/* The part of the step after which the cubic meets `level`, by bisection. The level lies between the cubic's ends. */
+/* Bisection for the part of the step at which the cubic meets `level`, which lies between the cubic's ends. */
 static double part_at(const span_of_step *s, double level) {
     double low = 0.0;
     double high = 1.0;
@@ -469,8 +468,8 @@ static double part_at(const span_of_step *s, double level) {
     return high;
 }
 
-/* Does the step enter the range of an edge? *level: the end at which it enters, the lower one if the quantity rises.
- * For an angle, this is the next such level in the direction of motion. */
+/* Does the step enter the edge's range? *level: the end of the range that it crosses; for an angle, shifted by turns to
+ * the first one in the direction of motion. */
 static bool enters(const span_of_step *s, const bound *b, double off, double *level) {
     const bool up = s->to > s->from;
     *level = (double)(up ? b->signal.low : b->signal.high) + off;
@@ -510,7 +509,7 @@ int32_t hello_count(const wh_signal *s, double value, uint8_t *status) {
     const bool good = value > low && value < high;
     *status = good ? WH_SAMPLE_GOOD : WH_SAMPLE_SATURATED;
     value = good ? value : value <= low ? low : high;                 /* high for NaN */
-    return (int32_t)number_floor(value / (double)s->per_count + 0.5); /* has_good_range() */
+    return (int32_t)number_floor(value / (double)s->per_count + 0.5); /* fits: has_good_range() */
 }
 
 static void take_samples(plant *p) {
@@ -572,7 +571,7 @@ bool plant_advance(plant *p, double until_ticks) {
     return true;
 }
 
-/* Takes the due entries of a queue, at most `most`. All other due entries are lost. */
+/* Counts the due entries in *there. Returns at most `most`: entries beyond that are lost. */
 static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) {
     *there = 0;
     while (*there < q->count && q->event[*there].at_ticks <= plant_now(p) + NEARLY) {
@@ -584,7 +583,7 @@ static unsigned leave(plant *p, plant_queue *q, unsigned most, unsigned *there) 
 
 static void shift(plant_queue *q, unsigned gone) {
     q->count -= gone;
-    if (gone > 0) { /* otherwise there may be no memory yet */
+    if (gone > 0) { /* without entries there may be no memory */
         memmove(q->event, q->event + gone, q->count * sizeof q->event[0]);
     }
 }

@@ -14,37 +14,36 @@
 #include "host/os/guest.h"
 
 /* === the reader =============================================================================== */
-/* A tape has the frames of the line in order: hello, then readings and orders in turns; hello and a reset after each
- * restart of the firmware. */
+/* A tape has the line's frames: a hello, then readings and orders in turns; hello and reset after each restart. */
 
 typedef struct taped {
     const char *name;
     FILE *file;
-    wh_hello hello; /* hello of the firmware */
+    wh_hello hello;
     wh_signal signal[WH_SIGNALS_MAX];
-    uint64_t hash;  /* hash of all orders and remembered data so far */
-    uint64_t turns; /* number of exchanges read so far */
+    uint64_t hash;  /* of all orders and remembered data so far */
+    uint64_t turns; /* exchanges read so far */
     uint16_t sequence;
     double before_s; /* time of the last reset */
-    bool failed;     /* the tape is unreadable or broken (reported) */
+    bool failed;     /* the tape is unreadable or damaged (reported) */
     wh_frame_reader reader;
-    bool endless; /* true: more bytes than those of the longest frame came, and no frame ended */
+    bool endless; /* no frame ended within the bytes of the longest frame */
     uint8_t bytes[WH_FRAME_BYTES(GUEST_LINE_BYTES)];
-    uint8_t words[GUEST_LINE_BYTES]; /* strings of the hello */
+    uint8_t words[GUEST_LINE_BYTES]; /* texts of the hello */
 } taped;
 
-/* The firmware's readings at `ticks` and its answer; or a reset, which also resets its timer. */
+/* Readings at `ticks` and their answer; or a reset. */
 typedef struct taped_turn {
     uint32_t ticks;
-    double time_s; /* time of the plant, s */
-    bool is_reset; /* if true, only `reset` is valid */
+    double time_s; /* plant time */
+    bool is_reset; /* only `reset` is valid */
     wh_reset reset;
     wh_readings readings;
     bool answered; /* false: the firmware had ended, or the run was over */
     wh_orders orders;
 } taped_turn;
 
-/* Reads a frame. It gives up after the bytes of the longest frame, so that an endless device is refused. */
+/* Gives up after the bytes of the longest frame, so that an endless device is refused. */
 static bool read_frame(taped *t, wh_frame *frame) {
     for (size_t i = 0; i < sizeof t->bytes + 2; i++) {
         const int byte = getc(t->file);
@@ -56,7 +55,7 @@ static bool read_frame(taped *t, wh_frame *frame) {
     return false;
 }
 
-/* Does the tape end within a frame, or have an invalid frame, or did a read fail? */
+/* Does the tape end within a frame, contain an invalid frame, or fail to be read? */
 static bool is_cut_off(const taped *t) {
     return t->reader.dropped > 0 || t->reader.length > 0 || t->endless || ferror(t->file) != 0;
 }
@@ -74,12 +73,12 @@ static bool is_no_tape(taped *t, const char *why) {
     return false;
 }
 
-/* Plant time from the firmware's timer. */
+/* Plant time for a value of the firmware's timer. */
 static double time_of(const taped *t, uint32_t ticks) {
     return t->before_s + (double)(ticks - t->hello.start_ticks) / (double)t->hello.ticks_per_s;
 }
 
-/* Read the hello. False: reported. Call taped_close() in any case. */
+/* Reads the hello. Returns false after an error (reported). Call taped_close() in any case. */
 static bool taped_open(taped *t, const char *name) {
     wh_frame frame;
     *t = (taped){.name = name, .file = fopen(name, "rb"), .hash = WH_HASH_START};
@@ -105,7 +104,7 @@ static void taped_close(taped *t) {
     }
 }
 
-/* Do all channels exist in the hello? */
+/* Does the hello declare all channels? */
 static bool has_channels(const taped *t, const taped_turn *turn) {
     const unsigned edges = hello_channels(&t->hello, WH_SIGNAL_EDGE);
     const unsigned samples = hello_channels(&t->hello, WH_SIGNAL_SAMPLE);
@@ -121,7 +120,7 @@ static bool has_channels(const taped *t, const taped_turn *turn) {
     return good;
 }
 
-/* Takes a hello in the middle of a tape: the firmware was restarted. The next frame has the reason. */
+/* A hello in the middle of a tape is a restart. The next frame has the reason. */
 static bool take_reset(taped *t, wh_frame *frame, taped_turn *turn) {
     wh_hello hello;
     wh_signal signal[WH_SIGNALS_MAX];
@@ -139,7 +138,7 @@ static bool take_reset(taped *t, wh_frame *frame, taped_turn *turn) {
     return true;
 }
 
-/* The next frame other than remembered data. */
+/* Skips remembered data, but adds it to the hash. */
 static bool read_orders(taped *t, wh_frame *frame) {
     while (read_frame(t, frame)) {
         if (frame->kind != WH_FRAME_REMEMBER) {
@@ -150,7 +149,7 @@ static bool read_orders(taped *t, wh_frame *frame) {
     return false;
 }
 
-/* Reads the next turn. Returns false at the end, and if the tape is broken (reported; t->failed is set). */
+/* Returns false at the end, and if the tape is damaged (reported; t->failed). */
 static bool taped_next(taped *t, taped_turn *turn) {
     wh_frame frame;
     *turn = (taped_turn){.is_reset = false};
@@ -183,30 +182,29 @@ static bool taped_next(taped *t, taped_turn *turn) {
 
 /* === a tape as a table ======================================================================== */
 
-/* The state of the table's rows. */
 typedef struct rows {
     const taped *tape;
     FILE *out;
-    int decimals; /* decimals of a time, which resolve one tick */
+    int decimals; /* decimals of a time, which resolve a tick */
     uint32_t ticks;
-    uint64_t heard;              /* time of the present message: ticks since the plant's time 0 */
+    uint64_t heard;              /* the present message's ticks since plant time 0 */
     bool cut;                    /* a row has reported the cut */
-    bool has_rows;               /* outputs and notes have rows, with the values in value[] */
-    float value[WH_SIGNALS_MAX]; /* values by channel, the notes after the outputs */
+    bool has_rows;               /* value[] was printed */
+    float value[WH_SIGNALS_MAX]; /* by channel, notes after outputs */
 } rows;
 
 static void print_time(const rows *r, int64_t ticks) {
     fprintf(r->out, "%.*f,", r->decimals, (double)ticks / (double)r->tape->hello.ticks_per_s);
 }
 
-/* Begins a row. A time stamp has 32 bits; its true time is the one nearest to the message's time. */
+/* A time stamp has 32 bits: its true time is the nearest one to the message's time. */
 static void begin_row(const rows *r, uint32_t stamp, const char *kind) {
     print_time(r, (int64_t)r->heard + (int32_t)(stamp - r->ticks));
     print_time(r, (int64_t)r->heard);
     fprintf(r->out, "%s,", kind);
 }
 
-/* Names and units on a tape are as the firmware sent them: characters that would break a row are replaced. */
+/* Texts on a tape are the firmware's: characters that would break a row become '_'. */
 static void print_word(FILE *out, const char *word) {
     for (; *word != '\0'; word++) {
         const bool breaks = (unsigned char)*word < 0x20 || strchr(",\"\x7f", *word) != NULL;
@@ -238,7 +236,7 @@ static void print_sample(const rows *r, const wh_sample *e) {
           r->out);
 }
 
-/* Edges and samples, merged by time; each kind keeps its order on the tape. */
+/* Merges edges and samples by time. Each kind keeps its order on the tape. */
 static void print_readings(const rows *r, const wh_readings *readings) {
     unsigned edge = 0;
     unsigned sample = 0;
@@ -275,7 +273,7 @@ static void print_orders(rows *r, const wh_orders *orders) {
     r->has_rows = true;
 }
 
-/* The firmware has lost all earlier data, and its timer restarts. */
+/* The firmware's data are lost, and its timer restarts. */
 static void print_reset(rows *r, const wh_reset *reset) {
     begin_row(r, r->ticks, "reset");
     fprintf(r->out, ",,,,%s\n", reset->cause == WH_RESET_WATCHDOG ? "watchdog" : "other");
@@ -341,7 +339,7 @@ static void say_difference(const wh_orders *kept, const wh_orders *now, const ta
     }
 }
 
-/* One exchange. Returns false at the end of the tape and after an error, which is in report->end. */
+/* Plays one exchange. Returns false at the end of the tape, and after an error (report->end). */
 static bool play(taped *from, talk *t) {
     lockstep_report *r = t->report;
     taped_turn kept;
@@ -364,7 +362,7 @@ static bool play(taped *from, talk *t) {
         }
         return false;
     }
-    if (!kept.answered) { /* the recorded firmware had ended here, or the run was over */
+    if (!kept.answered) { /* the recorded firmware or run had ended here */
         r->end = LOCKSTEP_LET_GO;
         return false;
     }

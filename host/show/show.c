@@ -11,7 +11,7 @@
 #include "host/number/decimal.h"
 #include "host/number/functions.h"
 
-/* Is a name shorter than p? Not if p is a number, a symbol or its power, or a term with a sine or a cosine. */
+/* Would a name be shorter than p? Not for a number, a symbol or its power, or a term with a sine or cosine. */
 static bool shortens(const poly *p) {
     double number;
     const mono *m = p->count == 1 ? p->terms[0].mono : NULL;
@@ -34,7 +34,7 @@ void show_lets_begin(show *s, const equations *e) {
     s->lets->below = s->lets->count;
 }
 
-/* Is value * ratio a part of p, term by term? The terms of both are in the same order. */
+/* Does p contain the terms of value * ratio? The terms of both are in the same order. */
 static bool is_part(const poly *p, const poly *value, double *ratio) {
     int at = 0;
     for (int i = 0; i < value->count; i++) {
@@ -53,8 +53,7 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* Returns the largest let that equals a part of p, up to a factor; with `whole`, all of p. *ratio: the factor; *rest: p
- * without that part. Returns NULL if there is none. */
+/* Returns the largest let that times *ratio is a part of p (`whole`: all of p), or NULL. *rest: p without it. */
 static const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest,
                               double *ratio) {
     let_row *best = NULL;
@@ -77,7 +76,6 @@ static const symbol *show_let(const show *s, const poly *p, bool whole, const po
     return best->let;
 }
 
-/* The let that equals this power. */
 static const symbol *show_let_factor(const show *s, const atom *x, double exponent) {
     for (int i = 0; s->lets != NULL && i < s->lets->below; i++) {
         let_row *r = &s->lets->row[i];
@@ -112,7 +110,7 @@ static void latex_letters(FILE *out, const char *text) {
     }
 }
 
-/* The name's letters, then the remaining part as an index: theta1 -> \theta_{1}, no_load -> \mathrm{no}_{\mathrm{load}}. */
+/* Letters, then the remaining part as an index: theta1 -> \theta_{1}, no_load -> \mathrm{no}_{\mathrm{load}}. */
 static void latex_name(FILE *out, const char *name, int primes) {
     size_t stem = 0;
     while (isalpha((unsigned char)name[stem])) {
@@ -157,7 +155,7 @@ void show_symbol(const show *s, const symbol *sym, int primes) {
     }
 }
 
-/* value = top / bottom with small whole numbers? If not, top is the value and bottom 1. */
+/* value = top / bottom with small whole numbers; if impossible, top is the value and bottom is 1. */
 static bool show_as_fraction(double value, double *top, double *bottom) {
     for (int whole = 1; whole <= 360; whole++) {
         const double q = whole;
@@ -198,7 +196,7 @@ static bool has_power_before(function_id f) {
     return found;
 }
 
-/* Is p one symbol? In LaTeX it needs no parentheses. */
+/* LaTeX needs no parentheses around a symbol. */
 static bool is_symbol(const poly *p) {
     return p != NULL && p->count == 1 && p->terms[0].coefficient == 1.0 &&
            p->terms[0].mono->trig == TRIG_NONE && p->terms[0].mono->count == 1 &&
@@ -206,7 +204,7 @@ static bool is_symbol(const poly *p) {
            p->terms[0].mono->factors[0].atom->kind == ATOM_SYMBOL;
 }
 
-/* A call with its exponent: sin(x)^2, \sin^{2} x. */
+/* Prints a call with its exponent: sin(x)^2, \sin^{2} x. */
 static void show_call(const show *s, function_id function, const poly *x, const poly *y,
                       double exponent) {
     const bool latex = s->style == SHOW_LATEX;
@@ -245,7 +243,7 @@ void show_grouped(const show *s, const poly *p) {
     show_close(s);
 }
 
-/* Is p a name, a whole number or one call? It needs no parentheses before an exponent. */
+/* A name, a whole number or a call needs no parentheses before an exponent. */
 static bool is_primary(const poly *p) {
     double value;
     if (poly_is_number(p, &value)) {
@@ -262,8 +260,8 @@ static bool is_primary(const poly *p) {
            (m->factors[0].atom->kind == ATOM_SYMBOL || m->factors[0].atom->kind == ATOM_CALL);
 }
 
-/* Prints base^exponent. In text, a side that is not primary gets parentheses, because `^` binds from the right. In
- * LaTeX, a base with primes gets braces, because LaTeX allows only one superscript on a base. */
+/* Prints base^exponent. In text, other sides than primaries get parentheses, because `^` binds from the right. In
+ * LaTeX, a base with primes gets braces, because a base has only one superscript. */
 static void show_power(const show *s, const poly *base, const poly *exponent) {
     const bool latex = s->style == SHOW_LATEX;
     if (is_primary(base)) {
@@ -345,7 +343,7 @@ static void show_atom(const show *s, const atom *x, double exponent) {
 
 enum { RANKS = 4 + PRIMES_MAX }; /* number of results of show_rank() */
 
-/* Position of a factor in a product: 0 parameters, 1 inputs, 2 coordinates, then the others. */
+/* Order of factors in a product: 0 parameters, 1 inputs, 2 coordinates, then the others. */
 static int show_rank(const atom *x) {
     if (x->kind != ATOM_SYMBOL) {
         return 3;
@@ -355,7 +353,7 @@ static int show_rank(const atom *x) {
     case SYM_INPUT: return 1;
     case SYM_COORDINATE:
     case SYM_STATE: return x->primes == 0 ? 2 : 3 + x->primes; /* sines have rank 3 */
-    case SYM_LET:                                              /* expressions: not atoms */
+    case SYM_LET:                                              /* expressions, not atoms */
     case SYM_OUTPUT:
     case SYM_RECORD: break;
     }
@@ -369,7 +367,7 @@ void show_separate(const show *s, bool *first) {
     *first = false;
 }
 
-/* The factors above (side 1) or below (-1) the fraction bar. */
+/* Prints the factors above (side 1) or below (-1) the fraction bar. */
 static void show_factors(const show *outer, const piece *p, int side, bool *first) {
     show inner = *outer;
     const show *s = &inner;
@@ -403,7 +401,7 @@ static int show_count_below(const piece *p) {
     return count;
 }
 
-/* The fraction bar, and the number and the factors below it. */
+/* Prints the fraction bar, and number and factors below it. */
 static void show_below(const show *s, const piece *p, double bottom) {
     const bool many = show_count_below(p) + (bottom != 1.0) > 1;
     bool first = true;
@@ -416,7 +414,7 @@ static void show_below(const show *s, const piece *p, double bottom) {
     fputs(s->style == SHOW_LATEX ? "}" : many ? ")" : "", s->out);
 }
 
-/* The size of the coefficient times the factors: 2*m*r*sin(a)/3. A lone number is written, a factor 1 is not. */
+/* Prints 2*m*r*sin(a)/3, with `size` as the number; a factor 1 is printed only if it stands alone. */
 static void show_product(const show *s, const piece *p, double size) {
     double top;
     double bottom;
@@ -453,7 +451,7 @@ static void show_sign(const show *s, bool negative, bool first) {
     }
 }
 
-/* The powers of the sine and cosine of one angle that all terms have in common; angle NULL: none. */
+/* Powers of the sine and cosine of one angle that all terms share; angle NULL: none. */
 typedef struct wave {
     const poly *angle;
     int sines;
@@ -491,7 +489,7 @@ static void show_named(const show *s, const symbol *let, double ratio, bool lead
     show_symbol(s, let, 0);
 }
 
-/* Prints a part of *p that has a name, and takes it from *p; nothing if no part has one. */
+/* If some terms of *p have a name, prints it and removes them from *p. */
 static bool show_let_part(const show *s, const poly **p, bool *leading) {
     double ratio;
     const poly *rest;
@@ -523,7 +521,7 @@ static void show_sum(const show *s, const poly *p, wave without, bool leading) {
     free(pieces);
 }
 
-/* A number of which all coefficients are small whole multiples; 1 if there is none. */
+/* A number of which all coefficients are small whole multiples, or 1. */
 static double common_multiple(const piece *pieces, int count) {
     double smallest = (double)INFINITY;
     for (int i = 0; i < count; i++) {
@@ -586,7 +584,7 @@ const poly *show_common(algebra *a, const poly *p) {
     return common;
 }
 
-/* The parameter in the most terms, if it is in two or more. */
+/* The parameter in the most terms, if in two or more; else NULL. */
 static const atom *shared_parameter(const poly *p) {
     const atom *best = NULL;
     int best_uses = 1;
@@ -608,7 +606,7 @@ static const atom *shared_parameter(const poly *p) {
     return best;
 }
 
-/* Has p a shared parameter, and only symbols above the fraction bar? Such a sum can be split repeatedly. */
+/* Has p a shared parameter, and only symbols above the fraction bar? Then it can be split repeatedly. */
 static bool has_symbols_only(const poly *p) {
     bool only = true;
     for (int i = 0; i < p->count; i++) {
@@ -655,10 +653,10 @@ static void show_parted(const show *s, const poly *p, bool leading) {
         return;
     }
     show_sum(s, p, (wave){NULL, 0, 0},
-             leading); /* every term contains `shared`, but not in a common power */
+             leading); /* every term contains `shared`, but not in one power */
 }
 
-/* Prints "*key", or nothing if the key is 1. */
+/* Prints "*key", unless the key is 1. */
 static void show_behind(const show *s, const poly *key) {
     if (key->terms[0].mono->count > 0) {
         bool first = false;
@@ -668,7 +666,7 @@ static void show_behind(const show *s, const poly *key) {
     }
 }
 
-/* Prints p * key as +-number*common*(inside)*key/below, without parts that are 1. */
+/* Prints p * key as +-number*common*(inside)*key/below, without factors 1. */
 static void show_group(const show *s, const poly *p, const poly *key, bool leading) {
     algebra *a = s->algebra;
     double ratio;
@@ -686,7 +684,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     for (int i = 0; i < count; i++) {
         negative = negative && pieces[i].coefficient < 0.0;
     }
-    if (count == 1) { /* a single product: write it with its key */
+    if (count == 1) { /* a single product, written with its key */
         const poly *whole = poly_mul(a, p, key);
         if (!algebra_overflow(a) && pieces_of(a, whole, pieces) == 1) {
             show_sign(s, pieces[0].coefficient < 0.0, leading);
@@ -750,7 +748,7 @@ static void show_group(const show *s, const poly *p, const poly *key, bool leadi
     }
 }
 
-/* The product of a term's rates and accelerations, by which terms are collected; *highest: its most primes. */
+/* The product of a term's rates and accelerations, by which terms are collected. *highest: its most primes. */
 static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     const poly *key = poly_number(a, 1.0);
     *highest = 0;
@@ -764,7 +762,7 @@ static const poly *motion_of(algebra *a, const mono *m, int *highest) {
     return key;
 }
 
-/* The terms with the same rates and accelerations, divided by these. */
+/* The terms with the same rates and accelerations (key), divided by the key. */
 typedef struct collected {
     const poly *key;
     const poly *terms;
@@ -797,7 +795,7 @@ void show_poly(const show *s, const poly *p) {
     }
     collected *groups = alloc(p->count, sizeof *groups);
     const int count = collect(a, p, groups);
-    if (algebra_overflow(a)) { /* products are no longer available: print the terms as they are */
+    if (algebra_overflow(a)) { /* without products, print the terms as they are */
         show_sum(s, p, (wave){NULL, 0, 0}, true);
     } else {
         bool leading = true;

@@ -13,11 +13,9 @@
 static void show_equation(const show *s, const equations *e, int i);
 
 /* === show break =============================================================================== */
-/* Line breaks in LaTeX, at the signs of a sum, with amsmath's aligned. A sum in parentheses or below a root gets its
- * own line breaks. */
+/* Line breaks in LaTeX, at the signs of a sum, with amsmath's aligned; also within parentheses and below roots. */
 
-/* Widths in points of 10 pt type. A line of LaTeX's article is 345 pt wide, including 25 for the equation's number.
- * NARROWEST: least width of a broken sum. */
+/* Points in 10 pt type. A line of LaTeX's article: 345, with 25 for the equation's number. NARROWEST: of a sum. */
 enum { LINE_WIDTH = 320, NARROWEST = 100, LEFT_WIDTH = 150, EQUALS = 14, SIGN = 13, QUAD = 10 };
 
 typedef struct span {
@@ -31,7 +29,7 @@ static bool begins(span s, const char *word) {
            strncmp(s.from, word, length) == 0;
 }
 
-/* Depth of brackets: +1 for an opening one, -1 for a closing one. */
+/* +1 for an opening bracket, -1 for a closing one. */
 static int opens(span s) {
     return *s.from == '{' || begins(s, "\\left") || begins(s, "\\begin")  ? 1
            : *s.from == '}' || begins(s, "\\right") || begins(s, "\\end") ? -1
@@ -68,7 +66,7 @@ static int width_of_rows(span s) {
     return larger(widest, width_of((span){row, s.end}));
 }
 
-/* The width of the command at *s, which advances past it; for \frac and aligned, with their contents. */
+/* The width of the command at *s, including the contents of \frac and aligned. Advances *s past it. */
 static int width_of_command(span *s) {
     static const char aligned[] = "\\begin{aligned}";
     static const char behind[] = "\\end{aligned}";
@@ -123,7 +121,7 @@ static int width_of_command(span *s) {
     return begins(of, "sqrt") ? 9 : begins(of, "times") ? SIGN : 7;
 }
 
-/* The width of a character, rounded up. Scripts count as wide as their base. */
+/* Rounded up. Scripts count as wide as their base. */
 static int width_of_character(char c) {
     return strchr("+-", c) != NULL         ? SIGN
            : c == '='                      ? EQUALS
@@ -147,8 +145,7 @@ static int width_of(span s) {
     return width;
 }
 
-/* The next sign outside brackets: a plus or minus, or with `factors` the sign between two factors; s.end if there is
- * none. */
+/* The next plus or minus outside brackets, or, with `factors`, the next sign between factors; else s.end. */
 static const char *next_break(span s, bool factors) {
     int depth = 0;
     for (span at = {s.from, s.end}; at.from < s.end; at.from++) {
@@ -163,7 +160,7 @@ static const char *next_break(span s, bool factors) {
 
 static char *broken(span s, int limit);
 
-/* The widest group of s; names do not count. */
+/* The widest group of s, except names. */
 static span widest_group(span s) {
     span widest = {s.from, s.from};
     int most = 0;
@@ -189,7 +186,7 @@ static span widest_group(span s) {
     return widest;
 }
 
-/* s with the widest groups broken, until it is within the limit or no group is wide enough. */
+/* Breaks the widest groups, until s fits the limit or no group is wide enough. */
 static char *narrowed(span s, int limit) {
     char *text = alloc_copy(s.from, (size_t)(s.end - s.from));
     for (;;) {
@@ -212,12 +209,12 @@ static char *narrowed(span s, int limit) {
     }
 }
 
-/* The rows of s, "first \\ &\quad + next". */
+/* Returns rows "first \\ &\quad + next". */
 static char *rows_of(span s, int limit, bool factors) {
     char *text;
     size_t length;
     FILE *out = alloc_text(&text, &length);
-    const int indent = factors ? QUAD + SIGN : QUAD; /* indentation of the rows after the first */
+    const int indent = factors ? QUAD + SIGN : QUAD; /* of the rows after the first */
     int width = 0;
     for (const char *at = s.from; at < s.end;) {
         const char *next = next_break((span){at, s.end}, factors);
@@ -238,7 +235,7 @@ static char *rows_of(span s, int limit, bool factors) {
     return text;
 }
 
-/* The text of s within the limit: one line, or rows of amsmath's aligned. */
+/* One line within the limit, or rows of amsmath's aligned. */
 static char *broken(span s, int limit) {
     if (width_of(s) <= limit) {
         return alloc_copy(s.from, (size_t)(s.end - s.from));
@@ -302,8 +299,7 @@ void show_row_end(show_row *row) {
 
 /* === show events ============================================================================== */
 
-/* The forms of contacts, for the screen and as LaTeX rows "LEFT &= RIGHT". $v, $s, $a, $b: the law's value, speed, first
- * and second expression; $q: the coordinate. */
+/* Forms of contacts, as text and LaTeX. $v, $s, $a, $b, $q: the law's value, speed, expressions and coordinate. */
 static const struct {
     const char *text;
     const char *latex[2];
@@ -363,7 +359,7 @@ void show_events(FILE *out, const equations *e, const char *prefix, const char *
 
 /* --- LaTeX: rows "LEFT &= RIGHT" of an align* ----------------------------------------------------*/
 
-/* Writes a row: `before`, the symbol `of`, `behind`, then the formula `value`. `end` follows the row. */
+/* Writes `before`, the symbol `of`, `behind`, the formula `value`, and `end`. */
 static void write_row(const show *s, const char *before, const symbol *of, int primes,
                       const char *behind, const poly *value, const char *end) {
     show_row row;
@@ -378,7 +374,7 @@ static void write_row(const show *s, const char *before, const symbol *of, int p
     fputs(end, s->out);
 }
 
-/* *between: the text before the next row, first "". */
+/* *between: the text before the next row, at first "" */
 static void latex_rows(const show *s, const contact_law *law, const char **between) {
     static const char next[] = " \\\\\n";
     const contact_statement *from = law->from;
@@ -402,7 +398,7 @@ static void latex_rows(const show *s, const contact_law *law, const char **betwe
     }
 }
 
-/* The contacts, printed after the equations, in the style of `s` and with its names for sums. */
+/* In the style of `s`, and with its names for sums. */
 static void show_contacts(const show *s, const equations *e) {
     const contact_laws *laws = e->contacts;
     const bool latex = s->style == SHOW_LATEX;
@@ -427,10 +423,9 @@ static void show_contacts(const show *s, const equations *e) {
 }
 
 /* === the derivation, step by step ============================================================= */
-/* Lagrange's equations step by step, one coordinate after another, as in a derivation by hand. */
+/* Lagrange's equations for one coordinate after another, as in a derivation by hand. */
 
-/* d/dt of the momentum: the mass matrix times the accelerations, plus the terms of the rates: `velocity` without its
- * -dT/dq. */
+/* d/dt of the momentum: the mass matrix times the accelerations, plus `velocity` without its term -dT/dq. */
 static const poly *momentum_rate(const equations *e, int i) {
     algebra *a = e->algebra;
     const poly *sum =
@@ -442,7 +437,7 @@ static const poly *momentum_rate(const equations *e, int i) {
     return sum;
 }
 
-/* The force of all statements of a kind on coordinate i: Q, or -dF/dq'. */
+/* The force of all statements of a kind, Q or -dF/dq', on coordinate i. */
 static const poly *force_of_kind(const equations *e, term_kind kind, int i) {
     const poly *sum = poly_number(e->algebra, 0.0);
     for (int k = 0; k < e->forces; k++) {
@@ -503,10 +498,10 @@ void show_steps(FILE *out, const equations *e, show_style style) {
 
 /* === the equations of motion ================================================================== */
 
-/* A closed formula for an acceleration with more terms is unreadable: the mass matrix is printed instead. */
+/* Longer closed formulas for accelerations are unreadable: the mass matrix is printed instead. */
 #define READABLE_TERMS 24
 
-/* Inertia, centrifugal and potential terms of equation i, on one side. */
+/* Inertia, centrifugal and potential terms of equation i. */
 static const poly *left_side(const equations *e, int i) {
     algebra *a = e->algebra;
     const poly *sum = poly_add(a, e->velocity[i], e->potential[i]);
@@ -525,7 +520,7 @@ static void write_left_side(const show *s, const equations *e, int i) {
         show_poly(s, sum);
         return;
     }
-    /* after an overflow, the sum is printed as A q'' + rest */
+    /* after an overflow, print A q'' + rest */
     const poly *rest = poly_add(a, e->velocity[i], e->potential[i]);
     bool leading = true;
     for (int j = 0; j < e->count; j++) {
@@ -544,7 +539,7 @@ static void write_left_side(const show *s, const equations *e, int i) {
     }
 }
 
-/* Prints one equation of motion: "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
+/* Prints "LEFT = RIGHT", in LaTeX "LEFT &= RIGHT". */
 static void show_equation(const show *s, const equations *e, int i) {
     show_row row;
     const show *to = show_row_begin(&row, s);
@@ -555,7 +550,7 @@ static void show_equation(const show *s, const equations *e, int i) {
     show_row_end(&row);
 }
 
-/* Writes a quantity of a run's records, and its unit in them. */
+/* Writes a quantity of the records, and its unit. */
 static void write_shown(const show *s, const char *kind, const symbol *what) {
     char *unit_name = shown_unit_name(what, 0);
     fprintf(s->out, "  %-10s %-10s [%s]%s%s\n", kind, what->name, unit_name,
@@ -563,7 +558,7 @@ static void write_shown(const show *s, const char *kind, const symbol *what) {
     free(unit_name);
 }
 
-/* A parameter or an input with its value in the unit of the file, and its formula. */
+/* Writes a parameter or input with its value in the file's unit, and its formula. */
 static void write_value(const show *s, const char *kind, const symbol *what, const expr *given,
                         double si_value) {
     const unit_scale unit = shown_unit(what, 0);
@@ -612,15 +607,15 @@ static void write_names(const show *s, const equations *e) {
     }
 }
 
-/* Is the name this letter and a number, like the generated names? */
+/* Generated names are a letter and a number. */
 static bool is_numbered(const char *name, const char *letter) {
     const size_t length = strlen(letter);
     return strncmp(name, letter, length) == 0 && name[length] != '\0' &&
            strspn(name + length, "0123456789") == strlen(name + length);
 }
 
-/* Returns the first of `letters` for which the mechanism has no numbered name, such as y1; the last one if there is
- * none. NULL ends the list. */
+/* Returns the first of `letters` without a numbered name in the mechanism, such as y1; else the last. NULL ends
+ * them. */
 static const char *free_letter(const mechanism *m, const char *const *letters) {
     const symbol *const *const list[] = {m->coordinates, m->parameters, m->inputs};
     const int count[] = {m->coordinate_count, m->parameter_count, m->input_count};
@@ -635,7 +630,7 @@ static const char *free_letter(const mechanism *m, const char *const *letters) {
     return *letters;
 }
 
-/* y(1) ... y(N): values first, then rates, and so on, numbered as in the dissertation. */
+/* y(1) ... y(N): values, then rates, and so on, numbered as in the dissertation. */
 static int show_y_number(const equations *e, int unknown_index, int primes) {
     int number = 1;
     for (int i = 0; i < e->count; i++) {
@@ -671,7 +666,7 @@ bool show_closed_form(const equations *e, const poly **top, const poly **bottom)
     return size <= READABLE_TERMS && !algebra_overflow(a);
 }
 
-/* Divide *top and *bottom by their common factors. The factor 0.7391 keeps equal terms of the two from cancelling. */
+/* Divides *top and *bottom by their common factors. The factor 0.7391 keeps equal terms of both from cancelling. */
 static void reduce(algebra *a, const poly **top, const poly **bottom) {
     const poly *both = poly_add(a, *top, poly_scale(a, *bottom, 0.7390851332151607));
     const poly *inverse = poly_pow(a, show_common(a, both), -1.0);
@@ -689,7 +684,7 @@ void show_fraction(const show *s, const poly *top, const poly *bottom) {
     const poly *shorter[2] = {top, bottom};
     if (!poly_is_zero(top) && bottom->count > 1) {
         reduce(a, &shorter[0], &shorter[1]);
-    } else { /* divide term by term */
+    } else { /* divide each term */
         shorter[0] = poly_mul(a, top, poly_pow(a, bottom, -1.0));
         shorter[1] = poly_number(a, 1.0);
     }
@@ -793,7 +788,7 @@ void show_lets_end(show *s, const char *heading, const char *behind, const char 
     size_t length;
     int used = 0;
     FILE *out = s->out;
-    for (int i = lets->count - 1; i >= 0; i--) { /* a definition may use earlier names */
+    for (int i = lets->count - 1; i >= 0; i--) { /* definitions may use earlier names */
         lets->below = i;
         if (lets->row[i].used) {
             s->out = alloc_text(&text[i], &length);
@@ -836,7 +831,6 @@ void show_text(FILE *out, const equations *e) {
     show_lets_end(&s, "\nwith\n\n", "\n", "\n");
 }
 
-/* The highest derivatives as fractions. */
 static void write_solved(const show *s, const equations *e, const poly *const *top,
                          const poly *bottom) {
     fprintf(s->out, "%% solved for the highest derivatives\n\\begin{align}\n");

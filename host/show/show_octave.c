@@ -1,5 +1,5 @@
-/* show_octave.c: the equations as a function file for Octave and Matlab, with the names of the file. Parameters, inputs
- * and the state come first, as in the listings of the dissertation's appendices. */
+/* show_octave.c: the equations as a function file for Octave and Matlab, with the file's names: parameters, inputs and
+ * state first, as in the listings of the dissertation's appendices. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "host/lang/value.h"
 #include "host/show/show.h"
 
-/* A variable of the generated file, for a symbol or its derivative. Symbol NULL: the file itself needs the name. */
+/* A variable for a symbol or its derivative. Symbol NULL: a name that the generated file needs. */
 typedef struct variable {
     const symbol *symbol;
     int primes;
@@ -77,7 +77,7 @@ static void write_constants(const show *s, const equations *e, const symbol *con
     }
 }
 
-/* Writes the highest derivatives: a formula for each, or the solution of A x = b for all. */
+/* Writes a formula for each highest derivative, or the solution of A x = b. */
 static void write_highest(const show *s, const equations *e, variables *all) {
     const int n = e->count;
     const poly *top[2];

@@ -1,5 +1,4 @@
-/* none.c: a machine without processes, signals and serial lines. Jobs run one after the other; starting programs and
- * opening lines fails. */
+/* none.c: a machine without processes, signals and serial lines. Jobs run in this process. */
 #include <errno.h>
 #include <stdlib.h>
 #include <time.h>

@@ -1,4 +1,4 @@
-/* guest.c: start of the firmware's process, communication with it, and its end. */
+/* guest.c: the firmware's process: start, messages, end. */
 #include "host/os/guest.h"
 
 #include <errno.h>
@@ -15,11 +15,11 @@
 #include <sys/prctl.h>
 #endif
 
-/* The guest's descriptors (hal/link.h has the same numbers). */
+/* As in hal/link.h. */
 enum { DOWN = 3, UP = 4, ABOVE = 10 };
 enum { POLL_MS = 50 };
 
-/* Returns true for an ELF file: its magic, then at byte 18 the machine, in the file's byte order. */
+/* Is this an ELF file? The machine is at byte 18, in the file's byte order. */
 static bool is_elf(const unsigned char *head, size_t count, bool *arm) {
     enum { MACHINE = 18, ARM = 40, LITTLE = 1 };
     if (count < MACHINE + 2 || memcmp(head, "\177ELF", 4) != 0) {
@@ -67,7 +67,7 @@ bool guest_machine_of(const char *board, char machine[GUEST_MACHINE_BYTES]) {
     return machine[0] != '\0';
 }
 
-/* Moves the pipes to their numbers DOWN and UP, by way of high numbers that are free. All other descriptors close on exec. */
+/* Moves the pipes to DOWN and UP, by way of free high numbers. All other descriptors close on exec. */
 static bool place_line(int down, int up) {
     const int high_down = fcntl(down, F_DUPFD_CLOEXEC, ABOVE);
     const int high_up = fcntl(up, F_DUPFD_CLOEXEC, ABOVE);
@@ -76,8 +76,7 @@ static bool place_line(int down, int up) {
            dup2(high_down, DOWN) >= 0 && dup2(high_up, UP) >= 0;
 }
 
-/* Puts the guest into a process group of its own, so that Ctrl-C reaches only Whirl, which then ends the guest. If Whirl
- * dies, Linux kills the guest. */
+/* Gives the guest a process group, so that Ctrl-C reaches only Whirl, which then ends it. Linux kills it with Whirl. */
 static bool tie_to(pid_t parent) {
 #if defined(__linux__)
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) {
@@ -87,7 +86,7 @@ static bool tie_to(pid_t parent) {
     return setpgid(0, 0) == 0 && getppid() == parent;
 }
 
-/* If `wished` is true, silences the guest's console, which is Whirl's standard output. */
+/* The guest's console is Whirl's standard output. */
 static bool mute(bool wished) {
     const int nowhere = wished ? open("/dev/null", O_WRONLY | O_CLOEXEC) : -1;
     return !wished || (nowhere >= 0 && dup2(nowhere, STDOUT_FILENO) >= 0);
@@ -141,8 +140,8 @@ bool guest_start(guest *g, const guest_request *request) {
         fprintf(stderr, "whirl pil: error: no pipe can be made: %s\n", strerror(errno));
         return false;
     }
-    signal(SIGPIPE, SIG_IGN); /* so that a write to a dead guest fails, and does not end Whirl */
-    fflush(stdout);           /* first, because the guest's console writes to the same file */
+    signal(SIGPIPE, SIG_IGN); /* writes to a dead guest fail, and do not end Whirl */
+    fflush(stdout);           /* before the guest's console writes to the same file */
     const pid_t parent = getpid();
     g->pid = fork();
     if (g->pid == 0) {
@@ -160,7 +159,7 @@ bool guest_start(guest *g, const guest_request *request) {
     return true;
 }
 
-/* Waits until the line is readable, in short intervals, so that an interrupt from before the wait is noticed. */
+/* Waits in short intervals, so that an interrupt from before the wait is noticed. */
 static guest_heard wait_to_read(const guest *g, double end_s) {
     struct pollfd line = {.fd = g->up, .events = POLLIN};
     do {
@@ -199,8 +198,7 @@ guest_heard guest_receive(guest *g, wh_frame *frame) {
     }
 }
 
-/* A pipe does not block, because guest and host take turns, and it holds at most one frame. A serial line may be
- * full. */
+/* A pipe never blocks: guest and host take turns, and it holds a frame. A serial line may be full. */
 guest_heard guest_send(guest *g, const uint8_t *bytes, unsigned count) {
     struct pollfd line = {.fd = g->down, .events = POLLOUT};
     for (unsigned done = 0; done < count;) {
@@ -226,7 +224,7 @@ static void close_line(int *descriptor) {
     }
 }
 
-/* Waits for the guest's end. Returns false if it still runs after patience_s. */
+/* Returns false if the guest still runs after patience_s. */
 static bool wait_for_end(const guest *g, int *status) {
     const double end_s = system_now_s() + g->request.patience_s;
     const struct timespec pause = {.tv_nsec = 1000000};

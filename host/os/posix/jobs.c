@@ -1,4 +1,4 @@
-/* jobs.c: workers, their pipes, and rows put back into order. */
+/* jobs.c: workers, their pipes, and the order of rows. */
 #include "host/os/jobs.h"
 
 #include <errno.h>
@@ -14,12 +14,12 @@
 #include "host/base/alloc.h"
 #include "host/os/system.h"
 
-/* Number of points that each worker may have ahead of the first point that is not yet delivered. */
+/* Points that each worker may be ahead of the first undelivered point. */
 #define AHEAD 8U
 #define PAUSE_MS 50
 #define ASK_US 200000
 
-/* The header that a worker sends before row and reason. */
+/* The header before row and reason. */
 typedef struct answer {
     uint64_t point;
     uint64_t row_length;
@@ -29,14 +29,14 @@ typedef struct answer {
 
 typedef struct worker {
     pid_t pid;
-    int results; /* read end of the worker's pipe; -1 after the worker has ended */
-    char *bytes; /* received, but not yet evaluated */
+    int results; /* read end of the worker's pipe; -1 after its end */
+    char *bytes; /* received, not yet evaluated */
     size_t length;
     size_t room;
 } worker;
 
 typedef struct slot {
-    char *row; /* NULL: not yet received; the reason follows the row's zero byte */
+    char *row; /* NULL: not received; the reason follows its zero byte */
     const char *reason;
     bool good;
 } slot;
@@ -45,9 +45,9 @@ typedef struct pool {
     const jobs *jobs;
     worker *workers;
     int started;
-    /* The pipe with the points' numbers. Its read end stays open, so that a write cannot fail if all workers are lost. */
+    /* The pipe of numbers. Its read end stays open, so that a write cannot fail if all workers are lost. */
     int tickets[2];
-    slot *slots; /* [window], by point % window */
+    slot *slots; /* [window] by point % window */
     uint64_t window;
     uint64_t sent;
     uint64_t delivered; /* all points below this are delivered */
@@ -57,7 +57,7 @@ typedef struct pool {
 
 static pid_t parent;
 
-/* Signal handler: interrupts the worker if its parent has ended. */
+/* Signal handler: ends the worker after its parent. */
 static void ask_for_parent(int signal_number) {
     (void)signal_number;
     interrupted = getppid() != parent;
@@ -78,7 +78,7 @@ static bool write_all(int to, const void *bytes, size_t length) {
 
 static void work(const jobs *j, int tickets, int results) {
     uint64_t point;
-    /* Numbers are written and read whole: eight bytes are far below PIPE_BUF. */
+    /* Reads and writes of 8 bytes (below PIPE_BUF) are never partial. */
     while (read(tickets, &point, sizeof point) == (ssize_t)sizeof point) {
         char *text[2] = {NULL, NULL};
         size_t length[2] = {0, 0};
@@ -110,7 +110,7 @@ static bool start_worker(pool *p) {
     if (pipe(results) != 0) {
         return false;
     }
-    fflush(NULL); /* otherwise the child would have a copy of the buffers */
+    fflush(NULL); /* the child must not have a copy of buffered text */
     /* signals wait until the child has its own handlers */
     sigset_t both;
     sigset_t usual;
@@ -154,7 +154,7 @@ static bool start(pool *p) {
     return p->started > 0;
 }
 
-/* Hands out numbers as far as the window reaches. */
+/* Sends numbers within the window. */
 static void send(pool *p) {
     while (p->sent < p->jobs->end && p->sent < p->delivered + p->window &&
            write_all(p->tickets[1], &p->sent, sizeof p->sent)) {
@@ -162,7 +162,7 @@ static void send(pool *p) {
     }
 }
 
-/* Moves the complete answers among a worker's bytes to the slots of their points. */
+/* Moves complete answers to their slots. */
 static void take_answers(pool *p, worker *w) {
     size_t at = 0;
     answer a;
@@ -183,7 +183,7 @@ static void take_answers(pool *p, worker *w) {
     memmove(w->bytes, w->bytes + at, w->length);
 }
 
-/* Reads from a worker. When the worker has ended, closes its pipe and returns false. */
+/* Returns false, with the pipe closed, if the worker has ended. */
 static bool listen_to(pool *p, worker *w) {
     if (w->room - w->length < 65536) {
         w->room = 2 * w->room + 65536;
@@ -233,7 +233,7 @@ static jobs_result attend(pool *p) {
         const int heard = poll(ears, (nfds_t)p->started, PAUSE_MS);
         for (int i = 0; i < p->started && heard > 0; i++) {
             if (ears[i].revents != 0 && !listen_to(p, &p->workers[i])) {
-                /* no worker should end before the pipe with the numbers is closed */
+                /* workers must not end before the pipe of numbers is closed */
                 result = JOBS_WORKER_LOST;
             }
         }

@@ -11,7 +11,7 @@
 
 enum { WRITE_MS = 1000 };
 
-static struct termios before; /* settings of the line, to be restored */
+static struct termios before; /* the line's settings, to be restored */
 
 static const struct {
     double baud;
@@ -47,7 +47,7 @@ static bool make_plain(port *p, double baud) {
            tcsetattr(p->file, TCSANOW, &plain) == 0;
 }
 
-/* Locks the line, because two readers would take bytes from each other. */
+/* Two readers would take bytes from each other. */
 static bool have_alone(int file) {
     if (flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
         return true; /* also if the system has no locks */

@@ -18,7 +18,7 @@ static void on_interrupt(int signal_number) {
     interrupted = 1;
 }
 
-/* Before a command catches interrupts, it has nothing to finish. */
+/* A command that does not catch interrupts has nothing to finish. */
 static void end_at_once(int signal_number) {
     static const char said[] = "whirl: interrupted\n";
     (void)signal_number;
@@ -65,11 +65,11 @@ bool system_lock(FILE *file) {
 
 FILE *system_read_from(const char *command) { return popen(command, "r"); }
 
-/* For system_write_to(): the stream to the command's input, and the handler of SIGPIPE, to be restored. */
+/* For system_write_to(): the command's input, and the handler of SIGPIPE to be restored. */
 static FILE *written;
 static void (*before)(int);
 
-/* Redirects a stream to the file. Returns a copy of the stream for put_back(), or -1 if the stream was closed. */
+/* Redirects a stream to the file. Returns a copy of the stream for put_back(), or -1 if it was closed. */
 static int put_in_place(FILE *file, int stream) {
     const int old = dup(stream);
     if (old >= 0) {
