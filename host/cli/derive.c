@@ -99,7 +99,7 @@ static void print(const derive_options *o, const loaded *made, const char *file)
     }
 }
 
-/* Returns false if the option is given, but the form lacks its property `of`; reports the forms `with` it. */
+/* If the option is given, but the form lacks the property `of`, returns false, and reports the forms `with` it. */
 static bool goes_with(bool given, const char *option, const char *value, unsigned of,
                       const char *with, const form_row *as) {
     const bool goes = !given || (as->is & of) != 0;
@@ -107,7 +107,7 @@ static bool goes_with(bool given, const char *option, const char *value, unsigne
                                 (int)strcspn(with, " "), with, option, value);
 }
 
-/* Standard output gets the code. */
+/* --header must not be standard output, which gets the code. */
 static bool header_is_apart(const char *header) {
     if (strcmp(header, "-") == 0 || header[0] == '\0') {
         return options_fail("derive",

@@ -184,7 +184,7 @@ static bool is_for_left_out(const subsets *s, uint64_t out, const char *set) {
     return is;
 }
 
-/* Removes omitted effects from --with. *out: those that --without must name (of the scene or of `--with all`). */
+/* Removes omitted effects from --with. *out: those that --without must name, because the scene or "all" has them. */
 static void leave_out(const subsets *s, overrides *given, const char **names, uint64_t *out) {
     bool all = false;
     given->with = names;

@@ -48,7 +48,7 @@ static int light_field(const char *name, const char *more) {
     return i;
 }
 
-/* In float, because the boards must compute the same bits. */
+/* Runs the scene in float, because the boards must compute the same bits. */
 static int run_scene(const char *name, light_expected *e) {
     static const load_request request = {
         .settings = IMAGE_SETTINGS_DEFAULT, .use = IMAGE_TO_WRITE, .conserve = true};
@@ -103,7 +103,7 @@ static light_verdict light_judge(int field, const char *value, const char *wante
         return LIGHT_NONE;
     }
     if (wanted[0] == '\0' || strcmp(name, "stack") == 0) {
-        return LIGHT_TOLD; /* interrupts on real boards use the stack, too */
+        return LIGHT_TOLD; /* not comparable: interrupts on real boards use the stack, too */
     }
     if (strcmp(name, "period_us") == 0) {
         char *end = NULL;

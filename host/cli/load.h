@@ -19,7 +19,7 @@ bool files_are_one(const struct stat *one, const char *path, const struct stat *
 /* Are both the same file, by name or by identity? */
 bool files_same(const char *one, const char *other);
 
-/* Is `output`, or a file beside it, the same as `other` or, unless that is an input, as a file beside `other`? */
+/* Do two paths overlap? `output` has files beside it (.part, .toml, .sweep); so has `other`, unless it is an input. */
 bool files_meet(const char *output, const char *other, bool is_input);
 
 /* === a file, or a built-in model ============================================================== */

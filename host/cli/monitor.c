@@ -351,7 +351,7 @@ static void tell(const monitor *m) {
     }
 }
 
-/* Reports if samples should be recorded, but the rig sent none. */
+/* Reports that samples were to be recorded, but the rig sent none. */
 static bool has_source(const monitor *m) {
     bool records = false;
     for (int i = 0; i < OUTPUTS; i++) {

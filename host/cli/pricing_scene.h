@@ -6,7 +6,7 @@
 #include "host/study/grid.h"
 #include "host/study/trial.h"
 
-/* An image; others of this point and setting have the same operation lists. */
+/* An image that is reused for the same point and the same operation lists. */
 typedef struct pricing_made {
     int point;
     image_settings settings;

@@ -20,7 +20,7 @@ static const engine_kind *number_of(const rating_request *w) {
     return w->number != NULL ? w->number : pc ? &engine_double : &engine_float;
 }
 
-/* Prints why there are no rows, and the command that shows them, or NULL. */
+/* Prints why there are no rows, and the `command` that shows them (NULL: none). */
 static void say_none(FILE *out, const rating_request *w, const char *why, const char *command) {
     fprintf(out, "accuracy and cost  not shown: %s", why);
     if (command != NULL) {
@@ -175,7 +175,8 @@ void rating_say(FILE *out, const rating_request *w, const simulation_trust *trus
 
 /* --- the step of --error -----------------------------------------------------------------------------*/
 
-/* PACES: tried steps ("paces"). PACES_LONG: multiples of a record's interval; then decimal fractions, five a decade. */
+/* A pace is a tried step. PACES: their number. The first PACES_LONG are multiples of a record's interval; the others
+ * are its decimal fractions, five a decade. */
 enum { PACES = 32, PACES_LONG = 10 };
 
 /* Most operations of all tries. Their comparison with the reference takes the same time again. */
@@ -195,8 +196,8 @@ static deviation_pace pace_at(int i) {
     return (deviation_pace){steps, 1};
 }
 
-/* Reports that no pace satisfies the error. `least`: smallest error; `rounds`: round-off limits it; `slow`: the first
- * pace that the limit of operations excludes, or NULL; with it, `operations` would be needed. */
+/* Reports that no pace satisfies the error. `least`: the smallest error. `rounds`: round-off limits it. `slow`: the
+ * first pace beyond the limit of operations, which would take `operations`; or NULL. */
 static void say_no_pace(const trials *t, const setting *s, double least, bool rounds,
                         const deviation_pace *slow, double operations) {
     char text[NUMBER_SIZE];

@@ -7,7 +7,7 @@
 #include "host/cli/load.h"
 #include "host/fixed/fixed_plan.h"
 
-/* Adds the step in fixed point, *plan (to be freed). Undeclared ranges take a run. Returns an exit status. */
+/* Makes *plan, the step in fixed point, to be freed. Measures undeclared ranges in a run. Returns an exit status. */
 int trusting_plan(const char *command, image *im, bool progress, diags *errors, fixed_plan **plan);
 
 /* Is this number of operations within --effort? If not, reports the time, what takes it, and a hint with --effort. */

@@ -1,6 +1,6 @@
 /* c_header.c: a scene's header for C11 and C++11: the indices of components, inputs and outputs, by name, their units,
  * and the size of memory. Every name is SCENE_KIND_NAME, with scene and name as in the file. Names are unique, because
- * no KIND is another one plus an underscore, and no words of C or C++. They are macros or enumerators of one type
+ * no KIND is another one plus an underscore; none is a word of C or C++. They are macros or enumerators of one type
  * (C++20 deprecates adding two enumeration types), so unused ones take no memory. */
 #include "c_header.h"
 

@@ -29,8 +29,8 @@ typedef enum c_angles { C_PHASES, C_WAVES } c_angles;
 
 /* Writes the statements, with results in the array `result`, and the closing brace. */
 void c_list_body(FILE *out, const op_list *t, c_angles angles, const char *result);
-/* Writes a wh_accel_fn (second order) or wh_slope_fn, or the wh_turned_ forms. The core calls it through a constant's
- * pointer, which gcc -Og resolves too late for inlining, so the function must not require inlining. */
+/* Writes a wh_accel_fn (second order) or wh_slope_fn, or the wh_turned_ forms. The core calls it through a pointer in a
+ * constant, which gcc -Og resolves too late for inlining, so the function must not require inlining. */
 void c_list_function(FILE *out, const op_list *t, c_angles angles, const char *name, bool second,
                      bool by_pointer);
 

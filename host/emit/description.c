@@ -201,7 +201,7 @@ static void put_lists(json *j, const image *im) {
     json_close(j, '}');
 }
 
-/* null if the step looks up no tables. */
+/* Writes null if the step looks up no tables. */
 static void put_tables(json *j, const image *im) {
     const op_list_tables *of = &im->list[IMAGE_STEP]->tables;
     if (of->count == 0) {

@@ -143,7 +143,7 @@ static const char dark[] =
     "[stroke='rgb(216, 216, 216)'],[stroke=\"rgb(216, 216, 216)\"]{stroke:#30363d}"
     "[fill='rgb(228, 228, 228)'],[fill = 'rgb(228, 228, 228)']{fill:#262c36}}</style>\n";
 
-/* In an SVG, our title and alternative text replace those of gnuplot. */
+/* In an SVG, g->title and g->text replace gnuplot's title and alternative text. */
 static void copy_picture(const gnuplot *g) {
     char line[4096];
     size_t length;

@@ -354,7 +354,7 @@ static bool write_beside(const char *csv, const char *text) {
     }
     const bool good = to != NULL && atomic_file_close(to, file, true);
     if (!good) {
-        atomic_file_not_whole(); /* too late for "bad input" */
+        atomic_file_not_whole(); /* after the work, this is a failure, not bad input */
     }
     free(file);
     return good;
@@ -389,7 +389,7 @@ bool plot_run_about(const char *csv, const plot_run *run, const char *facts, con
 bool plot_run_csv_end(FILE *csv, const char *name, bool keep, const char *command,
                       const char *scene) {
     const bool described = keep && csv != NULL && csv != stdout && atomic_file_is_regular(csv);
-    /* Last, so that a failed CSV leaves the old CSV and its description. */
+    /* The description is written last, so that a failed CSV leaves the old CSV and its description. */
     const bool closed = atomic_file_close(csv, name, keep);
     if (!closed || !described) {
         return closed;
@@ -411,7 +411,7 @@ static char *string_at(const char **at) {
     }
     for (; **at != '"' && **at != '\0'; (*at)++) {
         if (**at == '\\' && (*at)[1] == 'u' && strlen(*at) > 6) {
-            *at += 5; /* a control character: a blank */
+            *at += 5; /* a control character becomes a blank */
             made[length++] = ' ';
             continue;
         }
@@ -658,7 +658,7 @@ static void write_axis(FILE *to, const char *axis, const char *name, const char 
     fputs("\"\n", to);
 }
 
-/* A curve is flat if its range relative to its size is smaller: tics could not show the range. */
+/* A curve is flat if its range relative to its size is smaller than this: tics could not show the range. */
 #define FLAT 1e-10
 
 /* Sets the range of an axis. For one value or none, gnuplot's own range would cause warnings or errors. */

@@ -45,7 +45,7 @@ bool records_write(const records *r);
  * located instant (core/state.h logs the first WH_EVENT_LOG of a step). Inputs are constant during a run. */
 
 /* The unit of the dump's times is 10^-power s: the coarsest with 1000 units in a step, or the finest with the end below
- * 2^52 units. Returns false if a step is then shorter than a unit, or if no unit suffices. */
+ * 2^52 units. Returns false if a step is then shorter than a unit, or the end is above 2^52 s. */
 bool traces_power(const image *im, int *power);
 
 typedef struct traces traces;

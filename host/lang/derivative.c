@@ -1,4 +1,4 @@
-/* derivative.c: time derivatives of lets, by the chain rule. Each is a let without text, made at its first use. */
+/* derivative.c: time derivatives of lets, by the chain rule. The parser makes each as a let, at its first use. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -193,7 +193,7 @@ static bool derive(parser *in, const expr *of, const token *name, const expr **d
 }
 
 const symbol *let_rate(parser *in, const symbol *let, const token *name) {
-    named *entry = (named *)(uintptr_t)let; /* may be changed: the parser made this symbol */
+    named *entry = (named *)(uintptr_t)let; /* not const: the parser made this symbol */
     const expr *d = NULL;
     if (entry->rate != NULL) {
         return &entry->rate->symbol;
@@ -249,7 +249,7 @@ char *input_rate_hint(const symbol *input, char *buffer) {
     return buffer;
 }
 
-/* Checks the input that input `s` names as its rate. Returns false if it cannot be the rate, and reports why. */
+/* Can the input that `s` names as its rate be a rate? If not, reports the reason. */
 static bool check_rate(parser *in, const mechanism *made, const symbol *s) {
     const named *rate = (const named *)s->rate;
     char unit[DIM_TEXT_SIZE];

@@ -23,7 +23,7 @@ void no_such_coordinate(parser *in, const token *name);
 /* As no_such_coordinate(), for a name that a scene or the command line changes. */
 void no_such_symbol(parser *in, const mechanism *of, const token *name);
 
-/* Reads "= EXPR", the value of `name`. It is not checked if the name is unknown (`of` is NULL). */
+/* Reads "= EXPR", the value of `name`, and checks it unless the name is unknown (`of` is NULL). */
 bool parse_assigned(parser *in, const token *name, const symbol *of, expr_context context,
                     const char *hint, const expr **value);
 /* Reports that `list` already assigns to `name`; `verb` is "set" or "given". */
@@ -60,7 +60,8 @@ bool check_named(parser *in, place at, const expr *value, dimension wanted, cons
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
 /* As check_unit() and check_dimension(), for a value of the symbol `of` or of its derivative (primes of `name`). */
 bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name);
-/* As check_unit(), for the limit `value` of a stop or crossing of `of`. True if `of` is more than a single symbol. */
+/* As check_unit(), for the limit `value` of a stop or crossing of `of`. Accepts any value if `of` is no single
+ * symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 
 #endif

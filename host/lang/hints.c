@@ -43,8 +43,8 @@ static double term_at(const term *of, const symbol *coordinate, valuation *known
     return value;
 }
 
-/* Does the force oppose the motion with a jump at rate 0? A jump is equally large at a tenth of the rate; the change of
- * a smooth force is a tenth. False if the force is not finite. */
+/* Does the force jump against the motion at rate 0? Ten times closer to rate 0, a jump is as large, but the change of a
+ * smooth force is a tenth. False if the force is not finite. */
 static bool opposes_at_rest(const term *of, valuation *known) {
     const symbol *own = of->coordinate;
     const double jump = term_at(of, own, known, NEAR_REST) - term_at(of, own, known, -NEAR_REST);
@@ -59,7 +59,7 @@ static double bend(const term *of, const symbol *coordinate, valuation *known, d
            2.0 * term_at(of, coordinate, known, 0.0);
 }
 
-/* Has F a kink at rate 0? At a tenth of the rate, a kink bends by a tenth, a smooth F by a hundredth. */
+/* Has F a kink at rate 0? Ten times closer to rate 0, bend() of a kink is a tenth, of a smooth F a hundredth. */
 static bool has_kink(const term *of, const symbol *coordinate, valuation *known) {
     const double size = term_at(of, coordinate, known, 0.0);
     const double far = bend(of, coordinate, known, NEAR_REST);

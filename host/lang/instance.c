@@ -140,7 +140,7 @@ static void count_event(const contact_statement *each, int *events, int *sets, d
     }
 }
 
-/* Reports values out of range. Inputs have their initial values: programs that change inputs must check them. */
+/* Reports values out of range, with the initial inputs. A program that changes inputs must check the new values. */
 static void limits_check(const instance *made, valuation *known) {
     const mechanism *of = made->mechanism;
     known->input = made->input;

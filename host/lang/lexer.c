@@ -47,8 +47,8 @@ static bool is_letter(int c) {
 
 static bool is_digit(int c) { return c >= '0' && c <= '9'; }
 
-/* Reports a carriage return without a line feed. An editor may show a line end or hide text there, but for the lexer a
- * # comment would go on, to the end of the file if all lines end so. */
+/* Reports a carriage return without a line feed. Only a line feed ends a # comment: in a file without line feeds, one
+ * comment would hide all text after it. A display, too, may hide text at such a carriage return. */
 static void check_line_ends(const lexer *in) {
     const source *text = in->at.source;
     const char *at = text->text + in->at.offset;

@@ -34,8 +34,8 @@ typedef struct symbol {
     int effect;          /* index of the effect that declared it, or -1 */
     int order;           /* coordinate: 2; state: its highest derivative in the equations; else 0 */
     const struct symbol *rate; /* input: the input that is its time derivative, or NULL */
-    /* A driven coordinate replaces an input with a rate inside a step; it is listed after the declared ones. This
-     * points from the input and from its rate to that coordinate, and from that coordinate to the input; else NULL. */
+    /* A driven coordinate replaces an input with a rate inside a step, and is listed after the declared ones. For the
+     * input and for its rate, this is that coordinate; for that coordinate, it is the input; else NULL. */
     const struct symbol *driven;
 } symbol;
 
@@ -78,7 +78,7 @@ struct expr {
     int order;           /* most primes on any coordinate or state, also within lets */
     unsigned uses;       /* USES_ bits, also within lets */
     bool is_condition;   /* above zero if true; not an operand of arithmetic */
-    const symbol *angle; /* a symbol in the expression: an angle not declared in rad; or NULL */
+    const symbol *angle; /* an angle in the expression that is not declared in rad, or NULL */
 };
 
 enum {

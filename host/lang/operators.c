@@ -135,7 +135,7 @@ static void check_bare(parser *in, const expr *value, const symbol *angle) {
     diag_error(in->diags, value->at, hint, is_declared, angle->name, angle->unit);
 }
 
-/* Reports a missing unit, returning false. The hint has the name if `with_name`; on the command line, if typed. */
+/* Reports a missing unit. The hint has the name if `with_name`, or on the command line, if the user typed it. */
 static bool has_unit(parser *in, place at, const expr *value, const symbol *of, int primes,
                      bool with_name) {
     enum { SHOWN_MAX = 60 };

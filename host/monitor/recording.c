@@ -404,7 +404,7 @@ bool recording_plot(const recording *r, const schema *s, const char *file) {
     for (int i = 1; i < r->columns; i++) {
         const schema_field *field = i <= c->eaches ? &c->each[i - 1] : &c->once[i - 1 - c->eaches];
         const bool has_unit = strchr(field->name, '[') != NULL;
-        /* the plot omits rates, and so a column without a unit */
+        /* the plot omits rates: give this name to a column without a unit */
         plot_run_head(&run, i, has_unit ? field->name : "der()");
         any = any || has_unit;
     }

@@ -18,10 +18,10 @@ bool atomic_file_close(FILE *file, const char *name, bool keep);
 /* Is an open file neither a device nor a pipe? */
 bool atomic_file_is_regular(FILE *file);
 
-/* Would atomic_file_open() succeed? Changes nothing. NULL and "-" are possible. If not, reports the reason. */
+/* Would atomic_file_open() succeed? If not, reports the reason. Changes nothing. NULL and "-" are always possible. */
 bool atomic_file_can(const char *name);
 
-/* Reports that the file cannot be written, and errno. */
+/* Reports that the file cannot be written, with the reason from errno. */
 void write_error_say(const char *name);
 
 /* Makes atomic_file_code() return a failure. */

@@ -1,4 +1,4 @@
-/* port.h: a serial line, a pseudo-terminal, or a file recorded from one; one at a time. */
+/* port.h: a serial line, a pseudo-terminal, or a file recorded from one. A program has one at a time. */
 #ifndef OS_PORT_H
 #define OS_PORT_H
 

@@ -9,9 +9,9 @@
 #include "host/os/guest.h"
 #include "host/pil/plant.h"
 
-/* The interface for faults (fault.h) and observers, which may change messages: called before the first message, after
- * each message of the firmware, and before each message to it. orders() may add to *late_s, the time until the answer.
- * A tape has the messages that the firmware received and sent. NULL: no call. */
+/* The interface for faults (fault.h) and observers. Its functions are called before the first message, after each
+ * message of the firmware, and before each message to it; they may change the message. orders() may add to *late_s, the
+ * time until the answer. A tape has the messages that the firmware received and sent. NULL: no call. */
 typedef struct tap {
     void *of;
     bool (*start)(void *of, const wh_hello *hello,
@@ -48,7 +48,7 @@ typedef struct peak {
     double at_s;
 } peak;
 
-/* A note, a value that the firmware reports, with its last value. */
+/* The last value of a note that the firmware reports. */
 typedef struct last_note {
     char name[32];
     char unit[16];
@@ -91,7 +91,7 @@ typedef struct talk {
     wh_hello hello;
     wh_signal signal[WH_SIGNALS_MAX];
     uint8_t words[GUEST_LINE_BYTES]; /* texts of the hello */
-    unsigned outputs;                /* outputs and notes */
+    unsigned outputs;                /* number of outputs and notes */
     uint16_t sequence;               /* number of the last readings */
     wh_reset remembered;             /* data that the firmware keeps over a reset */
     bool said_end;                   /* the firmware sent WH_FRAME_END with end_status */

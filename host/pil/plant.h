@@ -113,7 +113,7 @@ typedef struct plant {
     double *output;                  /* [outputs] */
     double *output_after;            /* [outputs] */
     bool sees_outputs;               /* an edge depends on an output */
-    uint64_t period[WH_SIGNALS_MAX]; /* ticks, by channel */
+    uint64_t period[WH_SIGNALS_MAX]; /* interval of samples, ticks, by channel */
     uint64_t due[WH_SIGNALS_MAX];    /* next sample, ticks, by channel */
     wh_orders orders;                /* the last orders */
     bool waits;                      /* the last orders have not taken effect yet */

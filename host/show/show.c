@@ -53,7 +53,7 @@ static bool is_part(const poly *p, const poly *value, double *ratio) {
     return true;
 }
 
-/* Returns the largest let that times *ratio is a part of p (`whole`: all of p), or NULL. *rest: p without it. */
+/* Returns the largest let of which a multiple is a part of p (`whole`: all of p), or NULL. *rest: the other part. */
 static const symbol *show_let(const show *s, const poly *p, bool whole, const poly **rest,
                               double *ratio) {
     let_row *best = NULL;
@@ -110,7 +110,7 @@ static void latex_letters(FILE *out, const char *text) {
     }
 }
 
-/* Letters, then the remaining part as an index: theta1 -> \theta_{1}, no_load -> \mathrm{no}_{\mathrm{load}}. */
+/* The part after the letters is an index: theta1 -> \theta_{1}, no_load -> \mathrm{no}_{\mathrm{load}}. */
 static void latex_name(FILE *out, const char *name, int primes) {
     size_t stem = 0;
     while (isalpha((unsigned char)name[stem])) {
@@ -260,7 +260,7 @@ static bool is_primary(const poly *p) {
            (m->factors[0].atom->kind == ATOM_SYMBOL || m->factors[0].atom->kind == ATOM_CALL);
 }
 
-/* Prints base^exponent. In text, other sides than primaries get parentheses, because `^` binds from the right. In
+/* Prints base^exponent. In text, a side that is not primary gets parentheses, because `^` binds from the right. In
  * LaTeX, a base with primes gets braces, because a base has only one superscript. */
 static void show_power(const show *s, const poly *base, const poly *exponent) {
     const bool latex = s->style == SHOW_LATEX;
@@ -606,7 +606,7 @@ static const atom *shared_parameter(const poly *p) {
     return best;
 }
 
-/* Has p a shared parameter, and only symbols above the fraction bar? Then it can be split repeatedly. */
+/* Has p a shared parameter, and only symbols above the fraction bar? Then show_parted() can split it repeatedly. */
 static bool has_symbols_only(const poly *p) {
     bool only = true;
     for (int i = 0; i < p->count; i++) {

@@ -15,7 +15,8 @@ static void show_equation(const show *s, const equations *e, int i);
 /* === show break =============================================================================== */
 /* Line breaks in LaTeX, at the signs of a sum, with amsmath's aligned; also within parentheses and below roots. */
 
-/* Points in 10 pt type. A line of LaTeX's article: 345, with 25 for the equation's number. NARROWEST: of a sum. */
+/* Points in 10 pt type. A line of LaTeX's article is 345 pt wide, including 25 for the equation's number. NARROWEST:
+ * least width of a broken sum. */
 enum { LINE_WIDTH = 320, NARROWEST = 100, LEFT_WIDTH = 150, EQUALS = 14, SIGN = 13, QUAD = 10 };
 
 typedef struct span {
@@ -299,7 +300,7 @@ void show_row_end(show_row *row) {
 
 /* === show events ============================================================================== */
 
-/* Forms of contacts, as text and LaTeX. $v, $s, $a, $b, $q: the law's value, speed, expressions and coordinate. */
+/* Forms of contacts, as text and LaTeX. $v, $s: the law's value and speed; $a, $b: expressions; $q: coordinate. */
 static const struct {
     const char *text;
     const char *latex[2];
@@ -398,7 +399,7 @@ static void latex_rows(const show *s, const contact_law *law, const char **betwe
     }
 }
 
-/* In the style of `s`, and with its names for sums. */
+/* Uses the style of `s`, and its names for sums. */
 static void show_contacts(const show *s, const equations *e) {
     const contact_laws *laws = e->contacts;
     const bool latex = s->style == SHOW_LATEX;
@@ -614,8 +615,7 @@ static bool is_numbered(const char *name, const char *letter) {
            strspn(name + length, "0123456789") == strlen(name + length);
 }
 
-/* Returns the first of `letters` without a numbered name in the mechanism, such as y1; else the last. NULL ends
- * them. */
+/* Returns the first of `letters` (up to NULL) without a numbered name in the mechanism, such as y1; else the last. */
 static const char *free_letter(const mechanism *m, const char *const *letters) {
     const symbol *const *const list[] = {m->coordinates, m->parameters, m->inputs};
     const int count[] = {m->coordinate_count, m->parameter_count, m->input_count};

@@ -76,7 +76,7 @@ static bool place_line(int down, int up) {
            dup2(high_down, DOWN) >= 0 && dup2(high_up, UP) >= 0;
 }
 
-/* Gives the guest a process group, so that Ctrl-C reaches only Whirl, which then ends it. Linux kills it with Whirl. */
+/* Gives the guest a process group, so that Ctrl-C reaches only Whirl, which ends it. If Whirl dies, Linux kills it. */
 static bool tie_to(pid_t parent) {
 #if defined(__linux__)
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0) {

@@ -57,7 +57,7 @@ typedef struct pool {
 
 static pid_t parent;
 
-/* Signal handler: ends the worker after its parent. */
+/* Signal handler: interrupts the worker if its parent has ended. */
 static void ask_for_parent(int signal_number) {
     (void)signal_number;
     interrupted = getppid() != parent;
