@@ -1,5 +1,5 @@
-/* cell.h: converts the load cell's counts to newtons, for the controller. For any hardware the controller sees a time,
- * a force and a status. Only this file applies gain and offset, and the delay of filter and converter. */
+/* cell.h: converts a load cell's samples to a time, a force and a status. Only this file applies gain, offset and the
+ * delay of filter and converter. */
 #ifndef WH_RIG_CELL_H
 #define WH_RIG_CELL_H
 
@@ -20,10 +20,9 @@ typedef enum wh_load_status {
 typedef struct wh_cell_config {
     wh_real newton_per_count; /* negative for a cell mounted in reverse */
     wh_real offset_N;         /* reading without force */
-    /* Time from the force to the time stamp: the delay of filter and converter. */
-    uint32_t delay_ticks;
-    uint32_t period_ticks; /* ticks between two samples */
-    int32_t raw_max;       /* magnitude of the counts at full scale: such a sample is saturated */
+    uint32_t delay_ticks;     /* delay of filter and converter, from force to time stamp */
+    uint32_t period_ticks;
+    int32_t raw_max; /* a sample of this magnitude is at full scale */
 } wh_cell_config;
 
 typedef struct wh_load {
@@ -32,8 +31,7 @@ typedef struct wh_load {
     wh_load_status status;
 } wh_load;
 
-/* Returns the force of a sample of `raw` counts with the time stamp `ticks` and the hardware's `status`. A sample at
- * full scale is saturated, even if the hardware's status is ok. */
+/* Converts a sample with the time stamp `ticks`. A sample at full scale is saturated, even if its `status` is ok. */
 WH_INLINE wh_load wh_cell_load(const wh_cell_config *config, uint32_t ticks, int32_t raw,
                                wh_load_status status) {
     wh_load load;

@@ -1,6 +1,5 @@
 /* datasheet.h: the eccentric-mass rig's data for its controller. Weights and radii are those of the force formula in
- * Almesallmy (2006), I.3.2.1. The rig's physics is in core/models/eccentric.whirl; tests/core/test_virtual_rig.c
- * compares the two. */
+ * Almesallmy (2006), I.3.2.1. tests/core/test_virtual_rig.c compares this file with core/models/eccentric.whirl. */
 #ifndef WH_RIG_DATASHEET_H
 #define WH_RIG_DATASHEET_H
 
@@ -31,8 +30,8 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 
 #define WH_RIG_SENSORS 2U /* slot sensors */
 
-/* Mass of both sets of arm and disc: an arm has 0.152 lb and is 7.25 in long, a disc has 0.15 lb. The discs' centres
- * are 6.5 in from the shaft, or disc_m metres in the macros that take disc_m. */
+/* Mass of two sets of arm and disc: an arm has 0.152 lb and is 7.25 in long, a disc has 0.15 lb. Disc centres are 6.5
+ * in from the shaft, or disc_m metres in the macros with that argument. */
 #define WH_RIG_ECCENTRIC_KG (WH_R(2.0) * (WH_R(0.152) + WH_R(0.15)) * WH_R(0.45359237))
 #define WH_RIG_DISC_RADIUS_M (WH_R(6.5) * WH_R(0.0254))
 
@@ -52,7 +51,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
      WH_R(5e-4))
 #define WH_RIG_INERTIA_KGM2 WH_RIG_INERTIA_AT_KGM2(WH_RIG_DISC_RADIUS_M)
 
-/* The motor's torque line at rated voltage: torque at standstill, and speed without load. */
+/* Torque at standstill, and speed without load, at rated voltage. The torque falls linearly between them. */
 #define WH_RIG_STALL_NM WH_R(1.5)
 #define WH_RIG_NO_LOAD_RADPS (WH_R(600.0) * WH_RIG_RADPS_PER_RPM)
 
@@ -66,13 +65,13 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 /* Speed of the measurement (I.3.2.1): 5.5 turns a second. */
 #define WH_RIG_NOMINAL_RPM WH_R(330.0)
 
-/* Endurance limit of a 1/4 in shaft (docs/rig.md derives 416 rpm), rounded down: the guard stops the rig above it.
- * Set-points stay a tenth below it, for the loop's overshoot. */
+/* Speed at the endurance limit of a 1/4 in shaft (docs/rig.md derives 416 rpm), rounded down. The guard stops the rig
+ * above it. Set-points stay a tenth below it, for the loop's overshoot. */
 #define WH_RIG_SHAFT_LIMIT_RPM WH_R(400.0)
 #define WH_RIG_TARGET_MAX_RPM WH_R(360.0)
 
-/* Smallest set-point. Below about 145 rpm, gravity can stop the rotor before the top, and the next pulse would come too
- * late for the control loop (docs/rig.md). The limit is a sixth above that, because the speed dips below a set-point. */
+/* Smallest set-point. Below about 145 rpm, gravity can stop the rotor before the top, and the next pulse comes too late
+ * for the control loop (docs/rig.md). The set-point is a sixth higher, because the speed dips below it. */
 #define WH_RIG_TARGET_MIN_RPM WH_R(170.0)
 
 /* Smallest set-point with gravity compensation (gravity_compensation.h). */
@@ -82,8 +81,7 @@ WH_SHARED bool wh_rig_is_over(uint32_t then_ticks, uint32_t now_ticks, wh_real m
 #define WH_RIG_SUPPLY_LEAST WH_R(0.45)
 #define WH_RIG_SUPPLY_MOST WH_R(1.55)
 
-/* Largest possible speed: the speed without load at the highest supply voltage. A pulse that would need a higher speed
- * is rejected. */
+/* Speed without load at the highest supply voltage. A pulse that would need a higher speed is rejected. */
 #define WH_RIG_IMPOSSIBLE_RADPS (WH_RIG_SUPPLY_MOST * WH_RIG_NO_LOAD_RADPS)
 
 #endif

@@ -1,4 +1,4 @@
-/* drive.c: speed drive: a ramp for the set-point and a PI controller with anti-windup. */
+/* drive.c: speed control: a ramp for the set-point and a PI controller with anti-windup. */
 #include "drive.h"
 
 static wh_real clamp(wh_real value, wh_real low, wh_real high) {
@@ -18,7 +18,7 @@ wh_real wh_drive_step(const wh_drive_config *config, wh_drive *drive, wh_real sp
         most *= WH_R(0.25);
     }
     const wh_real way = drive->target_radps - drive->setpoint_radps;
-    /* The last change of the ramp gives exactly the target, because wh_drive_at_target() tests for equality. */
+    /* The ramp ends exactly at the target, because wh_drive_at_target() tests for equality. */
     if (WH_ABS(way) <= most) {
         drive->setpoint_radps = drive->target_radps;
     } else {

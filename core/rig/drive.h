@@ -1,4 +1,4 @@
-/* drive.h: speed control: a ramp for the set-point and a PI controller with anti-windup. The output is a voltage. So
+/* drive.h: speed control: a ramp for the set-point and a PI controller with anti-windup. The output is a voltage, so
  * the supply voltage limits the output and does not change the loop's gain. */
 #ifndef WH_RIG_DRIVE_H
 #define WH_RIG_DRIVE_H
@@ -8,9 +8,9 @@
 WH_C_BEGIN
 
 typedef struct wh_drive_config {
-    wh_real proportional_V_per_radps; /* volts per rad/s of error */
-    wh_real integral_V_per_rad;       /* volts per second, per rad/s of error */
-    wh_real ramp_radps2;              /* fastest change of the set-point, > 0 */
+    wh_real proportional_V_per_radps;
+    wh_real integral_V_per_rad;
+    wh_real ramp_radps2; /* fastest change of the set-point, > 0 */
     /* Below this speed the ramp is a quarter as steep: otherwise gravity could stop the rotor at the top. */
     wh_real gentle_radps;
 } wh_drive_config;
@@ -21,8 +21,7 @@ typedef struct wh_drive {
     wh_real integral_V;     /* integral part of the voltage, from 0 to the supply */
 } wh_drive;
 
-/* Start at the present speed and voltage without a step in the voltage: the set-point starts at the speed, the integral
- * part at the voltage. */
+/* Start with set-point and integral at the present speed and voltage, so that the voltage does not jump. */
 void wh_drive_start(wh_drive *drive, wh_real speed_radps, wh_real volts);
 
 /* Does one control step of step_s seconds: moves the set-point towards the target and returns the new voltage, 0 to

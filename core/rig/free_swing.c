@@ -35,10 +35,10 @@ WH_CALLED void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks) 
     if (swing->result.why != WH_SWING_SWINGS) {
         return;
     }
-    /* If a sensor fires twice in succession, the rotor passes it the second time in the opposite direction. */
+    /* The second of two successive pulses of a sensor comes in the opposite direction. */
     const bool again = swing->any && sensor == swing->sensor;
     if (!swing->forward && sensor == 1U && swing->sensor == 0) {
-        /* A rotor that swings backwards cannot get over the top: a pulse was lost, and the rotor turns forwards. */
+        /* A swing backwards cannot get over the top: a pulse was lost, and the rotor turns forwards. */
         swing->forward = true;
         swing->swings = false;
         swing->kept = 0;
@@ -79,18 +79,16 @@ static bool advance(wh_swing *swing) {
 
 #define PASSES 12U
 #define SOFT_PASSES 6U
-/* From this pass on, pulses with a large residual are skipped. Before, such a pulse ends the pass. */
+/* From this pass on, pulses with a large residual are skipped; before, they end the pass. */
 #define SURE_PASSES SOFT_PASSES
 
-/* Returns the rotor's angle from the hanging position when it is exactly at a sensor. The sensor's pulse comes at the
- * slot's leading edge, earlier by `lead`. */
+/* Returns the rotor's angle from hanging at a pulse. `lead` is 0 if it turns forwards, twice lead_rad if backwards. */
 static WH_CALLED wh_real stands(const wh_rotor_config *rotor, const wh_swing *swing,
                                 unsigned sensor, wh_real lead) {
     return rotor->pulse_rad[sensor] + lead - rotor->gravity_rad + swing->x[WH_SWING_PLACE + sensor];
 }
 
-/* Returns to the first passage of the bottom. From there the later pulses are integrated forwards, and then the earlier
- * ones backwards. */
+/* Returns to the first passage of the bottom. From there later pulses are reached forwards, earlier ones backwards. */
 static void set_out(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     swing->ticks = swing->kept_ticks[swing->first];
     wh_free_rotor_start(&swing->way,
@@ -105,7 +103,7 @@ static void begin_pass(const wh_swing_config *config, const wh_rotor_config *rot
         left[i] = (swing->guess[i] - swing->x[i]) / swing->within[i];
     }
     wh_normal_start(&swing->normal, left);
-    /* At first the residuals are large and nonlinear, so each pulse gets an additional variance, less in each pass. */
+    /* At first, large and nonlinear residuals need an additional variance, which falls from pass to pass. */
     swing->soft_rad2 = swing->pass == 0            ? WH_R(0.0025)
                        : swing->pass < SOFT_PASSES ? WH_R(0.3) * swing->soft_rad2
                                                    : WH_R(0.0);
@@ -132,8 +130,8 @@ static void rest(const wh_swing_config *config, const wh_rotor_config *rotor, wh
     }
 }
 
-/* Least amplitude, rad, and least ratio of the amplitude to friction / gravity. Below either, an unknown friction stops
- * the rotor within a swing or two. */
+/* Least amplitude, rad, and least ratio of the amplitude to friction / gravity. Below either, friction stops the rotor
+ * within a swing or two. */
 #define SLOW_RAD WH_R(0.12)
 #define SLOW_FRICTIONS WH_R(1.5)
 
@@ -145,7 +143,7 @@ static bool is_slow(const wh_swing *swing) {
 
 #define FAR_RAD WH_R(0.5)
 
-/* Evaluates the pulse that the integration has reached. Returns false if the pass cannot go on. */
+/* Adds the pulse that the integration has reached. Returns false if the pass cannot go on. */
 static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const wh_free_rotor *way = &swing->way;
     const unsigned sensor = swing->kept_sensor[swing->at];
@@ -175,7 +173,7 @@ static bool take(const wh_swing_config *config, const wh_rotor_config *rotor, wh
 
 static void conclude(const wh_swing_config *config, wh_swing *swing) {
     wh_swung *result = &swing->result;
-    /* The misfit is meaningless unless there are more pulses than unknowns. */
+    /* The misfit needs more pulses than unknowns. */
     const wh_real freedom =
         swing->fits > WH_NORMAL_UNKNOWNS ? (wh_real)(swing->fits - WH_NORMAL_UNKNOWNS) : WH_R(1.0);
     const wh_real rough = swing->normal.misfit / freedom;
@@ -202,8 +200,7 @@ static void conclude(const wh_swing_config *config, wh_swing *swing) {
 
 #define FOREIGN WH_R(9.0)
 
-/* Does the Gauss-Newton step: each unknown moves by at most the uncertainty of its guess. Returns the next piece of the
- * work. */
+/* A Gauss-Newton step: each unknown moves by at most the uncertainty of its guess. Returns the next piece of work. */
 static wh_swing_piece move(wh_swing *swing) {
     const wh_real *y = swing->normal.right;
     wh_normal_solve(&swing->normal);
@@ -229,7 +226,7 @@ static wh_swing_piece move(wh_swing *swing) {
     return swing->pass == PASSES || (fits && stays) ? WH_SWING_ENDS : WH_SWING_PASSES;
 }
 
-/* After a pulse: continues to the next one, or returns to the first passage and continues to the pulses before it. */
+/* Takes a pulse, then goes on to the next; after the last one, from the first passage to the pulses before it. */
 static void go_on(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing) {
     const bool later = swing->at > swing->first;
     const unsigned next = later ? swing->at + 1U : swing->at - 1U; /* -1 wraps to a large index */
@@ -320,7 +317,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
     const wh_real sign = rate < WH_R(0.0) ? WH_R(-1.0) : WH_R(1.0);
     const wh_real pulled = -cause[WH_FREE_GRAVITY] * wave.sine;
     const wh_real slowed = pulled - sign * cause[WH_FREE_FRICTION] - cause[WH_FREE_DRAG] * rate;
-    wh_real before = h; /* the time until the rotor reverses, if that is within the step */
+    wh_real before = h; /* until the rotor reverses, if that is within the step */
     wh_real after = WH_R(0.0);
     wh_real ratio = WH_R(1.0);
     rotor->rate_radps = rate + h * slowed;
@@ -328,7 +325,7 @@ static void kick(const wh_real *cause, wh_free_rotor *rotor, wh_real h) {
         before = -rate / slowed;
         after = h - before;
         ratio = (pulled + sign * cause[WH_FREE_FRICTION]) / slowed;
-        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* friction keeps the rotor at rest */
+        ratio = ratio > WH_R(0.0) ? ratio : WH_R(0.0); /* negative: friction holds it */
         rotor->rate_radps = ratio * slowed * after;
     }
     const wh_real both = ratio * before + after;
@@ -373,7 +370,7 @@ void wh_normal_add(wh_normal *normal, const wh_real row[N], wh_real off, wh_real
     normal->misfit += weight * off * off;
 }
 
-/* Least pivot. If the rows have made an entry large, round-off may lose the 1 that the prior adds to the diagonal. */
+/* Least pivot. Round-off may lose the prior's 1 in a large diagonal entry. */
 #define PIVOT_LEAST WH_R(1e-3)
 
 void wh_normal_factor(wh_normal *normal) {
@@ -410,7 +407,7 @@ void wh_normal_solve(wh_normal *normal) {
     }
 }
 
-/* The variance is the diagonal entry of the inverse matrix: the squared length of L^-1 times the unit vector. */
+/* The variance is a diagonal entry of the inverse matrix: the squared length of L^-1 times a unit vector. */
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which) {
     wh_real y[N] = {WH_R(0.0)};
     wh_real sum = WH_R(0.0);

@@ -3,25 +3,23 @@
  * A driven run cannot distinguish a misplaced sensor from a force out of line with the masses: both shift the phase
  * equally. A rotor that swings freely shows the direction in which the arms hang, and so the positions of the sensors.
  * With the motor's leads open, only gravity and friction move the rotor (see "the rotor" below). If q(t) is a motion,
- * -q(t) is one, too. So a half swing on the right takes as long as one on the left, except for the loss from swing to
+ * -q(t) is one, too. So half swings to the right and to the left take equally long, except for the loss from swing to
  * swing. A pulse comes at the slot's leading edge. For a sensor at the angle p, the arms are then at p - lead on the
  * way to the right, and at p + lead on the way to the left. So the lead cancels, and a half swing on the right seems
  * shorter than one on the left by 4 p/v, with v the speed at the bottom. The difference is largest for a slow rotor.
  *
- * The method needs v, and thus an amplitude A. By the pendulum's first integral v^2 = 4 g sin^2(A/2). A half swing
- * takes 2 K(sin(A/2))/sqrt(g), with K the complete elliptic integral of the first kind. The last swings are small:
+ * The first guess needs v, and thus an amplitude A. By the pendulum's first integral v^2 = 4 g sin^2(A/2). A half swing
+ * takes 2 K(sin(A/2))/sqrt(g), with K the complete elliptic integral of the first kind. The last swings are small, so
  * their period gives g = S g0/I. The duration of the first swing then gives its amplitude, and the number of swings
- * gives the friction. This first guess, from pulses alone, has an error of some 10 %.
+ * gives the friction. This guess, from pulses alone, has an error of some 10 %.
  *
  * Gauss's regression refines the guess. The unknowns are q and q' at the first backward passage of the bottom, g,
  * Coulomb and viscous friction over I, and both sensors' positions. The data are the times of all pulses. In the last
- * turns, and at amplitudes above 90 deg, the rotor passes sensor 2, which gives a second known angle. The passes begin
- * with an uncertainty of some degrees for each pulse and lower it, because a single pass would not always converge.
+ * turns, and at amplitudes above 90 deg, the rotor passes sensor 2, which gives a second known angle. A single pass
+ * would not always converge. So the first passes add a variance to each pulse, which falls from pass to pass.
  *
- * The confidence interval is that of the regression. It is widened by floor_rad, and if the residuals of the pulses are
- * larger than expected.
- *
- * After the rotor has come to rest, each control step does a part of a pass; the whole takes some seconds. */
+ * The confidence interval is that of the regression, widened by floor_rad, and by large residuals of the pulses. After
+ * the rotor has come to rest, each control step does a part of a pass; the whole takes some seconds. */
 #ifndef WH_RIG_FREE_SWING_H
 #define WH_RIG_FREE_SWING_H
 
@@ -32,38 +30,34 @@
 WH_C_BEGIN
 
 /* === normal equations ======================================================================== */
-/* Linear least squares: normal equations that grow row by row, solved by Cholesky factorization.
- *
- * Each unknown is scaled by its initial uncertainty, which enters as one row with the weight 1. So the matrix is the
- * unit matrix plus the other rows, and never singular. */
+/* Linear least squares: normal equations that grow row by row, solved by Cholesky factorization. Each unknown is scaled
+ * by its initial uncertainty, which enters as one row with the weight 1. So the matrix is the unit matrix plus the
+ * other rows, and never singular. */
 
 #define WH_NORMAL_UNKNOWNS 7
 
 typedef struct wh_normal {
-    /* First the lower triangle of the matrix, then of its factor. */
-    wh_real matrix[WH_NORMAL_UNKNOWNS][WH_NORMAL_UNKNOWNS];
-    wh_real right[WH_NORMAL_UNKNOWNS]; /* first the right side, then the solution */
-    /* Sum of the squared residuals over their variances, at the guess. The solution makes it smaller. */
-    wh_real misfit;
+    wh_real matrix[WH_NORMAL_UNKNOWNS][WH_NORMAL_UNKNOWNS]; /* lower triangle, then its factor */
+    wh_real right[WH_NORMAL_UNKNOWNS];                      /* right side, then the solution */
+    wh_real misfit; /* sum of squared residuals over their variances, at the guess */
 } wh_normal;
 
 /* Begin with the prior alone: each unknown equals its `guess`, with a standard deviation of 1. */
 void wh_normal_start(wh_normal *normal, const wh_real guess[WH_NORMAL_UNKNOWNS]);
 
-/* Add a measurement: the scalar product of `row` and the unknowns shall be `off`, with this weight (the inverse of its
- * variance). */
+/* Add a measurement: the scalar product of `row` and the unknowns is `off`, with the variance 1/weight. */
 void wh_normal_add(wh_normal *normal, const wh_real row[WH_NORMAL_UNKNOWNS], wh_real off,
                    wh_real weight);
 
-/* Factor the matrix (some 1,000 instructions), and then solve: normal->right gets the unknowns. */
+/* Factor the matrix (some 1,000 instructions); then solve: normal->right gets the unknowns. */
 void wh_normal_factor(wh_normal *normal);
 void wh_normal_solve(wh_normal *normal);
 
 wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
 
 /* === the rotor =============================================================================== */
-/* A rotor under gravity and friction alone, and the derivatives of its motion with respect to its parameters: the
- * initial state, g, f and c.
+/* A rotor under gravity and friction alone, and the derivatives of its motion with respect to the initial state, g, f
+ * and c.
  *
  *      q'' = -g sin q - f sign q' - c q'          q: angle from hanging; g = S g0/I; f and c: friction over I
  *
@@ -71,20 +65,18 @@ wh_real wh_normal_deviation(const wh_normal *normal, unsigned which);
  * step, friction changes its sign, and the rate has a kink. There the derivatives are multiplied by the acceleration
  * after the kink, divided by the acceleration before it. */
 
-/* The parameters of the motion: initial q and q', g, f, c. */
 enum { WH_FREE_Q, WH_FREE_RATE, WH_FREE_GRAVITY, WH_FREE_FRICTION, WH_FREE_DRAG, WH_FREE_CAUSES };
 
 typedef struct wh_free_rotor {
     wh_real q_rad; /* -pi ... pi */
     wh_real rate_radps;
-    wh_real q_by[WH_FREE_CAUSES]; /* derivatives of q_rad with respect to the parameters */
+    wh_real q_by[WH_FREE_CAUSES]; /* derivatives with respect to each WH_FREE_ value */
     wh_real rate_by[WH_FREE_CAUSES];
 } wh_free_rotor;
 
 void wh_free_rotor_start(wh_free_rotor *rotor, wh_real q_rad, wh_real rate_radps);
 
-/* Does a step of h seconds, forwards or (h < 0) backwards, much shorter than a swing. `cause` is indexed by the enum
- * above; only g, f and c are read. */
+/* Does a step of h seconds, much shorter than a swing, backwards if h < 0. Of cause[], only g, f and c are read. */
 void wh_free_rotor_step(const wh_real *cause, wh_free_rotor *rotor, wh_real h);
 
 /* Wraps an angle into -pi ... pi by at most one turn; returns 0 for larger angles and NaN. */
@@ -96,15 +88,15 @@ WH_SHARED wh_real wh_free_angle(wh_real rad) {
 
 /* === the state of an evaluation ============================================================== */
 
-/* The unknowns are the rotor's parameters, and then the positions of both sensors. */
+/* The unknowns are those of the rotor, and then the positions of both sensors. */
 #define WH_SWING_PLACE WH_FREE_CAUSES
 
 #define WH_SWING_TURNING 6U /* maximum number of pulses stored from the turns before the swings */
 #define WH_SWING_PULSES 36U /* maximum number of pulses stored altogether */
-#define WH_SWING_LAST 10U   /* number of sensor 1's last pulses whose times are stored */
+#define WH_SWING_LAST 10U   /* number of stored times of sensor 1 */
 
-/* Pieces of the work, one per control step: integrate up to a pulse, use the pulse, solve the equations (two pieces),
- * begin another pass or another guess, finish. */
+/* Pieces of the work, one per control step: integrate up to a pulse and use it, factor and solve the equations, begin
+ * another pass, make another guess, finish. */
 typedef enum wh_swing_piece {
     WH_SWING_GOES,
     WH_SWING_FACTORS,
@@ -131,18 +123,14 @@ typedef enum wh_swing_why { WH_SWING_ROWS(WH_SWING_NAME) WH_SWING_WHYS } wh_swin
 #undef WH_SWING_NAME
 
 typedef struct wh_swing_config {
-    /* a pulse comes when the arms are this angle before its sensor, on either side */
-    wh_real lead_rad;
-    wh_real most_rad; /* distance of a sensor from its nominal position, at most, at 95 % */
-    wh_real jitter_s; /* standard deviation of the pulse times, s */
-    /* Further error of a pulse's angle, as a standard deviation, for example from a coupling's twist. */
-    wh_real rough_rad;
-    /* Part of the interval that comes from calibration, at 95 %: errors of slot and lead, and friction that differs
-     * with the direction. */
+    wh_real lead_rad;  /* angle of the arms before a sensor at its pulse, on either side */
+    wh_real most_rad;  /* largest distance of a sensor from its nominal position, at 95 % */
+    wh_real jitter_s;  /* standard deviation of the pulse times */
+    wh_real rough_rad; /* further standard deviation of a pulse's angle, as by a coupling's twist */
+    /* Part of the interval from calibration, at 95 %: errors of slot and lead, friction that depends on direction. */
     wh_real floor_rad;
-    wh_real wide_rad; /* a wider interval is useless */
-    /* If sensor 1's error or its interval exceeds this limit, the run's results are doubtful. */
-    wh_real off_rad;
+    wh_real wide_rad; /* largest useful half-width */
+    wh_real off_rad;  /* a result is doubtful if sensor 1's error exceeds its half_rad by this */
     unsigned swings_least; /* least number of half swings */
 } wh_swing_config;
 
@@ -155,44 +143,43 @@ typedef struct wh_swung {
 
 typedef struct wh_swing {
     wh_swung result;
-    bool free;    /* the motor has been off, with open leads, since the last step */
-    bool any;     /* there was a pulse already */
-    bool forward; /* at the last pulse the rotor turned forwards */
+    bool free; /* the motor's leads have been open since the last step */
+    bool any;
+    bool forward; /* the rotor turned forwards at the last pulse */
     uint8_t sensor;
-    /* the rotor has passed sensor 1 backwards; kept[first] is the first such pulse */
+    /* the rotor has passed sensor 1 backwards, first at kept_ticks[first] */
     bool swings;
-    wh_swing_piece piece; /* the next part of the work */
+    wh_swing_piece piece;
     unsigned first;
-    unsigned passed; /* number of later passages of sensor 1, stored or not */
+    unsigned passed; /* later passages of sensor 1, stored or not */
     unsigned kept;
-    unsigned start; /* number of guesses before this one: they failed */
+    unsigned start; /* number of failed guesses */
     unsigned pass;
     unsigned at;     /* index of the next pulse */
     unsigned fits;   /* pulses used in this pass */
     unsigned strays; /* impossible pulses in this pass */
-    /* Number of used pulses of each sensor. Pulses of sensor 1 alone would also fit the mirror image of the swing. */
+    /* Pulses used of each sensor: those of sensor 1 alone would also fit the mirror image of the swing. */
     unsigned fits_of[WH_RIG_SENSORS];
-    uint32_t ticks;                     /* time of the motion in `way` */
-    wh_real soft_rad2;                  /* variance that is added to each pulse's own variance */
-    wh_free_rotor way;                  /* the rotor's motion during a pass */
+    uint32_t ticks;
+    wh_real soft_rad2;                  /* additional variance of each pulse */
+    wh_free_rotor way;                  /* the rotor at the time `ticks` of a pass */
     uint32_t last_ticks[WH_SWING_LAST]; /* times of sensor 1's last pulses, the newest first */
-    wh_real x[WH_NORMAL_UNKNOWNS];      /* q - position of sensor 1, q', g, f, c, both positions */
-    wh_real guess[WH_NORMAL_UNKNOWNS];  /* guess of x */
+    wh_real x[WH_NORMAL_UNKNOWNS]; /* q minus sensor 1's position, q', g, f, c, both positions */
+    wh_real guess[WH_NORMAL_UNKNOWNS];
     wh_real within[WH_NORMAL_UNKNOWNS]; /* standard deviations of the guess */
     uint32_t kept_ticks[WH_SWING_PULSES];
     uint8_t kept_sensor[WH_SWING_PULSES];
-    wh_normal normal; /* equations of this pass, in units of `within` */
+    wh_normal normal; /* equations of this pass, scaled by `within` */
 } wh_swing;
 
 /* === the first guess ========================================================================= */
 
-#define WH_SWING_STARTS 3U /* number of guesses that are tried, one after the other */
+#define WH_SWING_STARTS 3U /* guesses that are tried, one after the other */
 
-/* Drops the swings that come near the top: their amplitude depends so steeply on their duration that guesses would be
- * useless. */
+/* Drops swings near the top: their amplitude depends too steeply on their duration for a guess. */
 void wh_swing_leave_top(const wh_swing_config *config, wh_swing *swing);
 
-/* Sets x and its uncertainty, with which the regression begins; swing->start is the number of the guess. */
+/* Sets x and its uncertainty for guess number swing->start. */
 void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 
 /* === the evaluation ========================================================================== */
@@ -205,16 +192,15 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing);
 /* Take a pulse of sensor 0 or 1, in order of time. */
 void wh_swing_pulse(wh_swing *swing, unsigned sensor, uint32_t ticks);
 
-/* Call this in every control step. While wh_swing_works(), each step at rest does a bounded part of the work.
- * - `swings`: true if the motor's leads have been open since the rotor last turned forwards in a run.
- * - `rests`: matters in the step in which the leads are closed. true: the rotor is at rest; false: the motor stopped
- * it, so the swing was not free. */
+/* Call this in every control step; while wh_swing_works(), each step at rest does a bounded part of the work. `swings`:
+ * the motor's leads have been open since the rotor last turned forwards in a run. `rests`, in the step in which the
+ * leads are closed: the rotor is at rest. If false, the motor stopped it, and the swing was not free. */
 void wh_swing_step(const wh_swing_config *config, const wh_rotor_config *rotor, wh_swing *swing,
                    bool swings, bool rests);
 
 WH_INLINE bool wh_swing_works(const wh_swing *swing) { return swing->result.why == WH_SWING_WORKS; }
 
-/* Makes a good result doubtful if sensor 1 was found out of place, because the result's phase has the same error. */
+/* Makes a good result doubtful if sensor 1 was found out of place, which shifts the result's phase. */
 void wh_swing_doubt(const wh_swing_config *config, const wh_swing *swing, wh_measured *measured);
 
 const char *wh_swing_text(wh_swing_why why);

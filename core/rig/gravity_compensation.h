@@ -1,10 +1,9 @@
 /* gravity_compensation.h: feed-forward of gravity's torque to the motor.
  *
- * Gravity pulls arms in a vertical plane back with S g sin(theta - gamma). S is the sum of mass times radius, gamma the
- * direction of gravity. The rotor's speed would vary by E = S g/(I omega^2) about its mean. If the motor adds the
- * opposite torque, the speed stays at its mean. theta is the observer's angle, predicted for the middle of the time in
- * which the voltage acts: half a control step later (zero-order hold), plus the delays of computing and of the motor's
- * inductance. */
+ * Gravity's torque on arms in a vertical plane is -S g sin(theta - gamma). S is the sum of mass times radius, gamma the
+ * direction of gravity. Uncompensated, it varies the speed by the fraction E = S g/(I omega^2) of its mean. theta is
+ * the observer's angle, predicted for the middle of the time in which the voltage acts: half a control step later
+ * (zero-order hold), plus the delays of computing and of the motor's inductance. */
 #ifndef WH_RIG_GRAVITY_COMPENSATION_H
 #define WH_RIG_GRAVITY_COMPENSATION_H
 
@@ -33,8 +32,8 @@ typedef struct wh_compensation {
 extern const wh_compensation_config wh_compensation_standard;
 
 /* Does one control step of step_s seconds; call it after the observer's step. Returns the voltage to add to the drive's
- * voltage, as a multiple of the rated voltage. It is 0 while the observer is not valid or a number is NaN; after that
- * it fades in again. */
+ * voltage, as a multiple of the rated voltage. It is 0 if a number is NaN, or while the observer is not valid; after
+ * that it fades in again. */
 wh_real wh_compensation_step(const wh_compensation_config *config, wh_compensation *compensation,
                              const wh_observer *observer, uint32_t now_ticks, wh_real step_s);
 

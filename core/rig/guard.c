@@ -21,7 +21,7 @@ wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps,
     const wh_real fall = falls * config->fall_radps;
     const wh_real bound = WH_SQRT(led * led + fall * fall);
     const wh_real most = config->limit_radps * (WH_R(1.0) + config->ripple);
-    return bound < most ? bound : most; /* if bound is NaN, the result is `most` */
+    return bound < most ? bound : most; /* also if `bound` is NaN */
 }
 
 WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
@@ -32,10 +32,9 @@ WH_CALLED void wh_guard_trip(wh_guard *guard, wh_trip reason) {
 
 void wh_guard_drives(wh_guard *guard) { guard->off = (wh_off){.released = false}; }
 
-/* Pulses of one sensor closer than at 1,000 rpm are not turns: 36 V make 900 rpm at most. */
+/* Pulses of one sensor closer than at 1,000 rpm are no turns: 36 V give at most 900 rpm. */
 #define BOUNCE_TICKS 60000U
-/* A turn is clearly slower if it takes longer than the turn before by this factor. In a swing only the last two
- * intervals are clearly slower. */
+/* Factor on the duration from which a turn counts as slower. In a swing only the last two intervals reach it. */
 #define LONGER WH_R(1.02)
 #define FASTER WH_R(1.01) /* for a trip: least gain of speed over successive faster turns */
 #define ALTERNATE_PAIR 4U /* alternating pulses that show two turns of a sensor */
@@ -54,7 +53,7 @@ static WH_CALLED wh_real radps_of(uint32_t turn_ticks) {
     return WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)turn_ticks;
 }
 
-/* Compares a turn with the previous turn of the same sensor. No other pulse of this sensor came within these turns. */
+/* Compares a turn with the previous turn of the same sensor. */
 static void see_turn(const wh_guard_config *config, wh_guard *guard, bool brakes, unsigned sensor,
                      uint32_t before_ticks) {
     wh_off *off = &guard->off;

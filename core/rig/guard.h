@@ -39,42 +39,37 @@ typedef struct wh_guard_config {
     wh_real target_min_compensated_radps;
     wh_real target_max_radps; /* largest set-point */
     wh_real limit_radps;      /* largest mean speed of a turn */
-    /* Ripple at the speed limit: the largest speed within a turn minus its mean, as a fraction of the mean. */
+    /* At the speed limit: the largest speed within a turn minus its mean, as a fraction of the mean. */
     wh_real ripple;
     wh_real over; /* allowed excess over the commanded speed, as a fraction */
     /* Largest sum of wh_pulses.climb_radps and .climb_before_radps, as a fraction of the turn's speed. */
     wh_real climb;
-    /* largest rise of the speed (rad/s per s) while the control loop takes over the rotor */
-    wh_real climb_start_radps2;
-    wh_real climb_behind_radps2; /* largest rise while slower than the set-point by behind_radps */
-    /* difference to the set-point from which climb_behind_radps2 applies */
-    wh_real behind_radps;
-    wh_real climb_there_radps2; /* largest rise in all other cases */
-    /* speed at the bottom after a fall from rest at the top: 2 sqrt(S g / I) */
-    wh_real fall_radps;
+    wh_real climb_start_radps2;  /* largest rise of the speed while the control loop takes over */
+    wh_real climb_behind_radps2; /* largest rise while the speed lags by behind_radps */
+    wh_real behind_radps;        /* speed below the set-point, for climb_behind_radps2 */
+    wh_real climb_there_radps2;  /* largest rise otherwise */
+    wh_real fall_radps;         /* 2 sqrt(S g / I): speed at the bottom after a fall from the top */
     uint32_t lost_max;          /* number of pulses that may be lost in a run */
     unsigned doubt_max;         /* largest wh_pulses.doubt */
     uint32_t rejected_max;      /* number of pulses that may be rejected in a run */
-    wh_real silence_max_s;      /* longest time without a pulse in closed loop */
-    wh_real slow_silence_max_s; /* longest time without a pulse while the rotor starts */
+    wh_real silence_max_s;      /* longest time without a pulse, in closed loop */
+    wh_real slow_silence_max_s; /* the same while the rotor starts */
     wh_real load_silence_max_s; /* longest time without a load sample */
     /* The load counts as constant if it changes by less than this number times the square of the speed. */
     wh_real load_still_kgm;
-    /* number of slot pulses under constant load that show a stuck load cell */
-    uint32_t stuck_pulses;
+    uint32_t stuck_pulses; /* pulses under a constant load that show a stuck load cell */
     wh_real supply_min_V;
     wh_real supply_max_V;
-    wh_real rest_s; /* a rotor without a pulse for this long is at rest */
-    /* Each turn of a braked rotor must be slower than the turn before by at least this difference. */
-    wh_real braked_radps;
-    wh_real hand_radps; /* fastest rotor that a hand can turn */
+    wh_real rest_s;       /* a rotor without a pulse for this long is at rest */
+    wh_real braked_radps; /* least loss of speed of a braked rotor in a turn */
+    wh_real hand_radps;   /* fastest rotor that a hand can turn */
 } wh_guard_config;
 
 /* Checks of the pulses while the motor is off or brakes; they do not depend on the commands. A turn is the time between
- * two pulses of one sensor. Over a turn gravity cancels:
+ * two pulses of one sensor, so gravity cancels:
  *
- * - A braked rotor loses 2 pi c/I of its mean speed in a turn. c is the damping of the torque line, I at most six times
- * the configured inertia. If a turn loses less than half of that, the enable goes off until the next run (`released`).
+ * - A braked rotor's mean speed falls by 2 pi c/I in a turn. c is the damping of the torque line, I at most six times
+ * the configured inertia. If it falls by less than half of that, the enable goes off until the next run (`released`).
  * - With the enable off only friction acts, and turns only get slower.
  *
  * A rotor that swings about its hanging position fires a sensor twice in each swing. The intervals between these pulses
@@ -88,18 +83,17 @@ typedef struct wh_guard_config {
  * each. At the end of a swing that friction stops, this happens at most twice. */
 typedef struct wh_off {
     bool released;
-    bool doubted; /* the brake was released because of one sensor's pulses alone */
+    bool doubted; /* released because of one sensor's pulses alone */
     bool asks;    /* released because of alternating pulses: trips if the other sensor fires next */
-    uint8_t sensor;    /* sensor of the last pulse, 1 or 2; 0: no pulse yet */
+    uint8_t sensor;    /* number of the last pulse's sensor, 1 or 2; 0: no pulse yet */
     uint8_t alternate; /* number of successive pulses of alternating sensors */
     uint8_t alone;     /* number of successive pulses of the same sensor */
     struct wh_off_turns {
-        uint32_t ticks; /* time of the last pulse, ticks */
-        /* time from the previous pulse to the last one; 0: no previous pulse */
-        uint32_t turn_ticks;
+        uint32_t ticks;
+        uint32_t turn_ticks;  /* time from the previous pulse to the last one, or 0 */
         uint32_t first_ticks; /* duration of the turn before the first faster turn */
-        uint8_t faster;       /* number of successive turns that were faster than the one before */
-        uint8_t longer;       /* number of successive turns that were clearly slower */
+        uint8_t faster;       /* number of successive turns faster than the one before */
+        uint8_t longer;       /* number of successive turns slower by the factor LONGER */
         bool seen;
     } of[WH_RIG_SENSORS];
 } wh_off;
@@ -109,34 +103,30 @@ typedef struct wh_guard {
     bool quiet;     /* no pulse for rest_s; latched, because times wrap */
     bool load_good; /* the last load sample was ok and is recent; latched, because times wrap */
     uint32_t pulses_seen;
-    /* time of the last pulse, accepted or not; before the first pulse, time of the start */
-    uint32_t pulse_ticks;
-    uint32_t lost_before;     /* number of lost pulses when the motor began to drive */
-    uint32_t rejected_before; /* number of rejected pulses when the motor began to drive */
-    /* time of the last load sample; before the first sample, time of the start */
-    uint32_t load_ticks;
-    uint32_t load_pulses; /* number of accepted pulses at the last load sample */
-    /* Number of load samples that came with a new pulse since the load last changed. */
-    uint32_t still_pulses;
-    wh_real still_N; /* the load at its last change */
+    uint32_t pulse_ticks;     /* time of the last pulse, accepted or not, or of the start */
+    uint32_t lost_before;     /* lost pulses when the motor began to drive */
+    uint32_t rejected_before; /* rejected pulses when the motor began to drive */
+    uint32_t load_ticks;      /* time of the last load sample, or of the start */
+    uint32_t load_pulses;     /* accepted pulses at the last load sample */
+    uint32_t still_pulses;    /* load samples with a new pulse since the load last changed */
+    wh_real still_N;          /* the load at its last change */
     wh_off off;
 } wh_guard;
 
 void wh_guard_start(wh_guard *guard, uint32_t now_ticks);
 
-/* True if a set-point is safe for the control loop and the shaft. `compensated` is true with gravity compensation. NaN is not
- * safe. */
+/* True if a set-point is safe for loop and shaft, with gravity compensation if `compensated`. NaN is not safe. */
 bool wh_guard_allows(const wh_guard_config *config, wh_real target_radps, bool compensated);
 
-/* Gain of speed in a fall from the top, for a rotor with half the configured inertia, with a margin. */
+/* Factor on the speed gained in a fall from the top, for a rotor of half the configured inertia, with a margin. */
 #define WH_GUARD_LIGHTER WH_R(1.5)
 
 /* Returns the largest mean speed between two pulses, rad/s, of a rotor whose turns the drive keeps at limit_radps or
- * below. The result includes the share config->over, and `falls` times the gain of speed in a fall from the top. */
+ * below. It allows for the excess config->over, and for `falls` times the speed gained in a fall from the top. */
 wh_real wh_guard_bound_radps(const wh_guard_config *config, wh_real limit_radps, wh_real falls);
 
-/* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. If the
- * speed is too high by config->behind_radps or more, the limit is negative: the speed must fall. */
+/* Returns the limit on the rise of a turn's speed, rad/s^2. behind_radps is the commanded speed minus the speed. The
+ * limit is negative if the speed is too high by config->behind_radps or more. */
 WH_INLINE wh_real wh_guard_climb_radps2(const wh_guard_config *config, wh_real behind_radps,
                                         bool is_led) {
     if (is_led && behind_radps > config->behind_radps) {
@@ -152,12 +142,11 @@ void wh_guard_trip(wh_guard *guard, wh_trip reason);
 /* Call this when the motor begins to drive: it resets the checks of the pulses with the motor off. */
 void wh_guard_drives(wh_guard *guard);
 
-/* Checks a pulse of sensor 0 or 1 while the motor is off. `brakes` is true if the enable is on. The pulse may trip the
- * rig, or release the brake. */
+/* Checks a pulse with the motor off, and may trip the rig or release the brake. `brakes`: the enable is on. */
 void wh_guard_off_pulse(const wh_guard_config *config, wh_guard *guard, bool brakes,
                         unsigned sensor, uint32_t ticks);
 
-/* Checks whether the rotor is at rest, in each step and every state. pulses_ever is the total number of pulses. */
+/* Checks whether the rotor is at rest, in each step and state. pulses_ever is the total number of pulses. */
 WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, uint32_t pulses_ever,
                               uint32_t now_ticks) {
     if (pulses_ever != guard->pulses_seen) {
@@ -166,15 +155,15 @@ WH_INLINE void wh_guard_quiet(const wh_guard_config *config, wh_guard *guard, ui
         guard->quiet = false;
     } else if ((wh_real)(int32_t)(now_ticks - guard->pulse_ticks) >=
                config->rest_s * (wh_real)WH_RIG_TICKS_PER_S) {
-        guard->quiet = true; /* latched, because time stamps wrap after 71.6 minutes */
+        guard->quiet = true;
     }
 }
 
-/* Checks for over-speed, in each step and every state. Over-speed is a turn above the limit, two successive pulse
- * intervals above the bound, or a speed that at two successive pulses rises faster than the drive can accelerate the
- * rotor. `reason` is the trip: WH_TRIP_OVERSPEED, or WH_TRIP_RUNS_ON with the motor off.
+/* Checks for over-speed, in each step and state: a turn above the limit, or two successive pulse intervals above the
+ * bound. A speed that rises faster at two successive pulses than the drive can accelerate the rotor is over-speed, too.
+ * `reason` is the trip: WH_TRIP_OVERSPEED, or another with the motor off.
  *
- * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. So the guard waits for at
+ * With the motor off, a rotor that swings in a sensor's slot may fire this sensor repeatedly. So the check needs at
  * least `alternate` pulses of alternating sensors (0 while the motor drives). */
 #define WH_GUARD_BRAKES 1U /* `alternate` with the enable on */
 /* `alternate` with the enable off: larger, because one false pulse corrupts several turns. */
@@ -187,8 +176,8 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
     /* false while a later pulse may show that the last one is a disturbance */
     const bool sure = !pulses->waits || pulses->fast > 0;
-    /* An early pulse alone may be a disturbance, and a speed that rises alone may follow from a lost load. Both
-     * together are over-speed. */
+    /* An early pulse alone may be a disturbance, and a rising speed alone may follow from a lost load. Both together
+     * are over-speed. */
     const bool climbs =
         pulses->fast > 0 && pulses->climb_before_radps > WH_R(0.0) &&
         pulses->climb_radps > WH_R(0.0) &&
@@ -199,7 +188,7 @@ WH_INLINE void wh_guard_speed(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* Checks while the motor drives: the numbers of lost, rejected and doubtful pulses, and the time without a pulse, at
+/* Checks while the motor drives: the numbers of lost, rejected and doubtful pulses, and a time without a pulse of at
  * most silence_max_s. */
 WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
                                const wh_pulses *pulses, wh_real silence_max_s, uint32_t now_ticks) {
@@ -211,13 +200,13 @@ WH_INLINE void wh_guard_pulses(const wh_guard_config *config, wh_guard *guard,
     }
 }
 
-/* Checks the supply while the motor may drive. NaN is out of range. */
+/* True if the supply is in its range; NaN is not. */
 WH_INLINE bool wh_guard_supply(const wh_guard_config *config, wh_real supply_V) {
     return supply_V >= config->supply_min_V && supply_V <= config->supply_max_V;
 }
 
-/* Checks a load sample, tare included, in every state. `turning` is true if the rotor turns, so that the load must
- * change. If `needed`, a bad sample stops the rig. A repeated sample is ignored. */
+/* Checks a load sample, in every state. `turning`: the rotor turns, so the load must change. If `needed`, a bad sample
+ * trips the rig. A repeated sample is ignored. */
 WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, const wh_speed *speed,
                              const wh_load *load, bool turning, bool needed) {
     if (load->status == WH_LOAD_REPEATED) {
@@ -228,8 +217,8 @@ WH_INLINE void wh_guard_load(const wh_guard_config *config, wh_guard *guard, con
     if (needed && !guard->load_good) {
         wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
     }
-    /* The time with a constant load is counted in pulses, because the load of a jammed rotor is also constant. Each
-     * sample counts at most one pulse, because in a late controller several older pulses may wait. */
+    /* A constant load is timed in pulses, because the load of a jammed rotor is constant, too. Each sample counts at
+     * most one pulse, because in a late controller several older pulses may wait. */
     guard->still_pulses += speed->taken != guard->load_pulses ? 1U : 0U;
     guard->load_pulses = speed->taken;
     const wh_real still_N = config->load_still_kgm * speed->turn_radps * speed->turn_radps;

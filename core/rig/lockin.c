@@ -7,22 +7,18 @@
 
 #define PI WH_R(3.141592653589793)
 
-/* A turn does not count if the gap between two nodes is longer than 3.5 sample periods, or if more than a tenth of the
- * samples are outliers. */
+/* Limits of a turn that counts: gap between two nodes, in sample periods, and one outlier in so many samples. */
 #define GAP_PERIODS WH_R(3.5)
 #define OUTLIERS_PER_TURN 10U
 
-/* If this many successive samples are equal, the load does not change. At the load's peak at 100 rpm, fewer are equal
- * even without noise. */
+/* So many successive equal samples show a frozen load: even without noise, a peak at 100 rpm has fewer. */
 #define FROZEN_SAMPLES 8U
 
-/* An outlier differs from the prediction by more than six standard deviations of the residual, and by more than the
- * effect of a speed change of 1 %. */
+/* An outlier deviates from the prediction by more than six standard deviations plus the effect of 1 % in speed. */
 #define OUTLIER_DEVIATIONS WH_R(6.0)
 #define OUTLIER_PART WH_R(0.02)
 
-/* If a turn's duration changed by more than 1/64, the turn does not count. If it changed by more than 1/256, the turn
- * does not correct the inertia. */
+/* Largest change of a turn's duration: 1/64 for a turn that counts, 1/256 for one that corrects the inertia. */
 #define STEADY_PART 64U
 #define STILL_PART 256U
 
@@ -93,8 +89,7 @@ static void pop(wh_lockin *lockin) {
     lockin->count--;
 }
 
-/* Drops the samples that are older than the turn, except for the newest of them. Drops at most
- * WH_LOCKIN_STALE_AT_ONCE. */
+/* Drops samples older than the turn, except for the newest of them; at most WH_LOCKIN_STALE_AT_ONCE. */
 static void drop_stale(wh_lockin *lockin, uint32_t begin_ticks) {
     for (unsigned i = 0; i < WH_LOCKIN_STALE_AT_ONCE && lockin->count > 0; i++) {
         if ((int32_t)(lockin->ticks[lockin->first] - begin_ticks) > 0) {
@@ -141,7 +136,7 @@ void wh_lockin_load(wh_lockin *lockin, const wh_load *load) {
     }
 }
 
-/* Sets the last node's weight: half of the distance between its two neighbours. */
+/* Adds the last node to the sums, weighted by half of the distance between its neighbours. */
 WH_SHARED void weigh_last(wh_lockin *lockin, wh_real theta_rad, wh_real part) {
     const wh_lockin_node *node = &lockin->last;
     const wh_real rest = WH_R(0.5) * (theta_rad - lockin->before_rad) * node->residual_N;
@@ -166,7 +161,7 @@ static void place_node(wh_lockin *lockin, uint32_t ticks, wh_real force_N, wh_lo
     lockin->place = place;
 }
 
-/* Does the second half of a node's work: its weight. The load at a pulse is interpolated between two samples. */
+/* Does the second half of a node's work: its weight. */
 static void weigh_node(wh_lockin *lockin) {
     wh_lockin_node *node = &lockin->placed;
     const wh_lockin_place place = lockin->place;
@@ -180,7 +175,7 @@ static void weigh_node(wh_lockin *lockin) {
             lockin->next.outliers++;
             return;
         }
-        node->force_N -= residual_N; /* node->force_N is now the predicted load at the pulse */
+        node->force_N -= residual_N; /* at a pulse: take the predicted load */
         residual_N = WH_R(0.0);
     }
     node->residual_N = residual_N;
@@ -213,7 +208,7 @@ static wh_real load_between(const wh_lockin *lockin, uint32_t ticks) {
     return lockin->taken_N + part * (later_N - lockin->taken_N);
 }
 
-/* Begins the work on the next node of the turn, if the node's sample has come. */
+/* Begins the next node, if its sample has come. */
 static void place_next(wh_lockin *lockin) {
     wh_lockin_turn *turn = &lockin->next;
     const uint32_t end_ticks = turn->begin_ticks + turn->turn_ticks;
@@ -309,7 +304,7 @@ static WH_CALLED void end_turn(const wh_cell_config *cell, wh_lockin *lockin) {
     turn->mean_N = lockin->mean;
     turn->fault = fault_of(cell, lockin);
     const bool whole = turn->fault <= WH_TURN_FIRST;
-    /* A gap does not invalidate the prediction, unless outliers caused the gap: then the load may have changed. */
+    /* A gap does not invalidate the prediction, unless outliers caused it: then the load may have changed. */
     if (whole) {
         lockin->expects = true;
         lockin->expected_N = turn->force_N;
@@ -334,7 +329,7 @@ static void begin_turn(wh_lockin *lockin) {
 }
 
 #if WH_RIG_SMALL_PIECES
-/* Does one piece, or all pieces at once. Returns true after the last piece. */
+/* Counts a piece. Returns true after the last one. */
 static bool last_piece(wh_lockin *lockin, unsigned pieces) {
     lockin->piece++;
     if (lockin->piece < pieces) {
@@ -345,7 +340,7 @@ static bool last_piece(wh_lockin *lockin, unsigned pieces) {
 }
 #endif
 
-/* Computes the shape of the turn's angle. Returns true when the shape is finished. */
+/* Returns true when the shape is finished. */
 static bool shape(const wh_rotor_config *rotor, wh_lockin *lockin) {
     const wh_real speed_radps =
         WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)lockin->next.turn_ticks;

@@ -13,8 +13,8 @@
  *
  * Samples wait until the pulse that ends their turn. Then each control step evaluates a few of them, to bound its work.
  * The prediction from the previous turn (mean, first and second order) is subtracted first and added again at the end.
- * So the trapezoidal rule integrates only the small differences. A sample far from the prediction is an outlier: it is
- * not used, and counted. */
+ * So the trapezoidal rule integrates only small differences. A sample far from the prediction is an outlier: it is
+ * counted and not used. */
 #ifndef WH_RIG_LOCKIN_H
 #define WH_RIG_LOCKIN_H
 
@@ -25,40 +25,38 @@
 WH_C_BEGIN
 
 /* === what repeats from turn to turn ========================================================== */
-/* The part of the load's residual that repeats from turn to turn, in harmonics 3 to 6.
+/* The part of the load's residual that repeats from turn to turn, in harmonics 3 to 6, by synchronous averaging (Braun,
+ * Acustica 32 (1975) 69).
  *
- * Synchronous averaging (Braun, Acustica 32 (1975) 69): the residual of orders 0 to 2 is summed by the rotor's angle
- * over the turns of a record. Noise and mains hum average out. Errors of a cell with clipping, backlash or a nonlinear
- * gain remain. The effect of a torque twice per turn also remains: the torque changes the speed, and so gives the force
- * a third harmonic.
+ * The residual after orders 0 to 2 is summed by the rotor's angle over the turns of a record. Noise and mains hum
+ * average out. Errors of a cell with clipping, backlash or a nonlinear gain remain. So does the effect of a torque
+ * twice per turn, which changes the speed and so gives the force a third harmonic.
  *
  * A rigid rotor on a fixed mount has no such harmonics: with w^2 = A + B cos(theta + psi - gamma), the force F = S (w^2
  * cos theta + w' sin theta) has only the orders 0, 1 and 2. Damping's effect on w^2 and the angle's third order add a
- * little (result.c).
- *
- * The noise is estimated from differences of successive samples, as for the tare, so that hum and slow changes do not
- * count as noise. */
+ * little (result.c). The noise is estimated from differences of successive samples, as for the tare, so that hum and
+ * slow changes do not count as noise. */
 
-/* Number of angles at which the residual is summed. If hum is at harmonic 26 of the turn (50 Hz at 115 rpm) or above,
- * it is aliased, with a fifth of its amplitude. */
+/* Number of angles at which the residual is summed. Hum at or above harmonic 26 of the turn (50 Hz at 115 rpm) is
+ * aliased to harmonics 6 and below, with a fifth of its amplitude. */
 #define WH_REPEATS_BINS 32U
 
-/* The evaluated harmonics. (The second harmonic serves to check the speed ripple: result.h.) */
+/* The evaluated harmonics. (result.h checks the speed ripple with the second.) */
 #define WH_REPEATS_FIRST 3U
 #define WH_REPEATS_LAST 6U
 
 typedef struct wh_repeats {
-    uint32_t samples;   /* number of samples in the merged turns */
-    wh_real changes_N2; /* sum of squared differences of successive samples' residuals */
+    uint32_t samples;               /* samples in the merged turns */
+    wh_real changes_N2;             /* sum of squared differences of successive residuals */
     wh_real bin_N[WH_REPEATS_BINS]; /* integral of the residual over the angle */
 } wh_repeats;
 
-/* Adds a residual at theta_rad, at most about one turn. residual_Nrad is the residual times the step of the angle. */
+/* Adds residual_Nrad, a residual times the step of the angle, at theta_rad (at most about one turn). */
 WH_INLINE void wh_repeats_add(wh_repeats *repeats, wh_real theta_rad, wh_real residual_Nrad) {
     const wh_real bins = (wh_real)WH_REPEATS_BINS;
     const wh_real bin = theta_rad * (bins / WH_RIG_TWO_PI) + bins;
     if (!(WH_ABS(bin) < WH_R(3.0) * bins)) {
-        return; /* for example if the angle is NaN */
+        return; /* out of range or NaN */
     }
     repeats->bin_N[(uint32_t)(int32_t)bin % WH_REPEATS_BINS] += residual_Nrad;
 }
@@ -68,20 +66,19 @@ void wh_repeats_merge(wh_repeats *sum, const wh_repeats *turn, uint32_t samples)
 /* Returns the squared amplitude of a harmonic, averaged over the turns. */
 wh_real wh_repeats_power_N2(const wh_repeats *sum, uint32_t turns, unsigned harmonic);
 
-/* A small chip's build may set smaller values: the chip has less memory, and less time in a control step. */
 #ifndef WH_LOCKIN_SAMPLES
-/* number of samples that can wait: 1.25 turns at 100 rpm and 500 samples/s */
+/* Maximum number of waiting samples: 1.25 turns at 100 rpm and 500 samples/s. A small chip's build may set less. */
 #define WH_LOCKIN_SAMPLES 384U
 #endif
-/* Limits per control step. The work for a node (a sample or pulse) has two halves: its place and its weight. The second
- * limit is for samples that are older than the turn, and are dropped. */
+/* Limits of the work per control step: half nodes, and dropped samples that are older than the turn. The work for a
+ * node (a sample or pulse) has two halves: its place and its weight. */
 #define WH_LOCKIN_HALVES_AT_ONCE 3U
 #define WH_LOCKIN_STALE_AT_ONCE 8U
 
 /* Reasons why a turn does not count. */
 typedef enum wh_turn_fault {
     WH_TURN_OK,
-    WH_TURN_FIRST, /* the turn has no predecessor for a comparison */
+    WH_TURN_FIRST, /* no previous turn to compare with */
     WH_TURN_GAP,   /* load samples are missing */
     WH_TURN_OUTLIERS,
     WH_TURN_FROZEN,  /* the load never changes */
@@ -91,20 +88,19 @@ typedef enum wh_turn_fault {
 /* Fourier coefficients of the load over the angle, up to the second order. */
 #define WH_LOCKIN_ORDERS 5U
 typedef struct wh_lockin_orders {
-    /* mean, then coefficients of cos, sin, cos 2 theta, sin 2 theta */
-    wh_real at[WH_LOCKIN_ORDERS];
+    wh_real at[WH_LOCKIN_ORDERS]; /* mean, coefficients of cos, sin, cos 2 theta, sin 2 theta */
 } wh_lockin_orders;
 
 typedef struct wh_lockin_turn {
-    uint32_t begin_ticks; /* time of sensor 1's pulse */
+    uint32_t begin_ticks; /* pulse of sensor 1 */
     uint32_t turn_ticks;
     wh_turn_fault fault;
-    bool second_seen; /* sensor 2's pulse was seen */
+    bool second_seen;
     uint16_t samples;
     uint16_t outliers;
-    uint32_t second_ticks;    /* time of sensor 2's pulse, if seen */
+    uint32_t second_ticks;    /* pulse of sensor 2, if seen */
     wh_lockin_orders force_N; /* at[1]: amplitude cos(phase); at[2]: -amplitude sin(phase) */
-    wh_real mean_N;           /* mean over the time */
+    wh_real mean_N;           /* mean over time */
     wh_real residual_N;       /* rms of the residual after orders 0 to 2 */
     wh_real at_pulse_N[2];    /* load at each sensor's pulse */
 } wh_lockin_turn;
@@ -119,7 +115,6 @@ typedef enum wh_lockin_stage {
     WH_LOCKIN_ENDS
 } wh_lockin_stage;
 
-/* The place of a node within the turn. */
 typedef enum wh_lockin_place {
     WH_LOCKIN_NOWHERE,
     WH_LOCKIN_BEGIN,
@@ -127,16 +122,16 @@ typedef enum wh_lockin_place {
     WH_LOCKIN_END
 } wh_lockin_place;
 
-/* A point of the load's curve within the turn. */
+/* A point of the load's curve: a sample or a pulse. */
 typedef struct wh_lockin_node {
-    wh_real part; /* share of the turn's time before the node */
+    wh_real part; /* fraction of the turn's time before the node */
     wh_real theta_rad;
     wh_real force_N;
-    wh_real residual_N;     /* residual: force minus the prediction */
-    wh_lockin_orders waves; /* factor of each coefficient at this node */
+    wh_real residual_N;     /* force minus the prediction */
+    wh_lockin_orders waves; /* 1, cos, sin, cos 2 theta, sin 2 theta */
 } wh_lockin_node;
 
-/* Small members come first: some processors have short instructions that reach only the begin of a struct. */
+/* Small members come first: some processors have short instructions that reach only the start of a struct. */
 typedef struct wh_lockin {
     wh_lockin_stage stage;
     uint8_t piece;
@@ -151,19 +146,18 @@ typedef struct wh_lockin {
     uint32_t begin_ticks;
     uint32_t begin_quarter;
     uint32_t second_ticks;
-    uint32_t skipped; /* number of turns without a pulse of both sensors */
+    uint32_t skipped; /* turns that could not be evaluated */
 
-    /* Waiting samples: index of the oldest one, and their number. */
+    /* Queue of samples: index of the oldest one, and number. */
     uint16_t first;
     uint16_t count;
-    uint16_t equal; /* number of successive samples that equal the one before */
+    uint16_t equal; /* successive samples that equal the one before */
     uint16_t most_equal;
     uint32_t taken_ticks;
     wh_real taken_N;
     uint32_t newest_ticks;
     wh_real newest_N;
-    /* number of samples that were not used, because they were not ok or came out of order */
-    uint32_t refused;
+    uint32_t refused; /* samples not used: not ok, or out of order */
 
     wh_lockin_turn next;
     uint16_t next_equal;
@@ -173,13 +167,12 @@ typedef struct wh_lockin {
     wh_lockin_orders sum;
     wh_real square;
     wh_real mean;
-    wh_real widest;     /* widest gap between two nodes, as a share of the turn */
+    wh_real widest;     /* widest gap between two nodes, as a fraction of the turn */
     wh_real before_rad; /* angle of the node before `last` */
     wh_real before_part;
-    wh_lockin_node last; /* the last node, whose weight depends on the next one */
-    /* the node that is being evaluated; none if `place` is WH_LOCKIN_NOWHERE */
-    wh_lockin_node placed;
-    wh_repeats repeats; /* valid until the next turn's sums begin */
+    wh_lockin_node last;   /* its weight depends on the next node */
+    wh_lockin_node placed; /* node in progress, unless `place` is WH_LOCKIN_NOWHERE */
+    wh_repeats repeats;    /* valid until the next turn's sums begin */
 
     wh_lockin_turn turn; /* the last finished turn */
     wh_turn_angle angle;
@@ -187,26 +180,23 @@ typedef struct wh_lockin {
     uint32_t ticks[WH_LOCKIN_SAMPLES];
 } wh_lockin;
 
-/* Start a zeroed lock-in, or restart one without resetting the counters. It leaves the samples' memory uncleared: to
- * clear it would take too long in a control step. */
+/* Start a zeroed lock-in, or restart one; the counters stay. The samples' memory stays, too: clearing it would take too
+ * long in a control step. */
 void wh_lockin_forget(const wh_rotor_config *rotor, wh_lockin *lockin);
 
-/* Call this when the rotor has passed sensor 0 or 1 at `ticks`. `quarter` is the number of quarter turns so far,
- * wrapping. */
+/* Take a pulse of sensor 0 or 1 at `ticks`. `quarter` is the number of quarter turns so far, wrapping. */
 void wh_lockin_pulse(wh_lockin *lockin, unsigned sensor, uint32_t ticks, uint32_t quarter);
 
-/* Switches gravity compensation on or off in the angle's model: see wh_turn_angle_compensate(). If that is a change,
- * the turn in progress does not count. */
+/* As wh_turn_angle_compensate(). If that is a change, the turn in progress does not count. */
 void wh_lockin_compensate(wh_lockin *lockin, bool compensated, wh_real stall_Nm_per_V);
 
 /* Call this when the count of quarter turns has restarted: the turn in progress does not count. */
 void wh_lockin_gap(wh_lockin *lockin);
 
-/* Take a sample of the load, in the order of time. A sample that is not ok, or not newer than the last one, is not
- * used. */
+/* Take a sample, in the order of time. A sample that is not ok, or not newer than the last one, is not used. */
 void wh_lockin_load(wh_lockin *lockin, const wh_load *load);
 
-/* Call this once per control step. It does a bounded piece of the work: `halves` half nodes of a turn's sums, or
+/* Call this once per control step. It does a bounded piece of the work: `halves` half nodes, or
  * WH_LOCKIN_HALVES_AT_ONCE if the step has no other work. Returns true if this call has finished another
  * lockin->turn. */
 bool wh_lockin_work(const wh_rotor_config *rotor, const wh_cell_config *cell, wh_lockin *lockin,

@@ -51,11 +51,11 @@ void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest) {
     }
 }
 
-/* Number of pieces of work that merge the turns into a result. The last piece decides on the result's quality. */
+/* Pieces of work that merge the turns into a result. The last one judges the result's quality. */
 #define MERGE_PIECES (WH_MERGE_MEAN_PIECES + 2U)
 
-/* Number of pieces of work. After a turn: one for its repeating residual, then the merging. At the record's end: one
- * for each harmonic, then the merging. */
+/* Pieces of work after a turn: one for its repeating residual, then the merging. At the record's end: one for each
+ * harmonic, then the merging. */
 #define TURN_PIECES (MERGE_PIECES + 1U)
 #define END_PIECES (MERGE_PIECES + WH_REPEATS_LAST - WH_REPEATS_FIRST + 1U)
 
@@ -70,7 +70,8 @@ static void repeats_piece(wh_measure *measure) {
     measure->due--;
 }
 
-/* The means are one piece, the scatter and the half-widths another, unless pieces must be small. */
+/* First piece of the scatter and half-widths. Unless pieces must be small, they are one piece, and the means
+ * another. */
 #define SCATTER 3U
 
 static void mean_pieces(const wh_measure_config *config, wh_measure *measure) {
@@ -173,11 +174,11 @@ bool wh_measure_end(wh_measure *measure, uint32_t now_ticks) {
 
 /* === the tare ================================================================================ */
 
-/* Variance of the triangular means that noise may cause, as a factor of the samples' variance. For white noise the
- * factor is 2/3 divided by the length of a block; four times that is allowed. */
+/* Largest variance of the triangular means from noise, as a factor of the samples' variance: four times that of white
+ * noise, which is 2/3 divided by the length of a block. */
 #define SLOW_NOISE (WH_R(8.0) / (WH_R(3.0) * (wh_real)WH_TARE_BLOCK))
 
-/* Ends a full block: takes the mean of this block and the previous one, with triangular weights. */
+/* Ends a block: takes the mean of this block and the previous one, with triangular weights. */
 static void end_block(wh_tare *tare) {
     if (tare->count > WH_TARE_BLOCK) {
         const wh_real mean = (tare->before_N + tare->falls_N) / (wh_real)WH_TARE_BLOCK;

@@ -1,5 +1,5 @@
-/* measure.h: the measurement of a run: the lock-in's turns within the record, merged into one result. The work for a
- * turn is divided into pieces, one per control step. Only turns that lie entirely within the record count. */
+/* measure.h: the measurement of a run: the lock-in's turns that lie entirely within the record, merged into one result.
+ * The work for a turn is divided into pieces, one per control step. */
 #ifndef WH_RIG_MEASURE_H
 #define WH_RIG_MEASURE_H
 
@@ -21,7 +21,7 @@ WH_C_BEGIN
  * variance: with eleven means, noise alone exceeds it in less than one of 10,000 tares. */
 
 typedef struct wh_tare_config {
-    uint32_t samples; /* number of samples of a tare: at least 4 WH_TARE_BLOCK, for three means */
+    uint32_t samples; /* samples of a tare: at least 4 WH_TARE_BLOCK, for three means */
     wh_real still_N;  /* largest standard deviation of slow motion at rest, besides noise */
     wh_real most_N;   /* largest standard error of the mean */
 } wh_tare_config;
@@ -34,12 +34,11 @@ typedef struct wh_tare {
     wh_real square_N2;  /* sum of squared deviations from the mean */
     wh_real changes_N2; /* sum of squared differences of successive samples */
     wh_real last_N;
-    /* Triangular sums: this block's with rising and with falling weights, and the last block's with rising weights. */
-    wh_real rises_N;
-    wh_real falls_N;
-    wh_real before_N;
-    uint32_t means; /* number of triangular means */
-    wh_real slow_N; /* mean of the triangular means, and sum of squared deviations */
+    wh_real rises_N;  /* sum of the present block with rising weights */
+    wh_real falls_N;  /* the same with falling weights */
+    wh_real before_N; /* rises_N of the previous block */
+    uint32_t means;   /* number of triangular means */
+    wh_real slow_N;   /* mean of the triangular means, and sum of squared deviations */
     wh_real slow_N2;
 } wh_tare;
 
@@ -59,13 +58,12 @@ typedef struct wh_measure_config {
     wh_cell_config cell;
     wh_tare_config tare;
     wh_result_config result;
-    wh_real record_s; /* whole turns within this time are measured */
-    /* least number of turns in a record: if they take longer than record_s, the record lasts longer */
-    wh_real record_turns;
+    wh_real record_s;     /* whole turns within this time are measured */
+    wh_real record_turns; /* least number of turns, even if they take longer than record_s */
 } wh_measure_config;
 
 typedef struct wh_rig_result {
-    wh_measured force;    /* the load's once-per-turn component: see result.h */
+    wh_measured force;    /* the load's once-per-turn component (result.h) */
     wh_real tare_N;       /* the cell's reading at rest */
     wh_real tare_error_N; /* standard error of tare_N */
     wh_real low_N;        /* lowest and highest load of the record, minus the tare */
@@ -77,14 +75,13 @@ typedef struct wh_rig_result {
 
 typedef struct wh_measure {
     bool records;
-    bool adds;  /* the last turn is not yet added; this comes before the work in `due` */
-    bool peaks; /* low_N and high_N are valid */
-    bool ends;  /* the record's last turn is finished */
-    /* Number of remaining pieces of work, for the last turn or for the record's end. */
-    uint8_t due;
-    uint32_t begin_ticks;    /* time of the record's begin */
-    wh_real record_s;        /* record's duration */
-    uint32_t skipped_before; /* number of skipped turns before the record began */
+    bool adds;            /* the last turn is to be added, before the work in `due` */
+    bool peaks;           /* low_N and high_N are valid */
+    bool ends;            /* the record's last turn is finished */
+    uint8_t due;          /* remaining pieces of work, for the last turn or the record's end */
+    uint32_t begin_ticks; /* time at which the record began */
+    wh_real record_s;
+    uint32_t skipped_before; /* skipped turns before the record began */
     wh_tare tare;
     wh_merge merge;       /* the turns of the record so far */
     wh_rig_result result; /* renewed after each turn of the record */
@@ -97,14 +94,14 @@ void wh_measure_begin(const wh_measure_config *config, wh_measure *measure);
 /* Process a confirmed pulse, in the order of time. */
 void wh_measure_pulse(wh_measure *measure, const wh_index_pulse *index);
 
-/* Take a load sample: for the tare if at_rest, otherwise of a turning rotor. */
+/* Take a load sample: for the tare if at_rest, otherwise for the measurement. */
 void wh_measure_load(wh_measure *measure, const wh_load *load, bool at_rest);
 
-/* Call this once per control step. It does a bounded piece of the work, with `halves` half nodes of a turn's sums. It
- * does work that cannot be split only if `halves` is WH_LOCKIN_HALVES_AT_ONCE or more. */
+/* Call this once per control step. It does a bounded piece of the work, with `halves` half nodes of a turn's sums. Work
+ * that cannot be split needs `halves` of WH_LOCKIN_HALVES_AT_ONCE or more. */
 void wh_measure_work(const wh_measure_config *config, wh_measure *measure, unsigned halves);
 
-/* Begin a record now, at a speed > 0. The turns of an earlier record are dropped. */
+/* Begin a record now, at a speed > 0; drop an earlier record. */
 void wh_measure_record(const wh_measure_config *config, wh_measure *measure, wh_real speed_radps,
                        uint32_t now_ticks);
 

@@ -4,7 +4,7 @@
 #include "datasheet.h"
 #include "polar.h"
 
-/* After more than a turn without a pulse, both sensors have missed one. */
+/* After this angle without a pulse, both sensors have missed one. */
 #define MISSED_RAD (WH_R(1.06) * WH_RIG_TWO_PI)
 
 const wh_observer_config wh_observer_standard = WH_OBSERVER_STANDARD;
@@ -126,7 +126,7 @@ static void set_out(const wh_observer_config *config, wh_observer *observer, uns
     const wh_real time_s = wh_rig_way_s(observer->pulse_ticks, ticks);
     wh_real turned_rad = signed_rad(wh_phase_from_rad(config->pulse_rad[sensor]) -
                                     wh_phase_from_rad(config->pulse_rad[observer->pulse_sensor]));
-    if (!(turned_rad > WH_R(0.0))) { /* two pulses of one sensor are a whole turn apart */
+    if (!(turned_rad > WH_R(0.0))) { /* pulses of one sensor are a whole turn apart */
         turned_rad += WH_RIG_TWO_PI;
     }
     const wh_real speed_radps = turned_rad / time_s;

@@ -20,15 +20,14 @@
 WH_C_BEGIN
 
 typedef struct wh_observer_config {
-    /* a scene with one angle, its rate, and one input: motor voltage / rated voltage */
+    /* one angle, its rate, and one input: motor voltage / rated voltage */
     const wh_scene *scene;
-    wh_real stall_Nm; /* the scene's motor torque at standstill and input 1, > 0 */
-    /* the motor's speed without load at the rated voltage, > 0 */
-    wh_real no_load_radps;
-    /* Factors of the scene's input that gives this motor's torque: per_drive * drive + per_radps * speed. */
+    wh_real stall_Nm;      /* the scene's motor torque at standstill and input 1, > 0 */
+    wh_real no_load_radps; /* motor speed without load at the rated voltage, > 0 */
+    /* The scene's input with this motor's torque is per_drive * drive + per_radps * speed. */
     wh_real per_drive;
     wh_real per_radps;
-    /* True if the motor stage cannot brake: a voltage below the back-EMF then makes no torque. */
+    /* The motor stage cannot brake: a voltage below the back-EMF makes no torque. */
     bool freewheels;
     wh_real pulse_rad[WH_RIG_SENSORS]; /* angle of the arms at a pulse of each sensor, rad */
     /* Corrections at a pulse of each sensor. e is the innovation (rad), n the speed in turns per second: */
@@ -36,11 +35,11 @@ typedef struct wh_observer_config {
     wh_real speed_gain[WH_RIG_SENSORS];       /* speed += gain e n */
     wh_real torque_gain_kgm2[WH_RIG_SENSORS]; /* torque += gain e n^2, N m */
     wh_real torque_most_Nm;                   /* largest magnitude of the torque */
-    /* The observer becomes valid after trusted_pulses successive innovations of at most trusted_rad. */
+    /* The observer is valid after trusted_pulses successive innovations of at most trusted_rad, until a larger one. */
     wh_real trusted_rad;
-    uint32_t trusted_pulses; /* one innovation above trusted_rad makes the observer invalid */
-    wh_real lost_rad;        /* a larger innovation restarts the observer; < pi */
-    wh_real slowest_radps;   /* lowest speed at which the observer starts, > 0 */
+    uint32_t trusted_pulses;
+    wh_real lost_rad;      /* a larger innovation restarts the observer; < pi */
+    wh_real slowest_radps; /* lowest speed at which the observer starts, > 0 */
     wh_real fastest_radps;
     uint32_t silence_ticks; /* after this time without a pulse the state is unknown */
 } wh_observer_config;
@@ -53,9 +52,9 @@ typedef struct wh_observer {
     wh_state state;   /* the scene's state at the time `ticks` */
     uint64_t memory[(WH_MEMORY_BYTES(1, 2, 0) + 7U) / 8U];
     uint32_t ticks;
-    uint32_t step_ticks;    /* duration of one step of the scene */
-    wh_real torque_Nm;      /* the disturbance: torque on the rotor that the scene does not model */
-    wh_real innovation_rad; /* the rotor's angle minus the scene's, at the last pulse */
+    uint32_t step_ticks;     /* duration of one step of the scene */
+    wh_real torque_Nm;       /* disturbance: torque that the scene does not model */
+    wh_real innovation_rad;  /* the rotor's angle minus the scene's, at the last pulse */
     wh_real since_pulse_rad; /* angle turned since the last pulse */
     uint32_t pulse_ticks;    /* time of the last pulse, if had_pulse */
     unsigned pulse_sensor;
@@ -65,8 +64,8 @@ typedef struct wh_observer {
 /* The configuration for the rig of eccentric.whirl; the caller fills in the scene and pulse_rad. The gains were chosen
  * for rotors of half to six times the inertia, 30 % more or less gravity and 0.2 N m of friction between 80 and 400
  * rpm. Each turn multiplies the errors of angle, speed and torque by a matrix. Its spectral radius at a steady speed is
- * 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. While the arms are near the top, gravity
- * increases errors, mainly at low speed. The arms pass the top between sensor 2's pulse and sensor 1's. */
+ * 0.72 at 80 rpm, 0.65 at 100, 0.32 at 170, 0.59 at 330 and 0.64 at 400. Near the top, between the pulses of sensors 2
+ * and 1, gravity increases errors, mainly at low speed. */
 #define WH_OBSERVER_STANDARD \
     { \
         .stall_Nm = WH_RIG_STALL_NM, .no_load_radps = WH_RIG_NO_LOAD_RADPS, \
@@ -78,15 +77,14 @@ typedef struct wh_observer {
     }
 extern const wh_observer_config wh_observer_standard;
 
-/* Begin with an unknown state. Do not move *observer in memory after this call. Returns WH_OK; an error of
- * wh_scene_start(); or WH_E_ARGUMENT for a scene of another kind. The scene must have one angle of second order, one
- * input, no contacts, no compensated sums, and a step of whole microseconds. */
+/* Begin with an unknown state. Do not move *observer in memory after this call. The scene must have one angle of second
+ * order, one input, no contacts, no ledger, no compensated sums, and a step of whole microseconds; other scenes give
+ * WH_E_ARGUMENT. Other results are those of wh_scene_start(). */
 wh_status wh_observer_start(const wh_observer_config *config, wh_observer *observer,
                             uint32_t now_ticks);
 
-/* Advance to now_ticks, in whole steps of the scene. (wh_observer_phase() adds the remaining part of a step.) `drive`
- * is the motor's drive since the last call, as a fraction of the rated voltage. If a call is more than
- * WH_OBSERVER_STEPS_MOST steps late, the observer restarts. */
+/* Advance to now_ticks, in whole steps of the scene. `drive` is the motor's drive since the last call, as a fraction of
+ * the rated voltage. An observer that is WH_OBSERVER_STEPS_MOST steps or more behind restarts. */
 #define WH_OBSERVER_STEPS_MOST 8U
 /* Maximum number of steps in one call. After a delay, several calls catch up. */
 #define WH_OBSERVER_STEPS_AT_ONCE 2U
@@ -97,12 +95,11 @@ void wh_observer_step(const wh_observer_config *config, wh_observer *observer, u
 void wh_observer_pulse(const wh_observer_config *config, wh_observer *observer, unsigned sensor,
                        uint32_t ticks);
 
-/* Restart the observer. For a caller that knows that pulses were wrong. */
+/* Restart the observer, for example if pulses were wrong. */
 void wh_observer_forget(wh_observer *observer);
 
-/* Returns the angle at a time some milliseconds after the last step, extrapolated linearly: wh_observer_phase() as a
- * phase (angle.h), wh_observer_angle_rad() between -pi and pi rad. The error is within 3e-5 rad for 1 ms at 60 rad/s^2.
- * Valid if observer->valid. */
+/* Return the angle at a time some milliseconds after the last step, by linear extrapolation, as a phase (angle.h) or
+ * between -pi and pi rad. The error is within 3e-5 rad for 1 ms at 60 rad/s^2. Valid if observer->valid. */
 wh_phase wh_observer_phase(const wh_observer *observer, uint32_t ticks);
 wh_real wh_observer_angle_rad(const wh_observer *observer, uint32_t ticks);
 

@@ -36,8 +36,7 @@ wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint
     if (!wh_run_drives(run)) {
         return (wh_setpoint){.setpoint_radps = run->off_radps, .limit_radps = run->off_radps};
     }
-    /* Without load the motor's speed follows the voltage. After the control loop has closed, it follows the
-     * set-point. */
+    /* At first the speed without load follows the voltage, and soon after the loop has closed the set-point. */
     const wh_real unloaded = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;
@@ -53,19 +52,19 @@ wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps) {
     return speed_radps / config->no_load_radps * config->rated_V + config->drag_V;
 }
 
-/* Set-points that are too slow for gravity are used only after gravity compensation has begun. */
+/* A set-point that needs gravity compensation is used only while gravity is compensated. */
 static bool ramp(wh_run *run, const wh_run_scene *scene) {
     const bool allowed = wh_guard_allows(scene->guarding, run->target_radps, scene->compensated);
     run->drive.target_radps = allowed ? run->target_radps : scene->guarding->target_min_radps;
     if (wh_rig_is_over(run->since_ticks, scene->now_ticks, scene->config->ramp_max_s)) {
-        /* for example, because gravity compensation is impossible */
+        /* for example if gravity cannot be compensated */
         wh_guard_trip(scene->guard, WH_TRIP_UNSETTLED);
     }
     return allowed && wh_drive_at_target(&run->drive);
 }
 
-/* Maximum number of pulses during the tare. A hanging rotor's slot is at sensor 1, where jitter makes pulses. If sensor
- * 2 fires, or sensor 1 fires more often, the rotor is not hanging. */
+/* Maximum number of pulses of sensor 1 during the tare, from jitter: the slot of a hanging rotor is at this sensor.
+ * More pulses, or one of sensor 2, mean that the rotor does not hang. */
 #define TARE_PULSES_MOST 2U
 
 static void tare(wh_run *run, const wh_run_scene *scene) {
@@ -79,7 +78,7 @@ static void tare(wh_run *run, const wh_run_scene *scene) {
         return;
     }
     run->volts = scene->config->spin_up_V;
-    /* These pulses come from jitter at the slot of the hanging rotor, or are old. */
+    /* The pulses so far are old, or jitter at the slot of the hanging rotor. */
     wh_pulses_forget(scene->pulses);
     wh_guard_drives(scene->guard);
     wh_lockin_gap(&scene->measure->lockin);
@@ -97,7 +96,7 @@ static void spin_up(wh_run *run, const wh_run_scene *scene) {
     if (speed->known && speed->turn_radps >= config->take_over_radps) {
         wh_drive_start(&run->drive, speed->turn_radps, run->volts);
         run->closed_ticks = scene->now_ticks;
-        /* In the first turns the speed varies so much that the count of lost pulses is meaningless. */
+        /* The speed varies so much in the first turns that lost pulses cannot be counted. */
         scene->guard->lost_before = speed->lost;
         scene->guard->rejected_before = scene->pulses->rejected;
         enter(run, WH_PHASE_RAMP, scene->now_ticks);
@@ -124,7 +123,7 @@ static void settle(wh_run *run, const wh_run_scene *scene) {
     const wh_run_config *config = scene->config;
     const uint32_t now = scene->now_ticks;
     see_turn(run, &scene->pulses->speed);
-    /* The speed is in the band if one turn's speed is, or, if the pulses jitter, the mean of several turns. */
+    /* In the band: the last turn or, because pulses jitter, the mean of several turns. */
     const wh_real turn_off = WH_ABS(scene->pulses->speed.turn_radps - run->target_radps);
     const wh_real mean_off = WH_ABS(run->mean_radps - run->target_radps);
     if (turn_off > config->settle_band_radps &&
@@ -220,11 +219,11 @@ const char *wh_phase_text(wh_rig_phase phase) {
 
 /* === bounds on the speed and time of the next slot pulse ==================================== */
 
+/* Fractions of a turn by which a pulse may be early. */
 #define SETTLE_WINDOW WH_R(0.03)
-/* share of a turn by which a pulse may be early, except in settling and recording */
 #define RAMP_WINDOW WH_R(0.12)
-#define RECORD_PART WH_R(0.8) /* share of the record's speed band by which a pulse may be early */
-/* The bound for the first pulses from rest is this part of the commanded speed, because the rotor lags behind. */
+#define RECORD_PART WH_R(0.8) /* part of the record's speed band */
+/* From rest, the bound for the first pulses is this part of the commanded speed, because the rotor lags behind. */
 #define FIRST_PART WH_R(0.8)
 /* The last one or two pulses of a braked rotor come at less than this speed. */
 #define SLOW_RADPS WH_R(16.0)
@@ -242,8 +241,7 @@ void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *runn
         setpoint.jumps ? guard->climb_start_radps2
                        : wh_guard_climb_radps2(guard, setpoint.setpoint_radps - speed->turn_radps,
                                                wh_run_is_closed(run));
-    /* This bound falls with the rotor's speed and rises only with the commanded speed, so a runaway drive does not
-     * raise it. */
+    /* Falls with the rotor's speed and rises only with the commanded speed, so a runaway drive does not raise it. */
     run->left_radps = speed->known && speed->turn_radps < setpoint.limit_radps
                           ? speed->turn_radps
                           : setpoint.limit_radps;
@@ -258,7 +256,7 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (!pulses->speed.running) {
         return;
     }
-    /* This is also true if a suspect came between the last pulse and this one. */
+    /* true also with a suspect between the last pulse and this one */
     const bool same = sensor == pulses->last.pulse.sensor;
     const bool again = same && !pulses->suspects;
     const wh_real moved = same ? WH_RIG_TWO_PI : moved_rad[sensor];
@@ -271,9 +269,9 @@ void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned s
     if (again) {
         wh_pulses_forget(pulses);
     }
-    /* `slow` is set only while the motor brakes, because a rotor that swings freely passes the sensors to and fro, and
-     * its intervals are no speeds. It is set only at sensor 1: a rotor that does not get over the top falls a quarter
-     * turn back to sensor 0, which looks like three quarters forward. */
+    /* Only while the motor brakes: a rotor that swings freely passes the sensors to and fro, and its intervals are no
+     * speeds. Only at sensor 1: a rotor that does not get over the top falls a quarter turn back to sensor 0, which
+     * looks like three quarters forward. */
     pulses->slow =
         run->phase == WH_PHASE_OFF && brakes && sensor == 1U && run->off_radps < SLOW_RADPS;
 }

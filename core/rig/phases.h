@@ -1,6 +1,5 @@
-/* phases.h: a test run of the eccentric-mass rig, phase by phase. It repeats Almesallmy (2006), I.3.2.1 and I.3.3:
- * tare, spin up, hold 330 rpm, record the load cell at 500 samples per second and the slot pulses for 2 s, slow down,
- * stop. */
+/* phases.h: a test run of the eccentric-mass rig, as in Almesallmy (2006), I.3.2.1 and I.3.3. Its phases: tare, spin
+ * up, hold 330 rpm, record load cell (500 samples per second) and slot pulses for 2 s, slow down, stop. */
 #ifndef WH_RIG_PHASES_H
 #define WH_RIG_PHASES_H
 
@@ -26,49 +25,44 @@ typedef enum wh_rig_phase { WH_PHASE_ROWS(WH_PHASE_NAME) WH_PHASES } wh_rig_phas
 #undef WH_PHASE_NAME
 
 typedef struct wh_run_config {
-    wh_real step_s; /* duration of a control step */
+    wh_real step_s;
     wh_drive_config drive;
-    wh_real rated_V;         /* rated supply voltage of the rig */
-    wh_real no_load_radps;   /* the motor's speed without load at the rated supply */
+    wh_real rated_V;
+    wh_real no_load_radps;   /* motor speed without load at rated_V */
     wh_real drag_V;          /* approximate voltage that overcomes friction */
     wh_real spin_up_V;       /* first voltage of the spin-up */
-    wh_real spin_up_V_per_s; /* rate of rise of the spin-up voltage, up to rated_V */
-    wh_real take_over_radps; /* the control loop closes at this speed */
+    wh_real spin_up_V_per_s; /* rise of the spin-up voltage, up to rated_V */
+    wh_real take_over_radps; /* speed at which the control loop closes */
     wh_real spin_up_max_s;
     wh_real ramp_max_s;
-    /* Half-width of the band about the target in which the speed of a turn, or the mean of WH_RUN_TURNS turns, must
-     * stay. */
+    /* Half-width of the band about the target, for the speed of a turn or the mean of WH_RUN_TURNS. */
     wh_real settle_band_radps;
     wh_real settle_s;          /* time within the band */
-    wh_real settle_max_s;      /* longest time until the speed stays in the band */
-    wh_real short_max_s;       /* longest time with a supply too low for the set-point */
-    wh_real record_band_radps; /* half-width of the band for each turn's speed during the record */
-    /* the ramp down ends at this speed, or at the set-point if that is lower */
-    wh_real slow_radps;
+    wh_real settle_max_s;      /* longest time to settle */
+    wh_real short_max_s;       /* longest time with too low a supply */
+    wh_real record_band_radps; /* half-width of the band for each turn of the record */
+    wh_real slow_radps;        /* end of the ramp down, unless the set-point is lower */
 } wh_run_config;
 
 /* While the rig settles, the mean of this many whole-turn speeds is compared with the set-point. Two sensors give two
- * new speeds per turn. At 330 rpm with 120 us of jitter, single turns scatter by 0.31 rpm, the mean by 0.11 rpm. A
- * drift, or an oscillation slower than 1 Hz, changes the mean, too. */
+ * new speeds per turn. At 330 rpm with 120 us of jitter, single turns scatter by 0.31 rpm, the mean by 0.11 rpm. */
 #define WH_RUN_TURNS 4U
 
 typedef struct wh_run {
     wh_rig_phase phase;
-    uint32_t since_ticks;  /* time at which the phase began */
+    uint32_t since_ticks;  /* start of the phase */
     uint32_t band_ticks;   /* time at which the speed entered the band */
     uint32_t closed_ticks; /* time at which the loop was closed */
-    uint32_t ample_ticks;  /* time at which the supply became sufficient */
+    uint32_t ample_ticks;  /* last time at which the supply sufficed */
     wh_real target_radps;
     wh_real volts;     /* commanded mean voltage of the motor */
-    wh_real off_radps; /* upper bound on the speed while the motor is off, rad/s */
-    /* Motor on: upper bound, at the last pulse, on the speed. The rotor may be faster than a lowered set-point, because
-     * a motor stage that cannot brake slows it less quickly than the set-point falls. */
+    wh_real off_radps; /* upper bound on the speed while the motor is off */
+    /* Upper bound on the speed at the last pulse, motor on. It may exceed a lowered set-point: a motor stage that
+     * cannot brake slows the rotor less quickly than the set-point falls. */
     wh_real left_radps;
     uint32_t tare_pulses[WH_RIG_SENSORS];
-    /* Number of turns counted while the run settles and records. */
-    uint32_t turns;
-    /* number of accepted pulses when the last of these turns ended */
-    uint32_t turns_taken;
+    uint32_t turns;                   /* turns counted while the run settles and records */
+    uint32_t turns_taken;             /* accepted pulses when the last of these turns ended */
     wh_real turn_radps[WH_RUN_TURNS]; /* speeds of the last turns */
     wh_real mean_radps;               /* mean of turn_radps */
     wh_drive drive;
@@ -82,25 +76,23 @@ typedef struct wh_run_scene {
     wh_pulses *pulses;
     wh_measure *measure;
     wh_real supply_V;
-    bool compensated; /* gravity compensation is active, so lower set-points are possible */
-    bool busy;        /* this step has a pulse: a record neither begins nor ends in it */
+    bool compensated; /* gravity is compensated: lower set-points are allowed */
+    bool busy;        /* this step has a pulse, so a record neither begins nor ends in it */
     uint32_t now_ticks;
 } wh_run_scene;
 
-/* Begin a run to target_radps > 0. It begins with the tare. */
+/* Begin a run to target_radps > 0, with the tare. */
 void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
 /* Change the target, in any phase before WH_PHASE_RAMP_DOWN. A record in progress is dropped. */
 void wh_run_set(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
-/* Switch the motor off, from any phase: the phase becomes WH_PHASE_OFF. */
+/* Switch the motor off, from any phase. */
 void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks);
 
-/* Does one control step. Trips if a phase takes too long or meets an invalid condition. Returns true in the step in
- * which the record is finished and measured. */
+/* Does one control step, and trips if a phase fails. Returns true in the step in which the record is measured. */
 bool wh_run_step(wh_run *run, const wh_run_scene *scene);
 
-/* True if the motor drives. wh_run_is_closed(): true if the loop is closed. */
 WH_INLINE bool wh_run_drives(const wh_run *run) {
     return run->phase >= WH_PHASE_SPIN_UP && run->phase <= WH_PHASE_RAMP_DOWN;
 }
@@ -111,32 +103,29 @@ WH_INLINE bool wh_run_is_closed(const wh_run *run) {
 /* The rotor still accelerates for this time after the loop has closed. */
 #define WH_RUN_START_S WH_R(1.5)
 
-/* The set-point at the time of a pulse, for the guard. */
 typedef struct wh_setpoint {
     wh_real setpoint_radps;
-    wh_real limit_radps; /* upper bound on the actual speed, which may be above the set-point */
-    /* True if the set-point has just changed so much that the speeds of successive turns differ widely. */
-    bool jumps;
+    wh_real limit_radps; /* upper bound on the rotor's speed */
+    bool jumps;          /* the speeds of successive turns differ widely */
 } wh_setpoint;
 wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint32_t ticks);
 
 wh_real wh_run_needs_V(const wh_run_config *config, wh_real speed_radps);
 
-/* Returns the phase in words, for consoles, by wh_text_add(). The number WH_PHASES stands for a motor that is off and
- * brakes (wh_rig_shown_stage()). */
+/* Returns the phase in words (wh_text_add()). The number WH_PHASES stands for a motor that is off and brakes. */
 const char *wh_phase_text(wh_rig_phase phase);
 
 /* === bounds on the speed and time of the next slot pulse, from the drive's set-point ========= */
 
-/* Call this, with the motor on or off, before wh_pulses_take() for the pulse captured at `ticks`. It sets the pulse's
- * bounds and window, and the upper bound on the speed that remains from an earlier set-point. `open` is true if the
- * motor neither drives nor brakes: the bound then allows for a lighter rotor, whose speed gravity changes more. */
+/* Sets bounds and window of the pulse captured at `ticks`, and run->left_radps. Call it before wh_pulses_take(), with
+ * the motor on or off. `open`: the motor neither drives nor brakes, so the bound allows for a lighter rotor, whose
+ * speed gravity changes more. */
 void wh_pulse_window_set(const wh_guard_config *guard, const wh_run_config *running, wh_run *run,
                          wh_pulses *pulses, bool open, uint32_t ticks);
 
-/* Call this, with the motor off, before wh_pulses_take(). Since the last two pulses, only gravity can have made the
- * rotor faster. If a sensor fires twice in succession, the rotor swings in the slot or a pulse was missed: the speed is
- * then unknown. `brakes` is true if the motor brakes: only then pulses->slow is set. */
+/* Lowers run->off_radps to the speed since the last pulse. Call it before wh_pulses_take(), with the motor off. If a
+ * sensor fires twice in succession, the rotor swings in the slot or a pulse was missed: the speed is then unknown. If
+ * `brakes`, pulses->slow may be set. */
 void wh_pulse_window_off(wh_run *run, wh_pulses *pulses, bool brakes, unsigned sensor,
                          uint32_t ticks);
 

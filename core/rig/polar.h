@@ -15,13 +15,11 @@ WH_SHARED wh_wave wh_wave_at(wh_phase phase) {
 
 WH_SHARED wh_wave wh_wave_of(wh_real rad) { return wh_wave_at(wh_phase_from_rad(rad)); }
 
-/* These functions find radius and angle (-pi ... pi) with x = radius cos(angle), y = radius sin(angle), without square
- * root and arc tangent. Each round rotates the point by an angle, with the core's sine, until y vanishes. (0, 0) gives 0
- * and 0.
+/* Radius and angle (-pi ... pi) of the point (x, y), without square root and arc tangent. (0, 0) gives 0 and 0.
  *
- * The first function returns the initial angle. Then come WH_POLAR_ROUNDS rounds, together or one after the other. The
- * tangent t of the remaining angle is at most 1 at first. Each round reduces it to about t^5/5: four rounds are more
- * than enough. */
+ * wh_polar_begin() returns a first guess of the angle. Then come WH_POLAR_ROUNDS rounds of correction, in one call or
+ * several. The tangent t of the guess's error is at most 1. Each round reduces it to about t^5/5, so four rounds are
+ * more than enough. */
 #define WH_POLAR_ROUNDS 4U
 wh_real wh_polar_begin(wh_real x, wh_real y);
 void wh_polar_rounds(wh_real x, wh_real y, unsigned rounds, wh_real *radius, wh_real *angle_rad);

@@ -3,14 +3,14 @@
 
 #include "datasheet.h"
 
-#define TWICE_PART WH_R(0.5) /* within this share of a turn, a sensor sees the slot only once */
+#define TWICE_PART WH_R(0.5) /* within this part of a turn, a sensor sees the slot only once */
 #define ALERT_PART WH_R(0.005)
 #define CLIMB_PART WH_R(0.01)
 #define BOUNCE_PART WH_R(0.02)
-#define DOUBT 2U /* each false pulse adds this to `doubt` */
+#define DOUBT 2U
 /* If pulses->slow, one interval counts as two if its speed is above this multiple of bound_radps. */
 #define SUDDEN WH_R(1.6)
-#define SURE_PART WH_R(0.125) /* after this share of a turn no pulse can reject the last one */
+#define SURE_PART WH_R(0.125) /* after this part of a turn no pulse can reject the last one */
 
 void wh_pulses_start(wh_pulses *pulses, wh_real impossible_radps) {
     *pulses = (wh_pulses){.window = WH_R(1.0)};
@@ -26,8 +26,7 @@ static WH_CALLED wh_real turn_ticks(const wh_speed *speed) {
     return WH_RIG_TWO_PI / speed->turn_radps * (wh_real)WH_RIG_TICKS_PER_S;
 }
 
-/* Returns the ticks from a pulse to its predicted time: its sensor's last pulse plus the duration of a turn. Returns 0
- * if the prediction is unknown. */
+/* Returns the ticks from a pulse to its predicted time, a turn after its sensor's last pulse; 0 if unknown. */
 static wh_real early_ticks(const wh_speed *speed, const wh_pulse *pulse, wh_real turn) {
     if (!speed->known || !speed->seen[pulse->sensor] ||
         speed->quarter - speed->seen_quarter[pulse->sensor] > 3U) {
@@ -142,7 +141,7 @@ static void decide(wh_pulses *pulses, const wh_pulse *pulse) {
     }
 }
 
-/* True if the last pulse's sensor fires again within `part` of a turn of `turn` ticks. */
+/* True if the last pulse's sensor fires again within the fraction `part` of a turn of `turn` ticks. */
 static WH_CALLED bool soon_after(const wh_pulses *pulses, const wh_pulse *pulse, wh_real part,
                                  wh_real turn) {
     const wh_pulse *last = &pulses->last.pulse;
@@ -180,7 +179,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks) {
     }
     const wh_real early =
         pulses->speed.known ? early_ticks(&pulses->speed, &pulse, turn) / turn : WH_R(0.0);
-    /* After a short interval, or if the last pulse was early, the next pulse decides about the speed. */
+    /* A second short interval, or a second early pulse, is no disturbance. */
     const bool trusted =
         !pulses->speed.running || pulses->fast > 0 || pulses->alert || is_sudden(pulses, &after);
     pulses->alert = early > ALERT_PART;

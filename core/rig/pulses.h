@@ -32,33 +32,26 @@ typedef struct wh_index_pulse {
 typedef struct wh_pulses {
     bool suspects; /* `suspect` is set: the next pulse decides about it */
     bool waits;    /* the last pulse is not yet confirmed */
-    /* True if the last pulse was a little early. A second early pulse in succession is no disturbance. */
-    bool alert;
-    /* Set by the caller: the motor is off and the rotor almost rests. Then one interval far beyond the bound counts as
-     * two. */
+    bool alert;    /* the last pulse was a little early; a second one is no disturbance */
+    /* Set by the caller: motor off, rotor almost at rest. One interval far faster than the bound counts as two. */
     bool slow;
-    /* Set by the caller: limit on the speed between two pulses; 0: no limit. */
-    wh_real bound_radps;
-    wh_real window; /* set by the caller: share of a turn by which a pulse may be early */
-    /* Set by the caller: limit on the rise of the speed from turn to turn, rad/s per s. */
-    wh_real climb_radps2;
-    /* excess of the last turn's speed over the rise that climb_radps2 allows, or 0 */
+    wh_real bound_radps;  /* set by the caller: limit on the speed between two pulses, or 0 */
+    wh_real window;       /* set by the caller: fraction of a turn by which a pulse may be early */
+    wh_real climb_radps2; /* set by the caller: limit on the rise of the turns' speed */
+    /* excess of the last turn's speed over the rise by climb_radps2, or 0 */
     wh_real climb_radps;
     wh_real climb_before_radps; /* the same excess at the previous pulse */
     unsigned fast;              /* number of successive intervals with a speed above bound_radps */
-    /* Number of successive pulses of alternating sensors. It is 0 if the rotor swings. */
-    unsigned alternate;
-    /* Each doubtful pulse adds two, each expected one subtracts one. */
-    unsigned doubt;
-    uint32_t rejected; /* number of rejected pulses */
+    unsigned alternate; /* number of successive pulses of alternating sensors; 0 in a swing */
+    unsigned doubt;     /* false pulses (no bounces) add 2 each, expected ones subtract 1 */
+    uint32_t rejected;  /* number of rejected pulses */
     wh_pulse suspect;
     wh_index_pulse last; /* the last pulse */
     wh_speed speed;      /* speed from the accepted pulses */
     wh_speed before;     /* the speed before the last pulse was taken */
-    wh_speed suspected;  /* the speed if the suspect is true */
+    wh_speed suspected;  /* the speed if `suspect` is true */
     unsigned confirmed_count;
-    wh_index_pulse
-        confirmed[WH_PULSES_CONFIRMED]; /* confirmed pulses that the caller has not taken yet */
+    wh_index_pulse confirmed[WH_PULSES_CONFIRMED]; /* not yet taken by the caller */
 } wh_pulses;
 
 /* Begin with an unknown state. impossible_radps is that of wh_speed_start(). */
@@ -73,8 +66,7 @@ void wh_pulses_take(wh_pulses *pulses, unsigned sensor, uint32_t ticks);
 /* The slow part of wh_pulses_confirmed(), after its quick check. */
 bool wh_pulses_sure(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *index);
 
-/* Take the next pulse that is confirmed by now. Returns false if there is none. Call it in each control step until it
- * returns false. */
+/* Take the next confirmed pulse. Returns false if there is none. Call it in each step until it returns false. */
 WH_INLINE bool wh_pulses_confirmed(wh_pulses *pulses, uint32_t now_ticks, wh_index_pulse *index) {
     return (pulses->waits || pulses->confirmed_count > 0) &&
            wh_pulses_sure(pulses, now_ticks, index);

@@ -7,29 +7,29 @@
 #include "polar.h"
 
 #define PI WH_R(3.141592653589793)
-/* Largest part of gravity that may remain with compensation. If more remains, the compensation has a wrong angle or
- * size, and the torque on the arms is unknown. */
+/* Largest part of gravity that may remain with compensation. A larger one means a compensation with a wrong angle or
+ * size, and an unknown torque on the arms. */
 #define FED_LEFT_MOST WH_R(0.15)
 
-/* Tolerance of the speed ripple, in addition to the phase's error. The ripple has an error if the rotor's damping
- * differs from the configured one. The quadrature ratio transfers 1/sqrt(2) of this error to the phase. */
+/* Tolerance of the speed ripple, besides the phase's error, for a rotor whose damping differs from the configured one.
+ * The quadrature ratio transfers 1/sqrt(2) of the ripple's error to the phase. */
 #define SWING_OFF_RAD WH_R(0.01)
 
-/* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared). REPEATS_NOISE is for the
- * sum of eight squares (four harmonics), THIRD_NOISE for the two squares of the third harmonic. The third harmonic
- * contains the whole effect of a nonlinearity, or of a torque twice per turn. */
+/* Noise alone exceeds these multiples of its variance in one of 100,000 results (chi-squared): REPEATS_NOISE for the
+ * sum of eight squares (four harmonics), THIRD_NOISE for the two squares of the third harmonic. The third contains the
+ * whole effect of a nonlinearity, or of a torque twice per turn. */
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Repeating residual of a healthy rig in harmonics 3 to 6, as parts of the force (tests/host/test_repeats_truth.c). */
+/* Repeating residual of a healthy rig, as parts of the force (tests/host/test_repeats_truth.c). */
 #define REPEATS_LAG WH_R(0.4)    /* damping: times psi E^2 */
-#define REPEATS_ARROW WH_R(1.6)  /* an error of the speed ripple: times E and this error */
+#define REPEATS_ARROW WH_R(1.6)  /* times E and the error of the speed ripple */
 #define REPEATS_CUT WH_R(0.29)   /* a motor that cannot brake enough */
 #define REPEATS_TWICE WH_R(6.0)  /* the ripple of a carriage */
 #define REPEATS_CELL WH_R(1e-4)  /* nonlinearity of the cell */
 #define REPEATS_STEP WH_R(0.012) /* times the square of the angle between two samples */
 
-/* Repeating residual because of the pulses' jitter in one turn, as a part of the force per radian of jitter. */
+/* Repeating residual because of the pulses' jitter, as a part of the force, per radian of jitter in one turn. */
 #define REPEATS_JITTER WH_R(0.15)
 
 static wh_real square_of(wh_real x) { return x * x; }
@@ -55,8 +55,7 @@ static void add_jitter(wh_merge *merge, uint32_t before_ticks, uint32_t now_tick
     merge->jitters++;
 }
 
-/* If two used turns are successive, adds the second differences of the times of each sensor's pulses: the differences
- * between the durations of successive turns. */
+/* Adds the second differences of each sensor's pulse times: the differences of successive turns' durations. */
 static void add_pulses(wh_merge *merge, const wh_lockin_turn *turn) {
     const bool adjoins =
         merge->follows && merge->begin_ticks + merge->last_ticks == turn->begin_ticks;
@@ -77,7 +76,7 @@ static void add_pulses(wh_merge *merge, const wh_lockin_turn *turn) {
     merge->follows = true;
 }
 
-/* Moves a mean towards a value; `part` is the value's weight. */
+/* Updates a running mean; `part` is the weight of `value`. */
 static WH_CALLED void go_on(wh_real *mean, wh_real value, wh_real part) {
     *mean += part * (value - *mean);
 }
@@ -110,8 +109,8 @@ void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, 
 
     const wh_real turn_s = (wh_real)turn->turn_ticks / (wh_real)WH_RIG_TICKS_PER_S;
     const wh_real swing2 = angle->ripple_rad * angle->ripple_rad;
-    /* The expected force is S <w^2>, with the mean over the angle, which contains 3/2 of the square of the ripple. A
-     * term of twice the angle makes the speed vary by twice its amplitude. */
+    /* The expected force is S <w^2>. The mean over the angle contains 3/2 of the squared ripple. A term of twice the
+     * angle makes the speed vary by twice its amplitude. */
     const wh_real twice2 = WH_R(4.0) * square_of(angle->twice_rad);
     const wh_real expected = config->mount_factor * rotor->unbalance_kgm *
                              square_of(WH_RIG_TWO_PI / turn_s) *
@@ -139,20 +138,18 @@ void wh_merge_harmonic(wh_merge *merge, unsigned harmonic) {
     }
 }
 
-/* Returns the square of the phase's half-width because of the pulses' jitter, without the part that the scatter of the
- * turns shows. */
+/* Returns the phase's variance because of the pulses' jitter, without the part that the turns' scatter shows. */
 static wh_real pulses_rad2(const wh_merge *merge, const wh_turn_angle *angle, wh_real jitter_s) {
     const wh_real jitter2 = square_of(jitter_s * WH_RIG_TWO_PI / merge->turn_s);
     const wh_real turns = (wh_real)merge->turns;
-    /* A turn's phase has the mean error of its two pulses, so its variance is one half. The mean of n turns has one
-     * n-th of this variance. */
+    /* A turn's phase has the mean error of two pulses, so half their variance; the mean of n turns has 1/n of it. */
     const wh_real shared = WH_R(0.5) * jitter2 / turns;
     if (angle->ratios == 0) {
         return shared;
     }
-    /* The ratio follows from three pulses. If sensor 2 is at a quarter turn, their parts of the variance are 1, 9/16
-     * and 1/16, together 1.625. On average half of the turns in the estimate of the ratio are also among the merged
-     * turns, and have the same pulses. */
+    /* The ratio follows from three pulses. With sensor 2 at a quarter turn, their parts of the variance are 1, 9/16 and
+     * 1/16, together 1.625. On average half of the turns in the ratio's estimate are also merged, and have the same
+     * pulses. */
     const wh_real averaged =
         (wh_real)(angle->ratios < WH_TURN_ANGLE_PATIENCE ? angle->ratios : WH_TURN_ANGLE_PATIENCE);
     const wh_real follows = WH_ABS(angle->base_per_ratio);
@@ -199,7 +196,7 @@ WH_INLINE void jitter_of_pulses(const wh_merge *merge, wh_measured *measured) {
     }
 }
 
-/* Computes the scatter along the mean and across it, and stores it temporarily in the fields for the half-widths. */
+/* Computes the squared scatter along the mean and across it, stored temporarily in the half-widths. */
 WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
                                wh_measured *measured) {
     const wh_real x = merge->in_phase_N;
@@ -212,7 +209,6 @@ WH_INLINE void scatter_of_mean(const wh_merge *merge, wh_real size2, wh_real t2,
     measured->phase_half_rad = factor * (y * y * s[0] + both + x * x * s[2]);
 }
 
-/* Errors, other than the scatter, that affect both amplitude and phase. */
 typedef struct parts_off {
     wh_real third;
     wh_real lag;
@@ -226,8 +222,8 @@ WH_INLINE parts_off off_of(const wh_rotor_config *rotor, const wh_merge *merge,
     return (parts_off){
         .third = WH_R(0.125) * swing * swing * swing,
         .lag = WH_ABS(angle->base_per_lag) * rotor->damping_tolerance * angle->lag_rad,
-        /* A compensation at a wrong angle leaves a ripple a quarter turn after that of E. The quadrature ratio mistakes
-         * it for a change of E. */
+        /* A wrong angle of the compensation leaves a ripple a quarter turn after that of E. The quadrature ratio
+         * mistakes it for a change of E. */
         .quadrature =
             angle->compensated ? rotor->compensation_tolerance_rad * angle->whole_rad : WH_R(0.0),
         .cut = angle->cut * angle->cut};
@@ -293,10 +289,10 @@ void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *
     }
 }
 
-/* Returns the length of the difference between two speed ripples: one found from the load, one of the angle model. A
+/* Returns the length of the difference between the speed ripple found from the load and that of the angle model. A
  * ripple is a vector of size E in the direction psi - gamma. Over the rotor's angle, the second order of the force is
  * 3/2 E/(1 + 3/2 E^2) times its first order, in that direction. An error of the model's ripple also changes the model's
- * angle, with the weight 1/2. The sum of both weights is 2. Twice the phase of the first order is subtracted. So the
+ * angle, with the weight 1/2; the sum of the weights is 2. Twice the phase of the first order is subtracted, so the
  * result hardly depends on a delay, and not on the cell's gain. */
 static wh_real swing_off(const wh_rotor_config *rotor, const wh_merge *merge,
                          const wh_turn_angle *angle, const wh_measured *measured) {
@@ -321,8 +317,7 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
                          REPEATS_ARROW * swing * measured->ripple_off_rad +
                          REPEATS_CUT * angle->cut + REPEATS_TWICE * angle->twice_rad +
                          REPEATS_CELL + REPEATS_STEP * square_of(WH_RIG_TWO_PI * turns / samples);
-    /* A coefficient over N samples of variance s^2 has variance 2 s^2/N, and s^2 is half of the mean squared
-     * difference. */
+    /* A coefficient over N samples of variance s^2 has variance 2 s^2/N; s^2 is half the mean squared difference. */
     const wh_real noise_N2 = merge->repeats.changes_N2 / (samples * samples);
     const wh_real jitter = REPEATS_JITTER * measured->jitter_s * measured->speed_radps;
     return WH_SQRT(REPEATS_NOISE * noise_N2 +
@@ -330,7 +325,7 @@ static wh_real repeats_limit_N(const wh_merge *merge, const wh_turn_angle *angle
 }
 
 /* If the motor cannot brake enough, the residual does not show errors of the cell. So force and phase must agree with
- * the expected values within their intervals plus these errors of the expected values. */
+ * the expected values within their intervals, plus these errors of the expected values. */
 #define CUT_OFF WH_R(0.005)
 #define CUT_TURNED_RAD WH_R(0.01)
 
@@ -396,7 +391,7 @@ static wh_why reason(const wh_result_config *config, const wh_rotor_config *roto
     if (half > WH_R(0.05) * measured->amplitude_N) {
         return WH_WHY_WIDE;
     }
-    /* The configured calibration uncertainty does not matter here. */
+    /* the ripple's error hardly depends on the calibration */
     const wh_real floor_rad = floor_or(config->phase_floor_rad, WH_UNCALIBRATED_RAD);
     const wh_real seen_rad2 = square_of(measured->phase_half_rad) - square_of(floor_rad);
     const wh_real seen_rad = seen_rad2 > WH_R(0.0) ? WH_SQRT(seen_rad2) : WH_R(0.0);

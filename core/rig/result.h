@@ -7,13 +7,11 @@
  * pulse. The jitter follows from the second differences of the pulses' times.
  * - quadrature ratio (phase): the rotor's inertia, or the uncompensated part of gravity, is estimated from pulses with
  * the same jitter.
- * - angle: the error of the angle within the turn, if the rotor's damping is wrong by its tolerance, and the neglected
- * third order. With gravity compensation, also the effect of an error of the compensation's angle, and of a motor that
- * cannot brake as much as commanded. On a carriage (amplitude), also an error of the moving mass by its tolerance.
+ * - angle: the error of the angle within the turn because of the damping's tolerance and the neglected third order.
+ * With gravity compensation, also because of an error of the compensation's angle, and of a motor that cannot brake as
+ * much as commanded. On a carriage (amplitude), also because of the moving mass's tolerance.
  * - drift (phase): the angle is computed for a constant mean speed within a turn.
- * - floors: the configured calibration uncertainties; 0.5 % and 0.5 degrees before calibration.
- *
- * A result is good, or it is doubtful or refused for one of the reasons below. */
+ * - floors: the configured calibration uncertainties; 0.5 % and 0.5 degrees before calibration. */
 #ifndef WH_RIG_RESULT_H
 #define WH_RIG_RESULT_H
 
@@ -54,46 +52,43 @@ typedef enum wh_why { WH_WHY_ROWS(WH_WHY_NAME) WH_WHYS } wh_why;
 #undef WH_WHY_NAME
 
 typedef struct wh_result_config {
-    /* force divided by that on a fixed mount: 1, or 1/(1 + ratio) on a carriage */
-    wh_real mount_factor;
-    /* Calibration uncertainty of the amplitude, at 95 %, as a fraction of the force; 0: uncalibrated. */
+    wh_real mount_factor; /* force / force on a fixed mount: 1, or 1/(1 + ratio) on a carriage */
+    /* Calibration uncertainties at 95 %: a fraction of the force, and an angle. 0: uncalibrated. */
     wh_real amplitude_floor;
-    /* Calibration uncertainty of sensor positions and delays, at 95 %, in rad; 0: uncalibrated. */
     wh_real phase_floor_rad;
-    /* A force is doubtful if it differs from the expected one by more than this fraction. */
+    /* Limits, as fractions of the expected force or in rad: a result beyond a _wrong one is refused, else doubtful. */
     wh_real amplitude_off;
-    wh_real amplitude_wrong; /* a force that differs by more than this fraction is refused */
-    wh_real phase_off_rad;   /* a phase with a larger difference from 0 is doubtful */
+    wh_real amplitude_wrong;
+    wh_real phase_off_rad;
     wh_real phase_wrong_rad;
-    wh_real residual_large; /* a larger residual is doubtful; a fraction of the expected force */
-    wh_real mean_off;       /* a larger mean load is doubtful; a fraction of the expected force */
-    /* A larger error of the inertia is doubtful; a fraction of the configured inertia. */
-    wh_real inertia_off;
+    wh_real residual_large;
+    wh_real mean_off;
+    wh_real inertia_off; /* fraction of the configured inertia */
 } wh_result_config;
 
 /* The turns merged so far. All zeros: no turns. */
 typedef struct wh_merge {
-    bool follows; /* the last turn was used, so its differences to the next turn count */
+    bool follows; /* the last turn was used: differences to the next one count */
     bool second_follows;
     uint32_t turns;
     uint32_t left_out;
     uint32_t samples;
     uint32_t outliers;
-    uint32_t second_turns; /* number of turns in the mean at_pulse_N[1] */
+    uint32_t second_turns; /* turns in the mean at_pulse_N[1] */
     wh_real jitter_s2;     /* sum of squares of the second differences of the pulse times */
-    uint32_t jitters;      /* number of second differences in jitter_s2 */
-    uint32_t first_ticks;  /* duration of the first and of the last used turn */
+    uint32_t jitters;      /* second differences in jitter_s2 */
+    uint32_t first_ticks;  /* durations of the first and the last used turn */
     uint32_t last_ticks;
     uint32_t second_turn_ticks;
     uint32_t begin_ticks;
     uint32_t second_ticks;
-    wh_real repeats_N2; /* sum of the squared amplitudes of the harmonics evaluated so far */
+    wh_real repeats_N2; /* squared amplitudes of the harmonics evaluated so far */
     wh_real third_N2;   /* squared amplitude of the third harmonic */
     wh_repeats repeats;
     wh_real in_phase_N; /* means over the turns */
     wh_real quadrature_N;
     wh_real second_N[2]; /* components of the second order: cosine, sine */
-    /* sums of products of deviations from the means: in phase squared, in phase times quadrature, quadrature squared */
+    /* sums of products of deviations: in phase squared, in phase times quadrature, quadrature squared */
     wh_real scatter_N2[3];
     wh_real mean_N;
     wh_real residual_N2;
@@ -112,26 +107,24 @@ typedef struct wh_measured {
     uint32_t left_out;
     uint32_t outliers;
     wh_real speed_radps;
-    wh_real scatter_radps; /* standard deviation of the turns' speeds */
+    wh_real scatter_radps; /* standard deviation over turns */
     wh_real mean_N;        /* mean over time, minus the tare */
     wh_real amplitude_N;
     wh_real amplitude_half_N; /* half-width of the interval, 95 % */
     wh_real phase_rad;        /* -pi ... pi */
     wh_real phase_half_rad;
-    wh_real expected_N;      /* force amplitude expected from masses, speed and mount */
-    wh_real residual_N;      /* rms after orders 0 to 2 are subtracted */
-    wh_real repeats_N;       /* repeating residual: harmonics 3 to 6 together, or the third */
+    wh_real expected_N;      /* amplitude expected from masses, speed and mount */
+    wh_real residual_N;      /* rms after orders 0 to 2 */
+    wh_real repeats_N;       /* harmonics 3 to 6 of the repeating residual together, or the third */
     wh_real repeats_limit_N; /* limit from noise and a healthy rig */
-    wh_real jitter_s;        /* jitter of the pulses, standard deviation */
+    wh_real jitter_s;        /* standard deviation of the pulse times */
     wh_real inertia_kgm2;
-    /* Error of the speed ripple, as a vector, found from the load's second order. */
-    wh_real ripple_off_rad;
-    /* With gravity compensation: the uncompensated part of gravity, without its sign; otherwise 0. */
-    wh_real uncompensated_part;
-    wh_real at_pulse_N[2]; /* load at each sensor's pulse, minus the tare */
+    wh_real ripple_off_rad;     /* error of the ripple, as a vector, from the load's second order */
+    wh_real uncompensated_part; /* part of gravity, without its sign; 0 without compensation */
+    wh_real at_pulse_N[2];      /* load at each sensor's pulse, minus the tare */
 } wh_measured;
 
-/* Half-widths for 95 % before calibration, for a commercial load cell and sensors in their mounted positions. */
+/* Half-widths before calibration, for a commercial load cell and sensors in their nominal positions. */
 #define WH_UNCALIBRATED_PART WH_R(0.005)
 #define WH_UNCALIBRATED_RAD (WH_R(0.5) / WH_RIG_DEG_PER_RAD)
 
@@ -139,24 +132,21 @@ WH_INLINE bool wh_result_is_calibrated(const wh_result_config *config) {
     return config->amplitude_floor > WH_R(0.0) && config->phase_floor_rad > WH_R(0.0);
 }
 
-/* Add a turn. `angle` is the angle model with which the turn was evaluated. After an unusable turn, a new series of
- * successive turns begins. */
+/* Add a turn that was evaluated with `angle`. An unusable turn ends a series of successive turns. */
 void wh_merge_add(const wh_result_config *config, const wh_rotor_config *rotor, wh_merge *merge,
                   const wh_lockin_turn *turn, const wh_turn_angle *angle);
 
-/* Evaluate one harmonic of the repeating residual. Call it after the last turn, once for each harmonic from
- * WH_REPEATS_FIRST to WH_REPEATS_LAST. */
+/* Evaluate a harmonic of the repeating residual, WH_REPEATS_FIRST to WH_REPEATS_LAST, after the last turn. */
 void wh_merge_harmonic(wh_merge *merge, unsigned harmonic);
 
 #define WH_MERGE_MEAN_PIECES 6U
-/* Compute means and half-widths, in pieces; the half-widths are 0 with fewer than two turns. `tare_N` is subtracted.
- * Call each piece once, in order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last piece. */
+/* Compute means, minus tare_N, and half-widths (0 with fewer than two turns), in pieces. Call each piece once, in
+ * order: 0 to WH_MERGE_MEAN_PIECES - 1. *measured is incomplete until the last piece. */
 void wh_merge_mean_piece(const wh_result_config *config, const wh_rotor_config *rotor,
                          const wh_merge *merge, const wh_turn_angle *angle, wh_real tare_N,
                          wh_measured *measured, unsigned piece);
 
-/* After the last piece: evaluate the error of the speed ripple, the repeating residual, and the scatter of the
- * turns. */
+/* After the last piece: evaluate ripple error, repeating residual and scatter of the speed. */
 void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
                       const wh_turn_angle *angle, wh_measured *measured);
 
@@ -164,8 +154,7 @@ void wh_merge_compare(const wh_rotor_config *rotor, const wh_merge *merge,
 void wh_merge_judge(const wh_result_config *config, const wh_rotor_config *rotor,
                     const wh_merge *merge, const wh_turn_angle *angle, wh_measured *measured);
 
-/* Returns Student's factor, two-sided, for 95 %. The error is within 0.3 % for 2 or more degrees of freedom. Returns 0
- * if `freedom` is 0. */
+/* Returns Student's two-sided factor for 95 %, within 0.3 % for 2 or more degrees of freedom; 0 if `freedom` is 0. */
 wh_real wh_student(uint32_t freedom);
 
 const char *wh_why_text(wh_why why);

@@ -26,10 +26,9 @@ void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
     *rig = (wh_rig){.state = WH_RIG_IDLE};
     wh_pulses_start(&rig->pulses, config->impossible_radps);
     wh_guard_start(&rig->guard, now_ticks);
-    (void)wh_observer_start(&config->observer, &rig->observer,
-                            now_ticks); /* if this fails, the observer is never valid */
+    (void)wh_observer_start(&config->observer, &rig->observer, now_ticks);
     enter(rig, WH_RIG_IDLE, now_ticks);
-    /* the rotor's earlier speed is unknown */
+    /* the rotor's speed is unknown */
     rig->run.off_radps = config->guard.limit_radps;
     rig->run.since_ticks = now_ticks;
     if (before != NULL && before->trip != WH_TRIP_NONE) {
@@ -47,8 +46,8 @@ bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value) {
     return true;
 }
 
-/* True if the motor brakes. The enable stays on at 0 V until the pulses show that the rotor does not slow down, or
- * until the stop input is pressed. */
+/* True if the motor brakes: the enable stays on at 0 V until the pulses show that the rotor does not slow, or the stop
+ * input is pressed. */
 static bool brakes(const wh_rig *rig) {
     return rig->brakes && rig->run.phase == WH_PHASE_OFF && !rig->guard.off.released;
 }
@@ -95,8 +94,8 @@ void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32
 
 #define HEARD_TICKS (8U * WH_RIG_TICKS_PER_S)
 
-/* Finds the last four pulses, if their sensors alternate. way[] gets the ticks between the pulses, beginning with the
- * newest pair; *last gets the sensor of the newest pulse. */
+/* Returns true if the last four pulses are of alternating sensors. way[] gets the ticks between them, newest first;
+ * *last the sensor of the newest. */
 static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsigned *last) {
     *last = (int32_t)(rig->heard_ticks[1][0] - rig->heard_ticks[0][0]) > 0 ? 1U : 0U;
     const uint32_t *newest = rig->heard_ticks[*last];
@@ -112,13 +111,13 @@ static bool last_ways(const wh_rig *rig, uint32_t now_ticks, uint32_t *way, unsi
     return alternate;
 }
 
-/* Duration of a turn at 3,200 rpm. Even the fastest motor of the settings (2,000 rpm) turns slower at the highest
- * supply voltage. */
+/* Duration of a turn at 3,200 rpm. Even the fastest motor of the settings (2,000 rpm) is slower at the highest supply
+ * voltage. */
 #define STORM_TICKS 18750U
 
 /* True if the sensors' pulses come in the wrong order. From sensor 1 to sensor 2, the rotor takes a quarter turn
- * forwards, or three quarters backwards. The time from sensor 1 to sensor 2 must exceed the times before and after it,
- * because a starting rotor changes its speed. Pulses that are faster than any rotor show no direction. */
+ * forwards, or three quarters backwards. So the time from sensor 1 to sensor 2 must exceed the times before and after
+ * it; a single comparison could fail while the rotor speeds up. Pulses faster than any rotor show no direction. */
 static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     uint32_t way[3];
     unsigned last;
@@ -131,8 +130,8 @@ static bool order_is_wrong(const wh_rig *rig, uint32_t now_ticks) {
     return last == 1U ? way[0] > way[1] && way[2] > way[1] : way[1] > way[0] && way[1] > way[2];
 }
 
-/* While the rotor starts, the commanded voltage determines the bound on its speed. A fall of the bound shows only after
- * two more pulses, so they count as part of the start. */
+/* Added to WH_RUN_START_S, in which the commanded voltage bounds the speed: a fall of this bound shows only after two
+ * more pulses. */
 #define TWO_PULSES_S WH_R(0.5)
 
 static bool starts(const wh_rig *rig, uint32_t now_ticks) {
@@ -140,7 +139,7 @@ static bool starts(const wh_rig *rig, uint32_t now_ticks) {
            !wh_rig_is_over(rig->run.closed_ticks, now_ticks, WH_RUN_START_S + TWO_PULSES_S);
 }
 
-/* Returns the guard's trip, or its likely cause if known, in the step that trips. */
+/* Returns the guard's trip, or its likely cause if known. To be called in the step that trips. */
 static wh_trip cause_of(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_trip trip = rig->guard.trip;
     const bool of_pulses = trip == WH_TRIP_OVERSPEED || trip == WH_TRIP_PULSES ||
@@ -198,7 +197,7 @@ static wh_refusal may_turn(const wh_rig_config *config, const wh_rig *rig,
 }
 
 /* A trip can be cleared if no pulses come, the rotor rests and the trip's cause is gone. After a trip for unreliable
- * pulses, the rotor counts as at rest only after tripped_max_s. */
+ * pulses, the rotor counts as at rest only after rest_max_s. */
 static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
                             const wh_rig_inputs *inputs) {
     if (!rig->at_rest || !rig->guard.quiet) {
@@ -225,7 +224,6 @@ static wh_refusal may_clear(const wh_rig_config *config, const wh_rig *rig,
     return WH_ALLOWED;
 }
 
-/* Returns why an order is refused although the state allows it, or WH_ALLOWED. */
 static wh_refusal order_refused(const wh_rig_config *config, const wh_rig *rig,
                                 const wh_rig_inputs *inputs, const wh_rig_order *order) {
     switch (order->event) {
@@ -282,8 +280,7 @@ static void begin_run(const wh_rig_config *config, wh_rig *rig, wh_real target_r
     wh_run_start(&rig->run, target_radps, now_ticks);
 }
 
-/* Returns an upper bound on the present speed. The measured speed is that of the last turn, which is too old if the
- * rotor accelerates. */
+/* Returns an upper bound on the present speed. The last turn's speed is too old if the rotor accelerates. */
 static wh_real fastest_radps(const wh_rig_config *config, const wh_rig *rig, uint32_t now_ticks) {
     const wh_real turn_radps = rig->pulses.speed.turn_radps;
     const wh_real limit_radps =
@@ -307,7 +304,7 @@ static wh_rig_end stopped_by(const wh_rig_inputs *inputs, wh_rig_event event) {
     return WH_END_STOP_OR_FAULT;
 }
 
-/* Enters the state `next`, or enters the present state again. */
+/* Does what an allowed order asks for, and enters `next` if it is another state. */
 static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs,
                    const wh_rig_order *order, wh_rig_state next) {
     const uint32_t now = inputs->now_ticks;
@@ -320,7 +317,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
         break;
     case WH_EVENT_STOP:
     case WH_EVENT_HOST_LOST:
-        /* A stop never switches the enable on if it is off. */
+        /* A stop never switches the enable on. */
         rig->brakes = config->stop_brakes && (wh_run_drives(&rig->run) || brakes(rig));
         if (moves && rig->run.phase != WH_PHASE_OFF) {
             rig->ended = stopped_by(inputs, order->event);
@@ -340,7 +337,7 @@ static void follow(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs
     case WH_EVENT_EXPIRED: rig->run.phase = WH_PHASE_NONE; break;
     case WH_EVENT_CLEAR:
         rig->guard.trip = WH_TRIP_NONE;
-        /* After a reset, the record must not restore this trip. */
+        /* a reset must not restore this trip */
         rig->record = (wh_trip_record){.trip = WH_TRIP_NONE};
         break;
     case WH_EVENT_ARM: rig->pulses_before = rig->pulses_ever; break;
@@ -382,8 +379,7 @@ static void take_orders(const wh_rig_config *config, wh_rig *rig, const wh_rig_i
     rig->orders = 0;
 }
 
-/* At a low speed this angle limits the time without a pulse, because after two lost pulses the rotor has made nearly
- * two turns. */
+/* At a low speed this angle limits the time without a pulse: two lost pulses take nearly two turns. */
 #define SILENT_RAD WH_R(12.0)
 
 static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
@@ -395,7 +391,7 @@ static wh_real silence_s(const wh_rig_config *config, const wh_rig *rig) {
                                : SILENT_RAD / rig->run.drive.setpoint_radps;
 }
 
-/* With the motor off: clears the data that are no longer valid when the rotor is at rest. */
+/* With the motor off: clears data that are invalid when the rotor is at rest. */
 static void rest(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks) {
     wh_guard_quiet(&config->guard, &rig->guard, rig->pulses_ever, now_ticks);
     if (rig->guard.quiet) {
@@ -415,7 +411,7 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
     if (!drives) {
         rest(config, rig, inputs->now_ticks);
     }
-    /* With the motor off, a rotor of known speed cannot gain speed. */
+    /* With the motor off, a rotor of known speed cannot become faster. */
     const bool slows = !drives && rig->run.off_radps < config->guard.limit_radps;
     wh_guard_speed(&config->guard, guard, &rig->pulses,
                    !slows        ? WH_TRIP_OVERSPEED
@@ -438,15 +434,14 @@ static void watch(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs 
         wh_guard_trip(guard, WH_TRIP_SUPPLY);
     }
     if (!wh_guard_load_comes(&config->guard, guard, inputs->now_ticks)) {
-        guard->load_good = false; /* false until the next sample, because time stamps wrap */
+        guard->load_good = false; /* stays false until the next sample, because time stamps wrap */
         if (needed) {
             wh_guard_trip(guard, WH_TRIP_LOAD_CELL);
         }
     }
 }
 
-/* The pulse after a suspect takes as much computing time as two pulses. So the observer's work is postponed to the next
- * step. */
+/* The pulse after a suspect takes the time of two pulses, so the observer's work waits for the next step. */
 static bool postpones(const wh_rig *rig, uint32_t now_ticks) {
     return rig->decides && now_ticks - rig->observer.ticks < 2U * rig->observer.step_ticks;
 }
@@ -459,7 +454,7 @@ static void observe(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     wh_observer_step(&config->observer, &rig->observer, now_ticks,
                      rig->command.volts / config->run.rated_V);
     if (rig->observer.ticks - before_ticks > rig->observer.step_ticks) {
-        rig->loads++; /* counts as a sample, because two steps of the observer cost as much */
+        rig->loads++; /* two steps of the observer cost as much as a sample */
     }
     if (!rig->busy && rig->pulses.speed.taken != rig->observed) {
         rig->busy = true;
@@ -484,7 +479,7 @@ static wh_real compensation_V(const wh_rig_config *config, wh_rig *rig, uint32_t
                                                       config->run.step_s);
 }
 
-/* With the motor off: waits until no pulses come, which shows that the rotor is at rest. */
+/* Waits, with the motor off, until no pulses come, which shows that the rotor is at rest. */
 static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
     const bool tripped = rig->state == WH_RIG_TRIPPED;
     const wh_real passed_s =
@@ -507,7 +502,7 @@ static void wait_for_rest(const wh_rig_config *config, wh_rig *rig, const wh_rig
     }
 }
 
-/* Maximum number of pulses that jitter makes while the rig is armed. If there are more, a person turns the rotor. */
+/* Maximum number of pulses from jitter while the rig is armed. If there are more, a person turns the rotor. */
 #define ARMED_PULSES_MOST 2U
 
 static void step_run(const wh_rig_config *config, wh_rig *rig, const wh_rig_inputs *inputs) {
@@ -539,9 +534,9 @@ static void step_run(const wh_rig_config *config, wh_rig *rig, const wh_rig_inpu
     }
 }
 
-/* Returns the number of half nodes of a turn's sums for which this step has time. A late controller gets the samples
- * and observer steps of several steps at once, and none in the next step. If a pulse may be confirmed while the
- * observer runs, there is less time. */
+/* Returns the number of half nodes for which this step has time. A late controller gets the samples and observer steps
+ * of several steps at once, and none in the next step. There is less time if a pulse may be confirmed while the
+ * observer runs. */
 static unsigned halves(const wh_rig *rig) {
     if (WH_RIG_SMALL_PIECES) {
         return rig->loads == 0 ? WH_LOCKIN_HALVES_AT_ONCE : rig->loads == 1U ? 1U : 0U;
@@ -570,7 +565,7 @@ static void measure(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks
     rig->loads = 0;
 }
 
-/* Counts the result's age in seconds, because the timer would wrap. */
+/* Counts the result's age in seconds, because the timer wraps. */
 static void age(wh_rig *rig, uint32_t now_ticks) {
     if (now_ticks - rig->result_ticks >= WH_RIG_TICKS_PER_S) {
         rig->result_ticks += WH_RIG_TICKS_PER_S;
@@ -624,7 +619,7 @@ wh_rig_command wh_rig_step(const wh_rig_config *config, wh_rig *rig, const wh_ri
     const wh_rig_phase phase = rig->run.phase;
     follow_trip(config, rig, inputs);
     step_run(config, rig, inputs);
-    /* A trip makes the measurement's work useless, so the trip is handled first. */
+    /* first, because a trip makes the measurement's work useless */
     follow_trip(config, rig, inputs);
     if (rig->run.phase != phase) {
         rig->busy = true;
@@ -671,7 +666,7 @@ bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps) {
     if (!drives && rig->guard.quiet) {
         return true;
     }
-    /* speed.h cannot distinguish a rotor that slows down over the top from a gap: it keeps the old speed. */
+    /* speed.h takes a rotor that slows down over the top for a gap, and keeps the old speed. */
     if (!drives && last_ways(rig, now_ticks, way, &last)) {
         *speed_radps = WH_RIG_TWO_PI * (wh_real)WH_RIG_TICKS_PER_S / (wh_real)(way[0] + way[1]);
         return true;

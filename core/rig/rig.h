@@ -1,7 +1,5 @@
-/* rig.h: the eccentric-mass rig's controller, without hardware: life cycle, guard, test run, measurement.
- *
- * At a steady rate, the caller gives data to the controller and gets the motor's command. Nothing here waits or touches
- * hardware:
+/* rig.h: the eccentric-mass rig's controller, without hardware: life cycle, guard, test run, measurement. At a steady
+ * rate, the caller passes it data and gets the motor's command:
  *
  *     wh_rig_start(&config, &rig, now_ticks, NULL);
  *     every control step:
@@ -22,11 +20,11 @@ WH_C_BEGIN
 
 /* === the record of a trip, in bytes with the same layout on every processor =========== */
 
-/* The record of a trip. After a reset, wh_rig_start() restores the trip from it. */
+/* After a reset, wh_rig_start() restores the trip from this record. */
 typedef struct wh_trip_record {
     wh_trip trip;
     wh_rig_phase phase;
-    uint32_t ticks; /* time of the trip, on a timer that may have restarted in a reset */
+    uint32_t ticks; /* time of the trip, on a timer that a reset may have restarted */
     wh_real speed_radps;
     wh_real volts;
     wh_real supply_V;
@@ -36,20 +34,19 @@ typedef struct wh_trip_record {
 
 void wh_trip_record_put(const wh_trip_record *record, uint8_t *bytes);
 
-/* Read a record. Returns false if the bytes are no record: their number is wrong, or the trip or the phase is
- * unknown. */
+/* Read a record. Returns false if the number of bytes is wrong, or the trip or the phase is unknown. */
 bool wh_trip_record_get(wh_trip_record *record, const uint8_t *bytes, unsigned length);
 
 /* === a control step's inputs ================================================================= */
 
-/* The source of a stop request. EITHER: the drive stage's fault and the stop contacts share a line. */
+/* Source of a stop request. EITHER: the drive stage's fault and the stop contacts share a line. */
 typedef enum wh_stop_by { WH_STOP_BY_EITHER, WH_STOP_BY_INPUT, WH_STOP_BY_DRIVE } wh_stop_by;
 
 typedef struct wh_rig_inputs {
     uint32_t now_ticks;
     wh_real supply_V;
     bool stop_pressed;
-    wh_stop_by stop_by;     /* source of the stop, if there is one */
+    wh_stop_by stop_by;
     bool clock_is_fallback; /* the clock is too inaccurate to measure a speed */
     bool watchdog_has_cut;
 } wh_rig_inputs;
@@ -63,14 +60,14 @@ typedef struct wh_rig_order {
 
 #define WH_RIG_ORDERS_MOST 4U /* maximum number of orders between two control steps */
 
-/* When gravity is compensated. Compensation removes the ripple of the speed, and gravity's part of the load's peaks. */
+/* When gravity is compensated. This removes the ripple of the speed, and gravity's part of the load's peaks. */
 typedef enum wh_compensation_when {
     WH_COMPENSATION_NEVER,
     WH_COMPENSATION_SLOW, /* only for set-points that are too slow without compensation */
     WH_COMPENSATION_ALWAYS
 } wh_compensation_when;
 
-/* A small chip's build may set 0: observer.scene is then NULL, and gravity is never compensated. */
+/* A small chip's build may set 0: observer.scene is then NULL, and gravity never compensated. */
 #ifndef WH_RIG_FEEDS
 #define WH_RIG_FEEDS 1
 #endif
@@ -83,19 +80,17 @@ typedef struct wh_rig_config {
     wh_compensation_config compensation;
     wh_swing_config swing;
     wh_compensation_when feeds;
-    wh_real impossible_radps; /* see wh_speed_start() */
+    wh_real impossible_radps; /* for wh_speed_start() */
     wh_real armed_max_s;
-    wh_real tripped_max_s; /* longest time to come to rest after a trip */
-    wh_real rest_max_s;    /* longest time to come to rest with the motor off */
-    /* The motor brakes at a run's end and after `stop`. If false, it coasts, as it always does after a trip or the stop
-     * input. */
+    wh_real tripped_max_s; /* longest time to rest after a trip */
+    wh_real rest_max_s;    /* longest time to rest with the motor off */
+    /* The motor brakes at a run's end and after `stop`; otherwise, and after a trip or the stop input, it coasts. */
     bool stop_brakes;
-    /* A completed run always coasts, and the rotor's free swing gives the sensors' positions; `stop` may brake. */
+    /* A completed run coasts, and the free swing gives the sensors' positions; `stop` may brake. */
     bool swings;
-    /* A run ends if the host that gives the orders is lost. If false, the run goes on. */
-    bool host_loss_stops;
-    uint32_t host_max_s; /* the host counts as lost after this time without an order; 0: never */
-    uint32_t settings;   /* hash of the settings (core/station/conf.h); 0: no settings */
+    bool host_loss_stops; /* a run ends if the host that gives the orders is lost */
+    uint32_t host_max_s;  /* time without an order after which the host is lost; 0: none */
+    uint32_t settings;    /* hash of the settings (core/station/conf.h), or 0 */
 } wh_rig_config;
 
 typedef enum wh_motor_way { WH_MOTOR_COASTS, WH_MOTOR_BRAKES, WH_MOTOR_DRIVES } wh_motor_way;
@@ -105,60 +100,57 @@ typedef struct wh_rig_command {
     wh_real volts; /* mean voltage, 0 to the supply; 0 unless the motor drives */
 } wh_rig_command;
 
-/* Small members come first: some processors have short instructions that reach only the begin of a struct. */
+/* Small members come first: some processors have short instructions that reach only the start of a struct. */
 typedef struct wh_rig {
     wh_rig_state state;
     bool brakes; /* the motor brakes instead of coasting */
-    /* In this run the observer follows the rotor, and gravity is compensated as soon as the observer is valid. */
+    /* The observer follows the rotor in this run, and gravity is compensated as soon as the observer is valid. */
     bool compensated;
-    /* This step has a pulse to process: all other work waits for the next step. */
-    bool busy;
+    bool busy;    /* this step has processed a pulse: other work waits */
     bool decides; /* this step has a pulse that came after a suspect */
-    /* Number of samples since the last step. If more than one, the step has less time for other work. */
+    /* Samples since the last step. With more than one, the step has less time for other work. */
     uint8_t loads;
-    bool rested; /* the motor is off, and the rotor is at rest or the longest wait is over */
-    /* No pulses come; or, if pulses are unreliable, the longest wait is over. */
+    bool rested; /* motor off, and rotor at rest or the longest wait over */
+    /* No pulses come, and, if pulses are unreliable, the longest wait is over. */
     bool at_rest;
-    bool has_result;    /* the last run has a result: false from `start` to the record's end */
-    wh_rig_end ended;   /* how the last run ended */
-    wh_rig_event asked; /* the order that was processed last */
-    wh_refusal answer;  /* the answer to that order */
+    bool has_result; /* the last run has a result */
+    wh_rig_end ended;
+    wh_rig_event asked; /* the last processed order */
+    wh_refusal answer;  /* its answer */
     wh_run run;
     wh_guard guard;
-    uint32_t answers;     /* number of processed orders */
-    uint32_t since_ticks; /* time at which the state began */
-    uint32_t observed;    /* number of pulses processed by the observer */
+    uint32_t answers;     /* processed orders */
+    uint32_t since_ticks; /* start of the state */
+    uint32_t observed;    /* pulses processed by the observer */
     uint32_t pulses_ever;
-    uint32_t pulses_before; /* number of pulses before `arm` */
-    uint32_t runs;          /* number of starts since the reset */
-    uint32_t settings;      /* config->settings when the result was measured */
-    uint32_t result_s;      /* age of the result at the time result_ticks, in whole seconds */
-    uint32_t result_ticks;  /* time at which the age was result_s */
-    /* Times of each sensor's last two pulses, accepted or not. */
+    uint32_t pulses_before; /* pulses before `arm` */
+    uint32_t runs;          /* starts since the reset */
+    uint32_t settings;      /* config->settings at the result */
+    uint32_t result_s;      /* age of the result at result_ticks, whole seconds */
+    uint32_t result_ticks;
+    /* Times of each sensor's last two pulses, the newest first, accepted or not. */
     uint32_t heard_ticks[WH_RIG_SENSORS][2];
     wh_compensation compensation;
-    wh_rig_command command; /* command of the last step */
+    wh_rig_command command;
     wh_pulses pulses;
-    wh_trip_record record; /* record of the latched trip */
+    wh_trip_record record;
     unsigned orders;
     wh_rig_order order[WH_RIG_ORDERS_MOST];
     wh_observer observer;
-    wh_rig_result result; /* the last result, valid if has_result; stays until the next start */
+    wh_rig_result result; /* valid if has_result; stays until the next start */
     wh_swing swing;       /* swing.result: the last evaluated free swing */
     wh_measure measure;
 } wh_rig;
 
-/* The configuration for the rig of eccentric.whirl. measure.cell and the sensors' angles depend on the hardware: the
- * caller fills them in (wh_rig_slots() for the angles). observer.scene is rig_fixed, or NULL: then gravity is never
- * compensated. */
+/* The configuration for the rig of eccentric.whirl. The caller fills in what depends on the hardware: measure.cell and
+ * the sensors' angles (wh_rig_slots()). observer.scene is rig_fixed, or NULL: then gravity is never compensated. */
 extern const wh_rig_config wh_rig_standard;
 
-/* Returns the rig's stage as one number, for consoles and records: in a run WH_RIG_STAGE_OF_PHASE plus its phase,
- * otherwise the state. */
+/* Returns the rig's stage as one number: in a run WH_RIG_STAGE_OF_PHASE plus its phase, otherwise the state. */
 #define WH_RIG_STAGE_OF_PHASE 8U
 unsigned wh_rig_stage(const wh_rig *rig);
 
-/* Returns wh_rig_stage(), or WH_RIG_STAGE_BRAKES while the motor is off and brakes. For consoles and telemetry. */
+/* Returns wh_rig_stage(), or WH_RIG_STAGE_BRAKES while the motor is off and brakes, to be shown. */
 #define WH_RIG_STAGE_BRAKES (WH_RIG_STAGE_OF_PHASE + (unsigned)WH_PHASES)
 #define WH_RIG_STAGES (WH_RIG_STAGE_BRAKES + 1U)
 unsigned wh_rig_shown_stage(const wh_rig *rig);
@@ -166,47 +158,43 @@ unsigned wh_rig_shown_stage(const wh_rig *rig);
 const char *wh_rig_stage_text(unsigned stage);
 
 /* Sets *speed_radps to the mean speed of the last whole turn, or 0 at rest. Returns false if the speed is unknown:
- * before the first turn, or if the rotor swings (its pulses do not alternate). */
+ * before the first turn, or if the rotor swings. */
 bool wh_rig_speed(const wh_rig *rig, uint32_t now_ticks, wh_real *speed_radps);
 
 uint32_t wh_rig_result_age_s(const wh_rig *rig, uint32_t now_ticks);
 
-/* Set sensor 1 on the loading-train axis and sensor 2 a quarter turn later. A pulse comes when the arms are lead_rad
- * before the sensor. */
+/* Sensor 1 is on the loading-train axis, sensor 2 a quarter turn later. Their pulses come lead_rad earlier. */
 void wh_rig_slots(wh_rig_config *config, wh_real lead_rad);
 
-/* The torque line of a brushed motor; both numbers are > 0. */
+/* The torque line of a brushed motor; all numbers are > 0. */
 typedef struct wh_rig_motor {
-    wh_real stall_Nm;      /* torque at standstill and the rated voltage */
-    wh_real no_load_radps; /* speed without load at the rated voltage */
+    wh_real stall_Nm;      /* at the rated voltage */
+    wh_real no_load_radps; /* at the rated voltage */
     wh_real rated_V;
 } wh_rig_motor;
 
 /* Sets *motor to the motor for which the configuration is made. */
 void wh_rig_motor_of(const wh_rig_config *config, wh_rig_motor *motor);
 
-/* Scale everything that depends on the motor from the configuration's motor to this one: gains, spin-up, supply,
- * bounds of the guard, damping, gravity compensation. The observer's scene keeps the original motor, so call this
- * only once. */
+/* Scale the configuration to this motor: gains, spin-up, supply, bounds of the guard, damping, gravity compensation.
+ * The observer's scene keeps its motor, so call this only once. */
 void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor);
 
-/* Limit the speed between pulses to the speed without load at the highest supply voltage. Call it again after a change
- * of guard.supply_max_V. */
+/* Limit the speed between pulses to that without load at guard.supply_max_V; call it after a change of that. */
 void wh_rig_bound_pulses(wh_rig_config *config);
 
-/* Start in the idle state, motor off; the rotor may be moving. If `before` is the record of a trip, start tripped.
- * `before` may be NULL. */
+/* Start idle, motor off; the rotor may be moving. If `before`, which may be NULL, has a trip, start tripped. */
 void wh_rig_start(const wh_rig_config *config, wh_rig *rig, uint32_t now_ticks,
                   const wh_trip_record *before);
 
-/* Post an order for the next control step. Returns false if WH_RIG_ORDERS_MOST orders are waiting. After that step
- * rig->answer is the answer. */
+/* Post an order for the next control step, which sets rig->answer. Returns false if WH_RIG_ORDERS_MOST orders are
+ * waiting. */
 bool wh_rig_post(wh_rig *rig, wh_rig_event event, wh_real value);
 
-/* Take a slot pulse of sensor 0 or 1, captured at `ticks`. A pulse of another sensor only counts as rejected. */
+/* Take a slot pulse captured at `ticks`. A pulse of a sensor other than 0 and 1 only counts as rejected. */
 void wh_rig_pulse(const wh_rig_config *config, wh_rig *rig, unsigned sensor, uint32_t ticks);
 
-/* Take a load sample from the hardware: its counts, their time stamp `ticks`, and their status. */
+/* Take a load sample from the hardware, in counts, with its time stamp `ticks`. */
 void wh_rig_load(const wh_rig_config *config, wh_rig *rig, uint32_t ticks, int32_t raw,
                  wh_load_status status);
 
@@ -224,12 +212,11 @@ typedef struct wh_carriage {
     wh_real ratio;  /* m/M; 0: the carriage is too heavy to move */
 } wh_carriage;
 
-/* Change wh_rig_standard, or a copy with other cells and sensors, to the rig on that carriage. In a level plane gravity
- * has no effect, so observer and gravity compensation are off. */
+/* Change a copy of wh_rig_standard to the rig on that carriage. Without gravity, it needs no observer. */
 void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage);
 
-/* Returns the displacement amplitude of the carriage, m: F/(M <w^2>), with the cell's force F and the mean <w^2> of the
- * squared speed over the angle. 0 for a fixed mount. */
+/* Returns the displacement amplitude of the carriage, m; 0 for a fixed mount. It is F/(M <w^2>), with the cell's force
+ * F and the mean <w^2> of the squared speed over the angle. */
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
                                    const wh_measured *force);
 

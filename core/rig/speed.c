@@ -24,8 +24,7 @@ static void begin(wh_speed *speed, unsigned sensor) {
     speed->seen[1] = false;
 }
 
-/* Moves to the next position of this sensor: 1 or 3 quarters on, or a whole turn. Returns false if that would be too
- * fast. */
+/* Advances to the next position of this sensor: 1, 3 or 4 quarters on. Returns false if that would be too fast. */
 static bool go_on(wh_speed *speed, unsigned sensor, uint32_t ticks) {
     const uint32_t ahead = (sensor - speed->quarter) % QUARTERS;
     const uint32_t moved = ahead == 0 ? QUARTERS : ahead;

@@ -27,19 +27,19 @@ typedef struct wh_speed {
     uint32_t seen_quarter[WH_RIG_SENSORS];
 } wh_speed;
 
-/* Begin with an unknown speed. impossible_radps > 0: a pulse that would need a higher speed is rejected. */
+/* Begin with an unknown speed; impossible_radps > 0. */
 void wh_speed_start(wh_speed *speed, wh_real impossible_radps);
 
 /* Process a pulse of `sensor` (0 or 1) captured at `ticks`, in the order of time. Returns false if the pulse is
  * rejected, because it would need a speed above impossible_radps.
  *
- * One lost pulse is bridged. A pulse that is more than a quarter turn later than the speed predicts comes after a gap.
- * Two lost pulses are counted, and the measurement restarts. The last speed stays valid until another whole turn is
- * measured, or until the next gap shows that the speed was wrong. Sensors in the wrong order, or a rotor turning
+ * One lost pulse is bridged. A pulse that is more than a quarter turn later than the speed predicts ends a gap: two
+ * lost pulses are counted, and the measurement restarts. The last speed stays valid until another whole turn is
+ * measured, or until a second gap shows that the speed was wrong. Sensors in the wrong order, or a rotor turning
  * backwards, cause such a gap each turn. */
 bool wh_speed_pulse(wh_speed *speed, unsigned sensor, uint32_t ticks);
 
-/* Returns the seconds since the last accepted pulse; 0 without one. */
+/* Returns the seconds since the last accepted pulse, or 0 without one. */
 WH_INLINE wh_real wh_speed_silence_s(const wh_speed *speed, uint32_t now_ticks) {
     /* signed: a pulse's time stamp may be later than the time at which the step read the timer */
     const int32_t age_ticks = (int32_t)(now_ticks - speed->ticks);

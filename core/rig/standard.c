@@ -6,7 +6,7 @@
 
 /* The control loop. From voltage to mean speed, the rotor is a first-order lag of about 0.24 s with a gain of 60 rad/s
  * for 24 V. The measured speed of the last turn is some 0.15 s old. The zero of the PI controller cancels the lag. The
- * gain puts the crossover frequency at 2.5 rad/s, with 65 degrees of phase margin (docs/dev/rig.md). */
+ * gain gives a crossover frequency of 2.5 rad/s and 65 degrees of phase margin (docs/dev/rig.md). */
 const wh_rig_config wh_rig_standard = {
     .run = {.step_s = WH_R(0.002),
             .drive = {.proportional_V_per_radps = WH_R(0.24),
@@ -45,14 +45,14 @@ const wh_rig_config wh_rig_standard = {
               .rejected_max = 40,
               .silence_max_s = WH_R(0.5),
               .slow_silence_max_s = WH_R(2.0),
-              .load_silence_max_s = WH_R(0.02), /* duration of ten samples */
-              /* A tenth of the force of the masses. */
+              .load_silence_max_s = WH_R(0.02), /* ten samples */
+              /* a tenth of the force of the masses */
               .load_still_kgm = WH_R(0.1) * WH_RIG_UNBALANCE_KGM,
-              .stuck_pulses = 3, /* the first and the third pulse are a whole turn apart */
+              .stuck_pulses = 3, /* from the first to the third is a whole turn */
               .supply_min_V = WH_RIG_SUPPLY_LEAST * WH_RIG_RATED_V,
               .supply_max_V = WH_RIG_SUPPLY_MOST * WH_RIG_RATED_V,
               .rest_s = WH_R(1.5),
-              /* Half of the loss in a turn, 2 pi c/I, for six times the configured inertia. */
+              /* half of 2 pi c/I, for six times the configured inertia */
               .braked_radps =
                   WH_RIG_TWO_PI * WH_RIG_DAMPING_NMS / (WH_R(12.0) * WH_RIG_INERTIA_KGM2),
               .hand_radps = RPM(60.0)},
@@ -122,11 +122,11 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
     const wh_real per_torque = volts * before.stall_Nm / motor->stall_Nm;
     const wh_real damping_Nms = rotor->damping_Nms + motor->stall_Nm / motor->no_load_radps -
                                 before.stall_Nm / before.no_load_radps;
-    /* The loop keeps its crossover frequency, and its zero cancels the lag of this rotor. */
+    /* The loop keeps its crossover frequency, and its zero cancels this rotor's lag. */
     run->drive.proportional_V_per_radps *= per_torque;
     run->drive.integral_V_per_rad *= per_torque * damping_Nms / rotor->damping_Nms;
     run->drag_V *= per_torque;
-    /* Between standstill and take_over_radps, the torque shall nowhere be larger than with the original motor. */
+    /* Between standstill and take_over_radps, the torque must not exceed that of the original motor. */
     const wh_real over = run->take_over_radps;
     const wh_real at_rest =
         volts_for(motor, torque_at(&before, run->spin_up_V, WH_R(0.0)), WH_R(0.0));
@@ -141,8 +141,8 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
     observer->per_radps =
         WH_R(1.0) / observer->no_load_radps - observer->per_drive / motor->no_load_radps;
     observer->no_load_radps = motor->no_load_radps;
-    /* The motor stage gives no negative voltage. So it clips a compensation that exceeds the drive's own voltage, which
-     * with this motor may happen at higher speeds. */
+    /* The motor stage gives no negative voltage, so it clips a compensation that exceeds the drive's own voltage. With
+     * this motor that may happen at higher speeds. */
     config->compensation.most *= before.stall_Nm / motor->stall_Nm;
     const wh_real slowest = config->guard.target_min_compensated_radps * before.stall_Nm /
                             motor->stall_Nm * motor->no_load_radps / before.no_load_radps;
@@ -157,7 +157,7 @@ void wh_rig_use_motor(wh_rig_config *config, const wh_rig_motor *motor) {
 
 /* === on a carriage =========================================================================== */
 
-/* Tolerance of the rotor's inertia. It cannot be estimated here, because gravity does not act. */
+/* Tolerance of the rotor's inertia, which cannot be estimated without gravity. */
 #define YIELDS_TOLERANCE WH_R(0.1)
 
 void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage) {
@@ -177,7 +177,7 @@ void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage) {
 
 wh_real wh_carriage_displacement_m(const wh_rig_config *config, const wh_carriage *carriage,
                                    const wh_measured *force) {
-    /* S <w^2>, from which the expected force was computed. */
+    /* <w^2>, from the expected force */
     const wh_real square = force->expected_N / (config->measure.result.mount_factor *
                                                 config->measure.rotor.unbalance_kgm);
     return square > WH_R(0.0)

@@ -20,7 +20,7 @@ WH_C_BEGIN
     X(WH_RIG_STOPPING, "stopping") /* slowing down, or motor off and the rotor not yet at rest */ \
     X(WH_RIG_TRIPPED, "tripped")   /* motor off; latched until `clear` */
 
-/* X(name, words). The orders from outside come first, then the rig's own events. */
+/* Events: X(name, words). The orders from outside come first, then the rig's own events. */
 #define WH_EVENT_ROWS(X) \
     X(WH_EVENT_ARM, "arm") \
     X(WH_EVENT_START, "start")         /* value: set-point, rad/s */ \
@@ -55,7 +55,7 @@ WH_C_BEGIN
     X(WH_REFUSED_QUEUE, 16, "too many commands at once") \
     X(WH_REFUSED_EVENT, 17, "unknown command")
 
-/* The way in which the last run ended: X(name, words). Reset at the next start. */
+/* How the last run ended: X(name, words). Reset at the next start. */
 #define WH_END_ROWS(X) \
     X(WH_END_NONE, "none") /* no run since the reset, or a run in progress */ \
     X(WH_END_DONE, "done") /* the record is measured */ \
@@ -76,7 +76,7 @@ typedef enum wh_refusal { WH_REFUSAL_ROWS(WH_REFUSAL_NAME) WH_REFUSALS } wh_refu
 #undef WH_REFUSAL_NAME
 
 typedef struct wh_rig_transition {
-    wh_rig_state next;  /* the next state, if no other condition refuses the event */
+    wh_rig_state next;  /* unless another condition refuses the event */
     wh_refusal refusal; /* WH_ALLOWED, or the reason; `next` is then the present state */
 } wh_rig_transition;
 

@@ -6,8 +6,8 @@
 
 static wh_real square_of(wh_real x) { return x * x; }
 
-/* Returns sin(A/2) from the duration of half a swing divided by that of half a small swing. This ratio is 2/pi
- * K(sin(A/2)). The table has A = 0, 30, ... 120, 150, 165, 175 deg. */
+/* Returns sin(A/2) from the duration of half a swing divided by that of half a small swing, which is 2/pi K(sin(A/2)).
+ * The table has A = 0, 30, ... 120, 150, 165, 175 deg. */
 static wh_real sine_of_time(wh_real time) {
     static const wh_real times[] = {WH_R(1.0),    WH_R(1.0174), WH_R(1.0732), WH_R(1.1803),
                                     WH_R(1.3729), WH_R(1.7622), WH_R(2.1807), WH_R(2.8777)};
@@ -22,7 +22,7 @@ static wh_real sine_of_time(wh_real time) {
     return WH_R(1.0);
 }
 
-/* Returns sqrt(g) from the period of the last swings: the second shortest period, or the only one. */
+/* Returns sqrt(g) from the second shortest period of the last swings, or the only one. */
 static wh_real guess_root(const wh_swing *swing) {
     wh_real shortest_s = WH_R(100.0);
     wh_real second_s = WH_R(100.0);
@@ -36,12 +36,11 @@ static wh_real guess_root(const wh_swing *swing) {
             second_s = period_s;
         }
     }
-    /* After many swings the last ones are smaller, and their period is nearer to that of a small swing. */
+    /* After more swings the last ones are smaller, and their period is nearer to that of a small swing. */
     const wh_real longer = WH_R(1.0) + WH_R(0.1) / (wh_real)swing->passed;
     return longer * WH_RIG_TWO_PI / (count > 4U ? second_s : shortest_s);
 }
 
-/* Returns the index of sensor 1's next pulse, or swing->kept if there is none. */
 static WH_CALLED unsigned next_of(const wh_swing *swing, unsigned at) {
     unsigned next = at + 1U;
     while (next < swing->kept && swing->kept_sensor[next] != 0) {
@@ -50,8 +49,7 @@ static WH_CALLED unsigned next_of(const wh_swing *swing, unsigned at) {
     return next;
 }
 
-/* Returns the time from the first passage of the bottom to the next one, divided by the duration of half a small
- * swing. */
+/* Returns the time between the first two passages of the bottom, divided by the duration of half a small swing. */
 static wh_real first_time(const wh_swing *swing, wh_real root) {
     const unsigned next = next_of(swing, swing->first);
     const unsigned last = next < swing->kept ? next : swing->kept - 1U;
@@ -97,7 +95,7 @@ void wh_swing_guess(const wh_swing_config *config, wh_swing *swing) {
     }
     x[WH_FREE_RATE] = WH_R(-2.0) * root * sine;
     x[WH_FREE_GRAVITY] = gravity;
-    /* Each of the 2 passed + 1 quarter swings reduces the amplitude A by f/g. A is about 2.3 sin(A/2). */
+    /* Each of the (2 passed + 1) quarter swings reduces the amplitude A by f/g. A is about 2.3 sin(A/2). */
     x[WH_FREE_FRICTION] = gravity * WH_R(2.3) * sine / (wh_real)(2U * swing->passed + 1U);
     x[WH_FREE_DRAG] = WH_R(0.003) * gravity;
     swing->within[WH_FREE_Q] =

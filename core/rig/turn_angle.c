@@ -5,7 +5,7 @@
 #include "datasheet.h"
 #include "polar.h"
 
-/* Largest ripple E (turn_angle.h) for which its series is valid. With a larger E the rotor almost stops at the top. */
+/* Largest E for which the series in turn_angle.h is valid. With a larger E the rotor almost stops at the top. */
 #define SWING_MOST WH_R(0.35)
 
 /* Least derivative of the quadrature ratio with respect to E at which E is estimated. */
@@ -23,7 +23,7 @@ static wh_real small_arc(wh_real sine) {
     return sine * (WH_R(1.0) + WH_R(0.16666667) * sine * sine);
 }
 
-/* Returns the ripple's addition to base + phi at the angle u, from the sine and cosine of u. */
+/* Returns theta - base - phi at the angle u. */
 static wh_real added(const wh_turn_angle *angle, wh_wave u) {
     return angle->ripple_rad * u.sine + angle->second_sine * (WH_R(2.0) * u.sine * u.cosine) +
            angle->second_cosine * (WH_R(2.0) * u.cosine * u.cosine - WH_R(1.0));
@@ -62,9 +62,9 @@ static void add_carriage(const wh_rotor_config *config, wh_turn_angle *angle, wh
     angle->second_cosine -= angle->twice_rad * turned.sine;
 }
 
-/* Adds the effect of a motor that cannot brake as much as commanded. Where it would have to brake, a part of gravity's
- * torque remains: S g (-sin(theta - gamma) - k), if that is positive. k is the standstill torque at the drive's own
- * voltage, divided by S g. This torque's Fourier series has a term of twice the angle. */
+/* Adds the effect of a motor that cannot brake as much as commanded. A part of gravity's torque then remains: S g
+ * (-sin(theta - gamma) - k), if that is positive, with k the standstill torque at the drive's own voltage, divided by S
+ * g. The Fourier series of this torque has a term of twice the angle. */
 static void add_cut(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps) {
     const wh_real weight_Nm = config->unbalance_kgm * config->gravity_mps2;
     const wh_real held_Nm = angle->drive_V * angle->stall_Nm_per_V;
@@ -94,7 +94,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
     angle->ripple_rad = within(angle->part * angle->whole_rad, SWING_MOST);
     const wh_real sine = config->damping_Nms / sum;
     const wh_real square = sine * sine;
-    /* The arc sine by a series; below 0.5 its error is at most 1e-4. */
+    /* Arc sine by a series; below 0.5 its error is at most 1e-4. */
     angle->lag_rad =
         sine *
         (WH_R(1.0) + square * (WH_R(0.16666667) + square * (WH_R(0.075) + square * WH_R(0.0446))));
@@ -107,7 +107,7 @@ WH_INLINE void shape_swing(const wh_rotor_config *config, wh_turn_angle *angle,
 }
 
 WH_INLINE void shape_begin(const wh_rotor_config *config, wh_turn_angle *angle) {
-    /* At the begin of the turn, base plus the ripple's addition is the pulse's angle; u is then base + psi - gamma. */
+    /* Newton's method for theta = pulse_rad[0] at the start of the turn, with u = base + psi - gamma. */
     const wh_real begins = config->pulse_rad[0] + angle->lag_rad - config->gravity_rad;
     for (unsigned round = 0; round < 2U; round++) {
         const wh_wave u = wh_wave_of(angle->begin_rad);
@@ -139,7 +139,7 @@ void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *ang
 }
 #endif
 
-/* Returns the quadrature ratio, from the sines and cosines of u at the begin of the turn and at sensor 2's pulse. */
+/* Does wh_turn_angle_by_ratio(), given the sines and cosines of u at the start of the turn and at sensor 2's pulse. */
 WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, wh_real passed,
                            wh_wave from, wh_wave to) {
     const wh_real off = config->pulse_rad[1] - (angle->base_rad + passed + added(angle, to));
@@ -151,14 +151,14 @@ WH_INLINE wh_real ratio_by(const wh_rotor_config *config, wh_turn_angle *angle, 
     const wh_real cosine2 = WH_R(1.0) - sine * sine;
     const wh_real bends = WH_R(1.0) / (WH_R(1.0) + swing * from.cosine);
     const wh_real turns = to.cosine - from.cosine;
-    /* The derivative with respect to E includes that of psi, which depends on the inertia: d psi = tan psi dE / E. */
+    /* Includes the derivative of psi, which depends on the inertia: d psi = tan psi dE / E. */
     const wh_real lag_per_swing =
         angle->compensated ? WH_R(0.0) : sine / (WH_SQRT(cosine2) * swing);
     const wh_real begin_per_swing = (lag_per_swing - from.sine) * bends;
     const wh_real ratio_per_ripple = (to.sine - from.sine) + swing * turns * begin_per_swing;
     const wh_real base_per_swing = -from.sine - swing * from.cosine * begin_per_swing;
     if (!(WH_ABS(ratio_per_ripple) > SLOPE_LEAST)) {
-        /* If the rotor is light, psi reverses the ratio's dependence on the inertia. So Newton's method restarts from a
+        /* With a light rotor, psi reverses the ratio's dependence on the inertia. So Newton's method restarts from a
          * heavier rotor. If gravity acts along a diagonal, the ratio does not depend on the inertia. */
         if (!angle->compensated && WH_ABS(to.sine - from.sine) > WH_R(2.0) * SLOPE_LEAST) {
             angle->inertia_kgm2 *= WH_R(1.25);

@@ -5,29 +5,29 @@
  *
  *     theta = base + phi + E [sin u + (E/8) sin(2u - psi/2)]
  *
- * solves I theta'' = -S g sin(theta - gamma) + c (omega - theta') to the second order in E, where
+ * solves I theta'' = -S g sin(theta - gamma) + c (omega - theta') to the second order in E, with
  *
  *     E = S g / (omega sqrt(I^2 omega^2 + c^2))      sin psi = c / sqrt(I^2 omega^2 + c^2)
  *
- * S is the sum of mass times radius, gamma the direction of gravity, c the slope of the motor's torque line with the
- * bearings' drag, I the rotor's inertia. Without the ripple term (E = 0) the force has errors of 2.6 % and 2.0 degrees
- * at 170 rpm. I is estimated, not configured. The quadrature ratio, the part of a turn's time before sensor 2's pulse,
- * gives E and thus I. It does not show c, so c is assumed.
+ * S is the sum of mass times radius, gamma the direction of gravity, c the slope of the motor's torque line plus the
+ * bearings' drag, I the rotor's inertia. Without the ripple (E = 0) the force has errors of 2.6 % and 2.0 degrees at
+ * 170 rpm. E, and thus I, is estimated from the quadrature ratio: the fraction of a turn's time before sensor 2's
+ * pulse. The ratio does not show c, so c is configured.
  *
- * With gravity compensation (gravity_compensation.h) a part of gravity remains, of either sign, and E is reduced to
- * that part. The quadrature ratio then gives the part, and I stays at its last estimate. The motor's voltage cannot go
- * below 0, so the compensation cannot remove more torque than the drive's own voltage gives. If that is less than S g,
- * the compensation is clipped, and the remaining torque is no sine.
+ * Gravity compensation (gravity_compensation.h) leaves a part of gravity, of either sign, and reduces E to that part.
+ * The quadrature ratio then gives the part, and I stays at its last estimate. The motor's voltage cannot go below 0, so
+ * the compensation cannot remove more torque than the drive's own voltage gives. If that is less than S g, the
+ * compensation is clipped, and the remaining torque is no sine.
  *
- * A carriage of mass M moves along theta = 0. The arms have the mass m. The effective inertia of the arms is I - D
- * sin^2 theta, with D of at most S^2/(M + m). It is least when the arms are across the rail, so the arms speed up twice
- * a turn. To the first order theta has the further term
+ * A carriage of mass M moves along theta = 0. The arms have the mass m. Their effective inertia is I - D sin^2 theta,
+ * with D of at most S^2/(M + m). It is least when the arms are across the rail, so the arms speed up twice a turn. To
+ * the first order theta has the further term
  *
  *     -A sin(2 (base + phi) + lambda)     A = D/(8 J) cos lambda    tan lambda = c/(2 J omega)    J = I - D/2
  *
- * The sensors' pulses do not show this term: the user gives D and I. The arms must turn in a level plane, because
- * products of gravity's ripple with this term are neglected. On a carriage three times as heavy as the arms, the force
- * without this term is 0.9 % too large, and its phase error is 0.11 degrees. */
+ * The pulses do not show this term, so D and I are configured. The arms must turn in a level plane, because products of
+ * gravity's ripple with this term are neglected. On a carriage three times as heavy as the arms, the force without this
+ * term is 0.9 % too large, and its phase error is 0.11 degrees. */
 #ifndef WH_RIG_TURN_ANGLE_H
 #define WH_RIG_TURN_ANGLE_H
 
@@ -35,90 +35,83 @@
 
 WH_C_BEGIN
 
-/* 1 on a chip on which a float product takes 200 cycles. There the work of a control step is cut into smaller pieces.
- * The results are the same. */
+/* 1 on a chip with slow float products (200 cycles): cuts a control step's work into smaller pieces. */
 #ifndef WH_RIG_SMALL_PIECES
 #define WH_RIG_SMALL_PIECES 0
 #endif
 
 typedef struct wh_rotor_config {
-    wh_real unbalance_kgm;     /* S */
-    wh_real gravity_mps2;      /* gravity in the arms' plane; 0: the plane is level */
-    wh_real gravity_rad;       /* gamma: the angle theta at which the arms hang */
-    wh_real damping_Nms;       /* c */
-    wh_real damping_tolerance; /* relative error of c, at 95 % */
-    /* Error of the angle that the gravity compensation uses, rad, at 95 %. */
-    wh_real compensation_tolerance_rad;
-    wh_real inertia_kgm2;     /* inertia before the first estimate */
-    wh_real pulse_rad[2];     /* angle theta of the arms at a pulse of each sensor */
-    wh_real yields_kgm2;      /* D, only without gravity; 0: the mount is fixed */
-    wh_real yields_tolerance; /* relative error of D or I, at 95 % */
+    wh_real unbalance_kgm;              /* S */
+    wh_real gravity_mps2;               /* gravity in the arms' plane; 0: the plane is level */
+    wh_real gravity_rad;                /* gamma: the angle theta at which the arms hang */
+    wh_real damping_Nms;                /* c */
+    wh_real damping_tolerance;          /* relative error of c, at 95 % */
+    wh_real compensation_tolerance_rad; /* error of the compensation's angle, at 95 % */
+    wh_real inertia_kgm2;               /* inertia before the first estimate */
+    wh_real pulse_rad[2];               /* angle theta of the arms at a pulse of each sensor */
+    wh_real yields_kgm2;                /* D, only without gravity; 0: the mount is fixed */
+    wh_real yields_tolerance;           /* relative error of D or I, at 95 % */
 } wh_rotor_config;
 
-#define WH_TURN_ANGLE_PATIENCE 32U /* number of turns over which the inertia is averaged */
+#define WH_TURN_ANGLE_PATIENCE 32U /* turns over which the inertia is averaged */
 
 typedef struct wh_turn_angle {
-    wh_real inertia_kgm2; /* present estimate of the inertia */
+    wh_real inertia_kgm2; /* present estimate */
     bool compensated;
-    /* With gravity compensation: the motor's torque at standstill per volt. */
-    wh_real stall_Nm_per_V;
-    /* The drive's voltage without the compensation; the caller updates it. */
-    wh_real drive_V;
-    wh_real part;      /* estimated part of gravity that remains: 1 without compensation */
-    uint32_t ratios;   /* number of turns in the estimate of the inertia or of `part` */
-    wh_real whole_rad; /* E if gravity is not compensated */
+    wh_real stall_Nm_per_V; /* if compensated: motor torque at standstill per volt */
+    wh_real drive_V;        /* drive's voltage without the compensation, set by the caller */
+    wh_real part;           /* uncompensated part of gravity; 1 without compensation */
+    uint32_t ratios;        /* turns in the estimate of the inertia or of `part` */
+    wh_real whole_rad;      /* E if gravity is not compensated */
     /* Part of S g that the compensation cannot remove, because the motor's voltage cannot go below 0. */
     wh_real cut;
-    wh_real ripple_rad; /* E: ripple of the angle, rad */
+    wh_real ripple_rad; /* E */
     wh_real lag_rad;    /* psi */
-    wh_real begin_rad;  /* u at the begin of the turn */
+    wh_real begin_rad;  /* u at the start of the turn */
     wh_real base_rad;
     wh_real twice_rad;   /* A, rad */
-    wh_real second_sine; /* coefficients of sin 2u and cos 2u */
+    wh_real second_sine; /* coefficients of sin 2u and cos 2u in theta */
     wh_real second_cosine;
-    /* Derivative of base_rad with respect to the quadrature ratio, including its effect on psi. */
+    /* Derivative of base_rad with respect to the quadrature ratio, with its effect on psi. */
     wh_real base_per_ratio;
-    /* Derivative of base_rad with respect to psi, at a fixed quadrature ratio. */
-    wh_real base_per_lag;
-    /* Derivative of base_rad with respect to a ripple that comes a quarter turn after that of E. The estimate from the
-     * quadrature ratio cannot distinguish this ripple from E. */
+    wh_real base_per_lag; /* derivative with respect to psi, at a fixed ratio */
+    /* Derivative of base_rad with respect to a ripple a quarter turn after E's, which the ratio cannot distinguish. */
     wh_real base_per_quadrature;
 #if WH_RIG_SMALL_PIECES
-    wh_wave at_begin; /* sine and cosine of u at the begin of the turn and at sensor 2's pulse */
+    wh_wave at_begin; /* sine and cosine of u at the start and at sensor 2's pulse */
     wh_wave at_second;
 #endif
 } wh_turn_angle;
 
 void wh_turn_angle_start(const wh_rotor_config *config, wh_turn_angle *angle);
 
-/* Switches gravity compensation on or off in the model. After a change, gravity's remaining part is estimated again,
- * and the inertia stays. stall_Nm_per_V > 0 is the motor's torque at standstill per volt. */
+/* Switches gravity compensation on or off in the model. A change restarts the estimate of `part`, and the inertia
+ * stays. stall_Nm_per_V > 0 is the motor's torque at standstill per volt. */
 void wh_turn_angle_compensate(wh_turn_angle *angle, bool compensated, wh_real stall_Nm_per_V);
 
-/* Computes the angle's shape at a mean speed > 0, with the present estimate of the inertia. The work is bounded: each
- * call does one iteration for begin_rad, which converges over a few turns. */
+/* Computes the angle's shape at a mean speed > 0, with the present inertia. The work is bounded: each call does two
+ * iterations for begin_rad, which converges over a few turns. */
 void wh_turn_angle_shape(const wh_rotor_config *config, wh_turn_angle *angle, wh_real speed_radps);
 
 #if WH_RIG_SMALL_PIECES
-/* wh_turn_angle_shape() in pieces. Call each piece once, in order: 0 to WH_TURN_ANGLE_SHAPES - 1. */
+/* wh_turn_angle_shape() in pieces: call it for 0 to WH_TURN_ANGLE_SHAPES - 1, in order. */
 #define WH_TURN_ANGLE_SHAPES 3U
 void wh_turn_angle_shape_piece(const wh_rotor_config *config, wh_turn_angle *angle,
                                wh_real speed_radps, unsigned piece);
 #endif
 
-/* Corrects the inertia, or the remaining part of gravity, from the quadrature ratio `ratio` (0 to 1): the part of the
- * turn's time before sensor 2's pulse. The shape must be that of this turn's speed. Returns the error of the angle at
- * that pulse, rad. */
+/* Corrects the inertia, or `part`, from the quadrature ratio (0 to 1). The shape must be that of this turn's speed.
+ * Returns the error of the angle at sensor 2's pulse, rad. */
 wh_real wh_turn_angle_by_ratio(const wh_rotor_config *config, wh_turn_angle *angle, wh_real ratio);
 
 #if WH_RIG_SMALL_PIECES
-/* wh_turn_angle_by_ratio() in two pieces: the first computes the sines, the second corrects. */
+/* wh_turn_angle_by_ratio() in two pieces: sines, correction. */
 void wh_turn_angle_ratio_waves(wh_turn_angle *angle, wh_real ratio);
 wh_real wh_turn_angle_ratio_rest(const wh_rotor_config *config, wh_turn_angle *angle,
                                  wh_real ratio);
 #endif
 
-/* Returns theta at the share `part` (0 to 1) of the turn's time. */
+/* Returns theta at the fraction `part` (0 to 1) of the turn's time. */
 wh_real wh_turn_angle_at(const wh_turn_angle *angle, wh_real part);
 
 WH_C_END
