@@ -35,8 +35,7 @@ typedef struct wh_contact_work {
     /* 0, except in three cases:
      * - sliding friction: the error of the located rate, rad/s or m/s
      * - crossing that turned back: the distance beyond zero within which a passage is no second event
-     * - hold whose condition was zero within round-off when the trial step began: the negative values that still count
-     * as true */
+     * - hold whose condition was zero within round-off when the trial step began: a condition down to -slack is true */
     wh_real slack[WH_CONTACTS_MAX];
     /* Crossing that turned back: distance from zero beyond which the crossing has a sign again. */
     wh_real due[WH_CONTACTS_MAX];

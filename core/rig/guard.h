@@ -45,8 +45,8 @@ typedef struct wh_guard_config {
     /* Largest sum of wh_pulses.climb_radps and .climb_before_radps, as a fraction of the turn's speed. */
     wh_real climb;
     wh_real climb_start_radps2;  /* largest rise of the speed while the control loop takes over */
-    wh_real climb_behind_radps2; /* largest rise while the speed lags by behind_radps */
-    wh_real behind_radps;        /* speed below the set-point, for climb_behind_radps2 */
+    wh_real climb_behind_radps2; /* largest rise while the speed lags behind the set-point */
+    wh_real behind_radps;        /* least lag for climb_behind_radps2 */
     wh_real climb_there_radps2;  /* largest rise otherwise */
     wh_real fall_radps;         /* 2 sqrt(S g / I): speed at the bottom after a fall from the top */
     uint32_t lost_max;          /* number of pulses that may be lost in a run */

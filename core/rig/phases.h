@@ -41,7 +41,7 @@ typedef struct wh_run_config {
     wh_real settle_max_s;      /* longest time to settle */
     wh_real short_max_s;       /* longest time with too low a supply */
     wh_real record_band_radps; /* half-width of the band for each turn of the record */
-    wh_real slow_radps;        /* end of the ramp down, unless the set-point is lower */
+    wh_real slow_radps; /* speed at which the ramp down ends, unless the set-point is lower */
 } wh_run_config;
 
 /* While the rig settles, the mean of this many whole-turn speeds is compared with the set-point. Two sensors give two
@@ -87,7 +87,7 @@ void wh_run_start(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 /* Change the target, in any phase before WH_PHASE_RAMP_DOWN. A record in progress is dropped. */
 void wh_run_set(wh_run *run, wh_real target_radps, uint32_t now_ticks);
 
-/* Switch the motor off, from any phase. */
+/* Switch the motor off, from any phase. speed_radps is an upper bound on the speed. */
 void wh_run_off(wh_run *run, wh_real speed_radps, uint32_t now_ticks);
 
 /* Does one control step, and trips if a phase fails. Returns true in the step in which the record is measured. */

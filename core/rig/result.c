@@ -21,13 +21,13 @@
 #define REPEATS_NOISE WH_R(37.3)
 #define THIRD_NOISE WH_R(23.0)
 
-/* Repeating residual of a healthy rig, as parts of the force (tests/host/test_repeats_truth.c). */
-#define REPEATS_LAG WH_R(0.4)    /* damping: times psi E^2 */
-#define REPEATS_ARROW WH_R(1.6)  /* times E and the error of the speed ripple */
+/* Repeating residual of a healthy rig, as parts of the force (tests/host/test_repeats_truth.c): coefficients. */
+#define REPEATS_LAG WH_R(0.4)    /* damping, of psi E^2 */
+#define REPEATS_ARROW WH_R(1.6)  /* error of the speed ripple, of E times this error */
 #define REPEATS_CUT WH_R(0.29)   /* a motor that cannot brake enough */
 #define REPEATS_TWICE WH_R(6.0)  /* the ripple of a carriage */
 #define REPEATS_CELL WH_R(1e-4)  /* nonlinearity of the cell */
-#define REPEATS_STEP WH_R(0.012) /* times the square of the angle between two samples */
+#define REPEATS_STEP WH_R(0.012) /* of the square of the angle between two samples */
 
 /* Repeating residual because of the pulses' jitter, as a part of the force, per radian of jitter in one turn. */
 #define REPEATS_JITTER WH_R(0.15)

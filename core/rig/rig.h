@@ -212,7 +212,7 @@ typedef struct wh_carriage {
     wh_real ratio;  /* m/M; 0: the carriage is too heavy to move */
 } wh_carriage;
 
-/* Change a copy of wh_rig_standard to the rig on that carriage. Without gravity, it needs no observer. */
+/* Change a copy of wh_rig_standard to the rig on that carriage, without observer and gravity compensation. */
 void wh_carriage_mount(wh_rig_config *config, const wh_carriage *carriage);
 
 /* Returns the displacement amplitude of the carriage, m; 0 for a fixed mount. It is F/(M <w^2>), with the cell's force
