@@ -1,6 +1,5 @@
-/* board.h: the interface of every board, including the PC. Boards differ only in their implementation of this
- * interface. On bare metal the start-up code copies and clears memory, switches the FPU on, paints the stack and calls
- * main(); main()'s result goes to board_exit(). On the PC main() is called as usual. */
+/* board.h: the interface of every board, including the PC. On bare metal the start-up code initializes memory and FPU,
+ * and calls main(), whose result goes to board_exit(). */
 #ifndef BOARDS_BOARD_H
 #define BOARDS_BOARD_H
 
@@ -11,48 +10,41 @@
 
 WH_C_BEGIN
 
-/* Name of the board, as in boards/NAME; "host" on the PC. */
+/* The board's name, as in boards/NAME; "host" on the PC. */
 extern const char *const board_name;
 
-/* Start the console and the free-running clock. Call this once, before all other functions. */
+/* Starts the console and the free-running clock. Call this once, before all other functions. */
 void board_start(void);
 
-/* End the program with an exit code: 0 is success, 1 to 255 failure. Under an emulator the code becomes the emulator's
- * exit status. On silicon without a debugger the core stops in a loop. */
+/* Ends the program; 0 is success, 1 to 255 failure. Emulators exit with this code; silicon without a debugger stops. */
 #ifdef __cplusplus
 [[noreturn]] void board_exit(int code);
 #else
 _Noreturn void board_exit(int code);
 #endif
 
-/* A free-running clock: it counts up and wraps at 2^32. A difference of two readings in uint32_t is right if it is
- * below one wrap. board_ticks_per_s is constant. In an emulator the clock has the emulator's time: good for timeouts,
- * useless for measuring speed. */
+/* A free-running clock, which counts up and wraps at 2^32, and its constant rate. In an emulator it has the emulator's
+ * time: good for timeouts, useless for measuring speed. */
 uint32_t board_ticks(void);
 extern const uint32_t board_ticks_per_s;
 
-/* Wait until the clock reaches `ticks`, less than half of its range ahead. Returns at once if the clock is past
- * `ticks`. The PC sleeps meanwhile. */
+/* Waits until the clock reaches `ticks`, less than half of its range ahead. Returns at once if `ticks` has passed. */
 void board_wait_until(uint32_t ticks);
 
-/* Open the console for input (hal_console_read()): on the PC a pseudo-terminal, whose name is printed. If that fails,
- * prints the reason and returns false. On boards with a UART the console is already open. */
+/* Opens the console for input (hal_console_read()); on the PC a pseudo-terminal, whose name it prints. If that fails,
+ * prints the reason and returns false. */
 bool board_converse(void);
 
-/* The processor's own cycle counter, wrapping at 2^32. board_cycles_start() switches it on and returns true if there is
- * a counter. Chips with a Cortex-M3, M4, M7 or M33 have one (DWT's CYCCNT). The PC has none, and emulators do not model
- * cycles. Without a counter, board_cycles() is 0. */
+/* The processor's own cycle counter, wrapping at 2^32. board_cycles_start() switches it on and returns false if there
+ * is none: only a real Cortex-M3, M4, M7 or M33 has one (DWT's CYCCNT). board_cycles() is then 0. */
 bool board_cycles_start(void);
 uint32_t board_cycles(void);
 
-/* Returns the chip's identity: on the STM32F405 device and revision (DBGMCU_IDCODE), on other Cortex-M the core's
- * CPUID. 0: unknown. */
+/* Returns the chip's identity, or 0: DBGMCU_IDCODE on the STM32F405, CPUID on other Cortex-M. */
 uint32_t board_chip(void);
 
-/* The largest use of the stack. board_stack_paint() fills the presently unused part with a pattern (the start-up code
- * has done this once). board_stack_used_bytes() returns the number of bytes, from the top of the stack, that have been
- * overwritten since then. board_stack_size_bytes() returns the stack's size. Both return 0 on the PC, where the
- * operating system has the stack. */
+/* Use of the stack. board_stack_paint() fills the unused part with a pattern, as the start-up code has done;
+ * board_stack_used_bytes() returns how many bytes, from the top, were overwritten since. Both sizes are 0 on the PC. */
 void board_stack_paint(void);
 unsigned board_stack_used_bytes(void);
 unsigned board_stack_size_bytes(void);

@@ -1,8 +1,6 @@
-/* guard.c: stack guard on Armv8-M (Armv8-M Architecture Reference Manual, B3.21 and B10).
- *
- * It has two parts. The core refuses to move the stack pointer below MSPLIM, so an overflow faults before any store.
- * The memory protection unit protects the strip below the stack from stores through any pointer. The strip is
- * read-only: privileged code cannot be denied reading. */
+/* guard.c: stack guard on Armv8-M (Armv8-M Architecture Reference Manual, B3.21 and B10). The core refuses to move the
+ * stack pointer below MSPLIM, so an overflow faults before any store. The memory protection unit protects the guard
+ * strip from stores through any pointer; privileged code cannot be denied reading. */
 #include "boards/cortexm/cortexm.h"
 
 #define MPU_RNR 0xE000ED98U
@@ -20,12 +18,12 @@ void board_guard_stack(void) {
     if (((REGISTER(MPU_TYPE) >> 8) & 0xFFU) == 0) {
         return;
     }
-    REGISTER(MPU_MAIR0) = 0x44U; /* attribute 0 is normal memory, not cached */
+    REGISTER(MPU_MAIR0) = 0x44U; /* attribute 0: normal memory, not cached */
     REGISTER(MPU_RNR) = 0;
     REGISTER(MPU_RBAR) = strip | read_only_privileged | no_execute;
     REGISTER(MPU_RLAR) =
         ((strip + BOARD_STRIP_BYTES - 1U) & ~31U) | 1U; /* base of the last 32 bytes; attribute 0 */
-    /* The default map applies outside the regions. The unit is off inside fault handlers. */
+    /* the default map outside the region; unit off in fault handlers */
     REGISTER(MPU_CTRL) = 1U << 2 | 1U;
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }

@@ -1,5 +1,5 @@
 /* atmega.h: declarations shared by the drivers of the ATmega2560. "DS 17.3" is a section of its data sheet
- * (DS40002211A). The chip fixes the timers' pins. Their names on the chip and (in brackets) on an Arduino Mega are:
+ * (DS40002211A). The chip fixes the timers' pins; names in brackets are those of an Arduino Mega:
  *
  *     timer 1    PWM on OC1A, PB5 (D11); enable on PB6 (D12); stop on PB4 (D10)
  *     timer 2    starts the converter 5000 times a second: load cell on ADC0 (A0), supply on ADC1 (A1)
@@ -21,10 +21,10 @@
 #define ATMEGA_STOP_BIT PB4
 #define ATMEGA_CELL_INPUT 0U
 #define ATMEGA_SUPPLY_INPUT 1U
-/* The supply voltage that the divider at the supply's input reduces to the reference voltage. */
+/* supply voltage at which the supply's input has the reference voltage */
 #define ATMEGA_SUPPLY_FULL_mV UINT32_C(50000)
 
-/* Switch interrupts off until atmega_go_on(). Returns the interrupt state before the call. */
+/* Switches interrupts off until atmega_go_on(). Returns the interrupt state before the call. */
 static inline uint8_t atmega_hold(void) {
     const uint8_t before = SREG;
     cli();
@@ -32,20 +32,20 @@ static inline uint8_t atmega_hold(void) {
 }
 static inline void atmega_go_on(uint8_t before) { SREG = before; }
 
-/* Timers 4 and 5 always have the same count. A tick has two counts (time_base.c). */
+/* Timers 4 and 5 always have the same count (time_base.c). */
 #define ATMEGA_COUNTS_PER_TICK 2U
 void atmega_time_base_start(void);
 
-/* Returns the time now. Call it with interrupts off. */
+/* Call it with interrupts off. */
 uint32_t atmega_ticks(void);
 
-/* The time of an interrupt: a timer's count, and how often the timer has wrapped. Valid for 4 s after the interrupt. */
+/* The time of an interrupt: a timer's count, and its number of wraps so far. Valid for 4 s after the interrupt. */
 typedef struct atmega_instant {
     uint16_t count;
     uint8_t wraps;
 } atmega_instant;
 
-/* The lowest byte of the number of wraps so far, which interrupts count. */
+/* number of wraps so far, modulo 256 */
 extern volatile uint8_t atmega_wraps;
 
 /* Returns the time at which both timers showed `count`, less than half a wrap ago. Call it within an interrupt. */
@@ -54,7 +54,7 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
     /* read before the wrap's flag, so a wrap after this line does not matter */
     const uint16_t now = TCNT4;
     const bool pending = (TIFR4 & _BV(TOV4)) != 0;
-    if (count >= 0x8000U && now < 0x8000U) { /* `count` was reached before the last wrap */
+    if (count >= 0x8000U && now < 0x8000U) { /* `count` was before the last wrap */
         at.wraps = (uint8_t)(at.wraps - (pending ? 0U : 1U));
     } else if (pending && count < 0x8000U) {
         at.wraps++;
@@ -64,7 +64,7 @@ static inline atmega_instant atmega_instant_of(uint16_t count) {
 
 uint32_t atmega_ticks_of(atmega_instant at);
 
-/* Start the watchdog: it resets the chip after 2048 << twice clocks of its own oscillator (DS 12.5.2). The chip
+/* Starts the watchdog: it resets the chip after 2048 << twice clocks of its own oscillator (DS 12.5.2). The chip
  * requires the second store within four clocks of the first. */
 static inline void atmega_watch(uint8_t twice) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);
@@ -77,17 +77,17 @@ static inline void atmega_watch(uint8_t twice) {
     atmega_go_on(before);
 }
 
-/* ATMEGA_WHOLE divided by the supply's volts, measured with the last sample of the load (cell.c); 0: no supply. The
- * division is done with the sample, because some control steps have no time for it. */
+/* ATMEGA_WHOLE divided by the supply's volts (0: no supply), computed with each sample of the load (cell.c): some
+ * control steps have no time for a division. */
 #define ATMEGA_WHOLE 25600U
 float atmega_parts_per_V(void);
 
-/* Start the parts of the rig's hardware. hal_clock_start() calls these functions (rig_clock.c). */
+/* hal_clock_start() calls these functions (rig_clock.c). */
 void atmega_motor_start(void);
 void atmega_slots_start(void);
 void atmega_cell_start(void);
 
-/* Kinds of faults. The chip detects none in hardware. */
+/* Faults, which only software detects. */
 typedef enum atmega_fault_kind {
     ATMEGA_FAULT_NONE,
     ATMEGA_FAULT_STRAY,  /* an interrupt without a handler */
@@ -95,7 +95,7 @@ typedef enum atmega_fault_kind {
     ATMEGA_FAULT_RESTART /* the program restarted without a reset, because of a wild jump */
 } atmega_fault_kind;
 
-/* Switch the motor off, record the fault, reset. `at` is the byte address of the fault; 0: unknown. */
+/* Switches the motor off, records the fault, and resets. `at` is the byte address of the fault; 0: unknown. */
 _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at);
 
 typedef struct atmega_fault_record {
@@ -103,16 +103,16 @@ typedef struct atmega_fault_record {
     uint32_t at;
     uint32_t ticks;  /* time of the fault; the clock restarts at each start */
     uint32_t state;  /* last argument of hal_reset_mark() */
-    uint16_t faults; /* number of faults since power-on, including this one */
+    uint16_t faults; /* number of faults since power-on */
     uint16_t sum;
 } atmega_fault_record;
 
 void atmega_keep_fault(atmega_fault_kind kind, uint32_t at, uint32_t ticks);
 
-/* Read the record of a fault before this start; only the first call finds it. Returns false if there is no record. */
+/* Reads the record of a fault before this start. Returns false if there is none; a second call finds none. */
 bool atmega_take_fault(atmega_fault_record *record);
 
-/* Call this after a power-on: it drops the record and the remembered bytes, which are then random. */
+/* Drops the record and the remembered bytes, which are random after a power-on. */
 void atmega_forget(void);
 
 /* Returns MCUSR at the processor's start (DS 12.5.1); 0: no reset occurred. */

@@ -1,14 +1,12 @@
 /* cell.c: load cell and supply by the chip's 10-bit converter (DS 26).
  *
- * Timer 2 starts a conversion every 200 us: sixteen of the cell, then 24 of the supply, so a sample takes 8 ms. A
- * sample is the mean of the sixteen. Its time stamp is the middle of their times, so it has no delay. The mean makes a
- * force that rotates at 6 Hz 0.06 % too small. One count of the converter is 0.434 N. If the force changes by some
- * counts during the sixteen conversions, the error of their mean is 0.03 N. If the force is constant, the error is
- * below half a count, 0.22 N.
+ * Timer 2 starts a conversion every 200 us, sixteen of the cell, then 24 of the supply: 8 ms. A sample is the mean of
+ * the sixteen, with the time stamp of their middle, so it has no delay. Averaging makes a force that rotates at 6 Hz
+ * 0.06 % too small. One count of the converter is 0.434 N. The mean's error is 0.03 N if the force changes by some
+ * counts during the sixteen conversions, and below half a count, 0.22 N, if the force is constant.
  *
- * Without force, the amplifier's output is half of the reference, the chip's own supply. Near either end the amplifier
- * is saturated. If all of a sample's counts are near the lower end, a wire is broken: a resistor then pulls the pin
- * down, nearly to 0. */
+ * Without force, the amplifier's output is half of the reference, the chip's supply; near either end the amplifier is
+ * saturated. If all counts of a sample are near the lower end, a wire is broken: a resistor pulls the pin down. */
 #include "hal/loadcell.h"
 #include "hal/motor.h"
 
@@ -22,13 +20,12 @@ _Static_assert(ALL_TICKS *TICK_TICKS == HAL_LOADCELL_PERIOD_TICKS &&
                    ALL_TICKS >= CELL_TICKS + SUPPLY_TICKS && ALL_TICKS <= 255U,
                "a sample each period");
 
-/* Timer 2 counts once every 2 us. */
 #define TIMER_COUNT_TICKS 2U
 _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32nd");
 
-/* Time from the start of a conversion until the input is held: one and a half clocks of 125 kHz (DS 26.4). */
+/* From the start of a conversion until the input is held: one and a half clocks of 125 kHz (DS 26.4). */
 #define HELD_TICKS 12U
-/* Time from the middle of the sixteen conversions to the tick after the last one. */
+/* From the middle of the sixteen conversions to the tick after the last one. */
 #define BEHIND_TICKS (CELL_TICKS * TICK_TICKS / 2U + TICK_TICKS / 2U - HELD_TICKS)
 
 #define FULL 1023U
@@ -39,8 +36,7 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 /* clock divided by 128: 125 kHz */
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0))
 
-/* The supply is measured with each sample of the cell, not in each control step. The bit SUPPLY_BEYOND marks a sum that
- * contains a conversion at the converter's end. */
+/* Marks a sum of supply conversions that contains one at the converter's end. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_BEYOND 0x8000U
 #define SUPPLY_V_PER_COUNT ((float)ATMEGA_SUPPLY_FULL_mV / 1000.0f / 1024.0f)
@@ -52,7 +48,7 @@ _Static_assert(SUPPLY_TICKS *FULL < SUPPLY_BEYOND, "the sum leaves the bit alone
 #define SAMPLES_KEPT 4U /* a power of two */
 
 typedef struct cell_sample {
-    atmega_instant at; /* the tick at which the last conversion ended */
+    atmega_instant at; /* tick at which the last conversion ended */
     uint16_t sum;
     uint8_t status;
 } cell_sample;
@@ -64,7 +60,7 @@ static volatile uint16_t supply_sum;
 static float supply_V;
 static float parts_per_V;
 
-/* Number of ended conversions of the present sample, cell and supply. Only the interrupt uses it. */
+/* Ended conversions of cell and supply for the present sample. Only the interrupt uses these variables. */
 static uint8_t place;
 static uint16_t sum;
 static uint16_t supply;
@@ -90,8 +86,8 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* Stores a complete sample. It is a separate interrupt, because the ticks' interrupts then save fewer registers. TCNT2
- * has counted the time since the last tick. */
+/* Stores a sample. A separate interrupt, so that the ticks' interrupts save fewer registers. TCNT2 counts from the
+ * tick. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);
@@ -109,7 +105,7 @@ ISR(TIMER2_COMPB_vect) {
     saturated = false;
 }
 
-/* A tick of 200 us: the conversion that started at the previous tick has ended. */
+/* The conversion that started at the last tick has ended. */
 ISR(TIMER2_COMPA_vect) {
     const uint16_t count = ADC;
     uint8_t next = (uint8_t)(place + 1U);
@@ -150,7 +146,7 @@ static void renew_supply(void) {
     parts_per_V = counts > 0 ? (float)ATMEGA_WHOLE / supply_V : 0.0f;
 }
 
-/* The sum of sixteen counts of 10 bits has 14 bits. One unit of the sum is four counts of hal/loadcell.h. */
+/* A sample has 14 bits; one unit is four counts of hal/loadcell.h. */
 bool hal_loadcell_take(hal_load_sample *sample) {
     if (tail == head) {
         return false;

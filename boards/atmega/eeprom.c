@@ -1,5 +1,4 @@
-/* eeprom.c: settings in the chip's EEPROM (DS 8.6), two slots of 256 bytes. Each byte is erased and written by itself,
- * in 1.8 ms; bytes that already have the right value are skipped. A slot takes at most 0.46 s. */
+/* eeprom.c: settings in the EEPROM (DS 8.6). A changed byte takes 1.8 ms, a slot of 256 bytes at most 0.46 s. */
 #include "hal/settings.h"
 
 #include "atmega.h"
@@ -15,8 +14,7 @@ static uint16_t address_of(unsigned slot, unsigned at) {
     return (uint16_t)(FIRST + slot * HAL_SETTINGS_BYTES + at);
 }
 
-/* Waits until the EEPROM is idle; returns false if it stays busy. A byte takes less than 20 ms, at any speed of this
- * loop. */
+/* Returns false if the EEPROM stays busy: a byte takes less than 20 ms, at any speed of this loop. */
 static bool rests(void) {
     for (uint16_t i = 0; i < 60000U; i++) {
         if ((EECR & _BV(EEPE)) == 0) {
@@ -34,8 +32,7 @@ static uint8_t load(uint16_t address) {
     return byte;
 }
 
-/* Programs one byte. The chip requires the second store within four clocks of the first. Returns false if the byte that
- * is read back is wrong. */
+/* The chip requires the second store within four clocks of the first. Returns false if the byte reads back wrong. */
 static bool program(uint16_t address, uint8_t mode, uint8_t byte) {
     if (!rests()) {
         return false;

@@ -1,8 +1,6 @@
-/* fault.c: faults on a chip without fault hardware. The software detects three faults: an interrupt without a handler,
- * a stack that has reached the variables, and a restart without a reset. A restart follows a wild jump, because
- * execution of erased flash ends at address 0.
- *
- * The motor is switched off first: one instruction clears the enable's pin, without a register or the stack. */
+/* fault.c: faults on a chip without fault hardware. The software detects an interrupt without a handler, a stack that
+ * has reached the variables, and a restart without a reset. A restart follows a wild jump, because execution of erased
+ * flash ends at address 0. First one instruction clears the enable's pin, without a register or the stack. */
 #include "boards/board.h"
 #include "hal/motor.h"
 
@@ -11,17 +9,16 @@
 #define OFF "cbi 0x05, 6\n\t" /* clears the enable's bit of PORTB */
 _Static_assert(ATMEGA_ENABLE_BIT == 6, "the bit that OFF clears");
 
-/* The first piece of the start-up code, whether a reset preceded it or not. */
+/* The first piece of the start-up code. */
 __attribute__((naked, used, section(".init0"))) void atmega_off_first(void);
 __attribute__((naked, used, section(".init0"))) void atmega_off_first(void) {
     __asm__ volatile(OFF "cli");
 }
 
-/* MCUSR at the start, in memory that is not cleared: the start-up code clears variables after this value is stored. */
+/* MCUSR at the start, in memory that the start-up code does not clear afterwards. */
 __attribute__((section(".noinit"))) static volatile uint8_t flags;
 
-/* Stores and clears MCUSR. After a watchdog reset the watchdog keeps resetting, every 16 ms, until its flag is
- * cleared. */
+/* Stores and clears MCUSR: while its watchdog flag is set, the watchdog keeps resetting, every 16 ms. */
 __attribute__((used)) void atmega_see_reset(void);
 __attribute__((used)) void atmega_see_reset(void) {
     const uint8_t change = _BV(WDCE) | _BV(WDE);
@@ -41,7 +38,7 @@ __attribute__((naked, used, section(".init3"))) void atmega_first(void) {
 
 uint8_t atmega_reset_flags(void) { return flags; }
 
-/* Records the fault, and resets by the watchdog: software cannot request another kind of reset. */
+/* Resets by the watchdog: software cannot request another kind of reset. */
 _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at) {
     hal_motor_off(HAL_MOTOR_COAST);
     cli();
@@ -52,8 +49,7 @@ _Noreturn void atmega_fault(atmega_fault_kind kind, uint32_t at) {
     }
 }
 
-/* Handles an interrupt without a handler. `sp` points just below the return address, which has three bytes, the highest
- * first. */
+/* `sp` is just below the return address of three bytes, the highest first. */
 __attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp);
 __attribute__((used)) _Noreturn void atmega_stray(const uint8_t *sp) {
     const uint32_t words = (uint32_t)sp[1] << 16 | (uint16_t)((uint16_t)sp[2] << 8) | sp[3];

@@ -7,7 +7,7 @@
 
 BOARD_KEPT static atmega_fault_record fault;
 
-/* A sum suffices, because the record is read only after resets other than power-on. */
+/* 16 bits suffice, because the record is read only after resets other than power-on. */
 static uint16_t sum_of_fault(void) {
     return (uint16_t)(wh_frame_crc(BOARD_KEPT_CRC_START, &fault.kind,
                                    offsetof(atmega_fault_record, sum)));
@@ -44,7 +44,7 @@ bool atmega_take_fault(atmega_fault_record *record) {
     const bool there = fault_holds() && fault.kind != ATMEGA_FAULT_NONE;
     if (there) {
         *record = fault;
-        fault.kind = ATMEGA_FAULT_NONE; /* the count of faults is kept */
+        fault.kind = ATMEGA_FAULT_NONE; /* the count of faults stays */
         seal();
     }
     return there;

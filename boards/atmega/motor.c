@@ -1,8 +1,6 @@
 /* motor.c: the drive stage: timer 1 as a phase-correct PWM of 20 kHz on OC1A (DS 17.9.4), and the enable on a pin.
- * While the timer does not drive OC1A, its pin is low.
- *
- * The PWM has 400 steps; one step is 60 mV of 24 V. The quantization error of the voltage is added to the next control
- * step's voltage, so the mean is exact. */
+ * While the timer does not drive OC1A, its pin is low. The PWM has 400 steps of 60 mV at 24 V. The rounding error of
+ * the voltage is added to the next control step's voltage, so the mean is exact. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"
@@ -10,16 +8,15 @@
 #include "atmega.h"
 
 #define WHOLE 400U /* F_CPU/2 / 20 kHz */
-#define PARTS \
-    64U /* number of parts in a PWM step; the error that the next control step gets is counted in parts */
+#define PARTS 64U  /* number of parts in a PWM step; rounding errors are counted in parts */
 _Static_assert(WHOLE *PARTS == ATMEGA_WHOLE, "all of the supply");
 
 static volatile bool driving; /* an interrupt may clear it, too */
-static uint16_t carried;      /* the carried error, in parts of a step */
+static uint16_t carried;      /* rounding error for the next control step, in parts */
 
-/* Sets timer 1: OC1A low, duty 0, disconnected from its pin. OC1A keeps its level from the last disconnection, and only
- * a strobe in normal mode sets it (DS 17.7.1, 17.8). The pin is an input until then. In normal mode OCR1A takes effect
- * at once, too. ICR1 is set after the mode, because it is writable only in modes that use it as TOP (DS 17.6). */
+/* Sets timer 1: OC1A low, duty 0, disconnected from its pin, which is an input until then. OC1A has the level of the
+ * last disconnection, and only a strobe in normal mode sets it (DS 17.7.1, 17.8). In normal mode OCR1A takes effect at
+ * once, too. ICR1 is writable only in modes that use it as TOP (DS 17.6). */
 static void set_up_timer(void) {
     DDRB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
     TCCR1B = 0;
@@ -33,7 +30,7 @@ static void set_up_timer(void) {
     DDRB |= _BV(ATMEGA_PWM_BIT);
 }
 
-/* The levels of both pins are set to low before the pins become outputs. */
+/* Both pins are set low before they become outputs. */
 void atmega_motor_start(void) {
     PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
     PORTB &= (uint8_t)~_BV(ATMEGA_PWM_BIT);
@@ -44,7 +41,7 @@ void atmega_motor_start(void) {
     driving = false;
 }
 
-/* Returns the voltage in parts of a PWM step. NaN and a missing supply give 0. */
+/* Returns parts of a PWM step. NaN and a missing supply give 0. */
 static uint16_t parts_of(float volts) {
     const float parts = volts * atmega_parts_per_V();
     return !(parts > 0.0f) ? 0U : parts >= (float)ATMEGA_WHOLE ? WHOLE * PARTS : (uint16_t)parts;
@@ -52,12 +49,12 @@ static uint16_t parts_of(float volts) {
 
 unsigned hal_motor_start(void) {
     const unsigned status = hal_motor_status();
-    /* A hal_motor_off() in an interrupt waits until atmega_go_on(). */
+    /* a hal_motor_off() in an interrupt waits until atmega_go_on() */
     const uint8_t before = atmega_hold();
     if (!driving && (status & HAL_MOTOR_FAULT) == 0) {
         driving = true;
         carried = 0;
-        /* Set up again, because a hal_motor_off() may have interrupted a change of the timer. */
+        /* a hal_motor_off() may have interrupted a change of the timer */
         set_up_timer();
         PORTB |= _BV(ATMEGA_ENABLE_BIT);
         TCCR1A = _BV(COM1A1) | _BV(WGM11);
@@ -78,7 +75,7 @@ void hal_motor_set_voltage(float volts) {
     OCR1A = steps;
 }
 
-/* One instruction clears the enable first. A fault begins with the same action (fault.c). */
+/* The first instruction clears the enable, as after a fault (fault.c). */
 void hal_motor_off(hal_motor_off_way way) {
     if (way != HAL_MOTOR_BRAKE) {
         PORTB &= (uint8_t)~_BV(ATMEGA_ENABLE_BIT);
@@ -92,7 +89,7 @@ void hal_motor_off(hal_motor_off_way way) {
     carried = 0;
 }
 
-/* There is no bit for a cut, because only software can switch this motor off. */
+/* Never HAL_MOTOR_CUT, because only software can switch this motor off. */
 unsigned hal_motor_status(void) {
     return (hal_stop_pressed() ? HAL_MOTOR_FAULT : 0U) |
            (hal_motor_supply_V() > 0.0f ? 0U : HAL_MOTOR_NO_SUPPLY);

@@ -1,5 +1,4 @@
-/* rig_clock.c: the start of the rig's hardware, and the source of its clock. (boards/shared/rig_time.c has the time
- * itself.) */
+/* rig_clock.c: the start of the rig's hardware, and the source of its clock (boards/shared/rig_time.c). */
 #include "hal/clock.h"
 
 #include "boards/board.h"
@@ -8,7 +7,7 @@
 
 #include "atmega.h"
 
-/* Starts the motor's part first, so that the motor is off even if later parts fail. */
+/* The motor first, so that it is off even if later parts fail. */
 bool hal_clock_start(void) {
     atmega_motor_start();
     (void)hal_reset_cause();

@@ -1,10 +1,9 @@
 /* slots.c: the slot sensors on the input captures of timers 4 and 5, which store the time of an edge in hardware (DS
- * 17.6). Their noise canceller requires four equal samples, 0.25 us. They capture rising and falling edges alternately.
- * The interrupt only copies the times.
+ * 17.6), alternately of rising and falling edges. Their noise canceller requires four equal samples, 0.25 us.
  *
  * The chip does not report that a capture was overwritten before it was read. If several edges of one sensor come
- * within the latency of the interrupt, only the last is seen. If a pulse has ended by then, its end is missing.
- * Overruns count edges for which there was no room, and pulses that began too soon after the end of another pulse. */
+ * within the latency of the interrupt, only the last is seen; if a pulse has ended by then, its end is missing.
+ * Overruns count edges that found the memory full, and pulses that began too soon after the end of another pulse. */
 #include "hal/slots.h"
 
 #include "atmega.h"
@@ -58,24 +57,21 @@ static void keep(uint8_t of, uint16_t count) {
     head++;
 }
 
-/* True if the pin already has the level after the edge for which the timer waits: the edge came too early to be
- * captured. */
+/* True if the edge for which the timer waits has passed uncaptured: the pin has the level after it. */
 static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control,
                                  const volatile uint8_t *flags) {
     const bool high = (PINL & _BV(sensor)) != 0;
     return high == ((*control & _BV(ICES4)) != 0) && (*flags & _BV(ICF4)) == 0;
 }
 
-/* Makes the timer capture the other edge (falling instead of rising, or the reverse). This change may set the capture
- * flag (DS 17.6.3), so the flag is cleared. */
+/* Makes the timer capture the opposite edge. This may set the capture flag (DS 17.6.3), so the flag is cleared. */
 static inline void wait_for_other(volatile uint8_t *control, volatile uint8_t *flags) {
     *control ^= _BV(ICES4);
     *flags = _BV(ICF4);
 }
 
-/* Returns the edge that a sensor's timer has captured, as bits of kept_edge. Then the timer captures the other edge, or
- * the same one again if the other edge has already passed. During a burst still more edges may pass: hal_slots_take()
- * checks for this. */
+/* Returns the captured edge, as bits of kept_edge. Then the timer captures the opposite edge, or the same one again if
+ * the opposite one has passed. In a burst even more edges may pass: hal_slots_take() checks for this. */
 static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile uint8_t *flags) {
     const bool rose = (*control & _BV(ICES4)) != 0;
     wait_for_other(control, flags);
@@ -87,7 +83,7 @@ static inline uint8_t turn(uint8_t sensor, volatile uint8_t *control, volatile u
 }
 _Static_assert(ICES4 == ICES5 && ICF4 == ICF5 && PL0 == 0 && PL1 == 1, "one turn() for both");
 
-/* Stores the captured edges. If both sensors have one, the earlier edge comes first. */
+/* Stores the captured edges in the order of their times. */
 static void fetch(bool first, bool second) {
     const uint16_t first_count = ICR4;
     const uint16_t second_count = ICR5;
@@ -109,7 +105,7 @@ ISR(TIMER4_CAPT_vect) { fetch(true, (TIFR5 & _BV(ICF5)) != 0); }
 
 ISR(TIMER5_CAPT_vect) { fetch((TIFR4 & _BV(ICF4)) != 0, true); }
 
-/* Restarts the capture. The next edge of a pin that is low is a rising one. */
+/* Makes the timer of a pin that is low capture a rising edge. */
 static void go_on_waiting(void) {
     if ((TCCR4B & TCCR5B & _BV(ICES4)) != 0) {
         return;

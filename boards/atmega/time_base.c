@@ -1,6 +1,5 @@
-/* time_base.c: timers 4 and 5 as one free-running count of 2 MHz. With the number of overflows it becomes a time of 32
- * bits at 1 MHz. Both timers start at the same instant (DS 18.2: their prescaler is stopped), so their captures have
- * the same time base. */
+/* time_base.c: timers 4 and 5 as one free-running count of 2 MHz, extended to 32 bits at 1 MHz. Both start at the same
+ * instant (DS 18.2: their prescaler is stopped), so their captures have the same time base. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -10,7 +9,7 @@ _Static_assert(F_CPU / 8U == ATMEGA_COUNTS_PER_TICK * 1000000U, "the prescaler's
 
 #define TICKS_PER_WRAP (0x10000U / ATMEGA_COUNTS_PER_TICK)
 
-static volatile uint32_t base_ticks; /* time, in ticks, at which the count last wrapped */
+static volatile uint32_t base_ticks; /* time at which the count last wrapped */
 volatile uint8_t atmega_wraps;
 
 ISR(TIMER4_OVF_vect) {
@@ -18,8 +17,7 @@ ISR(TIMER4_OVF_vect) {
     atmega_wraps++;
 }
 
-/* Sets both timers: noise canceller on, rising edges, an eighth of the processor's clock, only the overflow
- * interrupt. */
+/* Sets both timers: noise canceller, rising edges, an eighth of the processor's clock, only the overflow interrupt. */
 void atmega_time_base_start(void) {
     GTCCR = _BV(TSM) | _BV(PSRSYNC);
     TCCR4A = 0;
@@ -36,7 +34,7 @@ void atmega_time_base_start(void) {
 uint32_t atmega_ticks(void) {
     const uint16_t now = TCNT4;
     uint32_t base = base_ticks;
-    /* the wrap has happened but is not counted yet */
+    /* the wrap is not counted yet */
     if ((TIFR4 & _BV(TOV4)) != 0 && now < 0x8000U) {
         base += TICKS_PER_WRAP;
     }
@@ -50,7 +48,7 @@ uint32_t board_ticks(void) {
     return ticks;
 }
 
-/* Converts an interrupt's time to ticks. The lowest bytes of both wrap counts give the number of wraps since then. */
+/* The difference of the wrap counts, modulo 256, is the number of wraps since then. */
 uint32_t atmega_ticks_of(atmega_instant at) {
     const uint8_t before = atmega_hold();
     const uint32_t base = base_ticks;

@@ -1,5 +1,5 @@
-/* usart.c: the console on USART 0, 115,200 baud at double speed (117,647: 2.1 % fast; DS 22.11), 8 bits, no parity.
- * Interrupts use a ring for each direction. After a fault, or before other parts have started, the console polls. */
+/* usart.c: the console on USART 0, 115,200 baud at double speed (117,647: 2.1 % fast; DS 22.11), 8 bits, no parity,
+ * with interrupts and a ring for each direction. After a fault, or before other parts have started, it polls. */
 #include "boards/board.h"
 
 #include "atmega.h"
@@ -7,8 +7,7 @@
 #define BAUD 115200UL
 #define BAUD_DIVISOR ((F_CPU + 4UL * BAUD) / (8UL * BAUD) - 1UL)
 
-/* Sizes of the rings: powers of two that divide 256, so that indices wrap correctly. At most 24 bytes come in a control
- * step of 2 ms. */
+/* Powers of two that divide 256, so that indices wrap correctly. At most 24 bytes come in a control step of 2 ms. */
 #define IN_BYTES 64U
 #define OUT_BYTES 64U
 
@@ -39,7 +38,7 @@ static void keep(char byte) {
     }
 }
 
-/* A zero replaces a damaged byte and bytes lost by an overrun or a full ring. A line with a zero is not executed. */
+/* A zero replaces a damaged byte, and bytes lost by an overrun or a full ring (hal/console.h). */
 ISR(USART0_RX_vect) {
     const uint8_t status = UCSR0A;
     const char byte = (char)UDR0;
@@ -82,8 +81,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* Waits until the transmitter is ready, which takes at most a byte's time, 87 us. The wait is bounded, so that a dead
- * device does not hang the program. */
+/* The wait takes at most a byte's time, 87 us. It is bounded, so that a dead device does not hang the program. */
 static void send(char byte) {
     for (uint16_t i = 0; i < 10000U && (UCSR0A & _BV(UDRE0)) == 0; i++) {
     }

@@ -1,15 +1,13 @@
-/* watchdog.c: the chip's watchdog (DS 12.4), which resets the chip. In a reset the pins float, so the drive is off. The
- * watchdog's oscillator has 128 kHz with an error of at most 15 %: a reset comes after the timeout, at the latest after
- * 2.4 timeouts. */
+/* watchdog.c: the chip's watchdog (DS 12.4) resets the chip; the pins then float, so the drive is off. Its oscillator
+ * has 128 kHz within 15 %, its periods double from 14 ms to 8 s: a reset comes after 1 to 2.7 timeouts. */
 #include "hal/watchdog.h"
 
 #include "atmega.h"
 #include "boards/avr/stack.h"
 
 #define SHORTEST_TICKS UINT32_C(13900) /* 2048 clocks of the fastest oscillator, 13.9 ms */
-#define LONGEST 9U                     /* largest number of doublings, to about 8 s */
+#define LONGEST 9U                     /* doublings, to about 8 s */
 
-/* Another call with another timeout is allowed. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint8_t twice = 0;
     while (twice < LONGEST && SHORTEST_TICKS << twice < timeout_ticks) {
@@ -18,7 +16,7 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     atmega_watch(twice);
 }
 
-/* This function also checks the stack, for which the chip has no hardware. */
+/* Also checks the stack, for which the chip has no hardware. */
 void hal_watchdog_kick(void) {
     if (!avr_stack_is_whole()) {
         atmega_fault(ATMEGA_FAULT_STACK, 0);
@@ -26,5 +24,5 @@ void hal_watchdog_kick(void) {
     __asm__ volatile("wdr");
 }
 
-/* This watchdog resets the chip instead of cutting the drive. */
+/* This watchdog resets the chip instead. */
 bool hal_watchdog_has_cut(void) { return false; }

@@ -1,5 +1,5 @@
-/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets): the first USART, and a
- * program's end that the emulator recognizes. The C library's start-up code has initialized the memory. */
+/* board.c: board.h on the AVR family (Microchip ATmega328P and ATmega2560 data sheets), with the first USART. The C
+ * library's start-up code initializes the memory. */
 #include "boards/board.h"
 
 #include <avr/interrupt.h>
@@ -20,7 +20,7 @@ void board_start(void) {
 }
 
 void hal_console_write(const char *bytes, unsigned count) {
-    /* the program must not hang silently if it omits board_start() */
+    /* otherwise a program without board_start() would hang here */
     if ((UCSR0B & _BV(TXEN0)) == 0) {
         board_start();
     }
@@ -49,8 +49,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
 
 bool board_converse(void) { return true; }
 
-/* Puts the exit code into the first general purpose I/O register and sleeps with interrupts off.
- * boards/avr/run/avr_run.c reads the code there. On silicon the processor only sleeps. */
+/* avr_run.c recognizes sleep with interrupts off as the end, and GPIOR0 as the exit status. Silicon only sleeps. */
 _Noreturn void board_exit(int code) {
     GPIOR0 = (uint8_t)code;
     cli();

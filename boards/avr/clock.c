@@ -1,6 +1,5 @@
-/* clock.c: the board's clock on the AVR's sixteen-bit timer; an interrupt counts the timer's overflows. Programs
- * without this clock do not link this file: they have no interrupt, so their steps always take the same number of
- * cycles. */
+/* clock.c: the board's clock on the AVR's 16-bit timer, with an interrupt that counts overflows. Programs without this
+ * clock do not link this file: their steps, without interrupts, always take the same number of cycles. */
 #include "boards/board.h"
 
 #include <avr/interrupt.h>
@@ -22,7 +21,7 @@ uint32_t board_ticks(void) {
     cli();
     uint16_t low = TCNT1;
     uint16_t high = overflows;
-    if ((TIFR1 & _BV(TOV1)) != 0) { /* the wrap has happened but is not counted yet */
+    if ((TIFR1 & _BV(TOV1)) != 0) { /* the wrap is not counted yet */
         low = TCNT1;
         high++;
     }

@@ -1,12 +1,11 @@
-/* stack.c: measures the used part of the stack on an AVR. The stack may use all memory between the variables and the
- * end of memory; no hardware guards it. */
+/* stack.c: measures the use of the stack on an AVR, which may use all memory after the variables, without a guard. */
 #include "stack.h"
 
 #include <avr/io.h>
 
 #include "boards/board.h"
 
-extern uint8_t _end[]; /* the variables' end, from the linker */
+extern uint8_t _end[]; /* end of the variables, from the linker */
 #define PAINT 0xA5U
 #define LOWEST 4U
 

@@ -1,5 +1,4 @@
-/* startup.c: calls main(), and ends the program with its result. The C library's start-up code would only stop the
- * processor when main() returns. */
+/* startup.c: calls main(), and ends the program with its result. The C library would stop the processor instead. */
 #include "boards/board.h"
 
 int main(void);

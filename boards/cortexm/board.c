@@ -15,7 +15,7 @@ void hal_console_write(const char *bytes, unsigned count) { uart_write(bytes, co
 
 bool board_converse(void) { return true; }
 
-/* Device and revision, if the chip has a register for it; otherwise the core's CPUID. */
+/* CPUID, if the chip has no register with device and revision */
 #ifndef BOARD_CHIP_ID
 #define BOARD_CHIP_ID 0xE000ED00U
 #endif

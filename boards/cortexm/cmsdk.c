@@ -1,5 +1,4 @@
-/* cmsdk.c: console and clock on Arm's CMSDK peripherals (Cortex-M System Design Kit Technical
- * Reference Manual, APB UART and APB timer), as on the MPS2 boards. */
+/* cmsdk.c: console and clock on Arm's CMSDK peripherals (Cortex-M System Design Kit Technical Reference Manual). */
 #include "cortexm.h"
 
 #include "boards/board.h"
@@ -23,8 +22,7 @@ void uart_start(void) {
     REGISTER(UART_CTRL) = UART_CTRL_TX_ENABLE | UART_CTRL_RX_ENABLE;
 }
 
-/* A program must not hang silently if it omits board_start(): the transmitter is never ready before it is switched
- * on. */
+/* Starts the device for a program without board_start(), which would hang otherwise. */
 void uart_write(const char *bytes, unsigned count) {
     if ((REGISTER(UART_CTRL) & UART_CTRL_TX_ENABLE) == 0) {
         uart_start();

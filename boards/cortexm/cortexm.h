@@ -1,5 +1,5 @@
-/* cortexm.h: declarations shared by the parts of the Cortex-M family. A board of the family is data only:
- * boards/NAME/board_data.h (registers), board.ld (memory) and board.mk (flags and source list). */
+/* cortexm.h: declarations shared by the Cortex-M family. A board is data only: boards/NAME/board_data.h (registers),
+ * board.ld (memory) and board.mk (flags and source list). */
 #ifndef BOARDS_CORTEXM_H
 #define BOARDS_CORTEXM_H
 
@@ -9,8 +9,7 @@
 #include "boards/shared/metal.h"
 #include "core/text.h"
 
-/* System control space, the same on every Armv7-M core (Armv7-M Architecture Reference Manual,
- * B3.2). Armv6-M lacks the FPU and the fault status registers. */
+/* System control space of every Armv7-M core (Armv7-M Architecture Reference Manual, B3.2). Armv6-M has less. */
 #define SCB_VTOR 0xE000ED08U  /* address of the vector table */
 #define SCB_AIRCR 0xE000ED0CU /* requests a reset */
 #define SCB_AIRCR_RESET 0x05FA0004U
@@ -23,17 +22,16 @@
 #define MPU_CTRL 0xE000ED94U
 #define SCB_CPACR 0xE000ED88U /* coprocessor access; the FPU is coprocessors 10 and 11 */
 
-/* Start the console's device. Another call is allowed at any time, also from the fault handler before other parts are
- * up. */
+/* Starts the console's device. May be called at any time, also again, and from the fault handler. */
 void uart_start(void);
 void uart_write(const char *bytes, unsigned count);
 
-/* Start the device of the free-running clock. */
+/* Starts the free-running clock. */
 void timer_start(void);
 
-/* Vectors that a program may handle by a function on_NAME(). A vector without such a function is a fault. X(exception,
- * NAME) lists the core's vectors. In board_data.h, BOARD_VECTOR_ROWS lists the vectors of the chip's drivers:
- * X(interrupt, NAME). The four fault vectors are reserved: the motor must be off before any other code runs. */
+/* Vectors that a program may handle by a function on_NAME(); otherwise they are faults. X(exception, NAME) lists the
+ * core's; BOARD_VECTOR_ROWS in board_data.h lists those of the chip's drivers, X(interrupt, NAME). The four fault
+ * vectors are reserved: the motor must be off before any other code runs. */
 #define CORTEXM_VECTOR_ROWS(X) \
     X(2, nmi) \
     X(11, svcall) \
@@ -45,16 +43,16 @@ CORTEXM_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 BOARD_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 #undef CORTEXM_DECLARE_VECTOR
 
-/* The handler of every exception that has no handler of its own. Never returns. First it makes the stores in the list
- * BOARD_SAFE_ROWS (board_data.h), X(address, value), which switch the board's outputs off. */
+/* Handles every other exception. Never returns. First it makes the stores X(address, value) of BOARD_SAFE_ROWS
+ * (board_data.h), which switch the board's outputs off. */
 void board_fault(void);
 
 typedef struct board_fault_facts {
-    uint32_t exception; /* number of the exception */
-    uint32_t sp;        /* stack pointer; if it was invalid, pc and lr are unknown */
+    uint32_t exception;
+    uint32_t sp; /* if it was invalid, pc and lr are unknown */
     uint32_t pc;
     uint32_t lr;
-    uint32_t cfsr; /* copy of SCB_CFSR */
+    uint32_t cfsr;
     uint32_t hfsr;
     uint32_t address; /* address that did not respond, if cfsr marks it valid */
     uint32_t stack;   /* a board_stack_state */
@@ -72,9 +70,8 @@ void board_fault_words(wh_text *text, const board_fault_facts *facts);
 /* Ends a program after a fault: demo.c prints and ends the emulator, flashed.c stores a record and resets. */
 _Noreturn void board_fault_ends(const board_fault_facts *facts);
 
-/* The clock that board_clock_start() has set up. That function runs before the variables are initialized, so it uses no
- * variables, and every wait is bounded. On chips with clocks to set up, the result is in board_clock_is, in memory
- * that the start-up code does not clear. */
+/* Result of board_clock_start(), on chips with clocks to set up. Variables are not initialized when it runs: it uses
+ * only board_clock_is, which the start-up code does not clear, and every wait is bounded. */
 typedef enum board_clock {
     BOARD_CLOCK_CRYSTAL,  /* the crystal of the board */
     BOARD_CLOCK_FALLBACK, /* the chip's own oscillator, because the crystal does not oscillate */

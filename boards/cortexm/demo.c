@@ -1,12 +1,10 @@
-/* demo.c: ends a program under an emulator or debugger, with an exit status. Images for real boards have flashed.c
- * instead. */
+/* demo.c: ends a program under an emulator or debugger, with an exit status. Images for real boards have flashed.c. */
 #include "cortexm.h"
 
 #include "boards/board.h"
 
-/* Semihosting's SYS_EXIT_EXTENDED (Arm semihosting specification, 0x20) ends the emulator or debugger with the
- * program's exit code. If there is neither, the breakpoint becomes a hard fault, whose handler calls this function
- * again; the second call stops the program. */
+/* Semihosting's SYS_EXIT_EXTENDED (Arm semihosting specification, 0x20) ends the emulator or debugger. Without one, the
+ * breakpoint becomes a hard fault, whose handler calls this function again: then the program stops. */
 _Noreturn void board_exit(int code) {
     static volatile int leaving = 0;
     const uint32_t application_exit = 0x20026U;

@@ -10,8 +10,8 @@ void board_fault_report(const uint32_t *frame, uint32_t exception);
                      : \
                      : "i"(address), "i"(value));
 
-/* Passes SP, which points to the stacked frame, to the handler in C (this program uses only the main stack). The
- * handler has its own stack, because the old one is unusable after an overflow. */
+/* Passes SP, which points to the stacked frame (only the main stack is used), to the handler in C. The handler has its
+ * own stack, because the old one is unusable after an overflow. */
 __attribute__((naked)) void board_fault(void) {
     BOARD_SAFE_ROWS(SAFE_STORE)
     __asm__ volatile("cpsid i\n\t"
@@ -28,7 +28,7 @@ __attribute__((naked)) void board_fault(void) {
 CORTEXM_VECTOR_ROWS(WEAK_VECTOR)
 BOARD_VECTOR_ROWS(WEAK_VECTOR)
 
-/* Bit of CFSR on Armv8-M: the stack pointer would have passed MSPLIM. There is then no frame at the stack pointer. */
+/* Bit of CFSR on Armv8-M: the stack pointer would have passed MSPLIM, so it does not point to a frame. */
 #define STACK_LIMIT_PASSED (1U << 20)
 
 #define CFSR_MEMORY_ADDRESS (1U << 7)

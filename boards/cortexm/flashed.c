@@ -1,5 +1,4 @@
-/* flashed.c: the end of a program on a real board. A program never ends there: after a fault the processor records it
- * and restarts. A program that cannot continue stops with the motor off. */
+/* flashed.c: the end of a program on a real board: a stop with the motor off; after a fault a record and a restart. */
 #include "boards/board.h"
 #include "hal/motor.h"
 

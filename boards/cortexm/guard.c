@@ -1,6 +1,5 @@
-/* guard.c: the protected strip below the stack, on Armv6-M and Armv7-M (Armv7-M Architecture Reference Manual, B3.5):
- * an overflow faults at once instead of silently overwriting variables. Chips without a memory protection unit, such as
- * every Cortex-M0, read a region count of zero and have no guard. Armv8-M's unit differs: boards/armv8m/guard.c. */
+/* guard.c: the guard strip below the stack, on Armv6-M and Armv7-M (Armv7-M Architecture Reference Manual, B3.5). Chips
+ * without a memory protection unit, such as every Cortex-M0, have zero regions and no guard. */
 #include "cortexm.h"
 
 #if __ARM_ARCH > 7
@@ -19,7 +18,7 @@ void board_guard_stack(void) {
     }
     REGISTER(MPU_RBAR) = (uint32_t)(uintptr_t)board_stack_guard | 1U << 4; /* region 0 */
     REGISTER(MPU_RASR) = no_access_no_execute | strip_256_bytes | 1U;
-    /* The default map applies outside the regions. The unit is off inside fault handlers. */
+    /* the default map outside the region; unit off in fault handlers */
     REGISTER(MPU_CTRL) = 1U << 2 | 1U;
     __asm__ volatile("dsb\n\tisb" ::: "memory");
 }

@@ -1,4 +1,4 @@
-/* kept.c: a fault's record, in memory that a reset does not clear. A valid record is followed by the CRC-32 of its bytes. */
+/* kept.c: a fault's record, in memory that a reset does not clear; its CRC-32 is valid only after a complete write. */
 #include "kept.h"
 
 #include <stddef.h>

@@ -11,22 +11,20 @@ typedef struct board_fault_record {
     board_fault_facts facts;
     uint32_t ticks;  /* time of the fault; the board's clock restarts at each start */
     uint32_t state;  /* last argument of hal_reset_mark() */
-    uint32_t faults; /* number of faults since power-on, including this one */
+    uint32_t faults; /* number of faults since power-on */
     uint32_t crc;
 } board_fault_record;
 
-/* Store the record of a fault. The fault handler calls this. */
+/* Stores the record of a fault, for the fault handler. */
 void board_kept_fault(const board_fault_facts *facts, uint32_t ticks);
 
-/* Read the record of a fault before this start. Only the first call after a fault finds it. Returns false if there is
- * no record. */
+/* Reads the record of a fault before this start. Returns false if there is none; a second call finds none. */
 bool board_kept_take_fault(board_fault_record *record);
 
-/* Call this after a power-on: it drops the record, and the bytes of boards/shared/remembered.c, which are then
- * random. */
+/* Drops the record, and the bytes of boards/shared/remembered.c, which are random after a power-on. */
 void board_kept_forget(void);
 
-/* True if data from before the start exist: then the start was no power-on. */
+/* True if data from before the start exist, so that the start was no power-on. */
 bool board_kept_anything(void);
 
 #endif

@@ -1,6 +1,5 @@
-/* link.c: hal/link.h by semihosting (Arm semihosting specification 2.0: SYS_OPEN, SYS_WRITE, SYS_READ). The debugger,
- * or the emulator, has inherited two descriptors and opens them by their names in /dev/fd. They have no other name, so
- * no file remains, whichever side ends first. A read stops the processor until data arrive. */
+/* link.c: hal/link.h by semihosting (Arm semihosting specification 2.0: SYS_OPEN, SYS_WRITE, SYS_READ). The debugger or
+ * emulator opens inherited descriptors by their names in /dev/fd: no file remains. A read waits for data. */
 #include "hal/link.h"
 
 #include "boards/board.h"

@@ -1,4 +1,4 @@
-/* startup.c: from reset to main(): clocks, memory, FPU, vector table, stack paint. */
+/* startup.c: from reset to main(). */
 #include "cortexm.h"
 
 #include "boards/board.h"
@@ -10,11 +10,10 @@ typedef void (*vector)(void);
 #define CORE_ROW(number, name) [(number)] = on_##name,
 #define CHIP_ROW(number, name) [16 + (number)] = on_##name,
 
-/* In the table below, the first row fills a range with the fault handler, and later rows override parts of it. */
+/* The table's first row fills a range with the fault handler; later rows override parts of it. */
 #pragma GCC diagnostic ignored "-Woverride-init"
 
-/* Sixteen system vectors, then the chip's interrupts. The fault handler serves all vectors without a row of their
- * own. */
+/* Sixteen system vectors, then the chip's interrupts. */
 __attribute__((section(".vectors"), used)) static const vector vectors[16 + BOARD_INTERRUPTS] = {
     [2 ... 16 + BOARD_INTERRUPTS - 1] = board_fault,
     [0] = (vector)(uintptr_t)board_stack_top,
@@ -28,11 +27,11 @@ static void enable_fpu(void) {
 #endif
 }
 
-/* Makes the processor use the table above: a loader in ROM may have set its own table. */
+/* A loader in ROM may have set its own vector table. */
 static void take_vectors(void) {
 #if __ARM_ARCH >= 7
     REGISTER(SCB_VTOR) = (uint32_t)(uintptr_t)vectors;
-    REGISTER(SCB_SHCSR) |= 7U << 16; /* gives usage, bus and memory faults separate vectors */
+    REGISTER(SCB_SHCSR) |= 7U << 16; /* separate vectors of usage, bus and memory faults */
     __asm__ volatile("dsb" ::: "memory");
 #endif
 }

@@ -1,5 +1,5 @@
-/* Adafruit Feather STM32F405 Express with a 12 MHz crystal. Pins, with the names on its headers: console D6 (out) and
- * D5 (in), PWM SCK, enable MISO, stop and driver's fault A2, slot sensors A1 and RX, load cell A4, supply A5. */
+/* Adafruit Feather STM32F405 Express with a 12 MHz crystal. Pins on its headers: console D6 (out) and D5 (in), PWM SCK,
+ * enable MISO, stop and driver's fault A2, slot sensors A1 and RX, load cell A4, supply A5. */
 #ifndef BOARD_DATA_H
 #define BOARD_DATA_H
 
@@ -9,7 +9,7 @@
 #define BOARD_PLL_N 168U
 
 #define BOARD_SLOT_PINS PIN('A', 5), PIN('B', 11)
-#define BOARD_SLOT_CHANNELS 1U, 4U /* channel of TIM2 for each sensor */
+#define BOARD_SLOT_CHANNELS 1U, 4U /* channels of TIM2 */
 #define BOARD_CELL_PIN PIN('C', 4)
 #define BOARD_CELL_INPUT 14U
 #define BOARD_SUPPLY_PIN PIN('C', 5)

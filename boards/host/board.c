@@ -10,8 +10,7 @@
 const char *const board_name = "host";
 const uint32_t board_ticks_per_s = 1000000U;
 
-/* Buffers output by lines, so that a file or pipe has each line before a crash. If this call fails, the output is still
- * right. */
+/* Buffers output by lines, so that a file or pipe has each line before a crash. */
 void board_start(void) {
     if (setvbuf(stdout, NULL, _IOLBF, BUFSIZ) != 0) {
         setbuf(stdout, NULL);
@@ -34,7 +33,7 @@ _Noreturn void board_exit(int code) {
 uint32_t board_ticks(void) {
     struct timespec now;
     if (clock_gettime(CLOCK_MONOTONIC, &now) != 0) {
-        /* POSIX excludes this error. With a stopped clock, loops would never end. */
+        /* cannot happen under POSIX; with a stopped clock, loops would never end */
         board_exit(EXIT_FAILURE);
     }
     const uint64_t seconds = (uint64_t)now.tv_sec;

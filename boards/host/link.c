@@ -36,7 +36,7 @@ void hal_link_write(const uint8_t *bytes, unsigned count) {
     }
 }
 
-/* There is no timer, because the computing time of a PC says nothing about a controller. */
+/* No timer, because the computing time of a PC says nothing about a controller. */
 uint32_t hal_link_timer(void) { return 0; }
 uint32_t hal_link_timer_per_s(void) { return 0; }
 const char *hal_link_board(void) { return board_name; }

@@ -1,5 +1,4 @@
-/* settings.c: hal/settings.h in a file, named by RIG_SETTINGS (default build/rig.settings). When a call returns, its
- * data are on the disk. */
+/* settings.c: hal/settings.h in a file, RIG_SETTINGS (default build/rig.settings), that is on disk after each write. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "hal/settings.h"

@@ -1,5 +1,5 @@
-/* terminal.c: a pseudo-terminal instead of a board's serial line: any terminal program opens its other end. RIG_TTY
- * names a link to it (default build/rig.tty), which is removed when the program ends, also after Ctrl-C. */
+/* terminal.c: a pseudo-terminal as a board's serial line, which any terminal program can open. RIG_TTY names a link to
+ * it (default build/rig.tty), which is removed when the program ends, also after Ctrl-C. */
 #define _XOPEN_SOURCE 700
 
 #include <errno.h>
@@ -16,13 +16,12 @@
 #include "boards/board.h"
 
 static int line = -1;
-/* kept open, so that the line also exists while no program is at the other end */
+/* open, so that the line exists without a program at its other end */
 static int other_end = -1;
 static const char *link_name;
 static char own_terminal[64];
 
-/* exit() and signal handlers call this, so it uses only functions that are allowed there. A link that leads to another
- * terminal belongs to a newer program and stays. */
+/* Async-signal-safe, for end_by(). A link to another terminal belongs to a newer program and stays. */
 static void remove_link(void) {
     if (link_name != NULL) {
         char to[sizeof own_terminal];
@@ -68,7 +67,7 @@ static bool make_link(const char *terminal) {
            signal(SIGTERM, end_by) != SIG_ERR && signal(SIGHUP, end_by) != SIG_ERR;
 }
 
-/* Sets the terminal to behave as a serial line: no echo, no line editing, no signals, no conversion. */
+/* A serial line: no echo, no line editing, no signals, no conversion. */
 static bool make_plain(int terminal) {
     struct termios plain;
     if (tcgetattr(terminal, &plain) != 0) {

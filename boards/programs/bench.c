@@ -1,7 +1,5 @@
-/* bench.c: counts the instructions of single steps of every generated scene.
- *
- * The same source runs on every board under the counting plugin and on the PC under callgrind (count_rows.sh). The
- * program itself only prints the meaning of the counted intervals on the console:
+/* bench.c: counts the instructions of single steps of every generated scene, on a board under the counting plugin or on
+ * the PC under callgrind (count_rows.sh). The program only prints the meaning of the counted intervals:
  *
  *     count NAME METHOD NUMBER FIRST LAST    intervals FIRST to LAST have one step each, or, if METHOD ends in "-ahead",
  *                                            STEPS_A_CALL steps
@@ -9,10 +7,8 @@
  *     silicon NAME MIN MEDIAN MAX            cycles of a step, if the processor counts them itself (board.h)
  *     failed NAME STATUS                     the scene could not be counted
  *
- * With BENCH_SMALL=1 it omits the language's functions and the processor's own count, for small memories.
- *
- * Interval 0 is empty. On a board an interval includes the call (loading the arguments and the branch); callgrind
- * counts the called function alone. */
+ * BENCH_SMALL=1 omits the language's functions and the processor's own count, for small memories. Interval 0 is empty.
+ * On a board an interval includes the call (arguments and branch); callgrind counts the called function alone. */
 #include "boards/programs/counted.h"
 #include "boards/programs/step_cycles.h"
 #include "core/function.h"
@@ -88,7 +84,7 @@ static const struct {
     wh_real (*one)(wh_real x);
     wh_real (*two)(wh_real x, wh_real y);
     wh_real scale;  /* multiplies an argument from -1 to 1 */
-    wh_real offset; /* added to the scaled argument */
+    wh_real offset; /* added afterwards */
 } functions[] = {
     {"wh_exp", wh_exp, NULL, WH_R(20.0), WH_R(0.0)},
     {"wh_log", wh_log, NULL, WH_R(20.0), WH_R(20.01)},
@@ -144,7 +140,7 @@ static void time_scene(const wh_scene *scene, wh_state *state) {
 }
 #endif
 
-/* Counts the steps of a scene that does many steps in one call (multi_step.h). */
+/* Counts calls that do many steps of a scene (multi_step.h). */
 static wh_status count_multi_step(const wh_scene *scene, wh_state *state) {
     const unsigned first = intervals;
     wh_status status = WH_OK;

@@ -1,5 +1,5 @@
-/* counted.h: for programs whose instructions are counted: the functions that begin and end a counted interval, memory
- * for any scene, and lines of text on the console. Only one file of a program may include it. */
+/* counted.h: for programs whose instructions are counted: the begin and end of a counted interval, memory for any
+ * scene, and lines of text. Only one file of a program may include it. */
 #ifndef BOARDS_PROGRAMS_COUNTED_H
 #define BOARDS_PROGRAMS_COUNTED_H
 
@@ -12,12 +12,11 @@ static uint64_t memory[WH_SCENE_WORDS];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* These functions only return: the plugin counts the instructions from one to the other. The operands differ so that
- * the compiler does not merge the functions. */
+/* Empty: the plugin counts the instructions between the calls. The operands keep the compiler from merging them. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 
-/* Prints that the intervals `first` to `last` belong to this method. `more` is appended to the method's name. */
+/* Prints that the intervals `first` to `last` belong to this method; `more` follows the method's name. */
 static inline void say_counted(const char *name, const char *method, const char *more,
                                unsigned first, unsigned last) {
     line_of("count", name);

@@ -1,9 +1,6 @@
-/* firstlight.c: first light of a board. The image runs five scenes to their end, then two seconds of the rig's control
- * loop at rest and the console's self-test. It prints all results as one record on the console (core/light_fields.h,
- * docs/firstlight.md).
- *
- * The motor is never enabled: the image has no call of hal_motor_start() (checked by boards/check_image.sh). On real
- * hardware the image prints the record again for each typed line; in an emulator it ends. */
+/* firstlight.c: first light of a board: five scenes to their end, two seconds of the rig's control loop at rest, and
+ * the console's self-test. Prints all results as one record (docs/firstlight.md), on real hardware again for each typed
+ * line. The motor is never enabled: the image has no call of hal_motor_start() (boards/check_image.sh). */
 #define LINE_BYTES 200U /* the compiler and the self-test have long words */
 #include "core/light_fields.h"
 
@@ -14,7 +11,7 @@
 #include "core/text.h"
 #include "core/version.h"
 
-/* 1: the board has the rig's hardware. 0: it has not, and the fields of the rig are `none`. */
+/* 1: the board has the rig's hardware; 0: the rig's fields are `none` */
 #ifndef LIGHT_HARDWARE
 #define LIGHT_HARDWARE 0
 #endif
@@ -36,7 +33,7 @@ static const wh_scene *const scenes[] = {WH_LIGHT_SCENES(ADDRESS_OF)};
 #define SCENES (sizeof scenes / sizeof scenes[0])
 _Static_assert(SCENES == 5U, "five scenes");
 
-/* The scenes run one after the other, so they can use the same memory. */
+/* shared, because the scenes run one after the other */
 #define MEMORY_OF(scene) uint64_t scene[scene##_MEMORY_WORDS];
 static union { WH_LIGHT_SCENES(MEMORY_OF) } scene_memory;
 
@@ -67,7 +64,7 @@ static void run_scene(const wh_scene *scene, run *to) {
 
 static uint32_t crc;
 
-/* Ends a line. The CRC gets only a line feed; the terminal gets a carriage return, too. */
+/* Ends a line: with a line feed for the CRC, and a carriage return before it for the terminal. */
 static void end_line(void) {
     wh_text_add_char(&line, '\n');
     crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);
@@ -232,7 +229,7 @@ static void say_load(void) {
     }
     end_line();
     line_begin("supply");
-    /* a sample of the load shows that the converter works, which also measures the supply */
+    /* the same converter measures load and supply: a sample shows that it works */
     if (rest.samples > 0) {
         wh_text_add_char(&line, ' ');
         wh_text_add_fixed(&line, seen.inputs.supply_V, 2);
@@ -274,7 +271,7 @@ static void say_rest(void) {
     }
 }
 
-/* True if a received byte ends a line. Noise on an open line seldom contains such a byte. */
+/* True if a line end was received. Noise on an open line seldom contains one. */
 static bool line_end_typed(void) {
     char typed[16];
     bool ended = false;

@@ -1,16 +1,16 @@
-/* fixed.c: counts single steps of one scene in fixed point, and prints the hash of the scene's last state:
+/* fixed.c: counts single steps of one scene in fixed point, and prints the hash of the last state:
  *
  *     fixed NAME FIRST LAST hash 0x... saturated N     intervals FIRST to LAST have one step each
  *     stack NAME BYTES                                 deepest stack of the program during those steps
  *     count NAME rk4 fixed FIRST LAST                  the intervals again, in the format of bench.c
  *
- * Interval 0 is empty. Build with FIXED_SCENE as the scene's name, and with the scene's header included first. */
+ * Interval 0 is empty. FIXED_SCENE is the scene's name; the scene's header is included first. */
 #include "boards/board.h"
 #include "core/fixed_scene.h"
 #include "core/text.h"
 
 #ifndef FIXED_SCENE
-int main(void) { return 1; } /* the program was built without a scene */
+int main(void) { return 1; } /* built without a scene */
 #else
 #ifndef COUNTED_STEPS
 #define COUNTED_STEPS 100U
@@ -25,8 +25,7 @@ static uint64_t memory[OF(FIXED_SCENE, _MEMORY_WORDS)];
 void wh_count_begin(void);
 void wh_count_end(void);
 
-/* These functions only return: the plugin counts the instructions from one to the other. The operands differ so that
- * the compiler does not merge the functions. */
+/* Empty: the plugin counts the instructions between the calls. The operands keep the compiler from merging them. */
 __attribute__((noinline)) void wh_count_begin(void) { __asm__ volatile("" : : "i"(1) : "memory"); }
 __attribute__((noinline)) void wh_count_end(void) { __asm__ volatile("" : : "i"(2) : "memory"); }
 

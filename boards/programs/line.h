@@ -5,7 +5,7 @@
 #include "core/text.h"
 #include "hal/console.h"
 
-/* Longest line, with its end. */
+/* longest line, with its end */
 #ifndef LINE_BYTES
 #define LINE_BYTES 160U
 #endif
@@ -38,7 +38,6 @@ static inline void line_end(void) {
     hal_console_write(line.bytes, line.length);
 }
 
-/* Begins a line with a word and a name. */
 static inline void line_of(const char *word, const char *name) {
     line_begin(word);
     line_word(name);

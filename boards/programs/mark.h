@@ -1,7 +1,6 @@
-/* mark.h: marks for the counting plugin, which cost no instruction. WH_MARK(kind) writes two numbers into the section
- * .wh_marks of the object file: the address of the instruction that follows it, and `kind` (1 to 3). If the compiler
- * copies or inlines the code, each copy has an entry. The flag R makes the linker keep the section, although nothing
- * refers to it. */
+/* mark.h: marks for the counting plugin, which cost no instruction. WH_MARK(kind) writes the next instruction's address
+ * and `kind` (1 to 3) into section .wh_marks; each inlined or copied instance has an entry. The flag R makes the linker
+ * keep the section, although nothing refers to it. */
 #ifndef WH_MARK_H
 #define WH_MARK_H
 

@@ -1,5 +1,4 @@
-/* obey.h: passes the controller's commands to the motor, and reads the stop input. For the rig's programs and their
- * tests. */
+/* obey.h: commands to the motor, and the stop input, for the rig's programs and their tests. */
 #ifndef PROGRAMS_OBEY_H
 #define PROGRAMS_OBEY_H
 
@@ -9,7 +8,7 @@
 #include "hal/motor.h"
 #include "hal/stop.h"
 
-/* 0 marks a program that never drives the motor: it has no call of hal_motor_start(). */
+/* 0: the program never drives the motor, and has no call of hal_motor_start(). */
 #ifndef RIG_DRIVES
 #define RIG_DRIVES 1
 #endif
@@ -24,15 +23,14 @@ _Static_assert((int)HAL_STOP_EITHER == (int)WH_STOP_BY_EITHER &&
                    (int)HAL_STOP_DRIVE == (int)WH_STOP_BY_DRIVE,
                "one list of who asks for stop");
 
-/* Returns the source of the stop, if stop_was_pressed(). After a short press the source is unknown: only the cut shows
- * it. */
+/* Returns the source of the stop. It is unknown after a press shorter than a control step, which only the cut shows. */
 static inline wh_stop_by stop_was_by(void) {
     return hal_stop_pressed() ? (wh_stop_by)hal_stop_source_now() : WH_STOP_BY_EITHER;
 }
 
-/* Passes a command to the motor. *drives shows whether the last command drove the motor; it is false at first. Only the
- * first of successive driving commands starts the motor. If an interrupt has switched the motor off, or stop has
- * prevented a start, the motor restarts only after a command that does not drive. */
+/* Passes a command to the motor. *drives, false at first, is true if the last command drove the motor: only the first
+ * of successive driving commands starts it. So if an interrupt has switched the motor off, or stop has prevented a
+ * start, the motor restarts only after a command that does not drive. */
 static inline void obey(const wh_rig_command *command, bool *drives) {
     if (command->way != WH_MOTOR_DRIVES) {
         hal_motor_off(command->way == WH_MOTOR_BRAKES ? HAL_MOTOR_BRAKE : HAL_MOTOR_COAST);
@@ -42,7 +40,7 @@ static inline void obey(const wh_rig_command *command, bool *drives) {
 #if RIG_DRIVES
     if (!*drives) {
         *drives = true;
-        (void)hal_motor_start(); /* if the start fails, the inputs of the next step show why */
+        (void)hal_motor_start(); /* if the start fails, the next step's inputs show why */
     }
     hal_motor_set_voltage(command->volts);
 #else

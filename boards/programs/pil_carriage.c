@@ -1,6 +1,5 @@
 /* pil_carriage.c: the rig's firmware (rig.c) on a simulated carriage: `whirl pil` with docs/plants/carriage.whirl
- * (docs/rig.md). The operator dials speed, radius of the discs and weight ratio. The program reads the dials once,
- * before it arms. */
+ * (docs/rig.md). It reads the dials (speed, radius of the discs, weight ratio) once, before it arms. */
 #define HAL_VIRTUAL 0
 #define HAL_FRAMES 1
 #define RIG_CARRIAGE 1

@@ -1,8 +1,7 @@
 /* pil_cart.c: a controller that holds a rod upright on a cart (docs/plants/cart.whirl), for `whirl pil`. It reads two
- * encoders every millisecond and a light barrier in the middle of the rail, and drives a motor. The force is a sum of
- * angle, position and their rates, which are smoothed differences of counts. Its gains, computed by hand, put the poles
- * of the linear system at -6, -6, -2 and -2 per second (docs/pil.md). Exit status 0: after ten seconds the rod is
- * upright in the middle; 1: it is not; 2: no plant. */
+ * encoders every millisecond and a light barrier in the middle of the rail. The force is a sum of angle, position and
+ * their rates, smoothed differences of counts; it puts the poles of the linear system at -6, -6, -2 and -2 per second
+ * (docs/pil.md). Exit status 0: after ten seconds the rod is upright in the middle; 1: it is not; 2: no plant. */
 #include "boards/board.h"
 #include "core/text.h"
 #include "hal/frames/turns.h"
@@ -10,17 +9,17 @@
 #define TICKS_PER_S 1000000U
 #define PERIOD_TICKS 1000U
 #define RUN_PERIODS 10000U
-#define SMOOTH 0.1f /* share of the newest rate in the smoothed rate */
+#define SMOOTH 0.1f /* weight of the newest rate in the smoothed rate */
 #define PERIODS_PER_S 1000.0f
 
 #define RAD_PER_COUNT (6.2831853f / 8192.0f)
 #define M_PER_COUNT 1e-5f
 #define PUSH_MAX_N 20.0f
 #define BARRIER_M 0.005f
-#define UPRIGHT_RAD 0.02f /* the rod counts as upright below this angle */
+#define UPRIGHT_RAD 0.02f /* below this angle the rod is upright */
 #define MIDDLE_M 0.03f
 
-/* Gains of the force, in N/rad, N s/rad, N/m, N s/m. */
+/* gains of the force, in N/rad, N s/rad, N/m, N s/m */
 #define GAIN_ANGLE 20.725f
 #define GAIN_ANGLE_RATE 3.281f
 #define GAIN_PLACE 2.2026f

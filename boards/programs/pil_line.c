@@ -1,5 +1,5 @@
-/* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`.
- * The program at the other end cannot detect the end of this one, so it gets a message. */
+/* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`. It
+ * sends a message at its end, which the other side cannot detect. */
 #include "boards/board.h"
 #include "hal/frames/rig_frames.h"
 #include "hal/link.h"

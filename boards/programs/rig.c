@@ -1,10 +1,9 @@
-/* rig.c: the firmware of the eccentric-mass rig, the same on every board: the controller of core/rig/rig.h on the
- * hardware of hal/. Without a console the program itself gives the orders of one test run: `arm` as soon as the rotor
- * rests, `start` at 330 rpm; then it reports. After a reset other than power-on, and after a stop, it gives no orders.
+/* rig.c: the firmware of the eccentric-mass rig without a console, the same on every board. The program acts as the
+ * operator of one test run: `arm` as soon as the rotor rests, `start` at 330 rpm; then it reports. After a reset other
+ * than power-on, and after a stop, it gives no orders.
  *
  * Exit status 0: done. 1: the guard tripped, stop was pressed, the processor was reset, or an order or the result was
- * refused; the report gives the reason. 2: not started, because the hardware does not answer or the arithmetic differs
- * from IEEE 754. */
+ * refused. 2: not started, because the hardware does not answer or the arithmetic differs from IEEE 754. */
 #include "core/rig/rig.h"
 
 #include <stddef.h>
@@ -22,11 +21,11 @@
 #include "rig_control.h"
 #include "rig_report.h"
 
-/* 1 if the rig is on a carriage, with an operator's dials (pil_carriage.c). */
+/* 1: the rig is on a carriage, with an operator's dials (pil_carriage.c) */
 #ifndef RIG_CARRIAGE
 #define RIG_CARRIAGE 0
 #endif
-/* 1 if dials set the set-point and the compensated part of gravity (pil_dialled.c). */
+/* 1: dials set the set-point and the compensated part of gravity (pil_dialled.c) */
 #ifndef RIG_DIALLED
 #define RIG_DIALLED 0
 #endif
@@ -39,12 +38,12 @@ static float displacement_m; /* measured amplitude of the carriage */
 #define RIG_TARGET_RPM WH_RIG_NOMINAL_RPM
 #endif
 
-/* 1 if the run ends in a free swing, which gives the sensors' positions. */
+/* 1: the run ends in a free swing, which gives the sensors' positions */
 #ifndef RIG_SWINGS
 #define RIG_SWINGS 0
 #endif
 
-/* Number of times that the motor gets the off command before the program ends. */
+/* number of off commands before the program ends */
 #define LAST_ORDERS 10U
 
 /* Longest wait for rest before `arm`: the rotor may have been turning before the reset. */
@@ -52,7 +51,7 @@ static float displacement_m; /* measured amplitude of the carriage */
 
 static float target_radps = RIG_TARGET_RPM * WH_RIG_RADPS_PER_RPM;
 
-/* Sends notes to the plant's side, which evaluates the run by them (docs/pil.md). */
+/* Sends notes, by which the plant's side judges the run (docs/pil.md). */
 static void tell(void) {
 #if HAL_FRAMES
     const wh_measured *force = &rig.result.force;
@@ -91,10 +90,9 @@ static void put_state(uint32_t started_ticks) {
 }
 
 #if RIG_CARRIAGE || RIG_DIALLED
-/* Longest wait for the dials' readings, of which one may be late or lost. */
+/* longest wait for the dials, because a reading may be late or lost */
 #define DIALS_MOST_TICKS (20U * HAL_DIAL_TICKS)
 
-/* Waits for the dials. Returns false if their readings do not come. */
 static bool wait_for_dials(void) {
     const uint32_t started = hal_clock_ticks();
     for (uint32_t waited = 0;
@@ -157,8 +155,7 @@ static void put_plant_hash(void) {
 }
 #endif
 
-/* The program acts as the operator: `arm` when the rotor rests, then `start`. If the rig was reset or stopped, it gives
- * no orders: a person must check the rig first. */
+/* Progress of the operator. After a reset or a stop no order follows: a person must check the rig first. */
 typedef enum operator_step {
     WAITS_FOR_REST,
     HAS_ARMED,
@@ -168,7 +165,7 @@ typedef enum operator_step {
     STOP_SILENT /* the stop input has no reading */
 } operator_step;
 
-/* Evaluates the stop input. If it has no reading at the time of `arm`, the operator stops with STOP_SILENT. */
+/* Evaluates the stop input. Without a reading at the time of `arm`, the operator ends with STOP_SILENT. */
 static void look_at_stop(operator_step *at, bool rests) {
     if (!hal_stop_pressed()) {
         return;
@@ -180,7 +177,7 @@ static void look_at_stop(operator_step *at, bool rests) {
     }
 }
 
-/* Does one step of the operator. Returns true if the operator has nothing more to do. */
+/* Does one step of the operator. Returns true at the end. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
     const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
     look_at_stop(at, rests);
@@ -197,7 +194,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     case HAS_ARMED:
         *at = HAS_STARTED;
         (void)wh_rig_post(&rig, WH_EVENT_START, target_radps);
-        return rig.state != WH_RIG_ARMED; /* `arm` was refused: the operator does not wait */
+        return rig.state != WH_RIG_ARMED; /* true: `arm` was refused */
     case HAS_STARTED: break;
     case WAS_RESET:
     case WAS_STOPPED:
@@ -206,7 +203,7 @@ static bool operate(operator_step *at, uint32_t waited_ticks) {
     return (rig.state == WH_RIG_IDLE && !wh_swing_works(&rig.swing)) || rig.answer != WH_ALLOWED;
 }
 
-/* Runs the control loop until the run is over. Returns the operator's last step. */
+/* Runs the control loop until the run is over. */
 static operator_step run(const wh_rig_config *config) {
     const uint32_t started = hal_clock_ticks();
     uint32_t due = started;
@@ -232,7 +229,7 @@ static operator_step run(const wh_rig_config *config) {
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
-    /* The off command is repeated, with a wait after each, because the line to the motor may lose orders. */
+    /* repeated with a wait after each, because the line to the motor may lose orders */
     for (unsigned i = 0; i < LAST_ORDERS; i++) {
         hal_motor_off(HAL_MOTOR_COAST);
         hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);

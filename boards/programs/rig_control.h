@@ -1,5 +1,4 @@
-/* rig_control.h: the rig's controller on the hal_ functions: the control step of every program of the rig. Each such
- * program includes it once. */
+/* rig_control.h: the rig's control step on the hal_ functions. Each program of the rig includes it once. */
 #ifndef PROGRAMS_RIG_CONTROL_H
 #define PROGRAMS_RIG_CONTROL_H
 
@@ -20,8 +19,7 @@
 #include "rig_own.h"
 #include "trip_memory.h"
 
-/* 1: the model simulates the rig's hardware (hal/virtual). 0: the program has another HAL, of a real board or of
- * frames. */
+/* 1: a model simulates the rig's hardware (hal/virtual); 0: another HAL, of a real board or of frames. */
 #ifndef HAL_VIRTUAL
 #define HAL_VIRTUAL 1
 #endif
@@ -35,8 +33,7 @@
 #include "hal/frames/rig_frames.h"
 #endif
 
-/* The begin and the end of a step's work, after its readings and before its outputs. A program that counts this work
- * defines both. */
+/* The begin and the end of a step's work, without readings and outputs, for programs that count it. */
 #if HAL_FRAMES
 #define STEP_BEGINS() hal_frames_step_begins()
 #define STEP_ENDS() hal_frames_step_ends()
@@ -54,8 +51,8 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 #define CONTROL_TICKS 2000U /* 500 Hz, the same as wh_rig_standard.step_s */
 #define WATCHDOG_TICKS (10U * CONTROL_TICKS)
-/* Maximum number of samples in a step, and in a step with a pulse; more samples wait for the next step. A small chip's
- * build may set smaller numbers. */
+/* Largest numbers of samples in a step, and in a step with a pulse: other samples wait for the next step. A small
+ * chip's build may set smaller numbers. */
 #ifndef RIG_SAMPLES_MOST
 #define RIG_SAMPLES_MOST 2U
 #endif
@@ -65,19 +62,18 @@ _Static_assert((int)HAL_LOAD_SATURATED == (int)WH_LOAD_SATURATED &&
 
 _Static_assert(RIG_SAMPLES_MOST <= WH_STEP_SAMPLES, "all are seen");
 
-/* Static and not on the stack, because it contains the samples of a turn. */
+/* not on the stack, because it contains the samples of a turn */
 static wh_rig rig;
 static wh_trip_record kept_trip; /* trip_memory.h */
-static wh_step_inputs seen;      /* the inputs of the last control step */
+static wh_step_inputs seen;      /* inputs of the last control step */
 static bool drives;              /* true if the last command drove the motor (obey.h) */
 
 /* Reads new edges and samples into `seen`, as many as one step may process. */
 static void look(void) {
     hal_slot_edge edge;
     hal_load_sample sample;
-    /* A step takes at most two edges and stops after a leading one (a pulse), so that a storm of edges cannot delay it. The
-     * other edges wait and keep their time stamps. If a step with a pulse reads no samples (RIG_SAMPLES_WITH_PULSE is 0),
-     * the next step takes no edge and reads the waiting samples. */
+    /* At most two edges, and none after a leading one (a pulse): a storm of edges cannot delay the step. Other edges
+     * wait. If a step with a pulse reads no samples (RIG_SAMPLES_WITH_PULSE is 0), the next step takes no edge. */
     const bool owed = RIG_SAMPLES_WITH_PULSE == 0U && seen.pulsed;
     seen.pulsed = false;
     seen.ended = false;
@@ -107,7 +103,7 @@ static void look(void) {
     seen.inputs.stop_by = stop_was_by();
 }
 
-/* Does a control step. It is a separate function, so that its stack is free again when the console runs. */
+/* Does a control step. A separate function, so that its stack is free again when the console runs. */
 WH_CALLED static void control(const wh_rig_config *config) {
     look();
     STEP_BEGINS();
@@ -123,7 +119,7 @@ WH_CALLED static void control(const wh_rig_config *config) {
     obey(&command, &drives);
     trip_memory_keep(&kept_trip, &rig);
     hal_reset_mark(wh_rig_stage(&rig));
-    /* Also kicked after a trip: a watchdog that resets would restart everything. */
+    /* also after a trip: a watchdog that resets would restart everything */
     hal_watchdog_kick();
 }
 
@@ -137,16 +133,15 @@ static const char *why_no_hardware(void) {
     return "the hardware does not answer";
 }
 
-/* Starts the hardware, and checks that the arithmetic is that of IEEE 754. The check is compiled with the model's file,
- * which has the compiler flags of the whole image. Returns NULL; or the reason for a failure, for wh_text_add(), and
- * then the motor is off. */
+/* Starts the hardware, and checks that its arithmetic is that of IEEE 754, with the compiler flags of the model's file.
+ * Returns NULL, or the reason for a failure: then the motor is off. */
 static const char *why_not_started(void) {
     if (!hal_clock_start()) {
         return why_no_hardware();
     }
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        /* A text of its own, because wh_status_text() would link all texts. */
+        /* not wh_status_text(), which would link all its texts */
         return "the arithmetic is not that of IEEE 754";
     }
     return NULL;

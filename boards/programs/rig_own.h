@@ -1,5 +1,4 @@
-/* rig_own.h: the rig programs' own configuration, before the settings change it. Each program of the rig includes it
- * once. */
+/* rig_own.h: the rig programs' own configuration, before the settings change it. Each program includes it once. */
 #ifndef PROGRAMS_RIG_OWN_H
 #define PROGRAMS_RIG_OWN_H
 
@@ -10,19 +9,17 @@
 #include "hal/motor.h"
 #include "hal/slots.h"
 
-/* The observer's model: scene rig_fixed of core/models/eccentric.whirl, with the control step as its step
- * (mk/whirl.mk). */
+/* The observer's model: scene rig_fixed of core/models/eccentric.whirl, with the control step as step (mk/whirl.mk). */
 extern const wh_scene rig_observed;
 
-/* The check of the arithmetic, which is in the model's file if there is a model. */
+/* the check of the arithmetic, in the model's file if there is a model */
 #if WH_RIG_FEEDS
 #define OWN_ARITHMETIC (rig_observed.arithmetic)
 #else
 #define OWN_ARITHMETIC (wh_arithmetic)
 #endif
 
-/* Fills in the standard rig with this hardware's cell and sensors. In place, because a copy would need half a kilobyte
- * of stack. */
+/* Fills in the standard rig with this hardware's cell and sensors, in place: a copy needs 0.5 KB of stack. */
 static void own_configuration(wh_rig_config *config) {
     *config = wh_rig_standard;
     config->measure.cell = (wh_cell_config){.newton_per_count = HAL_LOADCELL_N_PER_COUNT,

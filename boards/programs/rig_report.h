@@ -1,4 +1,4 @@
-/* rig_report.h: the report of a run. Included by rig.c. */
+/* rig_report.h: the report of a run. */
 #ifndef PROGRAMS_RIG_REPORT_H
 #define PROGRAMS_RIG_REPORT_H
 
@@ -17,7 +17,7 @@ static inline void put(const char *words) {
     hal_console_write(text.bytes, text.length);
 }
 
-/* Prints a line "name value unit", the value with `decimals` decimals. */
+/* Prints a line "name value unit". */
 static inline void put_value(const char *name, float value, unsigned decimals, const char *unit) {
     char bytes[96];
     wh_text text;
@@ -36,7 +36,7 @@ static inline void put_value(const char *name, float value, unsigned decimals, c
     hal_console_write(text.bytes, text.length);
 }
 
-/* Prints a line with a force in newtons and, in brackets, in pounds-force. */
+/* Prints a line with a force in newtons and in pounds-force. */
 static inline void put_force(const char *name, float force_N) {
     char bytes[96];
     wh_text text;
@@ -47,7 +47,7 @@ static inline void put_force(const char *name, float force_N) {
     put_value(name, force_N, 2, text.bytes);
 }
 
-/* Prints a line with the half-width of the interval of the value above. */
+/* Prints the half-width of the interval of the line above. */
 static inline void put_interval(const char *name, float half, unsigned decimals, const char *unit) {
     char bytes[32];
     wh_text text;
@@ -123,7 +123,7 @@ static inline void put_place(const char *name, const wh_swung *swung, unsigned s
     put_interval("  known to within", swung->half_rad[sensor] * WH_RIG_DEG_PER_RAD, 2, "deg");
 }
 
-/* If the run ended in a free swing, prints the sensors' positions found from it. */
+/* Prints the sensors' positions that a free swing at the run's end has shown, if any. */
 static inline void put_swung(const wh_swung *swung) {
     if (swung->why == WH_SWING_NONE) {
         return;
@@ -137,7 +137,7 @@ static inline void put_swung(const wh_swung *swung) {
     }
 }
 
-/* Prints the carriage's values, and the formula's force on a fixed mount. */
+/* Prints the carriage's values, and the formula's amplitude. */
 static inline void put_carriage(const wh_rig_config *config, const wh_carriage *carriage,
                                 float displacement_m) {
     const float part = config->measure.result.mount_factor;

@@ -1,5 +1,4 @@
-/* rig_settings.h: the rig's settings (core/station/conf.h) in the board's memory (hal/settings.h). Programs of the rig
- * include it after rig_control.h. */
+/* rig_settings.h: the rig's settings (conf.h) in the board's memory (hal/settings.h). Needs rig_control.h before it. */
 #ifndef PROGRAMS_RIG_SETTINGS_H
 #define PROGRAMS_RIG_SETTINGS_H
 
@@ -8,7 +7,7 @@
 
 _Static_assert(WH_STORE_SLOT_BYTES <= HAL_SETTINGS_BYTES, "a slot holds a record");
 
-/* Erases a slot; the next function writes to it. The watchdog is not kicked meanwhile, so its timeout is lengthened. */
+/* These functions lengthen the watchdog's timeout, because nothing kicks it while the memory is busy. */
 static bool erase_patiently(unsigned slot) {
     hal_watchdog_start(2U * HAL_SETTINGS_TICKS);
     const bool erased = hal_settings_erase(slot);

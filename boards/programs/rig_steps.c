@@ -1,7 +1,5 @@
-/* rig_steps.c: the cost of each control step of the rig's run, without the hardware's part.
- *
- * It is the firmware's control step (rig_control.h) on the virtual rig, for several runs. Only the controller's work
- * between the readings and the outputs is counted. Interval 0 is empty. Prints on the console:
+/* rig_steps.c: the cost of each control step (rig_control.h) of several runs on the virtual rig. Only the controller's
+ * work between readings and outputs is counted. Interval 0 is empty. Prints
  *
  *     run NAME FIRST LAST TURNS QUALITY    a run's intervals, and its measurement */
 #include "boards/programs/counted.h"
@@ -16,13 +14,13 @@ static void begin_step(void);
 static wh_rig_config config;
 static unsigned intervals = 1;
 
-/* A run, with the faults that are injected in the middle of the record. */
+/* A run, with faults in the middle of the record. */
 typedef struct trial {
     const char *name;
     float target_rpm;
     unsigned lose_pulses[2];
     unsigned lose_samples;
-    float noise;      /* largest noise of the load, in counts of either sign */
+    float noise;      /* amplitude of the load's noise, in counts */
     bool compensated; /* gravity is compensated even if the set-point does not need it */
     bool swings;      /* the run ends in a free swing, which is evaluated */
 } trial;
@@ -57,7 +55,7 @@ static bool run(void) {
     own_configuration(&config);
     config.feeds = tried->compensated ? WH_COMPENSATION_ALWAYS : config.feeds;
     config.swings = tried->swings;
-    config.stop_brakes = true; /* the motor brakes, so that runs without a free swing end soon */
+    config.stop_brakes = true; /* so that runs without a free swing end soon */
     if (why_not_started() != NULL) {
         return false;
     }
@@ -65,7 +63,7 @@ static bool run(void) {
     wh_rig_start(&config, &rig, hal_clock_ticks(), NULL);
     hal_watchdog_start(WATCHDOG_TICKS);
     unsigned recorded = 0;
-    unsigned ordered = 0; /* number of orders given so far: `arm`, then `start` */
+    unsigned ordered = 0; /* number of orders given: `arm`, then `start` */
     bool over = false;
     for (unsigned i = 0; i < STEPS_MOST && !over; i++) {
         if (ordered == 0 && rig.guard.quiet) {
@@ -94,7 +92,7 @@ static bool run(void) {
 
 int main(void) {
     board_start();
-    (void)memory; /* counted.h's memory is unused: the virtual rig has its own */
+    (void)memory; /* unused: the virtual rig has its own */
     wh_count_begin();
     wh_count_end();
     bool all = true;

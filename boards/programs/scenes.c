@@ -1,12 +1,10 @@
-/* scenes.c: runs every generated scene to its end and prints the hash of the scene's last state:
+/* scenes.c: runs every generated scene to its end and prints the hash of its last state:
  *
  *     scene NAME steps N hash 0x0123456789abcdef ok
  *
- * The PC and every board must print the same lines. If a scene diverges, its line has the hash of the last good state,
- * and ends with the error instead of ok; the other scenes still run. Without scenes the program fails.
- *
- * SCENES_FIXED=1: the scenes are in fixed point (fixed_scenes.c). SCENE_STEPS_MOST, if defined, ends every scene after
- * this number of steps, for slow machines. */
+ * The PC and every board must print the same lines. A diverged scene's line has the hash of the last good state, and
+ * the error instead of ok. Without scenes the program fails. SCENES_FIXED=1: the scenes are in fixed point.
+ * SCENE_STEPS_MOST limits the number of steps of each scene, for slow machines. */
 #include "boards/board.h"
 #include "boards/programs/table.h"
 #include "core/text.h"

@@ -1,7 +1,6 @@
-/* size.c: the smallest firmware around one scene, to measure its size: it steps, and computes the outputs. It is built
- * once for each scene, with PRICE_SCENE as the scene's name (FIXED_SCENE for a scene in fixed point), and with the
- * scene's header included first. Its memory suffices for float and double, compensated or not. The program is linked,
- * never run. */
+/* size.c: the smallest firmware that steps one scene and computes its outputs. It is linked to measure its size, never
+ * run. PRICE_SCENE is the scene's name (FIXED_SCENE for fixed point); the scene's header is included first. The memory
+ * suffices for float and double, compensated or not. */
 #include "boards/board.h"
 #include "core/fixed_scene.h"
 #include "core/scene.h"

@@ -1,5 +1,5 @@
-/* station.c: the rig's firmware with a console (core/station): the user gives the orders. The program never ends. If
- * the model simulates the hardware (hal/virtual), the model's time follows the board's clock. */
+/* station.c: the rig's firmware with a console (core/station). The program never ends. If a model simulates the
+ * hardware (hal/virtual), its time follows the board's clock. */
 #include "core/station/station.h"
 
 #include "boards/board.h"
@@ -12,7 +12,7 @@
 #include "rig_report.h"
 #include "rig_settings.h"
 
-/* Maximum number of bytes read from the console in a control step. At 115,200 baud 23 bytes come in a step. */
+/* largest number of console bytes in a control step: at 115,200 baud 23 bytes come */
 #define BYTES_A_STEP 32U
 
 static wh_station station;
@@ -31,7 +31,7 @@ static void converse(void) {
     wh_station_drop(&station, hal_console_offer(bytes, waiting));
 }
 
-/* Reports a reset that nobody requested. */
+/* Reports a reset, and a missing crystal. */
 static void tell_reset(void) {
     char words[200];
     if (hal_reset_cause() != HAL_RESET_POWER_ON) {
@@ -48,8 +48,7 @@ static void tell_reset(void) {
 }
 
 #if HAL_VIRTUAL
-/* Waits for the next control period of the board's clock. After a long delay (a debugger, a laptop that slept) the next
- * period begins now. */
+/* Waits for the next period of the board's clock; after a long delay (a debugger, a laptop that slept) it is now. */
 static void keep_time(uint32_t *due_ticks) {
     const uint32_t period_ticks = board_ticks_per_s / (HAL_TICKS_PER_S / CONTROL_TICKS);
     *due_ticks += period_ticks;
@@ -60,8 +59,7 @@ static void keep_time(uint32_t *due_ticks) {
 }
 #endif
 
-/* Returns the time of the next step. After a long delay, for example the erase of a sector, steps are not made up
- * for. */
+/* Returns the time of the next step. After a long delay, such as the erase of a sector, missed steps are skipped. */
 static uint32_t next_step(uint32_t due_ticks) {
     const uint32_t now = hal_clock_ticks();
     const bool late = (int32_t)(now - due_ticks) > (int32_t)WATCHDOG_TICKS;

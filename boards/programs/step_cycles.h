@@ -1,12 +1,11 @@
-/* step_cycles.h: the least, median and largest number of cycles of a scene's steps, if the processor counts cycles
- * (board.h). */
+/* step_cycles.h: least, median and largest number of cycles of a scene's steps, if the processor counts cycles. */
 #ifndef PROGRAMS_STEP_CYCLES_H
 #define PROGRAMS_STEP_CYCLES_H
 
 #include "boards/board.h"
 #include "core/scene.h"
 
-/* Maximum number of steps for the median. An AVR counts no cycles. */
+/* Largest number of steps for the median. An AVR counts no cycles. */
 #ifdef __AVR__
 #define STEP_CYCLES_KEPT 1U
 #else
@@ -14,7 +13,7 @@
 #endif
 
 typedef struct step_cycles {
-    uint32_t nothing; /* number of cycles of an empty measurement */
+    uint32_t nothing; /* cycles of an empty measurement */
     uint32_t least;
     uint32_t most;
     unsigned kept;
@@ -26,7 +25,7 @@ static inline void step_cycles_start(step_cycles *c) {
     *c = (step_cycles){.nothing = board_cycles() - before, .least = UINT32_MAX};
 }
 
-/* Does one step and counts its cycles. If `keep`, the number is stored for the median. */
+/* Does one step and counts its cycles; `keep`: for the median, too. */
 static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_state *state,
                                      bool keep) {
     const uint32_t before = board_cycles();
@@ -44,7 +43,7 @@ static inline wh_status step_counted(step_cycles *c, const wh_scene *scene, wh_s
     return status;
 }
 
-/* Returns the median. At least one step must have been stored. */
+/* Returns the median of at least one stored step. */
 static inline uint32_t step_cycles_median(const step_cycles *c) {
     return c->sorted[(c->kept - 1U) / 2U];
 }

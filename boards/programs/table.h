@@ -1,20 +1,18 @@
-/* table.h: the scenes of a program that runs or counts scenes: all of build/gen (`whirl emit-scenes`), or a selection
- * by mk/count/index.sh. */
+/* table.h: a program's scenes: all of build/gen (`whirl emit-scenes`), or a selection by mk/count/index.sh. */
 #ifndef BOARDS_PROGRAMS_TABLE_H
 #define BOARDS_PROGRAMS_TABLE_H
 
 #include "core/fixed_scene.h"
 #include "core/scene.h"
 
-/* Memory for any scene: up to 16 angles, 48 reals, 16 inputs and 16 contacts, with the ledger, compensated or not, in
- * float or double. A program of one scene may define its own size. */
+/* Memory for any scene in float or double, of up to 16 angles, 48 reals, 16 inputs and 16 contacts, with the ledger. */
 #ifndef WH_SCENE_WORDS
 #define WH_SCENE_WORDS \
     (WH_STATE_WORDS(16, 48, 16) + WH_CONTACT_WORDS(16) + WH_HELD_WORDS(16) + \
      WH_LEDGER_WORDS(128, 34))
 #endif
 
-/* Largest numbers of evaluations in one step: of the accelerations, and of the contacts' signals. */
+/* Largest numbers of evaluations in a step: of the accelerations, and of the contacts' signals. */
 typedef struct wh_scene_bound {
     unsigned evaluations;
     unsigned signals;

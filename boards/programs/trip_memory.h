@@ -1,5 +1,4 @@
-/* trip_memory.h: keeps the record of a trip through a reset (hal/reset.h). At the start the trip is latched again. When
- * the record changes, it is remembered. */
+/* trip_memory.h: keeps the record of a trip through a reset (hal/reset.h); the next start latches the trip again. */
 #ifndef PROGRAMS_TRIP_MEMORY_H
 #define PROGRAMS_TRIP_MEMORY_H
 
@@ -10,8 +9,7 @@
 
 _Static_assert(WH_TRIP_RECORD_BYTES <= HAL_REMEMBER_BYTES, "it is remembered whole");
 
-/* Does what wh_rig_start() does, with the remembered record: the rig starts idle, or tripped as before the reset. *kept
- * is a copy of the record that a reset would find. */
+/* Starts the rig: idle, or tripped as before the reset. *kept is a copy of the record that a reset would find. */
 static inline void trip_memory_start(wh_trip_record *kept, const wh_rig_config *config, wh_rig *rig,
                                      uint32_t now_ticks) {
     uint8_t bytes[HAL_REMEMBER_BYTES];
@@ -19,7 +17,7 @@ static inline void trip_memory_start(wh_trip_record *kept, const wh_rig_config *
     wh_rig_start(config, rig, now_ticks, tripped ? kept : NULL);
 }
 
-/* Call this after each control step. */
+/* Remembers the record if it has changed. Call this after each control step. */
 static inline void trip_memory_keep(wh_trip_record *kept, const wh_rig *rig) {
     const wh_trip_record *record = &rig->record;
     if (record->trip != kept->trip || record->ticks != kept->ticks) {

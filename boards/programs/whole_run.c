@@ -1,5 +1,5 @@
-/* whole_run.c: counts every step of a scene's run, from its start to its end, because a few steps do not show the cost
- * of steps with events. Prints on the console:
+/* whole_run.c: counts every step of a scene's run, because a few steps do not show the cost of steps with events.
+ * Prints
  *
  *     run NAME STEPS       all steps were made; interval 0 is empty, and each interval from 1 on has one step
  *     stack NAME BYTES     deepest stack of the program during those steps

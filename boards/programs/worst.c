@@ -1,10 +1,9 @@
 /* worst.c: the largest number of instructions of a step of a scene with contacts, over random states.
  *
- * Every scene with stops, friction, holds or crossings runs WORST_STEPS steps. Every RUN steps its state is randomized:
- * any angles, rates times a random factor from -2 to 2, inputs times a random factor from -4 to 4. Positions move by up
- * to the distance of some steps, and the contacts' modes are determined again. All of this runs WORST_SEEDS times, with
- * different random numbers. The counter records the largest interval of a scene and seed (count_plugin.c,
- * every=WORST_STEPS). Prints the lines of bench.c on the console, and before them
+ * Every scene with contacts runs WORST_STEPS steps for each of WORST_SEEDS seeds. Every RUN steps the state is
+ * randomized: any angles, rates times a factor from -2 to 2, inputs times a factor from -4 to 4, positions moved by up
+ * to eight steps; the contacts' modes are determined again. The counter records the largest interval of a scene and
+ * seed (count_plugin.c, every=WORST_STEPS). Prints the lines of bench.c, and before them
  *
  *     declared NAME EVALUATIONS SIGNALS    declared limits of evaluations in one step (contact.h) */
 #include "boards/programs/counted.h"
@@ -20,7 +19,7 @@
 
 static uint32_t seed;
 
-/* Returns the next number of a sequence of 32-bit numbers (Marsaglia, Xorshift RNGs, 2003). */
+/* Returns a random number of 32 bits (Marsaglia, Xorshift RNGs, 2003). */
 static uint32_t next(void) {
     seed ^= seed << 13;
     seed ^= seed >> 17;
@@ -66,7 +65,7 @@ static void say_declared(const char *name, const wh_scene_bound *most) {
 
 static bool run(const wh_scene *scene, uint32_t first_seed, unsigned group) {
     wh_state state;
-    seed = first_seed * 2654435761U; /* sequences of different seeds differ from the start */
+    seed = first_seed * 2654435761U; /* makes the sequences of near seeds differ from the start */
     for (unsigned i = 0; i < WORST_STEPS; i++) {
         if (i % 8192U == 0 && wh_scene_start(scene, &state, memory, sizeof memory) != WH_OK) {
             return false;

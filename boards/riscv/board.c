@@ -57,7 +57,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
 
 bool board_converse(void) { return true; }
 
-/* Returns the low word of mtime, which counts from reset on. */
+/* The low word of mtime, which counts from reset on. */
 uint32_t board_ticks(void) { return REGISTER(BOARD_TIMER); }
 
 _Noreturn void board_exit(int code) {

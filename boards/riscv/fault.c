@@ -1,4 +1,4 @@
-/* fault.c: after a trap, reports its kind and place and ends the program with a failure. */
+/* fault.c: after a trap, reports its kind and address and ends the program with a failure. */
 #include "riscv.h"
 
 #include "boards/board.h"

@@ -1,11 +1,10 @@
-/* guard.c: the protected strip below the stack, by physical memory protection (RISC-V Privileged Architecture, 3.7). A
- * locked entry without rights also restricts machine mode, until the next reset. Chips without this protection ignore
- * the writes and have no guard. */
+/* guard.c: the guard strip below the stack, by physical memory protection (RISC-V Privileged Architecture, 3.7). A
+ * locked entry without rights also restricts machine mode, until the next reset. Chips without it ignore the writes. */
 #include "riscv.h"
 
 void board_guard_stack(void) {
     const uint32_t locked = 0x80U;
-    /* the number of ones at the low end of the address gives the size */
+    /* the ones at the low end of the address give the size */
     const uint32_t power_of_two = 3U << 3;
     const uint32_t strip = (uint32_t)(uintptr_t)board_stack_guard;
     CSR_WRITE("pmpaddr0", strip >> 2 | (BOARD_STRIP_BYTES / 8U - 1U));

@@ -1,4 +1,4 @@
-/* startup.c: from reset to main(): stack, traps, FPU, memory, stack paint. The processor begins in machine mode. */
+/* startup.c: from reset to main(), in machine mode. */
 #include "riscv.h"
 
 #include "boards/board.h"
@@ -6,8 +6,7 @@
 void board_entry(void);
 _Noreturn void board_reset(void);
 
-/* The first code in flash. The linker must not relax it to addresses relative to gp, which is never set. A plain jump
- * would reach only 1 MB. */
+/* The first code in flash: without relaxation to gp, which is never set. A plain jump would reach only 1 MB. */
 __attribute__((naked, used, section(".vectors"))) void board_entry(void) {
     __asm__ volatile(".option norelax\n\t"
                      "la sp, board_stack_top\n\t"

@@ -1,6 +1,5 @@
-/* convert.c: 64-bit integers to float, rounded to nearest, ties to even. The compiler calls these two functions by
- * name. If its support library has no version in assembler (RISC-V, Cortex-M0), the library's version uses
- * double-precision arithmetic, which this firmware does not link. */
+/* convert.c: 64-bit integers to float, to nearest, ties to even. The compiler calls these functions by name. The
+ * support library of RISC-V and Cortex-M0 would use double-precision arithmetic, which this firmware does not link. */
 #include <stdint.h>
 
 #if defined(__ARM_EABI__)
@@ -27,8 +26,8 @@ float FROM_UNSIGNED(uint64_t number) {
     if (high == 0) {
         return (float)(uint32_t)number;
     }
-    /* The upper 32 bits, from the highest 1 on. A float keeps 24 of them. Lower bits only decide a tie between two
-     * floats, so the lowest of the 32 bits is set if any lower bit is 1. */
+    /* The upper 32 bits, from the highest 1 on: a float keeps 24. Lower bits only decide ties, so one bit replaces
+     * them. */
     const unsigned shift = 32U - (unsigned)__builtin_clz(high);
     const uint64_t below = number & ((UINT64_C(1) << shift) - 1U);
     const uint32_t lost = below != 0 ? 1U : 0U;

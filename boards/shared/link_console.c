@@ -1,13 +1,12 @@
-/* link_console.c: hal/link.h over the board's console: on real boards without a debugger. The program prints on the
- * same line, between frames. A zero byte separates this text from the next frame, so the text is never read as a frame.
- * If the program at the other end ends, this one does not notice and waits. */
+/* link_console.c: hal/link.h over the console of a real board. The program prints on the same line: a zero byte
+ * separates this text from the next frame. The end of the simulator is not detected. */
 #include "hal/link.h"
 
 #include "boards/board.h"
 
 bool hal_link_open(void) { return board_converse(); }
 
-/* Polls every 20 us, because a byte takes 87 us at 115,200 baud, and a device may store only one byte. */
+/* 20 us, because a device may store only one byte, and a byte takes 87 us at 115,200 baud */
 #define POLLS_PER_S 50000U
 
 unsigned hal_link_read(uint8_t *bytes, unsigned room) {

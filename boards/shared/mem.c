@@ -1,8 +1,8 @@
-/* mem.c: the four functions a compiler may call on its own for copying and clearing structures. */
+/* mem.c: the functions that a compiler calls on its own to copy, clear and compare structures. */
 #include <stddef.h>
 #include <stdint.h>
 
-/* Without this option gcc turns the loops below into calls of the functions themselves. */
+/* Otherwise gcc turns the loops below into calls of the functions themselves. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-loop-distribute-patterns")
 #endif

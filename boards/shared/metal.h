@@ -1,4 +1,4 @@
-/* metal.h: declarations shared by the bare-metal families: registers, and the memory layout of boards/shared/sections.ld. */
+/* metal.h: registers, and the memory layout of boards/shared/sections.ld, for the bare-metal families. */
 #ifndef BOARDS_SHARED_METAL_H
 #define BOARDS_SHARED_METAL_H
 
@@ -6,7 +6,7 @@
 
 #define REGISTER(address) (*(volatile uint32_t *)(uintptr_t)(address))
 
-/* Access to a register. On the PC, tests replace it and see every access in order (tests/chip). */
+/* Access to a register. Tests on the PC replace these functions (tests/chip). */
 #ifndef BOARD_REGISTERS_FAKED
 #define BOARD_REGISTERS_FAKED 0
 #endif
@@ -18,26 +18,23 @@ static inline uint32_t reg_load(uint32_t address) { return REGISTER(address); }
 static inline void reg_store(uint32_t address, uint32_t value) { REGISTER(address) = value; }
 #endif
 
-extern uint32_t board_stack_guard[]; /* BOARD_STRIP_BYTES below the stack, unused */
+extern uint32_t board_stack_guard[]; /* the guard strip, BOARD_STRIP_BYTES below the stack */
 extern uint32_t board_stack_limit[]; /* lowest word of the stack */
 extern uint32_t board_stack_top[];   /* one past the highest word of the stack */
 extern uint32_t board_fault_stack_top[];
 
-/* Size of the strip below the stack. The strip is aligned to its size, because memory protection units require it. */
+/* Size of the guard strip, and its alignment, because memory protection units require it. */
 #define BOARD_STRIP_BYTES 256U
 
-/* Protect the strip, if the chip can: accesses to it then fault (guard.c of each family). The start-up code calls this
- * once. */
+/* Makes accesses to the guard strip fault, if the chip can (guard.c). The start-up code calls this once. */
 void board_guard_stack(void);
 
-/* Returns the number of words from `low` up to `high`, two symbols of the linker script. For C they are two objects, so
- * pointers to them must not be subtracted. */
+/* Returns the number of words between two symbols of the linker script. C does not allow to subtract their pointers. */
 static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
     return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
 }
 
-/* Copy the initial values of initialized variables from flash, and clear the other variables. Call it before any C code
- * that uses variables. */
+/* Copies initial values from flash, and clears the other variables. Call it before any code that uses variables. */
 static inline void board_fill_memory(void) {
     extern uint32_t board_data_load[];
     extern uint32_t board_data_start[];

@@ -1,9 +1,8 @@
-/* remembered.c: bytes that survive a reset (hal/reset.h), in memory that is never cleared. There are two copies; a
- * write replaces the older one.
+/* remembered.c: bytes that survive a reset (hal/reset.h), in memory that is never cleared.
  *
- * At power-on the memory has random content, or, after a short power failure, the old content: after a power-on the
- * caller drops it. A valid copy ends with the CRC-32 of its bytes: random content passes once in 4e9. A reset in the
- * middle of a write corrupts one copy, and the other has the earlier bytes. */
+ * A write replaces the older of two copies, so that a reset during the write leaves the newer one. A valid copy ends
+ * with the CRC-32 of its bytes: random content passes once in 4e9. After a power-on the caller drops both copies,
+ * because the old content survives a short power failure. */
 #include "remembered.h"
 
 #include <stddef.h>
@@ -11,16 +10,16 @@
 #include "core/frame.h"
 #include "hal/reset.h"
 
-/* A copy has as few bytes as possible: in the CRC, an 8-bit processor needs 150 cycles for each byte. */
+/* as short as possible, because the CRC costs an 8-bit processor 150 cycles a byte */
 typedef struct remembered {
-    uint8_t sequence; /* the sequence numbers of the two copies differ by one */
+    uint8_t sequence; /* the copies' numbers differ by one */
     uint8_t count;
     uint8_t bytes[HAL_REMEMBER_BYTES];
     uint32_t crc;
 } remembered;
 
 BOARD_KEPT static remembered slots[2];
-/* Kept outside the copies, because every control step writes it. */
+/* not in the copies, because every control step writes it */
 BOARD_KEPT static uint32_t kept_state;
 
 static uint32_t crc_of(const remembered *slot) {
@@ -48,7 +47,7 @@ void hal_remember(const void *bytes, unsigned count) {
     const uint8_t *from = bytes;
     const remembered *last = newest();
     remembered *to = last == &slots[0] ? &slots[1] : &slots[0];
-    to->crc = ~to->crc; /* invalid while it is written */
+    to->crc = ~to->crc; /* invalid during the write */
     board_kept_settle();
     to->sequence = last != NULL ? (uint8_t)(last->sequence + 1U) : 0U;
     to->count = (uint8_t)(count < HAL_REMEMBER_BYTES ? count : HAL_REMEMBER_BYTES);

@@ -8,7 +8,7 @@
 /* Places a variable in memory that is never cleared or filled. */
 #define BOARD_KEPT __attribute__((section(".noinit")))
 
-/* Start value of the CRCs in memory that is never cleared. With this value, a memory of zeros is invalid. */
+/* Start value of the CRCs in that memory: a memory of zeros is invalid. */
 #define BOARD_KEPT_CRC_START 0x52494721U
 
 /* A barrier: the compiler moves no store to that memory across this call. */
@@ -23,7 +23,7 @@ static inline void board_kept_settle(void) {
 /* True if hal_recall() has bytes to return. */
 bool board_remembers(void);
 
-/* Call this after a power-on: hal_recall() then returns no bytes until the next hal_remember(). */
+/* Makes hal_recall() return no bytes until the next hal_remember(). Call it after a power-on. */
 void board_forget(void);
 
 /* Returns the last argument of hal_reset_mark(). */

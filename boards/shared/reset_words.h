@@ -1,4 +1,4 @@
-/* reset_words.h: the record of a fault of each family, for hal_reset_words() in reset_words.c. */
+/* reset_words.h: each family's record of a fault, for hal_reset_words(). */
 #ifndef BOARDS_SHARED_RESET_WORDS_H
 #define BOARDS_SHARED_RESET_WORDS_H
 
@@ -12,8 +12,7 @@ typedef struct board_fault_when {
     uint32_t faults; /* number of faults since power-on, including this one */
 } board_fault_when;
 
-/* Adds the words of the fault that hal_reset_cause() reports, and returns its time. Each family implements this
- * function. */
+/* Adds the words of the fault that hal_reset_cause() reports. Each family implements this function. */
 board_fault_when board_fault_answer(wh_text *text);
 
 #endif

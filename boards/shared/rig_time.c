@@ -1,4 +1,4 @@
-/* rig_time.c: the time of hal/clock.h from board_ticks(). */
+/* rig_time.c: hal/clock.h by board_ticks(). */
 #include "rig_time.h"
 
 #include "boards/board.h"

@@ -1,4 +1,4 @@
-/* stack.c: measures the used part of the stack (board.h): the part in which the pattern is gone. */
+/* stack.c: measures the used part of the stack (board.h): the part without the pattern. */
 #include "boards/shared/metal.h"
 
 #include "boards/board.h"

@@ -1,5 +1,5 @@
-/* Olimex STM32-H405: STM32F405RG with an 8 MHz crystal. Pins are on its extension headers, with their names on the
- * chip. Its button is on PA0, so the slot sensors are on PA1 and PA2. */
+/* Olimex STM32-H405: STM32F405RG with an 8 MHz crystal. Pins on its extension headers have their names on the chip. Its
+ * button is on PA0, so the slot sensors are on PA1 and PA2. */
 #ifndef BOARD_DATA_H
 #define BOARD_DATA_H
 
@@ -9,7 +9,7 @@
 #define BOARD_PLL_N 168U
 
 #define BOARD_SLOT_PINS PIN('A', 1), PIN('A', 2)
-#define BOARD_SLOT_CHANNELS 2U, 3U /* channel of TIM2 for each sensor */
+#define BOARD_SLOT_CHANNELS 2U, 3U /* channels of TIM2 */
 #define BOARD_CELL_PIN PIN('C', 0)
 #define BOARD_CELL_INPUT 10U
 #define BOARD_SUPPLY_PIN PIN('C', 1)

@@ -1,14 +1,14 @@
 /* cell.c: load cell and supply by the chip's 12-bit converter (RM0090, 13 and 10).
  *
- * Timer 3 starts 32,000 pairs of conversions per second: load, supply. DMA stores them, and interrupts when half of its
- * memory is full: 64 pairs, 2 ms. A sample is the mean of 64 conversions. Its time stamp is the middle of their times,
- * so it has no delay. A sample is delivered when the next mean is known, because the correction of a mean's attenuation
- * needs both neighbours (hal/averaged.h). One count of the converter is 109 mN. The error of a mean of 64 is 1.7 mN
- * with noise of half a count; the unit of a sample is 6.8 mN.
+ * Timer 3 starts 32,000 pairs of conversions per second: load, supply. DMA stores them, and interrupts after each half
+ * of its memory: 64 pairs, 2 ms. A sample is the mean of 64 conversions, with the time stamp of their middle, so it has
+ * no delay. It waits for the next mean, because the correction of a mean needs both neighbours (hal/averaged.h). One
+ * count of the converter is 109 mN. The error of a mean is 1.7 mN with noise of half a count; the unit of a sample is
+ * 6.8 mN.
  *
- * Without force, the amplifier's output is half of the reference. Near either end the amplifier is saturated. If all
- * counts of a sample are near the lower end, a wire is broken: a resistor then pulls the pin down. Leakage,
- * and charge that the converter keeps from the other input, leave it slightly above 0. */
+ * Without force, the amplifier's output is half of the reference; near either end the amplifier is saturated. If all
+ * counts of a sample are near the lower end, a wire is broken: a resistor pulls the pin down. Leakage, and charge that
+ * the converter keeps from the other input, leave the pin slightly above 0. */
 #include "hal/averaged.h"
 #include "hal/loadcell.h"
 #include "hal/motor.h"
@@ -23,11 +23,11 @@
 #define PAIRS_TICKS (PAIRS * (BOARD_TICKS_PER_S / 1000U) / (PAIRS_PER_S / 1000U))
 _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period");
 
-/* Time from the middle of the samples to the interrupt after the last pair: half of the pairs minus half of one pair,
- * plus 5 us. The two conversions of a pair take 9 us, and the force is sampled in the first 4 us. */
+/* From the middle of the samples to the interrupt: half of the pairs minus half of one pair, plus 5 us. The conversions
+ * of a pair take 9 us, and the force is sampled in the first 4 us. */
 #define BEHIND_TICKS (PAIRS_TICKS / 2U - (PAIRS_TICKS / PAIRS + 1U) / 2U + 5U)
 
-/* Highest clock of the converter (STM32F405's data sheet, table 67). */
+/* highest clock of the converter (STM32F405's data sheet, table 67) */
 #define ADC_HZ_MOST 36000000U
 
 #define FULL 4095U
@@ -35,7 +35,7 @@ _Static_assert(PAIRS_TICKS == HAL_LOADCELL_PERIOD_TICKS, "a sample each period")
 #define RAIL (FULL / 64U)       /* margin in which no amplifier is linear: 52 mV */
 #define OPEN_BELOW (FULL / 16U) /* an input below 0.2 V is not connected */
 
-/* If a conversion is above this limit, the mean of the supply is not valid. */
+/* Above this limit a conversion makes the mean of the supply invalid. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_V_PER_COUNT ((float)BOARD_SUPPLY_FULL_mV / 1000.0f / (float)FULL)
 _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
@@ -44,10 +44,10 @@ _Static_assert(HAL_MOTOR_SUPPLY_IS_SEEN(BOARD_SUPPLY_MOST_mV,
 
 #define SAMPLES_KEPT 8U
 
-/* This status marks a missing mean. The converter itself never has this status. */
+/* Marks a missing mean; the converter never has this status. */
 #define NO_MEAN HAL_LOAD_REPEATED
 
-/* The conversions. They are not in core-coupled memory, which DMA cannot reach (RM0090, 2.3.1). */
+/* Not in core-coupled memory, which DMA cannot reach (RM0090, 2.3.1). */
 static volatile uint16_t pair[2][PAIRS][2];
 static hal_load_sample kept_samples[SAMPLES_KEPT];
 static stm32f4_ring_counts sample_counts;
@@ -132,8 +132,7 @@ static void hand_on(const hal_load_sample *mean) {
     last_follows = mean_follows;
 }
 
-/* Averages a half of DMA's memory. The sum of 64 counts of 12 bits has 18 bits: four of its units are one count of
- * hal/loadcell.h. */
+/* Averages a half of DMA's memory. A sum of 64 counts has 18 bits; four units are one count of hal/loadcell.h. */
 static void average(unsigned half, uint32_t ticks) {
     uint32_t sum = 0;
     uint32_t supply = 0;
@@ -144,7 +143,7 @@ static void average(unsigned half, uint32_t ticks) {
         sum += count;
         supply += pair[half][i][1];
         beyond = beyond || pair[half][i][1] > SUPPLY_END;
-        /* true if a count is near either end */
+        /* near either end */
         clipped = clipped || count - RAIL > FULL - 2U * RAIL;
     }
     supply_sum = beyond ? UINT32_MAX : supply;
@@ -157,8 +156,7 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&mean);
 }
 
-/* DMA's position shows which half is complete, and since when. If the interrupt is late, it takes the newest half and
- * that half's time stamp. */
+/* DMA's position shows which half is complete, and since when. If late, it takes the newest half and its time stamp. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);

@@ -13,8 +13,8 @@ _Static_assert(BOARD_CRYSTAL_HZ / BOARD_PLL_M * BOARD_PLL_N == PLL_OUT_Hz &&
 _Static_assert(BOARD_PLL_N >= 50U && BOARD_PLL_N <= 432U && BOARD_PLL_M >= 2U && BOARD_PLL_M <= 63U,
                "RM0090, 7.3.2");
 
-/* Longest waits, as numbers of polls of a flag. A poll takes some ten cycles at 16 MHz. The chip's own oscillator
- * starts in 4 us, a switch takes a few clocks, the phase-locked loop 0.3 ms, a crystal some milliseconds. */
+/* Longest waits, as numbers of polls of some ten cycles at 16 MHz. The chip's own oscillator starts in 4 us, a switch
+ * takes a few clocks, the phase-locked loop 0.3 ms, a crystal some milliseconds. */
 #define SOON 2000U
 #define PATIENTLY 40000U
 
@@ -33,8 +33,8 @@ void stm32f4_clock_on(unsigned part) {
     (void)reg_load(enable);
 }
 
-/* Makes the core run on the chip's own oscillator, because a loader in ROM may have changed the clock, or the crystal
- * has failed. Returns false in an emulator, whose clock registers read as zero: it has no clock to set up. */
+/* Runs the core on the chip's own oscillator: a loader in ROM may have changed the clock, or the crystal has failed.
+ * Returns false in an emulator, whose clock registers read as zero. */
 static bool to_own_oscillator(void) {
     reg_set(RCC_CR, RCC_CR_HSION);
     if (!stm32f4_comes(RCC_CR, RCC_CR_HSIRDY, RCC_CR_HSIRDY, SOON)) {
@@ -58,7 +58,7 @@ static board_clock fall_back(void) {
     return BOARD_CLOCK_FALLBACK;
 }
 
-/* In memory that the start-up code does not clear, because it is written before that code runs. */
+/* not cleared, because it is written before the start-up code clears variables */
 __attribute__((section(".noinit"))) board_clock board_clock_is;
 
 static board_clock set_up(void) {
@@ -77,8 +77,7 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, SOON)) {
         return fall_back();
     }
-    /* Five wait states, for 168 MHz at 2.7 V (3.5.1), set before the core runs that fast. No prefetch, because revision
-     * A of the chip has a defect. */
+    /* Five wait states before 168 MHz at 2.7 V (3.5.1). No prefetch, because revision A of the chip has a defect. */
     const uint32_t wait_states = 5U;
     reg_store(FLASH_ACR, FLASH_ACR_ICEN | FLASH_ACR_DCEN | wait_states);
     if (!stm32f4_comes(FLASH_ACR, FLASH_ACR_LATENCY, wait_states, SOON)) {
@@ -89,8 +88,7 @@ static board_clock set_up(void) {
     if (!stm32f4_comes(RCC_CFGR, RCC_CFGR_SWS, RCC_CFGR_SWS_PLL, SOON)) {
         return fall_back();
     }
-    /* If the crystal stops, the timer's break switches the motor off at once. Then comes the NMI, which is a fault
-     * (7.2.7). */
+    /* A stopped crystal switches the motor off by the timer's break, and causes an NMI, which is a fault (7.2.7). */
     reg_set(RCC_CR, RCC_CR_CSSON);
     return BOARD_CLOCK_CRYSTAL;
 }
@@ -105,7 +103,7 @@ const stm32f4_clocks *stm32f4_clocks_now(void) {
         [BOARD_CLOCK_FALLBACK] = {.timer1_Hz = 16000000U,
                                   .timers_Hz = 16000000U,
                                   .usart_Hz = 16000000U},
-        /* QEMU's timers count nanoseconds. */
+        /* QEMU's timers count nanoseconds */
         [BOARD_CLOCK_GIVEN] = {.timer1_Hz = PLL_OUT_Hz / 2U,
                                .timers_Hz = 1000000000U,
                                .usart_Hz = PLL_OUT_Hz / 4U},

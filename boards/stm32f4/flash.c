@@ -1,5 +1,5 @@
 /* flash.c: settings in sectors 1 and 2 of the chip's flash, 16 KB each (RM0090, 3.6), which the linker leaves free
- * (stm32f405.ld). An erase takes 0.25 to 0.5 s, and stalls the core meanwhile. */
+ * (stm32f405.ld). An erase takes 0.25 to 0.5 s, in which the core stalls. */
 #include "hal/settings.h"
 
 #include "boards/shared/remembered.h"
@@ -13,7 +13,7 @@ static uint32_t address_of(unsigned slot, unsigned at) {
     return FIRST_ADDRESS + SECTOR_BYTES * slot + at;
 }
 
-/* Waits until the operation in progress ends. Returns false if it failed. */
+/* Waits for the end of the operation. Returns false if it failed. */
 static bool ended(void) {
     return stm32f4_flash_rests() && (reg_load(FLASH_SR) & FLASH_SR_ERRORS) == 0;
 }
@@ -50,7 +50,7 @@ bool hal_settings_erase(unsigned slot) {
     return done;
 }
 
-/* Writes whole words. The bytes of the last word after `count` stay 0xFF. */
+/* Writes whole words: bytes after `count` stay 0xFF. */
 bool hal_settings_write(unsigned slot, unsigned at, const uint8_t *bytes, unsigned count) {
     bool done = opened();
     if (!done) {

@@ -1,13 +1,12 @@
 /* motor.c: the drive stage. TIM1's channel 1 is a PWM of 20 kHz on its complementary output alone (RM0090, 17.3 and
- * table 94). The enable is on a pin, and the break input receives both stop and the drive stage's fault.
+ * table 94). The enable is on a pin; the break input receives both stop and the drive stage's fault.
  *
- * The break input is active low, with a pull-down: a broken wire counts as pressed. A break clears MOE without
- * software, and so does a stopped crystal. The output then has its idle level, low. MOE cannot be set while the break
- * is active. A lock-up of the core does not clear MOE on this chip; the watchdog acts in that case.
+ * The break input is active low, with a pull-down: a broken wire counts as pressed. A break, or a stopped crystal,
+ * clears MOE without software: the output then has its idle level, low. MOE cannot be set while the break is active. A
+ * lock-up of the core does not clear MOE on this chip; then the watchdog resets it.
  *
- * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). Other families' manuals say that the outputs are
- * then disabled. For the F4 this is not proved, and an output could stay high. So the watchdog keeps running in that
- * case, and resets the chip. */
+ * A debugger that halts the core stops TIM1's counter (DBG_TIM1_STOP). An output could then stay high: that the F4
+ * disables its outputs, as other families do, is not proved. So the watchdog keeps running in a halt. */
 #include "hal/motor.h"
 
 #include "hal/stop.h"
@@ -18,13 +17,13 @@
 #define TIM1_FUNCTION 1U
 
 static uint32_t whole;        /* compare value at which the output is always on */
-static volatile bool driving; /* true: started and not yet off; also if stop keeps MOE clear */
+static volatile bool driving; /* started and not yet off, also if stop keeps MOE clear */
 
 void stm32f4_motor_start(void) {
-    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT); /* the pin is low */
+    stm32f4_pin_is(BOARD_PIN_ENABLE, PIN_OUTPUT);
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_TIM1));
     reg_set(DBGMCU_APB2_FZ, DBGMCU_APB2_FZ_TIM1);
-    /* The watchdog keeps running while the core is halted. A debugger sets this bit, and the bit survives resets. */
+    /* a debugger sets this bit, which stops the watchdog in a halt and survives resets */
     reg_clear(DBGMCU_APB1_FZ, DBGMCU_APB1_FZ_IWDG);
     whole = stm32f4_clocks_now()->timer1_Hz / PWM_Hz;
     stm32f4_pin_is(BOARD_PIN_BREAK, PIN_ALTERNATE(TIM1_FUNCTION) | PULL_DOWN);
@@ -42,11 +41,10 @@ void stm32f4_motor_start(void) {
     driving = false;
 }
 
-/* True if the motor was started and the hardware has cleared MOE. This is permanent: no hardware sets MOE again (AOE is
- * 0). */
+/* True if the hardware has cleared MOE since the start: permanent, because no hardware sets MOE again (AOE is 0). */
 static bool is_cut(void) { return driving && (reg_load(TIM_BDTR(TIM1)) & TIM_BDTR_MOE) == 0; }
 
-/* Returns the compare value of a voltage. NaN and a missing supply give 0. */
+/* NaN and a missing supply give 0. */
 static uint32_t compare_of(float volts) {
     const float supply_V = hal_motor_supply_V();
     if (!(volts > 0.0f) || !(supply_V > 0.0f)) {
@@ -56,7 +54,7 @@ static uint32_t compare_of(float volts) {
 }
 
 unsigned hal_motor_start(void) {
-    /* A hal_motor_off() in an interrupt waits until stm32f4_go_on(). */
+    /* a hal_motor_off() in an interrupt waits until stm32f4_go_on() */
     const uint32_t before = stm32f4_hold();
     if (!driving) {
         driving = true; /* even if stop keeps MOE clear: the motor then counts as cut */
@@ -70,11 +68,10 @@ unsigned hal_motor_start(void) {
     return hal_motor_status();
 }
 
-/* Without MOE the voltage has no effect. After a start it begins at 0. */
+/* Without MOE the voltage has no effect; a start sets it to 0. */
 void hal_motor_set_voltage(float volts) { reg_store(TIM_CCR(TIM1, 1U), compare_of(volts)); }
 
-/* The first store clears the output; it is also the first store after a fault (BOARD_SAFE_ROWS). After this call any
- * press of stop, however short, prevents a start. */
+/* The first store clears the output, as after a fault (BOARD_SAFE_ROWS). Any press of stop then prevents a start. */
 void hal_motor_off(hal_motor_off_way way) {
     reg_store(TIM_BDTR(TIM1), BOARD_MOTOR_BDTR);
     stm32f4_pin_set(BOARD_PIN_ENABLE, way == HAL_MOTOR_BRAKE);

@@ -6,7 +6,7 @@
 
 #if BOARD_REGISTERS_FAKED
 uint32_t reg_address(volatile void *memory);
-/* Switch interrupts off; the next function restores the earlier state (stm32f4.h). */
+/* stm32f4_hold() and stm32f4_go_on() */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 #else
@@ -14,8 +14,7 @@ void reg_go_on(uint32_t before);
 static inline uint32_t reg_address(volatile void *memory) { return (uint32_t)(uintptr_t)memory; }
 #endif
 
-/* Sets the bits of `mask` in a register to those of `bits`; the other bits stay. Not safe if an interrupt changes the
- * same register. */
+/* Sets the bits of `mask` in a register to `bits`. Not safe if an interrupt changes the same register. */
 static inline void reg_change(uint32_t address, uint32_t mask, uint32_t bits) {
     reg_store(address, (reg_load(address) & ~mask) | bits);
 }

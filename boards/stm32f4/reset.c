@@ -1,5 +1,4 @@
-/* reset.c: the cause of the chip's start (RM0090, 7.3.21), and the data that survived the reset
- * (boards/cortexm/kept.h). */
+/* reset.c: the cause of the chip's start (RM0090, 7.3.21), and the data that survived it (boards/cortexm/kept.h). */
 #include "hal/reset.h"
 #include "boards/cortexm/kept.h"
 #include "boards/shared/reset_words.h"
@@ -10,8 +9,8 @@
 static hal_reset cause;
 static board_fault_record fault;
 
-/* Every start also sets the pin's flag, so the other flags are tested first. If no flag is set, as in an emulator,
- * valid data from before the start show that it was no power-on. */
+/* Every start also sets the pin's flag, so the other flags come first. Without a flag, as in an emulator, valid data
+ * from before the start exclude a power-on. */
 static hal_reset cause_of(uint32_t flags, bool knows_of_before, bool faulted) {
     if ((flags & (RCC_CSR_IWDGRSTF | RCC_CSR_WWDGRSTF)) != 0) {
         return HAL_RESET_WATCHDOG;

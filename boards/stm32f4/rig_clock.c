@@ -1,5 +1,4 @@
-/* rig_clock.c: the start of the rig's hardware, and the source of its clock. (boards/shared/rig_time.c has the time
- * itself.) */
+/* rig_clock.c: the start of the rig's hardware, and the source of its clock (boards/shared/rig_time.c). */
 #include "hal/clock.h"
 
 #include "boards/board.h"
@@ -12,7 +11,7 @@ _Static_assert((int)BOARD_CLOCK_CRYSTAL == (int)HAL_CLOCK_CRYSTAL &&
                    (int)BOARD_CLOCK_GIVEN == (int)HAL_CLOCK_PLAYED,
                "one list of what it runs on");
 
-/* Starts the motor's part first, so that the motor is off even if later parts fail. */
+/* The motor first, so that it is off even if later parts fail. */
 bool hal_clock_start(void) {
     stm32f4_motor_start();
     stm32f4_reset_start();

@@ -1,12 +1,11 @@
-/* ring.h: a FIFO between an interrupt and the control loop, for records of one size. One of the two writes, the other
- * reads. */
+/* ring.h: a FIFO of records of one size, written by an interrupt and read by the control loop, or the reverse. */
 #ifndef BOARDS_STM32F4_RING_H
 #define BOARDS_STM32F4_RING_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Numbers of records put and taken so far, wrapping. Their difference is the number of waiting records. */
+/* Numbers of records since the start, wrapping: put - taken records are stored. */
 typedef struct stm32f4_ring_counts {
     volatile uint32_t put;
     volatile uint32_t taken;
@@ -23,10 +22,10 @@ static inline bool stm32f4_ring_has_room(const stm32f4_ring *ring) {
     return ring->counts->put - ring->counts->taken < ring->kept;
 }
 
-/* Put a record. Returns false if there is no room. */
+/* Returns false if the ring is full. */
 bool stm32f4_ring_put(const stm32f4_ring *ring, const void *record);
 
-/* Take the oldest record. Returns false if there is none. */
+/* Takes the oldest record. Returns false if there is none. */
 bool stm32f4_ring_take(const stm32f4_ring *ring, void *record);
 
 #endif

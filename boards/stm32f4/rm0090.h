@@ -193,15 +193,14 @@
 #define DBGMCU_APB2_FZ 0xE004200CU
 #define DBGMCU_APB2_FZ_TIM1 (1U << 0)
 
-/* Interrupts with a vector that a driver handles: X(number, name). */
+/* Interrupts that a driver handles: X(number, name). */
 #define STM32F4_INTERRUPTS 82
 #define STM32F4_VECTOR_ROWS(X) \
     X(28, tim2) \
     X(56, dma2_stream0) \
     X(71, usart6)
 
-/* The core's interrupt controller (Armv7-M Architecture Reference Manual, B3.4): enable bits, and one byte of priority
- * for each interrupt. */
+/* The core's interrupt controller (Armv7-M manual, B3.4): enable bits, and one byte of priority for each interrupt. */
 #define NVIC_ISER(word) (0xE000E100U + 4U * (word))
 #define NVIC_IPR(word) (0xE000E400U + 4U * (word))
 

@@ -1,7 +1,6 @@
 /* slots.c: the slot sensors on two inputs of timer 2, which stores the time of an edge in hardware (RM0090, 18.3.5),
- * after a filter of 12 us. Channels 1 and 2 are a pair, and so are 3 and 4. Each channel of a pair can use both inputs
- * (18.3.6). The input's own channel captures rising edges, and the other channel of the pair captures the falling ones:
- * so the end of a pulse never overwrites its begin. The interrupt only copies the times. */
+ * after a filter of 12 us. Channels 1 and 2, 3 and 4 are pairs that can use each other's input (18.3.6): the input's
+ * own channel captures rising edges, the other one falling edges. So the end of a pulse never overwrites its begin. */
 #include "hal/slots.h"
 
 #include "ring.h"
@@ -20,8 +19,7 @@ static stm32f4_ring_counts edge_counts;
 static const stm32f4_ring edges = {&edge_counts, kept_edges, EDGES_KEPT, sizeof *kept_edges};
 static volatile uint32_t overruns;
 
-/* Stores an edge; the interrupt calls this. Returns false if there is no room, which counts as one overrun: the
- * interrupt then stays off until an edge is taken. */
+/* Returns false if the ring is full afterwards: an overrun, after which the interrupt pauses until an edge is taken. */
 static bool keep_edge(const hal_slot_edge *edge) {
     if (stm32f4_ring_put(&edges, edge) && stm32f4_ring_has_room(&edges)) {
         return true;
@@ -58,8 +56,7 @@ void stm32f4_slots_start(void) {
     stm32f4_interrupt(TIM2_IRQ);
 }
 
-/* Stores simultaneous captures in the order of their times. Reading a capture clears its flag; the channel's other flag
- * shows an overrun. */
+/* Stores captures in the order of their times. Reading a capture clears its flag; a second flag shows an overrun. */
 void on_tim2(void) {
     const uint32_t status = reg_load(TIM_SR(TIM2));
     hal_slot_edge seen[4];
@@ -89,8 +86,7 @@ void on_tim2(void) {
     }
 }
 
-/* Taking an edge makes room. If capture had paused, it restarts, and captures that remain from a storm are dropped:
- * they may be of any age. */
+/* Restarts a paused capture, without the captures that remain from a storm: they may be of any age. */
 bool hal_slots_take(hal_slot_edge *edge) {
     const bool there = stm32f4_ring_take(&edges, edge);
     if (there && reg_load(TIM_DIER(TIM2)) == 0) {

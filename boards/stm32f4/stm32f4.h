@@ -1,5 +1,4 @@
-/* stm32f4.h: declarations shared by the drivers of the STM32F405. The board's data (crystal, pins) are in its
- * board_data.h. */
+/* stm32f4.h: declarations shared by the drivers of the STM32F405. Crystal and pins are in the board's board_data.h. */
 #ifndef BOARDS_STM32F4_H
 #define BOARDS_STM32F4_H
 
@@ -10,8 +9,7 @@
 #include "registers.h"
 #include "rm0090.h"
 
-/* Clocks after board_clock_start(), Hz (RM0090, 7.2, figure 21). If a bus has a divided clock, its timers run at twice
- * the bus clock. */
+/* Clocks after board_clock_start() (RM0090, 7.2, figure 21). Timers run at twice the clock of a bus that is divided. */
 typedef struct stm32f4_clocks {
     uint32_t timer1_Hz; /* clock of TIM1, on APB2 */
     uint32_t timers_Hz; /* clock of TIM2 and TIM3, on APB1 */
@@ -19,14 +17,13 @@ typedef struct stm32f4_clocks {
 } stm32f4_clocks;
 const stm32f4_clocks *stm32f4_clocks_now(void);
 
-/* Number of a peripheral: the index of its bit among the clock enable registers. The ports have the first numbers. */
+/* Number of a peripheral: the index of its bit in the clock enable registers. The ports come first. */
 #define RCC_PART(enable, bit) (((enable)-RCC_AHB1ENR) * 8U + (unsigned)__builtin_ctz(bit))
 
-/* Enable the peripheral's clock. The clock runs when the call returns (RM0090, 7.3.14; ES0182, 2.1.13). */
+/* Enables the peripheral's clock, which runs when the call returns (RM0090, 7.3.14; ES0182, 2.1.13). */
 void stm32f4_clock_on(unsigned part);
 
-/* Wait until the bits of `mask` in a register equal `wanted`. Returns false if they do not after `looks` polls of some
- * ten cycles each. */
+/* Waits until the bits of `mask` in a register equal `wanted`. False: not after `looks` polls of some ten cycles. */
 bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
 /* A pin's mode and pull resistor. */
@@ -37,9 +34,9 @@ bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t lo
 #define PULL_UP (1U << 2)
 #define PULL_DOWN (2U << 2)
 
-/* Set a pin's mode, and enable the port's clock. */
+/* Sets a pin's mode, and enables the port's clock. */
 void stm32f4_pin_is(unsigned pin, unsigned what);
-/* Set a pin's level by one store, which a fault handler may do. */
+/* Sets a pin's level by one store, which a fault handler may do. */
 WH_INLINE void stm32f4_pin_set(unsigned pin, bool high) {
     reg_store(GPIO_BSRR(pin / 16U), 1U << (pin % 16U + (high ? 0U : 16U)));
 }
@@ -47,15 +44,13 @@ static inline bool stm32f4_pin_is_high(unsigned pin) {
     return (reg_load(GPIO_IDR(pin / 16U)) >> (pin % 16U) & 1U) != 0;
 }
 
-/* Set field `number` of an array of fields to `value`. The array begins at register `first`; each field has `bits` bits
- * and lies within one register. */
+/* Sets field `number` of an array of fields of `bits` bits, from register `first` on. No field crosses registers. */
 void stm32f4_field(uint32_t first, unsigned bits, unsigned number, uint32_t value);
 
-/* Enable an interrupt of the chip. All have the same priority: they do not interrupt each other, and faults interrupt
- * all. */
+/* Enables an interrupt of the chip. Interrupts do not interrupt each other; faults interrupt all. */
 void stm32f4_interrupt(unsigned number);
 
-/* Switch interrupts off until stm32f4_go_on(). Returns the interrupt state before the call. */
+/* Switches interrupts off until stm32f4_go_on(). Returns the interrupt state before the call. */
 static inline uint32_t stm32f4_hold(void) {
 #if BOARD_REGISTERS_FAKED
     return reg_hold();
@@ -73,13 +68,12 @@ static inline void stm32f4_go_on(uint32_t before) {
 #endif
 }
 
-/* Wait until the flash interface is idle. Returns false if it stays busy. An erase takes less than two seconds, at any
- * speed of this loop. */
+/* Returns false if the flash stays busy: an erase takes less than two seconds, at any speed of this loop. */
 static inline bool stm32f4_flash_rests(void) {
     return stm32f4_comes(FLASH_SR, FLASH_SR_BSY, 0, 100000000U);
 }
 
-/* Start the parts of the rig's hardware. hal_clock_start() calls these functions (rig_clock.c). */
+/* hal_clock_start() calls these functions (rig_clock.c). */
 void stm32f4_motor_start(void);
 void stm32f4_reset_start(void);
 void stm32f4_slots_start(void);

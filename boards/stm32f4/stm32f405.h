@@ -1,6 +1,5 @@
-/* stm32f405.h: data common to all boards with an STM32F405. Crystal and pins are a board's own data. The pins below are
- * on a header of each of these boards: PB13, the complement of TIM1's channel 1; PB14, the enable; PA6, TIM1's
- * break. */
+/* stm32f405.h: data common to all boards with an STM32F405; crystal and other pins are the board's. Each board has
+ * these pins on a header: PB13, the complement of TIM1's channel 1; PB14, the enable; PA6, TIM1's break. */
 #ifndef BOARDS_STM32F405_H
 #define BOARDS_STM32F405_H
 
@@ -18,11 +17,10 @@
 #define BOARD_PIN_ENABLE PIN('B', 14)
 #define BOARD_PIN_BREAK PIN('A', 6)
 
-/* States of TIM1's outputs (motor.c). Without MOE the outputs have their idle level, low. */
+/* TIM1's outputs (motor.c): without MOE they have their idle level, low. */
 #define BOARD_MOTOR_BDTR (TIM_BDTR_LOCK_2 | TIM_BDTR_OSSI | TIM_BDTR_OSSR | TIM_BDTR_BKE)
 
-/* Supply voltage that the divider at the supply's input reduces to the converter's largest value. The highest intended
- * supply is 30 V. */
+/* Supply voltage at which the supply's input has the converter's largest value. The highest intended supply is 30 V. */
 #define BOARD_SUPPLY_FULL_mV 33000U
 #define BOARD_SUPPLY_MOST_mV 31500U
 

@@ -1,8 +1,6 @@
-/* usart.c: the console on serial interface 6, 115,200 baud, 8 bits, no parity (RM0090, 30). An interrupt uses a ring
- * for each direction. After a fault, or before other parts have started, the console polls.
- *
- * While the transmitter is ready, the writer feeds it; the interrupt sends the other bytes. So bytes also go out if an
- * empty transmitter raises no interrupt (QEMU 7.2). */
+/* usart.c: the console on USART6, 115,200 baud, 8 bits, no parity (RM0090, 30), with an interrupt and a ring for each
+ * direction. After a fault, or before other parts have started, it polls. The writer feeds a ready transmitter, so that
+ * bytes also go out if an empty transmitter raises no interrupt (QEMU 7.2). */
 #include "boards/board.h"
 
 #include "ring.h"
@@ -12,8 +10,7 @@
 #define USART6_IRQ 71U
 #define USART6_FUNCTION 8U
 
-/* Sizes of the rings: powers of two, so that indices wrap correctly. At most 23 bytes come in a control step of 2 ms.
- * In each step the console writes only as many bytes as there is room for: its answers wait in its own buffer. */
+/* Powers of two, so that indices wrap correctly. At most 23 bytes come in a control step of 2 ms. */
 #define IN_BYTES 128U
 #define OUT_BYTES 128U
 
@@ -24,7 +21,7 @@ static char out_bytes[OUT_BYTES];
 /* Only the interrupt uses out_counts.taken, or code that has disabled the interrupt. */
 static stm32f4_ring_counts out_counts;
 static const stm32f4_ring out = {&out_counts, out_bytes, OUT_BYTES, 1};
-static bool lost; /* bytes were lost; only the interrupt uses it */
+static bool lost; /* only the interrupt uses it */
 
 void uart_start(void) {
     stm32f4_clock_on(RCC_PART(RCC_APB2ENR, RCC_APB2ENR_USART6));
@@ -47,9 +44,8 @@ static bool feed(void) {
     return out_counts.put != out_counts.taken;
 }
 
-/* Stores received bytes. Reading the status, then the data, clears both flags (30.6.1). If bytes are lost after this
- * one, by an overrun or because the ring is full, a zero before the next byte replaces them. A line with a zero is not
- * executed. */
+/* Stores received bytes. Reading the status, then the data, clears both flags (30.6.1). Bytes lost by an overrun or a
+ * full ring become one zero before the next byte (hal/console.h). */
 static void fetch(void) {
     for (unsigned i = 0; i < IN_BYTES; i++) {
         const uint32_t status = reg_load(USART_SR);
@@ -58,7 +54,7 @@ static void fetch(void) {
         }
         char byte = (char)(reg_load(USART_DR) & 0xFFU);
         if ((status & (USART_SR_FE | USART_SR_NF)) != 0 && byte != HAL_CONSOLE_STOP) {
-            byte = 0; /* a byte damaged by a wrong speed, a plug or noise */
+            byte = 0; /* damaged by a wrong speed, a plug or noise */
         }
         if (lost) {
             lost = !stm32f4_ring_put(&in, "");
@@ -100,8 +96,7 @@ unsigned hal_console_offer(const char *bytes, unsigned count) {
     return taken;
 }
 
-/* Waits until the transmitter is ready, which takes at most a byte's time, 87 us. The wait is bounded, so that a dead
- * device does not hang the program. */
+/* The wait takes at most a byte's time, 87 us. It is bounded, so that a dead device does not hang the program. */
 static void send(char byte) {
     (void)stm32f4_comes(USART_SR, USART_SR_TXE, USART_SR_TXE, 100000U);
     reg_store(USART_DR, (uint8_t)byte);

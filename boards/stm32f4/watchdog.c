@@ -1,6 +1,5 @@
-/* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip. In a reset the drive is off. The watchdog's
- * oscillator has 17 to 47 kHz: a reset comes after the timeout, at the latest after 2.8 timeouts. The watchdog keeps
- * running while a debugger halts the core (motor.c). */
+/* watchdog.c: the independent watchdog (RM0090, 21), which resets the chip, also while a debugger halts the core
+ * (motor.c). In a reset the drive is off. Its oscillator has 17 to 47 kHz: a reset comes after 1 to 2.8 timeouts. */
 #include "hal/watchdog.h"
 
 #include "hal/clock.h"
@@ -18,7 +17,7 @@ static uint32_t clocks_in(uint32_t ticks) {
     return FASTEST_KHZ * (ticks / TICKS_PER_MS) + (rest + TICKS_PER_MS - 1U) / TICKS_PER_MS;
 }
 
-/* Another call with another timeout is allowed, even just before the watchdog resets the chip. */
+/* May be called again, even just before the watchdog resets the chip. */
 void hal_watchdog_start(uint32_t timeout_ticks) {
     uint32_t counts = clocks_in(timeout_ticks) / 4U;
     uint32_t divider = 0;
@@ -31,12 +30,12 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
     reg_store(IWDG_KR, IWDG_KR_UNLOCK);
     reg_store(IWDG_PR, divider);
     reg_store(IWDG_RLR, counts < LONGEST ? counts + 1U : LONGEST);
-    /* Both values take effect after up to five clocks of the watchdog, 300 us (21.4.4). */
+    /* both take effect after up to five clocks of the watchdog, 300 us (21.4.4) */
     (void)stm32f4_comes(IWDG_SR, UINT32_MAX, 0, 100000U);
     reg_store(IWDG_KR, IWDG_KR_RELOAD);
 }
 
 void hal_watchdog_kick(void) { reg_store(IWDG_KR, IWDG_KR_RELOAD); }
 
-/* This watchdog resets the chip instead of cutting the drive. */
+/* This watchdog resets the chip instead. */
 bool hal_watchdog_has_cut(void) { return false; }

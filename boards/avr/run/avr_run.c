@@ -2,14 +2,13 @@
  *
  *     avr_run mcu=atmega328p hz=16000000 [counts=FILE [every=N]] PROGRAM.elf
  *
- * The output of the program's first USART goes to standard output. The program ends by sleeping with its interrupts
- * off; its exit status is the byte in GPIOR0 (boards/avr/board.c). Exit status 125: simavr cannot run the program. 123:
- * the program crashed, or its stack ran into its variables, which these chips do not detect.
+ * Prints the output of the program's first USART. The program ends by sleeping with interrupts off; its exit status is
+ * the byte in GPIOR0 (boards/avr/board.c). Exit status 125: simavr cannot run the program. 123: the program crashed, or
+ * its stack ran into its variables, which these chips do not detect.
  *
- * For a program with wh_count_begin() and wh_count_end() (boards/programs/counted.h), FILE gets the log that
- * mk/count/count_plugin.c describes, with the cycles of each interval, and a last line "intervals TOTAL".
- *
- * The cycles are those of the data sheet's instruction set, exact for these chips: no caches, no wait states. */
+ * If the program has wh_count_begin() and wh_count_end() (boards/programs/counted.h), FILE gets the log that
+ * mk/count/count_plugin.c describes, with the cycles of each interval, and a last line "intervals TOTAL". The cycles
+ * are those of the data sheet's instruction set, exact for these chips: no caches, no wait states. */
 #include <simavr/avr_uart.h>
 #include <simavr/sim_avr.h>
 #include <simavr/sim_core.h>
@@ -118,7 +117,7 @@ static avr_t *load(const settings *all, elf_firmware_t *firmware) {
     return avr;
 }
 
-/* Address of the end of the variables, or 0 if the program does not define it. */
+/* 0: unknown */
 static uint32_t end_of_variables;
 
 static uint32_t stack_pointer(const avr_t *avr) {
@@ -131,8 +130,7 @@ static _Noreturn void went_wrong(const avr_t *avr, const char *what) {
     exit(WENT_WRONG);
 }
 
-/* A program sets the stack pointer in two bytes, with the interrupt flag in between: for two instructions it may be
- * invalid. */
+/* A program sets the stack pointer in two bytes, between which the pointer may be invalid for two instructions. */
 #define TORN_INSTRUCTIONS 2U
 
 /* Executes one instruction. Returns false if the program has ended. */
@@ -144,9 +142,8 @@ static bool step(avr_t *avr) {
         went_wrong(avr, "crashed");
     }
     const uint32_t pointer = stack_pointer(avr);
-    low = pointer < end_of_variables && pointer != 0
-              ? low + 1U
-              : 0U; /* pointer is 0 until the start-up code sets it */
+    low = pointer < end_of_variables && pointer != 0 ? low + 1U
+                                                     : 0U; /* 0: not set by the start-up code yet */
     if (low > TORN_INSTRUCTIONS) {
         went_wrong(avr, "the stack ran into the variables");
     }
@@ -227,7 +224,7 @@ static void run_counting(avr_t *avr, const settings *all, const elf_firmware_t *
 int main(int argc, char **argv) {
     const settings all = read_arguments(argc, argv);
     avr_global_logger_set(on_log);
-    /* line by line, so that a hanging program's output shows */
+    /* by lines, so that a hanging program's output shows */
     (void)setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
     elf_firmware_t firmware;
     avr_t *avr = load(&all, &firmware);
