@@ -1,7 +1,7 @@
 /* clock.h: the rig's time, a free-running 1 MHz capture timer.
  *
- * It stamps slot pulses, load samples and control steps. It has 32 bits and wraps every 71.6 minutes. A difference of
- * two stamps is right below 35.8 minutes, even across a wrap.
+ * It stamps slot pulses, load samples and control steps. It has 32 bits and wraps every 71.6 minutes. Differences of
+ * stamps up to 35.8 minutes are right, even across a wrap.
  *
  * hal_clock_ticks() may be called from anywhere, the other functions not from an interrupt or a fault handler. */
 #ifndef HAL_CLOCK_H
@@ -23,7 +23,7 @@ bool hal_clock_start(void);
 
 typedef enum hal_clock_source {
     HAL_CLOCK_CRYSTAL,
-    HAL_CLOCK_FALLBACK, /* without crystal: too inaccurate to measure a speed */
+    HAL_CLOCK_FALLBACK, /* the crystal has failed: too inaccurate to measure a speed */
     HAL_CLOCK_PLAYED    /* simulated time, from a model or an emulator */
 } hal_clock_source;
 hal_clock_source hal_clock_source_now(void);
@@ -31,7 +31,7 @@ hal_clock_source hal_clock_source_now(void);
 uint32_t hal_clock_ticks(void);
 
 /* Waits until the timer reaches `ticks`, less than half of its range ahead. Returns at once if `ticks` has passed. An
- * interrupt may delay the return by 0.1 ms, a model's step by 1 ms of simulated time. */
+ * interrupt may delay the return by up to 0.1 ms, a model's step by up to 1 ms of simulated time. */
 void hal_clock_wait_until(uint32_t ticks);
 
 WH_C_END

@@ -24,8 +24,8 @@ enum {
     HAL_MOTOR_NO_SUPPLY = 4 /* the measured supply voltage is 0: the stage cannot drive */
 };
 
-/* Switches the enable on, at 0 V; no effect if the motor is started. Returns hal_motor_status(): 0, or why the stage
- * cannot drive. If only the supply is missing, the enable is on; otherwise the drive is off. Not in an interrupt. */
+/* Switches the enable on, at 0 V, unless the motor is started. Returns hal_motor_status(): 0, or the reasons that
+ * prevent driving. The enable is on if the only reason is a missing supply. Do not call it in an interrupt. */
 unsigned hal_motor_start(void);
 
 /* Drives the motor with a mean voltage, clamped to 0 ... hal_motor_supply_V() (NaN: 0), until the next call. No effect

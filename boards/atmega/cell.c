@@ -60,7 +60,7 @@ static volatile uint16_t supply_sum;
 static float supply_V;
 static float parts_per_V;
 
-/* Ended conversions of cell and supply for the present sample. Only the interrupt uses these variables. */
+/* Number of ended conversions, of cell and supply, for the present sample. Only the interrupt uses these variables. */
 static uint8_t place;
 static uint16_t sum;
 static uint16_t supply;
@@ -86,8 +86,7 @@ static uint8_t status_now(void) {
                                                    : HAL_LOAD_OK);
 }
 
-/* Stores a sample. A separate interrupt, so that the ticks' interrupts save fewer registers. TCNT2 counts from the
- * tick. */
+/* Stores a sample. In a separate interrupt, so that a tick's saves fewer registers. TCNT2 is the time since a tick. */
 ISR(TIMER2_COMPB_vect) {
     const uint16_t late = (uint16_t)(TCNT2 * (TIMER_COUNT_TICKS * ATMEGA_COUNTS_PER_TICK));
     const uint16_t count = (uint16_t)(TCNT4 - late);
@@ -105,7 +104,7 @@ ISR(TIMER2_COMPB_vect) {
     saturated = false;
 }
 
-/* The conversion that started at the last tick has ended. */
+/* A tick: the conversion that started at the last tick has ended. */
 ISR(TIMER2_COMPA_vect) {
     const uint16_t count = ADC;
     uint8_t next = (uint8_t)(place + 1U);

@@ -105,7 +105,7 @@ ISR(TIMER4_CAPT_vect) { fetch(true, (TIFR5 & _BV(ICF5)) != 0); }
 
 ISR(TIMER5_CAPT_vect) { fetch((TIFR4 & _BV(ICF4)) != 0, true); }
 
-/* Makes the timer of a pin that is low capture a rising edge. */
+/* If a pin is low, makes its timer capture the next rising edge. */
 static void go_on_waiting(void) {
     if ((TCCR4B & TCCR5B & _BV(ICES4)) != 0) {
         return;

@@ -48,7 +48,7 @@ uint32_t board_ticks(void) {
     return ticks;
 }
 
-/* The difference of the wrap counts, modulo 256, is the number of wraps since then. */
+/* The difference of the wrap counts, modulo 256, is the number of wraps since `at`. */
 uint32_t atmega_ticks_of(atmega_instant at) {
     const uint8_t before = atmega_hold();
     const uint32_t base = base_ticks;

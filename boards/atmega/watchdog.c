@@ -24,5 +24,5 @@ void hal_watchdog_kick(void) {
     __asm__ volatile("wdr");
 }
 
-/* This watchdog resets the chip instead. */
+/* This watchdog resets the chip instead of cutting the drive. */
 bool hal_watchdog_has_cut(void) { return false; }

@@ -9,7 +9,7 @@
 #include "boards/shared/metal.h"
 #include "core/text.h"
 
-/* System control space of every Armv7-M core (Armv7-M Architecture Reference Manual, B3.2). Armv6-M has less. */
+/* System control space (Armv7-M Architecture Reference Manual, B3.2). Armv6-M lacks FPU and fault status registers. */
 #define SCB_VTOR 0xE000ED08U  /* address of the vector table */
 #define SCB_AIRCR 0xE000ED0CU /* requests a reset */
 #define SCB_AIRCR_RESET 0x05FA0004U
@@ -43,8 +43,8 @@ CORTEXM_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 BOARD_VECTOR_ROWS(CORTEXM_DECLARE_VECTOR)
 #undef CORTEXM_DECLARE_VECTOR
 
-/* Handles every other exception. Never returns. First it makes the stores X(address, value) of BOARD_SAFE_ROWS
- * (board_data.h), which switch the board's outputs off. */
+/* Handles every exception that has no handler. Never returns. First it makes the stores X(address, value) of
+ * BOARD_SAFE_ROWS (board_data.h), which switch the board's outputs off. */
 void board_fault(void);
 
 typedef struct board_fault_facts {

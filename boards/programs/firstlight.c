@@ -64,7 +64,7 @@ static void run_scene(const wh_scene *scene, run *to) {
 
 static uint32_t crc;
 
-/* Ends a line: with a line feed for the CRC, and a carriage return before it for the terminal. */
+/* The CRC gets a line feed, the terminal also a carriage return before it. */
 static void end_line(void) {
     wh_text_add_char(&line, '\n');
     crc = wh_frame_crc(crc, (const uint8_t *)line.bytes, line.length);

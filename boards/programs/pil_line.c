@@ -1,5 +1,5 @@
 /* pil_line.c: pil_dialled.c over the board's own serial line (boards/shared/link_console.c), for `whirl pil --port`. It
- * sends a message at its end, which the other side cannot detect. */
+ * reports its end by a message, because the other side cannot detect it. */
 #include "boards/board.h"
 #include "hal/frames/rig_frames.h"
 #include "hal/link.h"

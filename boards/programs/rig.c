@@ -177,7 +177,7 @@ static void look_at_stop(operator_step *at, bool rests) {
     }
 }
 
-/* Does one step of the operator. Returns true at the end. */
+/* Does one step of the operator. Returns true after the last step. */
 static bool operate(operator_step *at, uint32_t waited_ticks) {
     const bool rests = rig.guard.quiet || waited_ticks > PATIENCE_TICKS;
     look_at_stop(at, rests);

@@ -141,7 +141,7 @@ static const char *why_not_started(void) {
     }
     if (wh_arithmetic_wrong(OWN_ARITHMETIC) != WH_PROBED_COUNT) {
         hal_motor_off(HAL_MOTOR_COAST);
-        /* not wh_status_text(), which would link all its texts */
+        /* no wh_status_text() here, because it would link all its texts */
         return "the arithmetic is not that of IEEE 754";
     }
     return NULL;

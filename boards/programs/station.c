@@ -12,7 +12,7 @@
 #include "rig_report.h"
 #include "rig_settings.h"
 
-/* largest number of console bytes in a control step: at 115,200 baud 23 bytes come */
+/* bytes read from the console in a control step, at most; 23 arrive at 115,200 baud */
 #define BYTES_A_STEP 32U
 
 static wh_station station;
@@ -48,7 +48,8 @@ static void tell_reset(void) {
 }
 
 #if HAL_VIRTUAL
-/* Waits for the next period of the board's clock; after a long delay (a debugger, a laptop that slept) it is now. */
+/* Waits for the next period of the board's clock, which begins now after a long delay (a debugger, a sleeping
+ * laptop). */
 static void keep_time(uint32_t *due_ticks) {
     const uint32_t period_ticks = board_ticks_per_s / (HAL_TICKS_PER_S / CONTROL_TICKS);
     *due_ticks += period_ticks;

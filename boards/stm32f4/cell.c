@@ -3,8 +3,8 @@
  * Timer 3 starts 32,000 pairs of conversions per second: load, supply. DMA stores them, and interrupts after each half
  * of its memory: 64 pairs, 2 ms. A sample is the mean of 64 conversions, with the time stamp of their middle, so it has
  * no delay. It waits for the next mean, because the correction of a mean needs both neighbours (hal/averaged.h). One
- * count of the converter is 109 mN. The error of a mean is 1.7 mN with noise of half a count; the unit of a sample is
- * 6.8 mN.
+ * count of the converter is 109 mN, of a sample 6.8 mN. Noise of half a converter's count gives a mean an error of 1.7
+ * mN.
  *
  * Without force, the amplifier's output is half of the reference; near either end the amplifier is saturated. If all
  * counts of a sample are near the lower end, a wire is broken: a resistor pulls the pin down. Leakage, and charge that
@@ -156,7 +156,7 @@ static void average(unsigned half, uint32_t ticks) {
     hand_on(&mean);
 }
 
-/* DMA's position shows which half is complete, and since when. If late, it takes the newest half and its time stamp. */
+/* DMA's position shows which half is complete, and since when. A late interrupt takes the newest half. */
 void on_dma2_stream0(void) {
     const uint32_t now = board_ticks();
     reg_store(DMA2_LIFCR, DMA2_S0_ALL_FLAGS);

@@ -19,7 +19,7 @@ void stm32f4_pin_is(unsigned pin, unsigned what) {
     stm32f4_field(GPIO_MODER(port), 2U, number, what & 3U);
 }
 
-/* below that of faults, which is 0 */
+/* lower than the priority of faults, 0 */
 #define PRIORITY 0x80U
 
 void stm32f4_interrupt(unsigned number) {

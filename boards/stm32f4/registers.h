@@ -6,7 +6,7 @@
 
 #if BOARD_REGISTERS_FAKED
 uint32_t reg_address(volatile void *memory);
-/* stm32f4_hold() and stm32f4_go_on() */
+/* for stm32f4_hold() and stm32f4_go_on() */
 uint32_t reg_hold(void);
 void reg_go_on(uint32_t before);
 #else

@@ -23,7 +23,7 @@ const stm32f4_clocks *stm32f4_clocks_now(void);
 /* Enables the peripheral's clock, which runs when the call returns (RM0090, 7.3.14; ES0182, 2.1.13). */
 void stm32f4_clock_on(unsigned part);
 
-/* Waits until the bits of `mask` in a register equal `wanted`. False: not after `looks` polls of some ten cycles. */
+/* Waits until the bits of `mask` in a register equal `wanted`. Returns false after `looks` polls of some ten cycles. */
 bool stm32f4_comes(uint32_t address, uint32_t mask, uint32_t wanted, uint32_t looks);
 
 /* A pin's mode and pull resistor. */

@@ -1,5 +1,4 @@
-/* time_base.c: timer 2 as the free-running clock, 32 bits at 1 MHz (RM0090, 18.3). Its channels capture the slot
- * sensors. */
+/* time_base.c: timer 2 as the free-running clock, 32 bits at 1 MHz (RM0090, 18.3). Its channels capture slot edges. */
 #include "boards/board.h"
 
 #include "stm32f4.h"

@@ -37,5 +37,5 @@ void hal_watchdog_start(uint32_t timeout_ticks) {
 
 void hal_watchdog_kick(void) { reg_store(IWDG_KR, IWDG_KR_RELOAD); }
 
-/* This watchdog resets the chip instead. */
+/* This watchdog resets the chip instead of cutting the drive. */
 bool hal_watchdog_has_cut(void) { return false; }

@@ -10,7 +10,8 @@ typedef union wh_value {
     uint32_t count;
 } wh_value;
 
-/* Adds `form` to the text. Strings of this file may be in flash (core/number/flash.h). `form` has these @ values:
+/* Adds `form` to the text. All strings may be in flash (core/number/flash.h). @ and a character stand for the next
+ * value:
  *
  *     @w           a word, or a list item with _ in place of blanks
  *     @s           words
@@ -32,7 +33,7 @@ void wh_answer(wh_text *text, const char *form, const wh_value *value);
 /* Returns the word's index in the list, from 0; for an unknown word, the number of items. */
 unsigned wh_list_find(const char *list, const char *word);
 
-/* Returns the item with this index, which must be below the number of items. The text goes on to the list's end. */
+/* Returns the item with this index, which must be below the number of items. The text continues to the list's end. */
 const char *wh_list_item(const char *list, unsigned number);
 
 /* === reasons for refusing a console line ===================================================== */

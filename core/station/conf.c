@@ -180,7 +180,7 @@ static void begin_with_motor(wh_conf *conf) {
     }
 }
 
-/* True if the motor lifts the arms, reaches the largest set-point at rated voltage, and suits supply and damping. */
+/* True if the motor's data allow the arms' weight, the largest set-point, the supply range and the damping. */
 static bool motor_goes(const wh_conf *conf) {
     const wh_real *value = conf->value;
     const wh_rig_config *c = conf->config;
@@ -219,7 +219,7 @@ static bool go_together(const wh_conf *conf) {
            value[WH_CONF_supply_least] < value[WH_CONF_supply_most];
 }
 
-/* Computes the configuration. Returns false if the settings contradict each other: restore them and call again. */
+/* Computes the configuration. Returns false if settings contradict each other: then restore them and call again. */
 static bool renew(wh_conf *conf) {
     wh_rig_config *c = conf->config;
     bool goes[WH_CONF_CELL + 1U] = {false};

@@ -21,7 +21,7 @@ typedef enum wh_conf_unit { WH_CONF_UNIT_ROWS(WH_CONF_NAME) WH_CONF_UNITS } wh_c
 typedef enum wh_conf_kind { WH_CONF_KIND_ROWS(WH_CONF_NAME) WH_CONF_KINDS } wh_conf_kind;
 #undef WH_CONF_NAME
 
-/* Members that are computed from several settings (conf.c); WH_CONF_ALONE: none. */
+/* The computed members of the configuration on which a setting acts (conf.c); WH_CONF_ALONE: none. */
 typedef enum wh_conf_goes {
     WH_CONF_ALONE,
     WH_CONF_ROTOR,
@@ -45,7 +45,7 @@ typedef struct wh_conf {
     const wh_store_memory *memory; /* NULL: settings are not saved */
     wh_rig_config *config;         /* the rig's configuration, updated with each change */
     wh_real value[WH_CONF_COUNT];
-    wh_real standard[WH_CONF_COUNT]; /* values of settings that are not set */
+    wh_real standard[WH_CONF_COUNT]; /* defaults */
     bool given[WH_CONF_COUNT];       /* true if the user has set it, even to its default */
     /* sequence number of the record that was loaded or saved last; 0: none */
     uint32_t sequence;
@@ -63,8 +63,8 @@ wh_conf_id wh_conf_find(const char *name); /* WH_CONF_COUNT: no such setting */
 /* Returns the setting's name as a list item (answer.h). */
 const char *wh_conf_name(wh_conf_id id);
 
-/* Sets a setting to a value in its unit, or of a choice to its index; wh_conf_type() converts typed text. If the value
- * is refused, the configuration stays. Only while the rig is idle. */
+/* Sets a setting: a number in its unit, or the index of a choice's value. wh_conf_type() converts typed text. If the
+ * value is refused, the configuration does not change. Only while the rig is idle. */
 wh_station_error wh_conf_set(wh_conf *conf, wh_conf_id id, wh_real value);
 wh_station_error wh_conf_type(wh_conf *conf, wh_conf_id id, const char *typed);
 

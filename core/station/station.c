@@ -384,7 +384,7 @@ void wh_station_step(wh_station *station, wh_rig *rig) {
         answer_order(&r);
     }
     if (station->waits || host_is_lost(station, rig)) {
-        return; /* the rig's next answer must belong to this order */
+        return; /* one order at a time: the rig's next answer belongs to it */
     }
     wh_text_add(&r.answer, "OK");
     if (station->escaped) {

@@ -11,7 +11,7 @@
  *         count = wh_station_peek(&station, bytes, room)  bytes to send
  *         wh_station_drop(&station, sent)                 removes the bytes that were sent
  *
- * The rig answers orders (wh_rig_post()). The Escape key drops the waiting input and acts as `stop`. */
+ * Orders go through wh_rig_post(), and the rig answers them. Escape drops the waiting input and acts as `stop`. */
 #ifndef WH_STATION_STATION_H
 #define WH_STATION_STATION_H
 
@@ -90,7 +90,7 @@ typedef struct wh_station {
 void wh_station_start(wh_station *station, const char *program, const char *board,
                       uint32_t steps_per_s);
 
-/* Takes received bytes. An Escape drops the bytes before it at once. */
+/* Takes received bytes. An Escape immediately drops the bytes before it. */
 void wh_station_take(wh_station *station, const char *bytes, unsigned count);
 
 /* Passes the last step to telemetry and self-test. *config and *seen must stay unchanged until the next step. */

@@ -71,7 +71,7 @@ typedef struct wh_capture {
     unsigned left;        /* number of steps still to record after the trigger */
     unsigned count;       /* number of stored steps */
     unsigned next;        /* index of the next stored step */
-    uint32_t first_ticks; /* time of the oldest step, in full */
+    uint32_t first_ticks; /* time of the oldest step, all 32 bits */
     wh_captured step[WH_CAPTURE_STEPS];
 } wh_capture;
 
@@ -81,7 +81,7 @@ typedef struct wh_capture {
 #define WH_TEL_FIXED_BYTES (WH_TEL_HEAD_BYTES + 5U)
 #define WH_TEL_PAYLOAD_MOST (WH_TEL_SAMPLES * WH_CAPTURE_BYTES)
 #define WH_TEL_NO_LOAD (-32768) /* no good sample */
-/* Maximum number of samples per second as text, which takes more bytes. */
+/* Maximum number of samples per second in a text format, which takes more bytes than frames. */
 #define WH_TEL_TEXT_PER_S_MOST 100U
 
 /* X(channel, number, name) */

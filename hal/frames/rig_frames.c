@@ -1,6 +1,6 @@
 /* rig_frames.c: the rig's hal_ functions for a plant at the other end of a line. Signals have the names of
- * docs/plants/rig.whirl or carriage.whirl. Simulated time stops while the controller computes: the plant gets the
- * computing time with the outputs, and delays the outputs by it. */
+ * docs/plants/rig.whirl or carriage.whirl. Simulated time stops while the controller computes; the plant gets the
+ * computing time with the outputs, and delays the outputs by that time. */
 #include "rig_frames.h"
 
 #include <stddef.h>
@@ -130,7 +130,7 @@ static void see_stop(const wh_sample *sample) {
 /* Takes the newest readings of supply, stop and dials. */
 static void see_levels(void) {
     if (plant.ticks - stop_ticks > STOP_SILENCE_TICKS) {
-        stop_heard = false; /* until the next reading, because times wrap */
+        stop_heard = false; /* stays false until the next reading, because times wrap */
     }
     for (unsigned i = plant.sample; i < plant.readings.samples; i++) {
         const wh_sample *sample = &plant.readings.sample[i];
@@ -302,7 +302,7 @@ unsigned hal_reset_words(char *words, unsigned room) {
     return text.length;
 }
 
-void hal_reset_mark(uint32_t state) { (void)state; /* a note has the stage */ }
+void hal_reset_mark(uint32_t state) { (void)state; /* the plant gets the stage in a note */ }
 
 void hal_remember(const void *bytes, unsigned count) { hal_turns_remember(&plant, bytes, count); }
 

@@ -3,7 +3,7 @@
 
 #include "hal/clock.h"
 
-/* The double reference build has angles in radians; this file needs integer angles. */
+/* This file needs integer angles, which the double reference build does not have. */
 #if !WH_DOUBLE
 
 #define QUARTER_TURN 0x40000000U
@@ -63,8 +63,8 @@ static float way_at(const slice *during, float s, float *slope) {
     return ((a * s + b) * s + during->before) * s;
 }
 
-/* True if the step moves the rotor onto `edge` in the direction that opens the slot, by Newton's method. *part then
- * gets the part of the step, 0 to 1, before that moment. */
+/* True if the step moves the rotor onto `edge` in the direction that opens the slot. *part then gets the part of the
+ * step, 0 to 1, before that moment (Newton's method). */
 static bool opens(const slice *during, uint32_t edge, bool forward, float *part) {
     const float gap = (float)(int32_t)(edge - during->phase);
     if (forward ? !(gap > 0.0f && during->way >= gap) : !(gap < 0.0f && during->way <= gap)) {
@@ -74,7 +74,7 @@ static bool opens(const slice *during, uint32_t edge, bool forward, float *part)
     for (unsigned round = 0; round < 3; round++) {
         float slope;
         const float miss = way_at(during, s, &slope) - gap;
-        /* where the rotor turns back, the first guess suffices */
+        /* no correction where the rotor turns back */
         if (slope * during->way > 0.0f) {
             s -= miss / slope;
         }
