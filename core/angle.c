@@ -1,9 +1,9 @@
-/* angle.c: angles between radians and their stored form, and the sine table. */
+/* angle.c: conversion of angles between radians and the stored form; the sine table. */
 #include "angle.h"
 
 #include "number/sincos_small.h"
 
-/* sin(2 pi i/128) to 17 digits, for i from 1 to 31, and the same numbers downwards. */
+/* RISES: sin(2 pi i/128) to 17 digits, for i = 1 to 31. FALLS: the same values in reverse order. */
 /* clang-format off */
 #define RISES(X) \
     X(0.049067674327418015) X(0.098017140329560604) X(0.14673047445536175) X(0.19509032201612828) \
@@ -24,7 +24,6 @@
     X(0.33688985339222005) X(0.29028467725446239) X(0.2429801799032639) X(0.19509032201612828) \
     X(0.14673047445536175) X(0.098017140329560604) X(0.049067674327418015)
 
-/* sin(2 pi i/128), for the float and the double build (tests/core/test_angle.c). */
 #define PLUS(x) WH_R(x),
 #define MINUS(x) -WH_R(x),
 const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH = {
@@ -45,8 +44,7 @@ wh_phase wh_phase_times(wh_angle angle, wh_factor factor) { return angle * facto
 
 wh_angle wh_angle_from_rad(wh_real rad) { return wh_angle_of_rad(rad); }
 
-/* All arithmetic is in integers, up to the final rounding to float. A product of two rounded floats would have an error
- * of more than one unit in the last place. */
+/* Integer arithmetic up to the final rounding: the product of two rounded floats would have an error above one ulp. */
 wh_real wh_angle_to_rad(wh_angle angle) {
     if (angle == 0) {
         return 0.0f;
@@ -59,14 +57,14 @@ wh_real wh_angle_to_rad(wh_angle angle) {
     }
     const uint64_t two_pi = UINT64_C(3373259426); /* 2^29 * 2 pi */
     const uint64_t product = (size >> 32) * two_pi + (((size & UINT32_MAX) * two_pi) >> 32);
-    /* The dropped bits must still distinguish a tie from a larger value. */
+    /* Sticky bit: the rounding below must not take a value just above a tie for the tie. */
     const uint32_t bits = (uint32_t)(product >> 32) | ((uint32_t)product != 0 ? 1U : 0U);
     const float magnitude = (float)bits * scale;
     return angle < 0 ? -magnitude : magnitude;
 }
 
-/* Returns the rounded product modulo 2^32. factor.part has 64 bits after the point. If the angle is negative, its
- * product as an unsigned number is too large by factor.part. */
+/* Returns the rounded product modulo 2^32. factor.part has 64 bits after the point. A negative angle is taken as an
+ * unsigned number, 2^64 too large: its product is factor.part too large. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor) {
     const uint64_t size = (uint64_t)angle;
     const uint64_t size_low = size & UINT32_MAX;

@@ -1,12 +1,11 @@
 /* angle.h: angles as integers with 2^32 units per turn, and their sine and cosine.
  *
- * An angle that appears only inside sine and cosine is stored as a 64-bit integer. The low 32 bits are the phase within
- * the turn, the high 32 bits count whole turns. Such an angle needs no range reduction and is as precise after a
- * million turns as in the first. Sums and integer multiples of phases are integer operations. (Radians in float lose a
- * decimal digit with each factor of ten in the number of turns. Near 512 rad, a slow motion in steps of 1 ms no longer
- * changes them.)
+ * An angle that appears only inside sine and cosine is a 64-bit integer: the low 32 bits are the phase within the turn,
+ * the high 32 bits count whole turns. It needs no range reduction, and its precision does not depend on the number of
+ * turns. (Radians in float lose a decimal digit with each factor of ten in the number of turns. Near 512 rad, a slow
+ * motion in steps of 1 ms no longer changes them.) Sums and integer multiples of phases are integer operations.
  *
- * The double reference build uses radians, so it does not share the integer arithmetic and can check it. */
+ * The double build uses radians, so that it can check the integer arithmetic. */
 #ifndef WH_ANGLE_H
 #define WH_ANGLE_H
 
@@ -19,17 +18,14 @@ WH_C_BEGIN
 #define wh_angle_to_rad WH_NAME(wh_angle_to_rad)
 #define wh_phase_times WH_NAME(wh_phase_times)
 
-/* Converts unwrapped radians (whole turns included) to a stored angle. Precision and range are those of
- * wh_phase_from_rad(). */
+/* Converts unwrapped radians (whole turns included) to a stored angle. Precision and range: wh_phase_from_rad(). */
 wh_angle wh_angle_from_rad(wh_real rad);
 
-/* Converts a stored angle to unwrapped radians. Every angle is in range. Float: rounded to nearest; the error is at
- * most 0.504 units in the last place. */
+/* Converts any stored angle to unwrapped radians. Float: the error is at most 0.504 units in the last place. */
 wh_real wh_angle_to_rad(wh_angle angle);
 
-/* Returns the phase of `factor` times an angle. The factor may be a fraction such as 0.37, because the angle includes
- * its whole turns. Float: the error is at most 0.75 phase units (1.1e-9 rad), for any number of turns. Double: the
- * product, rounded. Used for records, never in a step. */
+/* Returns the phase of factor * angle, for example 0.37 times: the angle includes its whole turns. Float: the error is
+ * at most 0.75 phase units (1.1e-9 rad). Double: the rounded product. */
 wh_phase wh_phase_times(wh_angle angle, wh_factor factor);
 
 WH_C_END

@@ -2,7 +2,7 @@
 #include "fixed.h"
 
 /* clang-format off */
-/* sin(2 pi i/128) 2^30 for i from 1 to 31, and the same numbers downwards. */
+/* RISES: sin(2 pi i/128) 2^30 for i = 1 to 31. FALLS: the same values in reverse order. */
 #define RISES(X) \
     X(52686014) X(105245103) X(157550647) X(209476638) X(260897982) X(311690799) \
     X(361732726) X(410903207) X(459083786) X(506158392) X(552013618) X(596538995) \

@@ -4,9 +4,8 @@
  * store them. Results have the same bits on every machine. Generated code keeps numbers within 2^30 in size
  * (host/fixed), so nothing here overflows.
  *
- * The one costly operation is the upper half of a product of two numbers, rounded down. It has two implementations with
- * the same result: one 32 x 32 = 64 bit product if the processor has it, otherwise (Cortex-M0, AVR) four 16 x 16 = 32
- * bit products. */
+ * The one costly operation is the upper half of a product, rounded down. Both of its forms give the same result: one 32
+ * x 32 = 64 bit product if the processor has it, otherwise (Cortex-M0, AVR) four 16 x 16 = 32 bit products. */
 #ifndef WH_FIXED_H
 #define WH_FIXED_H
 
@@ -29,8 +28,7 @@ WH_C_BEGIN
 #define WH_FIXED_AVR 0
 #endif
 
-/* Storage classes of generated functions. WH_FIXED_CALLED: never inlined. WH_FIXED_LIST: inlined except on an AVR,
- * whose flash is small. */
+/* Generated functions: WH_FIXED_CALLED is never inlined; WH_FIXED_LIST is, except on an AVR, whose flash is small. */
 #if defined(__GNUC__)
 #define WH_FIXED_CALLED __attribute__((noinline, unused))
 #else
@@ -42,13 +40,12 @@ WH_C_BEGIN
 #define WH_FIXED_LIST WH_INLINE
 #endif
 
-/* floor(a b / 2^32), by a product of 64 bits. */
 WH_INLINE int32_t wh_fixed_high_wide(int32_t a, int32_t b) {
     return (int32_t)(((int64_t)a * b) >> 32);
 }
 
-/* 16-bit products: uu of two unsigned numbers, su of a signed and an unsigned one, ss of two signed ones. (They are in
- * assembly, because avr-gcc makes a 32-bit product of a C expression if an operand is used again.) */
+/* 16 x 16 = 32 bit products of unsigned (u) and signed (s) numbers. On an AVR they are in assembly, because avr-gcc
+ * makes a 32-bit product of a C expression if an operand is used again. */
 #if WH_FIXED_AVR
 WH_INLINE uint32_t wh_fixed_uu(uint16_t a, uint16_t b) {
     uint32_t product;
@@ -91,7 +88,7 @@ WH_INLINE int32_t wh_fixed_su(int16_t a, uint16_t b) { return (int32_t)a * (int3
 WH_INLINE int32_t wh_fixed_ss(int16_t a, int16_t b) { return (int32_t)a * b; }
 #endif
 
-/* floor(a b / 2^32) from 16-bit products. If b is a constant with a zero lower half, two of the products drop out. */
+/* floor(a b / 2^32). If b is a constant with a zero lower half, two of the products drop out. */
 WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
     const int16_t a_high = (int16_t)(a >> 16);
     const int16_t b_high = (int16_t)(b >> 16);
@@ -107,7 +104,7 @@ WH_INLINE int32_t wh_fixed_high_narrow(int32_t a, int32_t b) {
 #define wh_fixed_sine_table WH_NAME(wh_fixed_sine_table)
 #define wh_fixed_seed_table WH_NAME(wh_fixed_seed_table)
 
-/* The same function as wh_fixed_high_narrow(), but called. For processors on which its code is long. */
+/* wh_fixed_high_narrow() as a call, for processors on which its code is long. */
 int32_t wh_fixed_high_called(int32_t a, int32_t b);
 
 WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
@@ -120,8 +117,7 @@ WH_INLINE int32_t wh_fixed_high(int32_t a, int32_t b) {
 #endif
 }
 
-/* Returns x 2^-by, rounded to nearest with halves upwards, for |x| <= 2^30. If `by` is negative, the result is shifted
- * left, modulo 2^32. */
+/* Returns x 2^-by, rounded to nearest, ties upwards, for |x| <= 2^30. A negative `by` shifts left, modulo 2^32. */
 WH_INLINE int32_t wh_fixed_round(int32_t x, int by) {
     return by >= 31   ? 0
            : by > 0   ? (x + (int32_t)(UINT32_C(1) << (by - 1))) >> by
@@ -129,13 +125,12 @@ WH_INLINE int32_t wh_fixed_round(int32_t x, int by) {
                       : (int32_t)((uint32_t)x << -by);
 }
 
-/* Returns a b 2^-(32 + by), rounded to nearest with halves upwards, for by >= 1 and |a b| <= 2^62. */
+/* Returns a b 2^-(32 + by), rounded to nearest, ties upwards, for by >= 1 and |a b| <= 2^62. */
 WH_INLINE int32_t wh_fixed_mul(int32_t a, int32_t b, int by) {
     return wh_fixed_round(wh_fixed_high(a, b), by);
 }
 
-/* Returns (x >> 14) * number * 2^-by, rounded, for |x| <= 2^28 and a 15-bit number. For terms that are small compared
- * with the sum, because the low digits of x are dropped. */
+/* Returns (x >> 14) * number * 2^-by, rounded, for |x| <= 2^28 and a 15-bit number, as a small term of a sum. */
 WH_INLINE int32_t wh_fixed_mul_short(int32_t x, int16_t number, int by) {
     return wh_fixed_round(wh_fixed_ss((int16_t)(x >> 14), number), by);
 }
@@ -154,12 +149,12 @@ WH_INLINE int32_t wh_fixed_least(int32_t a, int32_t b) { return b < a ? b : a; }
 WH_INLINE int32_t wh_fixed_most(int32_t a, int32_t b) { return b > a ? b : a; }
 WH_INLINE int32_t wh_fixed_size(int32_t x) { return x < 0 ? -x : x; }
 
-/* The sign of x, -1, 0 or 1, with `bits` binary digits after the point. */
+/* The sign of x (-1, 0 or 1) with `bits` binary digits after the point. */
 WH_INLINE int32_t wh_fixed_sign(int32_t x, int bits) {
     return (int32_t)((uint32_t)(int32_t)((x > 0) - (x < 0)) << bits);
 }
 
-/* x, limited to low..high. Increments *saturated if x was outside. */
+/* Returns x limited to low..high. Increments *saturated if x was outside. */
 WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t *saturated) {
     if (WH_SELDOM((uint32_t)x - (uint32_t)low > (uint32_t)high - (uint32_t)low)) {
         ++*saturated;
@@ -168,8 +163,7 @@ WH_INLINE int32_t wh_fixed_limit(int32_t x, int32_t low, int32_t high, uint32_t 
     return x;
 }
 
-/* Returns x >> by for by = 7, 15 or 22, and for the sizes of x that occur here. An AVR shifts by whole bytes at no
- * cost, and by other amounts bit by bit. */
+/* Returns x >> by, for |x| < 2^30 if by is 7 or 15. An AVR shifts whole bytes at no cost, other amounts bit by bit. */
 WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #if WH_FIXED_AVR
     return by == 7    ? (x + x) >> 8
@@ -186,9 +180,9 @@ WH_INLINE int32_t wh_fixed_down(int32_t x, int by) {
 #define WH_FIXED_SECTOR_BITS 7
 #define WH_FIXED_QUARTER (1U << (WH_FIXED_SECTOR_BITS - 2))
 
-/* Entry i is sin(2 pi i/128) 2^30. The table covers a turn and a quarter. */
+/* Entry i is sin(2 pi i/128) 2^30, for a turn and a quarter. */
 extern const int32_t wh_fixed_sine_table[(1U << WH_FIXED_SECTOR_BITS) + WH_FIXED_QUARTER] WH_FLASH;
-/* Entry i is 2^31/(128.5 + i) 2^-8, a reciprocal of 9 bits. */
+/* Entry i is 2^23/(128.5 + i), rounded: a reciprocal with 9 right bits. */
 extern const uint16_t wh_fixed_seed_table[128] WH_FLASH;
 
 #if !defined(__AVR__) || defined(__AVR_TINY__) || WH_DOUBLE
@@ -219,8 +213,8 @@ WH_INLINE uint16_t wh_flash_uint16(const uint16_t *from) {
 #endif
 
 /* Sine and cosine of a phase (2^32 per turn), scaled by 2^30: the method of sine.h in integers. s and c are the table's
- * values next to the phase, r is the remaining angle: sin = s + (c sin r + s (cos r - 1)). y is r scaled so that pi/128
- * is 2^31. Small terms are 16-bit products. */
+ * values nearest to the phase, r is the remaining angle: sin = s + (c sin r + s (cos r - 1)). y is r / (pi/128) in
+ * units of 2^-31. Small terms are 16-bit products. */
 WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosine) {
     const unsigned rest_bits = 32U - WH_FIXED_SECTOR_BITS;
     const uint8_t sector = (uint8_t)((uint8_t)((phase + (UINT32_C(1) << (rest_bits - 1U))) >> 24) >>
@@ -228,18 +222,17 @@ WH_INLINE void wh_fixed_sincos_here(uint32_t phase, int32_t *sine, int32_t *cosi
     const int32_t *middle = &wh_fixed_sine_table[sector];
     const int32_t s = wh_flash_int32(&middle[0]);
     const int32_t c = wh_flash_int32(&middle[WH_FIXED_QUARTER]);
-#if WH_FIXED_AVR /* 16-bit products, as in wh_fixed_high_narrow() */
+#if WH_FIXED_AVR /* phase << 7 as a shift by a byte and back by a bit */
     const int32_t y = (int32_t)((phase << 8) >> 1 |
                                 ((phase & UINT32_C(0x01000000)) != 0 ? UINT32_C(0x80000000) : 0U));
 #else
     const int32_t y = (int32_t)(phase << WH_FIXED_SECTOR_BITS);
 #endif
     const int16_t upper = (int16_t)(y >> 16);
-    /* -(upper + 1/2)^2, scaled so that 1 is 2^15. The half is the mean value of the digits that `upper` lacks. */
     const int16_t square = (int16_t)wh_fixed_down(wh_fixed_ss(upper, (int16_t)~upper), 15);
     const int16_t cos_less_1 =
-        (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* 2^26 */
-    /* sin_r is y times 25735 2^16, plus a small part that includes the sine's third-order term. */
+        (int16_t)wh_fixed_down(wh_fixed_ss(square, 20211) + 16384, 15); /* units of 2^-26 */
+    /* In units of 2^-35, sin_r is y 25735/2^16 plus a small part, which includes the sine's third-order term. */
     const int16_t rest = (int16_t)((wh_fixed_ss(square, 1323) >> 11) + 7594);
     const int32_t sin_r =
         wh_fixed_high(y, INT32_C(25735) * 65536) + (wh_fixed_ss(upper, rest) >> 13);
@@ -263,7 +256,7 @@ WH_INLINE void wh_fixed_sincos(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #endif
 }
 
-/* Sine and cosine for scenes with several waves: called if products are long, otherwise inlined. */
+/* Sine and cosine for scenes with several waves (stage_turn.h): called if products are long, otherwise inlined. */
 WH_INLINE void wh_fixed_sincos_shared(uint32_t phase, int32_t *sine, int32_t *cosine) {
 #if WH_FIXED_NARROW
     wh_fixed_sincos_called(phase, sine, cosine);
@@ -288,8 +281,8 @@ WH_INLINE int wh_fixed_zeros(uint32_t x) {
 #endif
 }
 
-/* 2^61/d for d >= 2^31, by a table and two Newton steps. The relative error is below 2^-28. The first step computes
- * with 16 bits, the second only with the bits that it adds. */
+/* 2^61/d for d >= 2^31, by a table and two Newton steps: the first has 16 bits, the second computes only the bits that
+ * it adds. The relative error is below 2^-28. */
 WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t d_high = (uint16_t)(d >> 16);
     const uint16_t d_low = (uint16_t)d;

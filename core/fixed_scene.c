@@ -1,4 +1,4 @@
-/* fixed_scene.c: starting, stepping and comparing runs in fixed point, and conversions from and to reals. */
+/* fixed_scene.c: start, step and hash of runs in fixed point, and conversions from and to reals. */
 #include "fixed_scene.h"
 
 #include "hash.h"
@@ -59,7 +59,7 @@ uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state)
     return hash;
 }
 
-/* Returns value 2^bits, exactly unless it leaves the range of reals. */
+/* Exact unless the result leaves the range of reals. */
 static wh_real scaled(wh_real value, int bits) {
     const wh_real by = bits < 0 ? WH_R(0.5) : WH_R(2.0);
     for (int left = bits < 0 ? -bits : bits; left > 0; left--) {
@@ -70,7 +70,7 @@ static wh_real scaled(wh_real value, int bits) {
 
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated) {
     const wh_real number = scaled(value, format->bits);
-    const wh_real high = (wh_real)format->high; /* in float, rounded by up to 64 */
+    const wh_real high = (wh_real)format->high; /* float: rounded by up to 64 */
     const wh_real low = (wh_real)format->low;
     const wh_real place = WH_DOUBLE ? WH_R(0.0) : WH_R(0x1p-23); /* relative round-off of high */
     if (!(number > low)) {

@@ -1,8 +1,8 @@
 /* fixed_scene.h: a scene that steps in fixed point (fixed.h), for processors without floating-point arithmetic.
  *
  * A file made by `whirl derive SCENE --as c --number fixed --name gear --header gear.h` defines one constant `gear`, a
- * `wh_fixed_scene`; its steps have no floating-point operation. The variables live in a `wh_fixed_state` and in memory that
- * the caller owns:
+ * `wh_fixed_scene`; its steps have no floating-point operation. The variables of a run are in a `wh_fixed_state` and in
+ * memory that the caller owns:
  *
  *     static uint64_t memory[gear_MEMORY_WORDS];
  *     wh_fixed_state state;
@@ -12,10 +12,10 @@
  *     const wh_real theta_rad = wh_fixed_angle(&gear, &state, gear_ANGLE_theta);
  *     const wh_real rate_rad_s = wh_fixed_real(&gear, &state, gear_RATE_theta);
  *
- * Each input and each component except turn angles has a range. A value that would leave it stays at its end, and
- * state.saturated counts it. If state.saturated is not 0, the motion is wrong. Inside the ranges nothing overflows; the
- * generator proved it. The increment of a step is rounded to about 2^-30 of the range. Smaller increments than half of that
- * are lost without being counted (`whirl run --number fixed` prints the loss). */
+ * Each input and each component except turn angles has a range. A value beyond its range is set to the nearer end and
+ * increments state.saturated: from then on the motion is wrong. Inside the ranges nothing overflows; the generator
+ * proves it. A step rounds increments to about 2^-30 of the range, and loses smaller ones than half of that without
+ * counting them (`whirl run --number fixed` prints the loss). */
 #ifndef WH_FIXED_SCENE_H
 #define WH_FIXED_SCENE_H
 
@@ -25,7 +25,7 @@
 
 WH_C_BEGIN
 
-/* Format of a component or an input: a value is stored as value 2^bits, and limited to low..high. */
+/* A value is stored as value 2^bits, limited to low..high. */
 typedef struct wh_fixed_format {
     int16_t bits;
     int32_t low;
@@ -50,13 +50,13 @@ struct wh_fixed_scene {
     uint8_t reals;
     uint8_t inputs;
     uint64_t steps;                /* number of steps from the start to the scene's end */
-    const wh_fixed_format *format; /* [reals + inputs]: formats of the reals, then of the inputs */
+    const wh_fixed_format *format; /* [reals + inputs]: of the reals, then of the inputs */
     const int64_t *start_angle;
     const int32_t *start_real;
     const int32_t *start_input;
     const void *model; /* the interpreter's operation list; NULL in generated code */
     uint64_t model_hash;
-    /* One step, counted in state->steps. Returns WH_OK. */
+    /* Does one step and increments state->steps. Returns WH_OK. */
     wh_status (*advance)(const wh_fixed_scene *scene, wh_fixed_state *state);
 };
 
@@ -79,29 +79,27 @@ struct wh_fixed_scene {
 wh_status wh_fixed_start(const wh_fixed_scene *scene, wh_fixed_state *state, void *memory,
                          size_t bytes);
 
-/* Do one step, also beyond the scene's end. Returns WH_OK; or WH_E_ARGUMENT for a state that was not started: zeroed,
- * or refused by wh_fixed_start(). A step cannot diverge, but it may increase state->saturated. */
+/* Do one step, also beyond the scene's end. Returns WH_OK; or WH_E_ARGUMENT for a state that was not started. */
 wh_status wh_fixed_step(const wh_fixed_scene *scene, wh_fixed_state *state);
 
-/* Returns a hash of step count, saturations, angles and reals, or 0 for a state that was not started. Equal runs give
- * equal hashes on any two machines. */
+/* Returns a hash of steps, saturations, angles and reals, equal on all machines; 0 for a state that was not started. */
 uint64_t wh_fixed_hash(const wh_fixed_scene *scene, const wh_fixed_state *state);
 
-/* Conversions in floating point; no step calls them. wh_fixed_of() gives the nearest number of this format, halves away
- * from zero. A value beyond the range gives the nearest end, and NaN the low end; both increment *saturated. Values up
- * to one unit beyond an end (in float plus its last place) count as inside, because the end may have been rounded. */
+/* Conversions in floating point; no step calls them. wh_fixed_of() gives the nearest number of the format, ties away
+ * from zero. A value beyond the range gives the nearer end, and NaN the low end; both increment *saturated. Up to one
+ * unit beyond an end (in float plus its last place) counts as inside, because the end may have been rounded. */
 int32_t wh_fixed_of(const wh_fixed_format *format, wh_real value, uint32_t *saturated);
 wh_real wh_fixed_to(const wh_fixed_format *format, int32_t number);
 
-/* Read or write component i of the reals, SI, or angle i, unwrapped radians. For a state that was not started,
- * reading returns 0 and writing does nothing. NaN writes nothing. */
+/* Read or write real i in SI units, or read angle i in unwrapped radians. For a state that was not started, reading
+ * returns 0 and writing does nothing. NaN is not written. */
 wh_real wh_fixed_real(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 wh_real wh_fixed_angle(const wh_fixed_scene *scene, const wh_fixed_state *state, unsigned i);
 void wh_fixed_set_real(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                        wh_real value);
 
-/* Set input i: wh_fixed_set_input() to `value` in SI units, the other function to `number`, an integer of the input's
- * format. A value beyond the range sets the nearest end, counts as saturated, and returns WH_E_ARGUMENT. NaN, or an
+/* Set input i: wh_fixed_set_input() to a value in SI units, wh_fixed_set_raw_input() to an integer in the input's
+ * format. A value beyond the range sets the nearer end, counts as saturated, and returns WH_E_ARGUMENT. NaN, or an
  * index i without an input, returns WH_E_ARGUMENT and changes nothing. */
 wh_status wh_fixed_set_input(const wh_fixed_scene *scene, wh_fixed_state *state, unsigned i,
                              wh_real value);

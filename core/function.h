@@ -1,7 +1,7 @@
 /* function.h: the language's functions other than sine, cosine and square root, computed without a library.
  *
  * Every operation is an integer operation, or an IEEE 754 addition, multiplication, division, root or conversion of
- * wh_real. So the result has the same bits on every machine. The float build computes in float alone.
+ * wh_real, so the result has the same bits on every machine. The float build uses no double.
  *
  * Special cases (infinities, NaN, signed zeros, subnormals) follow Annex F of the C standard. */
 #ifndef WH_FUNCTION_H
@@ -29,8 +29,7 @@ WH_C_BEGIN
     ONE(log) \
     ONE(tan) ONE(asin) ONE(acos) ONE(atan) TWO(atan2) TWO(pow) ONE(sinh) ONE(cosh) ONE(tanh)
 
-/* e^x, the natural logarithm, the inverse trigonometric functions in radians, and the hyperbolic sine, cosine and
- * tangent. The error is within one unit in the last place. */
+/* For these functions the error is within one unit in the last place. Angles are in radians. */
 wh_real wh_exp(wh_real x);
 wh_real wh_log(wh_real x);
 wh_real wh_asin(wh_real x);
@@ -40,11 +39,11 @@ wh_real wh_sinh(wh_real x);
 wh_real wh_cosh(wh_real x);
 wh_real wh_tanh(wh_real x);
 
-/* tan(rad), for angles of any size. The error is within two units in the last place in float, one in double. */
+/* For any angle, the error is within two units in the last place in float, one in double. */
 wh_real wh_tan(wh_real rad);
 /* The angle of the point (x, y), from -pi to pi rad. */
 wh_real wh_atan2(wh_real y, wh_real x);
-/* base^exponent. If a wh_real equals the true result, the function returns it without an error. */
+/* base^exponent. If the true result is a wh_real, it is returned exactly. */
 wh_real wh_pow(wh_real base, wh_real exponent);
 
 WH_C_END

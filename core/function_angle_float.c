@@ -1,15 +1,14 @@
 /* function_angle_float.c: the inverse circular functions in float. The polynomials are minimax in the argument's
- * square, with the first coefficient fixed at one, so that the result for a small argument is the argument. */
+ * square. Their first coefficient is fixed at one, so that the result for a small argument is the argument. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
 
-/* In radians, Q30. */
+/* Radians in Q30. */
 #define QUARTER_TURN UINT32_C(1686629713)
 #define HALF_TURN UINT32_C(3373259425)
 
-/* Returns base + angle, or base - angle if `minus`, with the sign `sign`. base is in Q30; if it is 0, returns the
- * angle. */
+/* Returns base + angle, or base - angle if `minus`, with the sign `sign`. base is in Q30; 0 returns the angle. */
 static float angle_sum(uint32_t sign, uint32_t base, bool minus, wh_digits angle) {
     if (base == 0U) {
         return wh_float_round(sign, angle.size, angle.exponent);
@@ -66,7 +65,7 @@ float wh_atan2(float y, float x) {
 
 float wh_atan(float x) { return wh_atan2(x, 1.0f); }
 
-/* Returns the root of size * 2^32, for size of 2^30 or more: Newton's method from a straight line, the last step with
+/* Returns the root of size * 2^32, for size >= 2^30, by Newton's method from a straight line. Only the last step has
  * all digits. The relative error is at most 2^-30. */
 static uint32_t root_of(uint32_t size) {
     const uint32_t line = wh_high(size, 43691U) + 23156U; /* (size/2^30 + 2.12)/3, times 2^15 */
@@ -77,9 +76,8 @@ static uint32_t root_of(uint32_t size) {
     return ((root + ratio) << 15) + (behind >> 1);
 }
 
-/* Returns the arc whose sine is the magnitude x, if x is at most 1/2. If x is larger, returns half of the arc's
- * complement to a quarter turn: the arc whose sine is sqrt((1 - x)/2). The relative error is at most 5e-10. If the
- * result is zero, its size is 0. */
+/* Returns asin x for magnitudes up to 1/2. For larger ones, returns (pi/2 - asin x)/2, which is asin sqrt((1 - x)/2).
+ * The relative error is at most 5e-10. A zero result has size 0. */
 static wh_digits arc_of_sine(uint32_t magnitude) {
     static const uint32_t series[] WH_FLASH = {161131133U, 62013972U,  136612917U,
                                                191198894U, 322144200U, 715827596U}; /* Q32 */
@@ -91,9 +89,8 @@ static wh_digits arc_of_sine(uint32_t magnitude) {
     } else if (magnitude != WH_BITS_ONE) {
         const uint32_t missing =
             UINT32_C(0x1000000) - ((magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000));
-        const uint32_t shift =
-            /* odd, so that the root's shift is a whole number */
-            (wh_leading_zeros(missing) - 1U) | 1U;
+        /* odd, so that the root's shift is a whole number */
+        const uint32_t shift = (wh_leading_zeros(missing) - 1U) | 1U;
         s = (wh_digits){root_of(missing << shift), 2 - (int32_t)((shift - 1U) / 2U)};
     }
     const uint32_t square = wh_square(s);

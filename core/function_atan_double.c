@@ -1,13 +1,12 @@
-/* function_atan_double.c: angles from ratios in double. A table has the angles of rays whose slope c is a multiple of
- * 1/64, as pairs. For a point (x, y) with 0 <= y <= x, the angle from the nearest ray has the tangent (y - c x)/(x + c
- * y), at most 1/128, so a short series suffices. The other functions use such angles: the arc sine of s is the angle of
- * the point (root(1 - s^2), s). */
+/* function_atan_double.c: the inverse circular functions in double. A table of pairs has the angles of the rays with
+ * slope c = i/64. For a point (x, y) with 0 <= y <= x, the angle from the nearest ray has the tangent (y - c x)/(x + c
+ * y). It is at most 1/128, so a short series suffices. asin s is the angle of the point (sqrt(1 - s^2), s). */
 #include "function_double.h"
 #include "root.h"
 
 #if WH_DOUBLE
 
-#define SMALL 0x1p-28 /* up to this size an angle rounds to its tangent and sine */
+#define SMALL 0x1p-28 /* for smaller x, atan x and asin x round to x */
 
 static const wh_pair pi = {0x1.921fb54442d18p1, 0x1.1a62633145c07p-53};
 static const wh_pair half_pi = {0x1.921fb54442d18p0, 0x1.1a62633145c07p-54};
@@ -74,7 +73,7 @@ static wh_pair quarter(wh_pair x, wh_pair y) {
     return y.high > x.high ? wh_difference(half_pi, eighth(y, x)) : eighth(x, y);
 }
 
-/* Returns the root of 1 - s^2 for 0 <= s < 1. */
+/* Returns sqrt(1 - s^2) for 0 <= s < 1. */
 static wh_pair other_leg(double s) {
     const wh_pair square = wh_product(s, s);
     const wh_pair sum = wh_pair_sum(1.0, -square.high);
@@ -133,7 +132,7 @@ static double finite_angle(double x, double y, bool behind) {
     if (rise > 64) {
         return half_pi.high;
     }
-    /* Scales the point to about 1, so that neither the products nor their lower halves overflow or underflow. */
+    /* Scale extreme points to about 1, so that neither products nor their lower halves overflow or underflow. */
     const int larger = rise > 0 ? field_of(y) : field_of(x);
     const double scale = larger > 1523 ? 0x1p-600 : larger < 623 ? 0x1p600 : 1.0;
     const wh_pair angle = quarter((wh_pair){x * scale, 0.0}, (wh_pair){y * scale, 0.0});

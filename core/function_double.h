@@ -1,7 +1,6 @@
-/* function_double.h: arithmetic for the double build of function.h (core/function_*_double.c). A pair holds a number as
- * the unrounded sum of two doubles, some hundred bits; the second is at most half a unit in the last place of the
- * first. Pairs are computed by additions, products and quotients alone. A function returns the rounded sum of a pair,
- * so its error is little more than half a unit in the last place. (host/number/double_double.h uses pairs, too.) */
+/* function_double.h: arithmetic for the double build of function.h (core/function_*_double.c). A wh_pair is the number
+ * high + low, with some hundred bits; low is at most half a unit in the last place of high. A function computes a pair
+ * and returns its rounded sum, so its error is little more than half a unit in the last place. */
 #ifndef WH_FUNCTION_DOUBLE_H
 #define WH_FUNCTION_DOUBLE_H
 
@@ -40,8 +39,7 @@ WH_INLINE wh_pair wh_pair_sum(double a, double b) {
 #define WH_NAN __builtin_nan("") /* one NaN, with the same bits everywhere */
 #define WH_INFINITY __builtin_inf()
 
-/* sin(rad) for all angles, within one unit in the last place. wh_sincos() is less accurate: it has an absolute error,
- * and a limited range. */
+/* For all angles, within one unit in the last place. (wh_sincos() bounds the absolute error, in a limited range.) */
 double wh_sine(double rad);
 double wh_cosine(double rad);
 
@@ -78,7 +76,7 @@ WH_INLINE double wh_power_of_two(int exponent) {
     return wh_of_bits((uint64_t)(exponent + 1023) << 52);
 }
 
-/* The number with only the upper 26 of its 53 bits. */
+/* x with only the upper 26 of its 53 bits. */
 WH_INLINE double wh_upper(double x) { return wh_of_bits(wh_bits(x) & ~UINT64_C(0x7ffffff)); }
 
 /* The product a b to 106 bits. */

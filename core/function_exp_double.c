@@ -1,11 +1,11 @@
 /* function_exp_double.c: e^x in double. With x = k ln(2)/64 + r and |r| < 2^-7.5, e^x is 2^(k/64) e^r. A table of pairs
- * has 2^(i/64), and e^r comes from its series. */
+ * has 2^(i/64), and e^r is a series. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define STEPS_PER_LN2 0x1.71547652b82fep6
-#define STEP_HIGH 0x1.62e42fefcp-7 /* has 35 bits, so that the product with k is exact */
+#define STEP_HIGH 0x1.62e42fefcp-7 /* 35 bits, so that the product with k is exact */
 #define STEP_LOW (-0x1.c610ca86c3899p-43)
 
 /* Entry i is 2^(i/64). */
@@ -46,8 +46,7 @@ static const wh_pair fraction[64] = {
     /* clang-format on */
 };
 
-/* Returns a pair times 2^exponent, rounded once. If the result is subnormal, the pair is first added to a number so
- * large that its last place stands for 2^-1074. */
+/* Returns x 2^exponent, rounded once. A subnormal result is first added to a number whose last place is 2^-1074. */
 WH_INLINE double scaled(wh_pair x, int exponent) {
     if (exponent > 1023) {
         return exponent > 1024 ? WH_INFINITY : x.high * 2.0 * 0x1p1023;

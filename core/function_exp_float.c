@@ -1,11 +1,11 @@
-/* function_exp_float.c: exp, log and power in float, by 2^x and the logarithm to base 2. The logarithm has 55 digits
- * after the point, of which at least 39 are right. So a power's error is little more than that of its one rounding, and
- * if a float equals the true power, the result is that float. Polynomials are minimax, with integer coefficients. */
+/* function_exp_float.c: exp, log and power in float, by 2^x and the logarithm to base 2. The logarithm has 55 binary
+ * digits after the point, of which at least 39 are right. So the error of a power is little more than one rounding, and
+ * a true power that is a float is returned exactly. Polynomials are minimax, with integer coefficients. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
 
-#define POINT 55 /* number of binary digits after the point of a logarithm */
+#define POINT 55 /* binary digits after the point of a logarithm */
 
 /* Returns 2^fraction in Q31, for a fraction in Q32. The relative error is at most 1.2e-10; the result is monotonic. */
 static uint32_t exp2_of(uint32_t fraction) {
@@ -29,11 +29,11 @@ static uint64_t shifted(uint64_t size, int32_t shift) { return ((size >> (shift 
 
 /* Returns the logarithm to base 2, times 2^POINT, of a finite magnitude above zero.
  *
- * The size times a 7-bit number near 1/size is 1 + z, without rounding, with |z| at most 1/16. The logarithm of 1 + z
- * is the polynomial log2(e) z - z^2 (...); that of the 7-bit number is subtracted. For numbers between 31/32 and 17/16
- * all other terms cancel, so small logarithms have the same relative precision as large ones. */
+ * The mantissa m times a number c near 1/m, a multiple of 1/128 for each sector, is 1 + z exactly, with |z| <= 1/16.
+ * The result is exponent - log2(c) + log2(1 + z), with the polynomial log2(e) z - z^2 (...) for the last term. Between
+ * 31/32 and 17/16 the other two terms cancel, so small logarithms have the same relative precision as large ones. */
 static int64_t log2_of(uint32_t magnitude) {
-    /* In the upper 8 bits: each sector's 7-bit number, in Q7. In the other bits: minus its logarithm, in Q55. */
+    /* For each sector, c in Q7 in the upper 8 bits, and -log2(c) in Q55 in the other bits. */
     static const uint32_t inverses[] WH_FLASH = {
         UINT32_C(0x80000000), UINT32_C(0x00000000), UINT32_C(0x751097e3), UINT32_C(0x8ce60649),
         UINT32_C(0x6f1a5094), UINT32_C(0xb54d2828), UINT32_C(0x6924939a), UINT32_C(0x56279ad9),
@@ -115,9 +115,8 @@ static uint32_t wholeness(uint32_t magnitude) {
         return 2U;
     }
     const uint32_t digits = (magnitude & UINT32_C(0x7fffff)) | UINT32_C(0x800000);
-    const uint32_t behind = digits
-                            /* the top bit is the last digit before the point */
-                            << (exponent - 119U);
+    /* the top bit is the last digit before the point */
+    const uint32_t behind = digits << (exponent - 119U);
     return (behind & ~WH_TOP_BIT) != 0U ? 0U : (behind != 0U ? 1U : 2U);
 }
 

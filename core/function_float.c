@@ -1,4 +1,4 @@
-/* function_float.c: rounding and division for the float build's own functions. */
+/* function_float.c: rounding and division for function_float.h. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
@@ -10,7 +10,7 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
     if (exponent > 127) {
         return wh_float_of_bits(sign | WH_BITS_INFINITE);
     }
-    uint32_t drop = 8U; /* number of digits beyond a float's precision */
+    uint32_t drop = 8U; /* number of binary digits to round off */
     uint32_t start = 0U;
     if (exponent >= -126) {
         /* one less than the biased exponent, because the leading digit of `kept` adds one */
@@ -26,7 +26,7 @@ float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent) {
     return wh_float_of_bits(sign | (start + kept + up)); /* a carry increments the exponent */
 }
 
-/* Long division, eight digits at a time, because 32-bit divisions then suffice. */
+/* Long division, eight binary digits at a time, so that 32-bit divisions suffice. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     const uint32_t by = den >> 8;
     uint32_t rest = num < den ? num : num >> 1;
@@ -39,7 +39,7 @@ uint32_t wh_float_ratio(uint32_t num, uint32_t den) {
     return ratio;
 }
 
-/* wh_float_ratio() uses 24 digits. A first-order correction adds the effect of the lower ones. */
+/* wh_float_ratio() uses 24 digits of x. A first-order correction adds the effect of the lower ones. */
 wh_digits wh_float_inverse(wh_digits x) {
     const uint32_t zeros = wh_leading_zeros(x.size);
     const uint32_t size = x.size << zeros;

@@ -1,10 +1,8 @@
 /* function_float.h: the integer arithmetic of the float functions (included by function_*_float.c only).
  *
  * A number is split into a sign, 32 binary digits and an exponent. The function is computed with about 30 of these
- * digits, and one rounding makes a float of the result. That is cheaper than pairs of floats, even without
- * floating-point hardware. Compilers cannot reorder or fuse integer operations.
- *
- * A fixed-point format is named after its binary places: "Q31" is a uint32_t in units of 2^-31. */
+ * digits, and rounded to float once. That is cheaper than pairs of floats, even without floating-point hardware, and no
+ * compiler option changes integer operations. "Q31" is a fixed-point format: a uint32_t in units of 2^-31. */
 #ifndef WH_FUNCTION_FLOAT_H
 #define WH_FUNCTION_FLOAT_H
 
@@ -15,7 +13,7 @@
 #include "function.h"
 #include "number/flash.h"
 
-/* Without the sign bit, the bits of two floats compare, as integers, like the floats' magnitudes. */
+/* Without the sign bit, the bits of floats are integers in the order of the floats' magnitudes. */
 #define WH_BITS_SIGN UINT32_C(0x80000000)
 #define WH_BITS_ONE UINT32_C(0x3f800000)
 #define WH_BITS_INFINITE UINT32_C(0x7f800000)
@@ -37,8 +35,7 @@ WH_INLINE uint32_t wh_bits_of(float x) { return (wh_word){.value = x}.bits; }
 
 WH_INLINE float wh_float_of_bits(uint32_t bits) { return (wh_word){.bits = bits}.value; }
 
-/* Reads a number of a table in flash. An AVR reads flash by special instructions, which wh_flash_real() issues for
- * floats. */
+/* Reads a number of a WH_FLASH table; on an AVR by the instructions of wh_flash_real(). */
 WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 #if defined(__AVR__)
     return wh_bits_of(wh_flash_real((const float *)(const void *)from));
@@ -49,7 +46,7 @@ WH_INLINE uint32_t wh_flash_word(const uint32_t *from) {
 
 WH_INLINE uint32_t wh_high(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
 
-/* Number of leading zeros of x > 0. On the smallest machines an int has only 16 bits. */
+/* Leading zeros of x > 0. On the smallest machines an int has only 16 bits. */
 WH_INLINE uint32_t wh_leading_zeros(uint32_t x) {
     return (uint32_t)(sizeof(int) >= 4 ? __builtin_clz((unsigned)x)
                                        : __builtin_clzl((unsigned long)x));
@@ -57,8 +54,7 @@ WH_INLINE uint32_t wh_leading_zeros(uint32_t x) {
 
 WH_INLINE uint32_t wh_leading_zeros_64(uint64_t x) { return (uint32_t)__builtin_clzll(x); }
 
-/* Splits a magnitude (a float's bits without the sign) that is finite and not zero. Subnormal magnitudes are
- * allowed. */
+/* Splits a magnitude (a float's bits without the sign) that is finite and not zero. It may be subnormal. */
 WH_INLINE wh_digits wh_digits_of(uint32_t magnitude) {
     wh_digits d = {(magnitude << 8) | WH_TOP_BIT, (int32_t)(magnitude >> 23) - 127};
     if (magnitude < UINT32_C(0x00800000)) {
@@ -100,8 +96,7 @@ WH_INLINE wh_digits wh_longer(wh_digits x, uint32_t more) {
  * largest float become infinite, very small results subnormal or zero. `sign` is WH_BITS_SIGN or 0. */
 float wh_float_round(uint32_t sign, uint32_t size, int32_t exponent);
 
-/* The quotient num/den, rounded down, in Q31, or in Q32 if it is below one. In num and in den, the top bit is set and
- * the 8 lowest bits are clear. */
+/* num/den, rounded down, in Q31, or in Q32 if below one. In num and den, the top bit is set, the 8 lowest are clear. */
 uint32_t wh_float_ratio(uint32_t num, uint32_t den);
 
 /* 1/x for x > 0. The relative error is at most 1e-9. */
@@ -110,8 +105,7 @@ wh_digits wh_float_inverse(wh_digits x);
 /* x log2(e) in Q32, rounded, for x with 24 digits from 2^-27 to below 2^9. */
 uint64_t wh_float_octaves(wh_digits x);
 
-/* 2^(power/2^32) for |power/2^32| < 2^10; negative powers are in two's complement. The relative error is at most
- * 6e-10. */
+/* 2^(power/2^32) for |power/2^32| < 2^10, negative powers in two's complement. The relative error is at most 6e-10. */
 wh_digits wh_float_exp2(uint64_t power);
 
 #endif

@@ -1,13 +1,13 @@
 /* function_hyperbolic_double.c: the hyperbolic functions in double, from e^x and e^-x as pairs. Near zero, where e^x -
- * e^-x cancels, they come from series. */
+ * e^-x cancels, they are series. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
-#define SMALL 0x1p-28  /* up to this size sinh x and tanh x round to x, and cosh x to one */
+#define SMALL 0x1p-28  /* for smaller x, sinh x and tanh x round to x, and cosh x to one */
 #define BY_SERIES 0.25 /* largest |x| for the series */
 #define TANH_IS_ONE 22.0
-#define BEYOND 711.0 /* above it sinh and cosh are infinite */
+#define BEYOND 711.0 /* for larger x, sinh x and cosh x are infinite */
 
 /* Returns sinh x - x for |x| <= 1/4, to 51 bits; z is x^2. */
 static double sine_less_x(double x, double z) {
@@ -25,7 +25,7 @@ static wh_pair near_cosine(double x) {
     return wh_pair_of(sum.high, sum.low + (0.5 * square.low + more));
 }
 
-/* Returns e^x as a pair, for |x| < 700. */
+/* Returns e^x for |x| < 700. */
 static wh_pair exp_of(double x) {
     int power;
     const wh_pair parts = wh_exp_parts((wh_pair){x, 0.0}, &power);

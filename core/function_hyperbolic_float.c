@@ -1,6 +1,5 @@
-/* function_hyperbolic_float.c: the hyperbolic functions in float. Below one: minimax polynomials in the argument's
- * square, so that the result for a small argument is the argument; tanh is the quotient of sinh and cosh. From one on:
- * e^x and e^-x. */
+/* function_hyperbolic_float.c: the hyperbolic functions in float. For |x| < 1: minimax polynomials in x^2, so that the
+ * result for a small argument is the argument; tanh is the quotient of sinh and cosh. For |x| >= 1: e^x and e^-x. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
@@ -74,7 +73,7 @@ float wh_cosh(float x) {
     return wh_float_round(0U, c.size, c.exponent);
 }
 
-/* Returns 1 - tanh x in units of 2^-32, for 1 <= x < 10: 2 e^-2x / (1 + e^-2x). */
+/* Returns 1 - tanh x in Q32, for 1 <= x < 10: 2 e^-2x / (1 + e^-2x). */
 static uint32_t short_of_one(wh_digits x) {
     x.exponent++;
     const wh_digits left = wh_float_exp2(0U - wh_float_octaves(x)); /* e^-2x, below 1/7 */

@@ -1,6 +1,6 @@
-/* function_log_double.c: the natural logarithm in double. x = 2^e m with m about 1, and m = (1 + r)/c with c from a
- * table and |r| <= 2^-8. Then log x = e log 2 - log c + log(1 + r). c has 15 bits, so r is exact. If m is about 1, c is
- * 1. The result is a pair, because pow() needs more than 53 bits. */
+/* function_log_double.c: the natural logarithm in double. x = 2^e m, and m = (1 + r)/c with c from a table and |r| <=
+ * 2^-8. Then log x = e log 2 - log c + log(1 + r). c has 15 bits, so r is exact. Near x = 1, e is 0 and c is 1. The
+ * result is a pair, because pow() needs more than 53 bits. */
 #include "function_double.h"
 
 #if WH_DOUBLE
@@ -9,7 +9,7 @@
     0x1.62e42fefa4p-1 /* e LN2_HIGH + .high is exact, because both are multiples of 2^-40 */
 #define LN2_LOW (-0x1.8432a1b0e2634p-43)
 
-/* The least m, 0.7109 less half a step of the table. m lies between this number and twice this number. */
+/* The bits of 0.7051, the least m. m is below twice this number. */
 #define LEAST_BITS UINT64_C(0x3fe6900000000000)
 
 typedef struct entry {

@@ -1,5 +1,5 @@
-/* function_pow_double.c: powers in double, as e^(y log x) with both factors as pairs. The result has about sixty bits
- * before its rounding, so if a double equals the true power, the result is that double. */
+/* function_pow_double.c: powers in double, as e^(y log x) with log x and the product as pairs. The result has about
+ * sixty bits before its rounding, so a true power that is a double is returned exactly. */
 #include "function_double.h"
 
 #if WH_DOUBLE

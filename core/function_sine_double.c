@@ -1,13 +1,13 @@
-/* function_sine_double.c: sine, cosine and tangent in double, for angles of any size. The angle is converted to quarter
- * turns with as many bits of 2/pi as its size requires (Payne and Hanek, ACM SIGNUM Newsletter 18 (1983) 1), in
- * integers with 190 bits after the point. No double is nearer to a multiple of a quarter turn than 2^-62 quarter turns,
- * so the remainder has at least 70 right bits. */
+/* function_sine_double.c: sine, cosine and tangent in double, for angles of any size. Integers convert the angle to
+ * quarter turns with 190 bits after the point, from as many bits of 2/pi as its size requires (Payne and Hanek, ACM
+ * SIGNUM Newsletter 18 (1983) 1). No double is nearer to a multiple of a quarter turn than 2^-62 quarter turns, so the
+ * remainder has at least 70 right bits. */
 #include "function_double.h"
 
 #if WH_DOUBLE
 
 #define QUARTER_OF_PI 0x1.921fb54442d18p-1
-#define SMALL 0x1p-28 /* up to this size an angle rounds to its sine and tangent */
+#define SMALL 0x1p-28 /* for smaller x, sin x and tan x round to x */
 
 /* 2/pi, in words of 64 bits, after a word of zeros. */
 static const uint64_t two_by_pi[20] = {

@@ -1,7 +1,7 @@
 /* function_tan_float.c: the tangent in float, of an angle of any size. Quarter turns are subtracted in integers, with
- * as many digits of 2/pi as needed. No float is nearer to a multiple of a quarter turn than 2^-30 quarter turns, and
- * about 60 digits after the point are used (M. Payne and R. Hanek, "Radian reduction for trigonometric functions",
- * SIGNUM Newsletter 18 (1983) 1). */
+ * as many digits of 2/pi as needed (M. Payne and R. Hanek, "Radian reduction for trigonometric functions", SIGNUM
+ * Newsletter 18 (1983) 1). About 60 digits after the point suffice: no float is nearer to a multiple of a quarter turn
+ * than 2^-30 quarter turns. */
 #include "function_float.h"
 
 #if !WH_DOUBLE
@@ -14,10 +14,9 @@ static const uint32_t two_over_pi[] WH_FLASH = {
     UINT32_C(0xf534ddc0), UINT32_C(0xdb629599), UINT32_C(0x3c439041), UINT32_C(0xfe5163ab)};
 
 /* Subtracts the nearest whole number of quarter turns from a magnitude. Returns the size of the remainder in radians.
- * *odd is true if the number of quarter turns is odd, *below if the remainder is negative. */
+ * *odd: the number of quarter turns is odd. *below: the remainder is negative. */
 static wh_digits rest_of_quarters(uint32_t magnitude, bool *odd, bool *below) {
-    /* A float is `digits` times 2^(exponent - 150). Digits of 2/pi that contribute only multiples of two are
-     * skipped. */
+    /* A float is `digits` times 2^(exponent - 150). Skips the digits of 2/pi that contribute only whole half turns. */
     const uint32_t skip = (magnitude >> 23) - (150U - 31U);
     const uint32_t *word = &two_over_pi[skip >> 5];
     const uint32_t shift = skip & 31U;

@@ -1,5 +1,4 @@
-/* hash.h: a hash of a state's bits, to compare runs between machines (FNV-1a, 64 bits).
- * Words are taken in a fixed byte order, low byte first, so the hash does not depend on the machine's endianness. */
+/* hash.h: a hash of a state's bits (FNV-1a, 64 bits). It takes words low byte first, so all machines get the same. */
 #ifndef WH_HASH_H
 #define WH_HASH_H
 
@@ -8,7 +7,6 @@
 #define WH_HASH_START UINT64_C(0xcbf29ce484222325)
 #define WH_HASH_PRIME UINT64_C(0x100000001b3)
 
-/* Mix the eight bytes of `word` into `hash` and return the new hash. */
 static inline uint64_t wh_hash_u64(uint64_t hash, uint64_t word) {
     for (unsigned byte = 0; byte < 8; byte++) {
         hash = (hash ^ (word & 0xffU)) * WH_HASH_PRIME;

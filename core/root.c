@@ -1,6 +1,5 @@
 /* root.c: the square root in integers. The number is x * 4^k with 1 <= x < 4, and its root is sqrt(x) * 2^k. No root
- * lies halfway between two numbers (its square would have more bits than x can have), so rounding to nearest never
- * meets a tie. */
+ * lies halfway between two numbers (its square would have more bits than x can have), so there are no ties. */
 #include "root.h"
 
 #if WH_DOUBLE
@@ -13,7 +12,7 @@ typedef uint32_t word;
 #define BIAS 127
 #endif
 
-#define ONE ((word)1 << FRACTION_BITS) /* 1 as a fraction with its leading bit */
+#define ONE ((word)1 << FRACTION_BITS) /* 1.0 with FRACTION_BITS after the point */
 #define INFINITE (((word)2 * BIAS + 1) << FRACTION_BITS)
 #define SIGN ((word)1 << (sizeof(word) * 8U - 1U))
 
@@ -22,16 +21,14 @@ typedef union real_bits {
     word bits;
 } real_bits;
 
-/* If 1, a float's root is computed bit by bit, for processors on which a 64-bit product takes longer than 25
- * comparisons. The result has the same bits. */
+/* 1: a float's root is computed bit by bit, for processors on which a 64-bit product is slower than 25 comparisons. */
 #ifndef WH_ROOT_BY_BITS
 #define WH_ROOT_BY_BITS 0
 #endif
 
 #if WH_DOUBLE || WH_ROOT_BY_BITS
 
-/* Returns sqrt(x) * 2^52 (float: 2^23), rounded to nearest, from x with the same factor. It finds the bits one by one,
- * beginning with the highest. */
+/* Returns sqrt(x), rounded to nearest, bit by bit. x and the root have FRACTION_BITS after the point. */
 static word root_of(word x) {
     word rest = x << 1;
     word twice = 0; /* twice the root so far, shifted to the next bit's place */
@@ -57,8 +54,7 @@ static const uint8_t reciprocal_root[32] = {
 
 static uint32_t high_half(uint32_t a, uint32_t b) { return (uint32_t)((uint64_t)a * b >> 32); }
 
-/* Returns sqrt(x) * 2^23, rounded to nearest, from x * 2^23: two Newton steps for the reciprocal root, one for the
- * root. */
+/* The same by two Newton steps for the reciprocal root, and one for the root. */
 static word root_of(word x) {
     const bool two = x >= ONE << 1; /* 2 <= x < 4 */
     const unsigned stretch = (unsigned)(two ? 16U + (x >> 20 & 15U) : x >> 19 & 15U);
@@ -69,7 +65,7 @@ static word root_of(word x) {
         r = high_half(r, ((UINT32_C(3) << 28) - x_r_r) << 2) << 1;
     }
     uint32_t root = high_half(scaled, r) >> 6;
-    /* x * 2^46 minus the root's square. The difference is small, so its low half suffices. */
+    /* x * 2^46 minus the root's square: small, so its low half suffices. */
     const int32_t rest = (int32_t)((x << 23) - root * root);
     root += (uint32_t)(((int64_t)rest * r + (INT64_C(1) << 54)) >> 55);
     return root;

@@ -1,8 +1,8 @@
 /* root.h: the square root, correctly rounded, without a library.
  *
- * If WH_ROOT_BUILTIN is 1, WH_SQRT(x) is the processor's instruction; otherwise it is wh_sqrt(), with the same bits.
- * Without -fno-math-errno, compilers add a call of libm's sqrtf that sets errno for negative numbers, or emit only the
- * call (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors the flag saves time. */
+ * WH_SQRT(x) is the processor's instruction if WH_ROOT_BUILTIN is 1, otherwise wh_sqrt(), with the same bits. Without
+ * -fno-math-errno, compilers add a call of libm's sqrtf that sets errno for negative numbers, or emit only the call
+ * (-O0, -Os, -ffreestanding). x86 has an intrinsic that avoids errno; on other processors, compile with that flag. */
 #ifndef WH_ROOT_H
 #define WH_ROOT_H
 
@@ -12,11 +12,10 @@ WH_C_BEGIN
 
 #define wh_sqrt WH_NAME(wh_sqrt)
 
-/* The square root rounded to the nearest real, computed in integers. As in IEEE 754, infinity and both zeros are their
- * own roots; NaN and negative numbers give NaN. */
+/* Rounded to nearest. Infinity and both zeros are their own roots; negative numbers and NaN give NaN (IEEE 754). */
 wh_real wh_sqrt(wh_real x);
 
-/* WH_ROOT_BUILTIN is 1 if the compiler's square root is one instruction without a call. */
+/* 1 if the compiler's square root is one instruction without a call. */
 #if defined(__GNUC__) && defined(__NO_MATH_ERRNO__)
 #if defined(__aarch64__) || defined(__wasm__)
 #define WH_ROOT_BUILTIN 1
@@ -32,7 +31,7 @@ wh_real wh_sqrt(wh_real x);
 
 #if defined(__GNUC__) && defined(__SSE2_MATH__) /* x86, computing with SSE */
 WH_INLINE wh_real wh_root_sse(wh_real x) {
-    /* All lanes of the register get the same number, because this is cheaper than zeros in the unused lanes. */
+    /* All lanes of the register get x, which is cheaper than zeros in the unused lanes. */
 #if WH_DOUBLE
     typedef double reals __attribute__((vector_size(16)));
     const reals all = {x, x};

@@ -1,8 +1,8 @@
 /* text.c: numbers as text, exactly and without the C library. */
 #include "text.h"
 
-/* A number is an array of bytes, low byte first, with the point between two of them. Then sums, products and quotients
- * by ten need only 16 bits, which are cheap on every machine. */
+/* A number is an array of bytes, low byte first, with the point between two of them. Sums, and products and quotients
+ * by ten, then need only 16 bits, which is cheap on every machine. */
 #define FRACTION_BYTES 20U /* 2^-160: below every float's last bit (2^-149) */
 #define WHOLE_BYTES 16U    /* 2^128: above every float */
 #define BYTES (FRACTION_BYTES + WHOLE_BYTES + 8U) /* 8 bytes are room for a factor of 10^18 */
@@ -31,7 +31,7 @@ void wh_text_add(wh_text *text, const char *string) {
     }
 }
 
-/* Divides byte[count] by 10 in place, and returns the remainder. */
+/* Divides byte[count] by 10 in place. Returns the remainder. */
 static unsigned divide_by_ten(uint8_t *byte, unsigned count) {
     unsigned rest = 0;
     while (count-- > 0) {
@@ -113,7 +113,7 @@ enum { MANTISSA_BITS = 23, EXPONENT_MAX = 0xff, BIAS = 127 + MANTISSA_BITS };
 typedef uint32_t real_bits;
 #endif
 
-/* The parts of a float or double: its magnitude is mantissa * 2^exponent. */
+/* The magnitude is mantissa * 2^exponent. */
 typedef struct parts {
     real_bits mantissa;
     int exponent;
@@ -159,9 +159,8 @@ static void round_to_whole(uint8_t *byte) {
     }
 }
 
-/* Copies the mantissa's bits into byte[BYTES], which is initially zero. Returns false if the number exceeds
- * WHOLE_BYTES, as a double may. Bits below 2^-160 are dropped: only doubles below 2^-107 have such bits, and these are
- * far from any tie at 18 decimals. */
+/* Copies the mantissa's bits into byte[BYTES], which is initially zero. Returns false if the number exceeds WHOLE_BYTES,
+ * as a double may. Drops bits below 2^-160: only doubles below 2^-107 have them, far from a tie at 18 decimals. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
     const int odd = place & 7;

@@ -7,9 +7,8 @@
  *     wh_text_add_fixed(&text, speed_radps, 2);
  *     hal_console_write(text.bytes, text.length);
  *
- * Nothing is written beyond the buffer: excess characters are dropped and `truncated` is set. The buffer always ends in
- * NUL. Floats are converted exactly, in integers: a single-precision build needs no double arithmetic for it, and every
- * machine prints the same characters. */
+ * Excess characters are dropped, and set `truncated`. The buffer always ends in NUL. Floats are converted exactly, in
+ * integers: a float build needs no double arithmetic, and every machine prints the same characters. */
 #ifndef WH_TEXT_H
 #define WH_TEXT_H
 
@@ -33,22 +32,18 @@ typedef struct wh_text {
 #define wh_text_add_fixed WH_NAME(wh_text_add_fixed)
 #define wh_words_item WH_NAME(wh_words_item)
 
-/* Maximum number of decimals that wh_text_add_fixed() prints. */
 #define WH_TEXT_DECIMALS_MAX 18U
 
 /* Begin an empty text in bytes[size], size >= 1. */
 void wh_text_start(wh_text *text, char *bytes, unsigned size);
 
-/* Add one character, or a NUL-terminated string. */
 void wh_text_add_char(wh_text *text, char character);
 void wh_text_add(wh_text *text, const char *string);
 
-/* Returns item `number` of a list such as static const char list[] WH_WORD_LIST = WH_WORDS("one") WH_WORDS("two");
- * beyond the end, the last item. */
+/* Returns item `number` of a list WH_WORDS("one") WH_WORDS("two") (WH_WORD_LIST); beyond the end, the last item. */
 #define WH_WORDS(words) words "\0"
 const char *wh_words_item(const char *list, unsigned number);
 
-/* Add a decimal number. */
 void wh_text_add_unsigned(wh_text *text, uint64_t value);
 void wh_text_add_signed(wh_text *text, int64_t value);
 

@@ -1,9 +1,9 @@
-/* arithmetic.h: checks that the file that includes it computes as Whirl must, on the machine it runs on.
+/* arithmetic.h: checks of the arithmetic in the file that includes it, on the machine that runs it. C only.
  *
  * real.h refuses compiler flags that macros reveal. Other faults have no macro: contraction that the pragmas do not
  * reach, clang's -fassociative-math and -freciprocal-math, a start-up file that flushes subnormals to zero, another
- * rounding mode. They show in numbers that the compiler cannot evaluate. The including file computes these numbers
- * here, with its own flags; scene.c compares them with references at every wh_scene_start(). C only. */
+ * rounding mode. They change numbers that the compiler cannot evaluate in advance. The including file computes these
+ * numbers with its own flags; scene.c compares them with references at every wh_scene_start(). */
 #ifndef WH_ARITHMETIC_H
 #define WH_ARITHMETIC_H
 
@@ -34,10 +34,9 @@ typedef struct wh_probes {
 extern const wh_probes wh_probe;
 
 typedef enum wh_probed {
-    WH_PROBED_PRODUCT, /* not 0 if products are not rounded before a sum: contraction, x87 */
-    WH_PROBED_ORDER,   /* not 0 if a sum is reordered */
-    /* differs from a unit in the last place of 1 if sums are rounded twice, or in another mode */
-    WH_PROBED_ROUNDING,
+    WH_PROBED_PRODUCT,   /* not 0 if products are not rounded before a sum: contraction, x87 */
+    WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
+    WH_PROBED_ROUNDING,  /* not an ulp of 1 if sums are rounded twice, or in another mode */
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
     /* 5/3, and below 7/3 and 10/3: wrong if division is a product with a reciprocal */
     WH_PROBED_FIVE,
@@ -72,8 +71,8 @@ static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     result[WH_PROBED_LITERAL] = seven / WH_R(0.1);
 }
 
-/* Returns the first result of compute() that differs from its reference, or WH_PROBED_COUNT. With wh_arithmetic as
- * argument, it checks the file that calls it. */
+/* Returns the first result of compute() that differs from its reference, or WH_PROBED_COUNT. The argument wh_arithmetic
+ * checks the file that calls the function. */
 #define wh_arithmetic_wrong WH_NAME(wh_arithmetic_wrong)
 wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result));
 

@@ -1,9 +1,8 @@
 /* flash.h: constant tables that stay in flash.
  *
- * An AVR reads its flash with a special instruction; a plain `const` object would be copied to its scarce RAM.
- * avr-gcc's __flash avoids the copy, but exists neither in strict C11 nor in C++. So this file has the attribute and
- * the instruction itself. On other processors constants are ordinary. (The smallest AVRs, __AVR_TINY__, have no such
- * instruction; their constants are ordinary, too.)
+ * An AVR reads its flash by a special instruction; a plain `const` object would be copied to its scarce RAM. avr-gcc's
+ * __flash exists neither in strict C11 nor in C++, so this file has the attribute and the instruction itself. On other
+ * processors, and on the smallest AVRs (__AVR_TINY__), constants are ordinary.
  *
  *      const wh_real table[2] WH_FLASH = {WH_R(1.0), WH_R(0.5)};
  *      wh_real half = wh_flash_real(&table[1]);
@@ -59,7 +58,7 @@ WH_INLINE void wh_flash_copy(void *to, const void *from, unsigned count) {
 #endif
 }
 
-/* Section that keeps a list of strings together with the other constant strings. */
+/* Section for lists of strings, next to the other constant strings. */
 #if defined(WH_WORDS_FROM)
 #define WH_WORD_LIST __attribute__((__section__(".rodata.str.lists")))
 #else

@@ -1,4 +1,4 @@
-/* sincos_small.h: sin d and cos d - 1, the increments of a rotation by d, by two short polynomials. Part of stage_turn.h. */
+/* sincos_small.h: sin d and cos d - 1 by two short polynomials, to rotate a sine-cosine pair. Part of stage_turn.h. */
 #ifndef WH_SINCOS_SMALL_H
 #define WH_SINCOS_SMALL_H
 
@@ -12,12 +12,10 @@
 /* Largest angle of a small rotation, rad. */
 #define WH_SINCOS_SMALL WH_R(0.5)
 
-/* Maximum number of halvings of a rotation: enough for 2^15 rad. Larger rotations give infinity or NaN, and the step is
- * refused. */
+/* Most halvings of a rotation: enough for 2^15 rad. Larger rotations give infinity or NaN, and the step is refused. */
 #define WH_SINCOS_HALVINGS 16U
 
-/* Returns sin d and cos d - 1 for |d| <= 1/2 rad. Errors before rounding: 4.1e-8 and 1.9e-9 in float, 7e-18 and 2e-19
- * in double. */
+/* Returns sin d and cos d - 1 for |d| <= 1/2. Errors before rounding: 4.1e-8, 1.9e-9 (float), 7e-18, 2e-19 (double). */
 WH_INLINE_WITH_FPU wh_wave wh_sincos_small(wh_real d) {
     const wh_real z = d * d;
     wh_wave turn;
@@ -39,9 +37,8 @@ WH_INLINE_WITH_FPU wh_wave wh_sincos_small(wh_real d) {
     return turn;
 }
 
-/* Does the same as wh_sincos_small() for any d: the rotation by d / 2^k, doubled k times. Each doubling doubles the
- * error: it is within 7e-7 |d| in float, 1.3e-15 |d| in double. `surely` is true if the caller knows that d is not
- * small. Rarely needed, but inline, because a call would spill all registers of the step. */
+/* wh_sincos_small() for any d: the rotation by d / 2^k, doubled k times. The error is within 7e-7 |d| in float, 1.3e-15
+ * |d| in double. `surely`: the caller knows that d is not small. Inline, because a call would spill all registers. */
 WH_INLINE_WITH_FPU WH_COLD wh_wave wh_sincos_far(wh_real d, bool surely) {
     unsigned doublings = 0;
     if (surely || WH_ABS(d) > WH_SINCOS_SMALL) {
@@ -61,7 +58,6 @@ WH_INLINE_WITH_FPU WH_COLD wh_wave wh_sincos_far(wh_real d, bool surely) {
     return turn;
 }
 
-/* wh_sincos_far() as a function that is not inlined (angle.c). */
 #define wh_sincos_far_called WH_NAME(wh_sincos_far_called)
 wh_wave wh_sincos_far_called(wh_real d);
 

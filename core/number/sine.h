@@ -5,13 +5,11 @@
  *
  *      sin = s + (s (cos r - 1) + c sin r)        cos = c + (c (cos r - 1) - s sin r)
  *
- * The bracket is below 1/40, so its round-off hardly matters. The error is that of the table and of the last sum, half
- * a unit in the last place each. There is no quadrant, swap, sign or branch. Quarter turns are exact, and no value is
- * beyond one.
+ * The terms in parentheses are below 1/40, so their round-off hardly matters. The error is that of the table and of the
+ * last sum, half a unit in the last place each. Quarter turns are exact, and no value is beyond one.
  *
- * The usual alternative is a polynomial for an eighth of a turn. It was built and measured in float and double: it
- * saves the table (640 bytes of flash in float) but is slower and less accurate. The sign and the swap cost
- * instructions, and the last steps of the polynomial round numbers near one. docs/dev/numerics.md has the figures. */
+ * The usual polynomial for an eighth of a turn would save the table (640 bytes of flash in float), but it is slower and
+ * less accurate (docs/dev/numerics.md). */
 #ifndef WH_SINE_H
 #define WH_SINE_H
 
@@ -20,14 +18,12 @@
 
 WH_C_BEGIN
 
-/* Sine and cosine of a phase together. If the caller uses only one of them, the compiler drops the computation of the
- * other. Both are at most 1 in size, and exact at quarter turns. Float: the worst error over all 2^32 phases is 6.3e-8
- * (`make sine-exhaustive` measures it). Double: 1.4e-16 for |phase| <= 5e8 rad; for larger phases and NaN, both are
- * NaN. docs/dev/numerics.md has the method and its cost. */
+/* Sine and cosine of a phase together; the compiler drops an unused one. Both are at most 1 in size, and exact at
+ * quarter turns. Float: the error is at most 6.3e-8 for all 2^32 phases (`make sine-exhaustive` measures it). Double:
+ * 1.4e-16 for |phase| <= 5e8 rad; for larger phases and NaN, both are NaN. */
 WH_INLINE void wh_sincos(wh_phase phase, wh_real *sine, wh_real *cosine);
 
-/* Sine and cosine, each as a sum of two parts. If a third term is added before the parts are summed, the sum is rounded
- * only once. */
+/* Sine and cosine, each as a sum of two parts: with a third term added first, the whole sum is rounded only once. */
 typedef struct wh_sine_parts {
     wh_real sine;
     wh_real cosine;
@@ -45,8 +41,8 @@ typedef struct wh_wave {
  * |rad| < 1e9; a larger argument or NaN gives phase 0. Double: returns rad. */
 WH_INLINE wh_phase wh_phase_from_rad(wh_real rad);
 
-/* Sets sine and cosine to NaN if rad is NaN or too large for a phase. A float phase cannot represent NaN. With this
- * call the float build refuses such a step, as the double build does. */
+/* Float: sets sine and cosine to NaN if rad is NaN or too large for a phase, which cannot represent NaN. So the float
+ * build refuses such a step, as the double build does. */
 WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 
 /* Number of sectors in a turn (as a power of two) and in a quarter turn. */
@@ -57,8 +53,7 @@ WH_INLINE void wh_sincos_of_range(wh_real rad, wh_real *sine, wh_real *cosine);
 #define wh_sine_table WH_NAME(wh_sine_table)
 extern const wh_real wh_sine_table[(1U << WH_SINE_BITS) + WH_SINE_QUARTER] WH_FLASH;
 
-/* Computes the increments of sine and cosine from the middle of `sector` to the angle r beyond it, from sin r and cos r
- * - 1. */
+/* Computes both parts of sine and cosine at the angle r beyond the middle of `sector`. */
 WH_INLINE void wh_sine_turn_on(uint32_t sector, wh_real sin_r, wh_real cos_r_less_1,
                                wh_sine_parts *parts) {
     const wh_real *middle = &wh_sine_table[sector];
@@ -113,28 +108,26 @@ WH_INLINE void wh_sincos_parts(wh_phase phase, wh_sine_parts *parts) {
     const unsigned rest_bits = 32U - WH_SINE_BITS;
     const uint32_t sector = (phase + (UINT32_C(1) << (rest_bits - 1U))) >> rest_bits;
 
-    /* The angle from the sector's middle, times 2^7. Shifting the sector number out leaves the right sign and 25
+    /* The angle from the sector's middle, times 2^7: shifting the sector number out leaves the right sign and 25
      * significant bits. The constants include the scale, 2^39 per turn. */
     const float y = (float)(int32_t)(phase << WH_SINE_BITS);
 
-    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. The numbers are 0x1.921fb6p-37, -0x1.4ab89ep-112 and
-     * -0x1.3bd07p-74; C++11 has no such literals. */
+    /* Minimax for |r| <= pi/128: sin r to 5e-12, cos r to 2.6e-9. (0x1.921fb6p-37, -0x1.4ab89ep-112 and -0x1.3bd07p-74
+     * are not literals of C++11.) */
     const float z = y * y;
     const float sin_r = y * (1.14290478e-11f + z * -2.48806948e-34f);
     const float cos_r_less_1 = z * -6.53088477e-23f;
     wh_sine_turn_on(sector, sin_r, cos_r_less_1, parts);
 }
 
-/* Converts radians to a stored angle. The function is inline: for a phase, the compiler drops the high half. One radian
- * is 2^32/(2 pi) phase units. As factors of integers these are 683565276 - 1819212470/2^32 for whole radians, and
- * 1367130551/2^32 for units of 2^-31 rad. Float products would round. */
+/* Converts radians to a stored angle. Inline: for a phase, the compiler drops the high half. 2^32/(2 pi) is in
+ * integers, as floats would round: 683565276 - 1819212470/2^32 per radian, and 1367130551/2^32 per 2^-31 rad. */
 #define WH_RAD_MOST 1e9f
 WH_INLINE int64_t wh_angle_of_rad(float rad) {
     const float in_range = WH_ABS(rad) < WH_RAD_MOST ? rad : 0.0f; /* NaN is not in range */
     const int32_t whole = (int32_t)in_range;
     const int32_t fraction = (int32_t)((in_range - (float)whole) * 2147483648.0f);
     const int64_t small = whole * -INT64_C(1819212470) + fraction * INT64_C(1367130551);
-    /* gcc and clang define >> of a negative number: it keeps the sign */
     return whole * INT64_C(683565276) + ((small + (INT64_C(1) << 31)) >> 32);
 }
 

@@ -4,7 +4,7 @@
 
 #include "../real.h"
 
-/* Returns value + increment. If compensated, *carry is added, too, and becomes the sum's rounding error (Kahan; Higham,
+/* Returns value + increment. If compensated, *carry is added, too, and becomes the round-off of the sum (Kahan; Higham,
  * Accuracy and Stability of Numerical Algorithms, section 4.3). */
 WH_INLINE wh_real wh_sum(wh_real value, wh_real increment, bool compensated, wh_real *carry) {
     if (!compensated) {

@@ -13,16 +13,15 @@ typedef double wh_phase;  /* radians */
 typedef double wh_factor; /* factor of wh_phase_times() */
 #define WH_PHASE_PER_RAD 1.0
 #define WH_PHASE_PER_RAD_REST 0.0
-/* Limit on the change of an angle in one step: for larger changes the direction is ambiguous. */
+/* Limit on the change of an angle in one step: beyond it the direction is ambiguous. */
 #define WH_PHASE_STEP_MAX 3.141592653589793
 
 WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return angle; }
 
 #else
 
-/* 2^32 per turn: whole turns in the high half, the phase in the low half. The count of turns wraps at 2^31 (after 50
- * days of half a turn per millisecond, or twelve years at 330 rpm). After that the phase, its sine and its cosine are
- * still right. */
+/* 2^32 per turn: whole turns in the high half, the phase in the low half. The count of turns wraps at 2^31 (50 days of
+ * half a turn per millisecond, twelve years at 330 rpm). The phase, its sine and its cosine stay right. */
 typedef int64_t wh_angle;
 typedef uint32_t wh_phase; /* 2^32 per turn */
 typedef struct wh_factor { /* the number whole + part/2^64, modulo 2^32 */
@@ -37,8 +36,8 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 
 #endif
 
-/* For a processor with an instruction that rounds a float to the nearest int32_t, ties to even: sets `result` to the
- * rounded `steps`. The instructions of x86 and Arm's VFP use the rounding mode that arithmetic.h tests. */
+/* Sets the int32_t `result` to the float `steps`, rounded to nearest, ties to even, by one instruction. Those of x86
+ * and Arm's VFP use the rounding mode that arithmetic.h tests. */
 #if defined(__GNUC__) && defined(__arm__) && defined(__ARM_FP) && (__ARM_FP & 4)
 #define WH_ROUND(result, steps) \
     float whole; /* holds the integer's bits: the result is in a float register */ \
@@ -52,15 +51,14 @@ WH_INLINE wh_phase wh_phase_of(wh_angle angle) { return (wh_phase)(uint64_t)angl
 #define WH_ROUND(result, steps) __asm__("fcvt.w.s %0, %1, rne" : "=r"(result) : "f"(steps))
 #endif
 
-/* A constant angle or phase for generated code: radians for the double build, `units` (2^32 per turn) for the float
- * build. */
+/* Constants of generated code. An angle or phase: radians for the double build, `units` (2^32 per turn) for the float
+ * build. A factor: `real` for the double build, `whole` and `part` for the float build. */
 #if WH_DOUBLE
 #define WH_TURN(rad, units) (rad)
 #else
 #define WH_TURN(rad, units) (units)
 #endif
 
-/* A constant factor for generated code: `real` for the double build, `whole` and `part` for the float build. */
 #if WH_DOUBLE
 #define WH_FACTOR(real, whole, part) (real)
 #else
@@ -72,8 +70,8 @@ WH_INLINE wh_factor wh_factor_of(uint32_t whole, uint64_t part) {
 #endif
 
 #if !WH_DOUBLE
-/* Returns the whole number nearest to `steps`, |steps| < 2^31, ties to even. If steps often end in one half, rounding
- * ties away from zero would make the angle drift by a quarter of a unit per step. */
+/* Returns the whole number nearest to `steps`, |steps| < 2^31, ties to even. If steps often end in one half, ties away
+ * from zero would make the angle drift by a quarter of a unit per step. */
 WH_INLINE int32_t wh_whole(float steps) {
 #ifdef WH_ROUND
     int32_t result;
@@ -95,7 +93,7 @@ WH_INLINE int32_t wh_whole(float steps) {
 #endif
 }
 
-/* Returns the whole number nearest to steps/2, from the whole part of `steps`. Ties are rounded away from zero. */
+/* Returns the whole number nearest to steps/2, from the whole part of `steps`, ties away from zero. */
 WH_INLINE int32_t wh_half_whole(float steps) {
     const int32_t whole = (int32_t)steps;
     /* gcc and clang define >> of a negative number: it keeps the sign */
@@ -104,8 +102,7 @@ WH_INLINE int32_t wh_half_whole(float steps) {
 #endif
 
 /* Sets *moved to `phase` moved by `steps` phase units (radians * WH_PHASE_PER_RAD), in float rounded to the nearest
- * unit. If `steps` is half a turn or more, or NaN, returns false and leaves *moved unchanged: the step must be
- * refused. */
+ * unit. If `steps` is half a turn or more, or NaN, returns false without setting *moved: the step must be refused. */
 WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;
@@ -118,7 +115,7 @@ WH_INLINE bool wh_phase_move(wh_phase phase, wh_real steps, wh_phase *moved) {
     return true;
 }
 
-/* Does the same as wh_phase_move() by half of `steps`: the middle of a step that moves by `steps`. */
+/* wh_phase_move() by half of `steps`: to the middle of a step that moves by `steps`. */
 WH_INLINE bool wh_phase_move_half(wh_phase phase, wh_real steps, wh_phase *moved) {
     if (!(WH_ABS(steps) < WH_PHASE_STEP_MAX)) {
         return false;

@@ -1,19 +1,17 @@
-/* two_part.h: constants as sums of two reals, which are more precise than one real. Part of step.h. In float, a step of
- * a millisecond stored as one real would have a relative error of 4.7e-8, the same in every step; compensated sums
- * would keep it. */
+/* two_part.h: constants as sums of two reals. Part of step.h. In float, a step of a millisecond stored as one real
+ * would have the same relative error of 4.7e-8 in every step, which compensated sums would not remove. */
 #ifndef WH_TWO_PART_H
 #define WH_TWO_PART_H
 
 #include "turn.h"
 
-/* The constant high + low: a length of time, or a number derived from it. low is below half a unit in the last place of
- * high. */
+/* The number high + low. low is below half a unit in the last place of high. */
 typedef struct wh_two_part {
     wh_real high;
     wh_real low;
 } wh_two_part;
 
-/* Writes a two-part constant in generated code. Double needs no low part. */
+/* Writes a constant in generated code. Double needs no low part. */
 #if WH_DOUBLE
 #define WH_TWO_PART(high, low) ((wh_two_part){high, 0.0})
 #else
