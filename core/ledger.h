@@ -2,21 +2,18 @@
  *
  * Account 0 is the energy integral sum q_i' dL/dq_i' - L (Goldstein, Classical Mechanics, section 2.7). It equals T + V
  * if T is a quadratic form of the rates and V does not depend on the rates. Account 1 + i is the generalized momentum
- * dL/dq_i' of coordinate i, in the scene's order, conserved coordinates last.
+ * dL/dq_i' of coordinate i, in the scene's order; coordinates that follow from a conserved momentum come last.
  *
- * Each entry is the sum of the changes that one cause made to one account since the start. The entries are, in this
- * order:
- * - the work of each input, the loss of each damper (negative), and the impulse of each generalized force.
+ * Each entry is the sum of the changes that one cause made to one account since the start, in this order:
+ * - smooth entries: the work of each input, the loss of each damper (negative), the impulse of each generalized force.
  * - for each contact, its energy and its impulse along each coordinate.
- * - for each input that the energies name, the work -dL/dt of its changes between steps (an input is constant within a
- * step).
- * - last, if the scene asks for it, the energy drift that the steps have given back (stabilize.h).
+ * - for each input in the energies, the work -dL/dt of its changes between steps.
+ * - if the scene asks for it, the energy that stabilization has given back (stabilize.h).
  *
- * The powers and forces of the first kind, and the contacts' forces, are integrated with the weights of the method's
- * own stages. So the entries have the method's order, and each stage evaluates one more list of operations. Impacts,
- * captures and assignments are entered when they happen. Sums are compensated. The part of an account's change that no
- * entry explains is the run's numerical drift: wh_ledger_error(). The ledger never touches the state: a run with a
- * ledger has the same bits as a run without. ledger_step.h fills the ledger. */
+ * Powers and forces, including contact forces, are integrated with the weights of the method's own stages, so the
+ * entries have the method's order. Impacts, captures and assignments are entered when they happen. Sums are
+ * compensated. The part of an account's change that no entry explains is the run's numerical drift: wh_ledger_error().
+ * Without stabilization, a run with a ledger has the same bits as a run without. ledger_step.h fills the ledger. */
 #ifndef WH_LEDGER_H
 #define WH_LEDGER_H
 
@@ -25,40 +22,35 @@
 
 WH_C_BEGIN
 
-/* Computes the accounts at a state, in SI units: level[0] is the energy, level[1 + i] the momentum of coordinate i. */
+/* Computes the accounts at a state, SI units: level[0] is the energy, level[1 + i] the momentum of coordinate i. */
 typedef void wh_levels_fn(const void *model, const wh_angle *angle, const wh_real *linear,
                           const wh_real *rate, const wh_real *input, wh_real *level);
 
-/* A scene's ledger. All members are constant. The functions are generated as lists of operations, like the
- * accelerations. */
+/* A scene's ledger, all constant. The functions are operation lists, like the accelerations. */
 struct wh_ledger_form {
     const void *model;    /* first argument of the functions */
     wh_accel_fn *powers;  /* result[smooth]: rate of change of each entry's account */
     wh_levels_fn *levels; /* result[1 + all coordinates] */
-    /* Replaces `powers` if an entry needs a turn angle in radians; otherwise NULL. A total derivative in the energies,
-     * such as th^2 th', drops out of the accelerations, but not out of dL/dth. */
+    /* Replaces `powers` if an entry needs a turn angle in radians; otherwise NULL. For example, the term th^2 th' of an
+     * energy drops out of the accelerations, but not out of dL/dth. */
     wh_levels_fn *turned;
     const uint8_t *account; /* [smooth] account of each smooth entry */
-    /* [inputs] the inputs that the energies name, in the order of their entries */
-    const uint8_t *input;
-    /* number of smooth entries: those of inputs, dampers and generalized forces */
-    uint16_t smooth;
-    uint16_t entries; /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
-    /* number of stored words: two for each account, one for each input, one if stabilized */
-    uint8_t accounts;
-    uint8_t coordinates; /* number of integrated coordinates */
-    uint8_t angles;      /* number of coordinates that are stored as turn angles */
+    const uint8_t *input;   /* [inputs] inputs in the energies, in the order of their entries */
+    uint16_t smooth;        /* number of smooth entries */
+    uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
+    uint8_t accounts;       /* words: two for each account, one for each input, one if stabilized */
+    uint8_t coordinates;    /* number of integrated coordinates */
+    uint8_t angles;         /* the first ones, stored as turn angles */
     uint8_t inputs;
     bool stabilized; /* each step gives back part of the drift (stabilize.h) */
 };
 
-/* Index of the entry of contact k's energy. The entries of the contact's impulses follow, one for each coordinate. */
+/* Index of the entry of contact k's energy. Those of its impulses follow, one for each coordinate. */
 WH_INLINE unsigned wh_ledger_of_contact(const wh_ledger_form *form, unsigned k) {
     return form->smooth + k * (1U + form->coordinates);
 }
 
-/* Index of the entry of input form->input[0]. The entries of the other inputs follow. All belong to the energy's
- * account. */
+/* Index of the entry of input form->input[0]. Those of the other inputs follow, all in the energy's account. */
 WH_INLINE unsigned wh_ledger_of_input(const wh_ledger_form *form) {
     return (unsigned)form->entries - form->inputs - form->stabilized;
 }
@@ -76,24 +68,24 @@ WH_INLINE unsigned wh_ledger_account(const wh_ledger_form *form, unsigned entry)
                                 : (entry - form->smooth) % (1U + form->coordinates);
 }
 
-/* Number of accounts with a level: the energy, and a momentum for each coordinate. */
+/* Number of accounts: the energy, and a momentum for each coordinate. */
 WH_INLINE unsigned wh_ledger_level_count(const wh_ledger_form *form) {
     return ((unsigned)form->accounts - form->inputs - form->stabilized) / 2U;
 }
 
-/* Changes of the accounts by corrections such as wh_scene_set_real(), stored after the start's levels. A correction
- * also moves the start's levels by the same amount, so the entries still add up to the change since the start. */
+/* Changes of the accounts by corrections such as wh_scene_set_real(). A correction also moves the start's levels by the
+ * same amount, so that the entries still add up to the change since the start. */
 WH_INLINE wh_real *wh_ledger_corrected(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + wh_ledger_level_count(form);
 }
 
-/* The inputs of the last step, [inputs], stored after the corrections. */
+/* The inputs of the last step, [inputs]. */
 WH_INLINE wh_real *wh_ledger_kept(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + (unsigned)form->accounts - form->inputs -
            form->stabilized;
 }
 
-/* If form->stabilized: the largest P of stabilize.h so far, in J. It is the last stored word. */
+/* If form->stabilized: the largest P of stabilize.h so far, in J. */
 WH_INLINE wh_real *wh_ledger_most(const wh_ledger_form *form, const wh_state *state) {
     return state->ledger + 2U * form->entries + (unsigned)form->accounts - 1U;
 }
@@ -111,8 +103,8 @@ WH_INLINE void wh_ledger_levels(const wh_ledger_form *form, const wh_state *stat
                  level);
 }
 
-/* Computes the accounts at the present state, but with the inputs of the last step. The next step enters the effect of
- * inputs that were changed since. */
+/* Computes the accounts at the present state, but with the inputs of the last step: the next step will enter the effect
+ * of inputs that changed since then. */
 static inline void wh_ledger_last_levels(const wh_ledger_form *form, const wh_state *state,
                                          wh_real *level) {
     for (unsigned k = 0; k < form->inputs; k++) {
@@ -136,9 +128,8 @@ static inline wh_real wh_ledger_sum(const wh_ledger_form *form, const wh_state *
     return sum;
 }
 
-/* Numerical drift of an account since the start: the change of the account minus the sum of its entries, in J or the
- * momentum's unit. `level` [form->accounts] is working space. Zero before the first step. Inputs that were changed
- * since the last step do not count yet: the next step enters them. */
+/* Numerical drift of an account since the start: its change minus the sum of its entries, in J or the momentum's unit.
+ * `level` [form->accounts] is working space. Inputs that changed since the last step do not count yet. */
 static inline wh_real wh_ledger_error(const wh_ledger_form *form, const wh_state *state,
                                       unsigned account, wh_real *level) {
     if (state->steps == 0) {

@@ -1,4 +1,4 @@
-/* method.h: the integration methods, one row each. A row holds every property of its method, for the steps, the ledger,
+/* method.h: the integration methods, one row each. A row has every property of its method, for the steps, the ledger,
  * the evaluation counts, the command line and the tests. To add a method, add its row and its line in
  * docs/dev/numerics.md (a test compares the two). */
 #ifndef WH_METHOD_H
@@ -9,17 +9,17 @@
 /* X(name in C, word of command lines, title, order, systems that it takes, stages, its tableau). Enumerators count from
  * 0 in this order; generated code uses their names.
  *
- * A step evaluates the right-hand side once a stage. Stage i is evaluated at
+ * Each stage is one evaluation of the right-hand side. Stage i is evaluated at
  *
  *     begin + h/parts * sum_j share[j] * (rate of stage j),        .stage[i] = {parts, {share...}}
  *
- * with j before i: a row of Butcher's A, with a common denominator. A share of zero costs nothing in generated code. At
- * the end of the step, with h/parts * sum_i share[i] * (derivative of stage i),
+ * with j < i: a row of Butcher's A, with a common denominator. A share of zero costs nothing in generated code. The end
+ * of the step needs the sums S(w) = h/parts * sum_i w[i] * (derivative at stage i):
  *
- *     x' = f(x):        x moves by .rates                             (Butcher's b)
- *     q'' = f(q, q'):   q' moves by .rates, and q by h times q' moved by .positions
+ *     x' = f(x):        x + S(.rates)                                 (Butcher's b)
+ *     q'' = f(q, q'):   q' + S(.rates),   q + h (q' + S(.positions))
  *
- * so a method may have its own weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has
+ * So a method may have separate weights for positions (Nystroem's, semi-implicit Euler). A Runge-Kutta method has
  * .positions = b A; only such a method takes systems of first order. .positions and .rates share .parts, because the
  * sum for positions is a part of the sum for rates. The ledger (ledger_step.h) weighs the stages by .rates, too.
  *
@@ -29,16 +29,15 @@
  *
  * where a_j are the accelerations of the earlier stages; a Runge-Kutta method's reach is A A. The rates of stage i
  * follow from .stage[i]. Two stages with the same node and reach have the same position. If the list is inlined, the
- * compiler computes the terms that depend on positions alone (sines, mass matrix, divisions) once for both. First-order
- * systems, if the row takes them, use .stage alone.
+ * compiler computes their common terms (sines, mass matrix, divisions) once. First-order systems use .stage alone.
  *
- * Compositions of kicks and drifts are rows of the same columns. With kicks b_i at nodes c_i, .positions = b (1 - c),
- * .rates = b, and .reach[i] has shares b_j (c_i - c_j). They have no .stage, and so no rates at a stage: systems whose
- * accelerations depend on rates cannot use them (WH_NO_RATES). Their first stage need not be at the step's begin.
+ * Compositions of kicks and drifts have kicks b_i at nodes c_i: .positions = b (1 - c), .rates = b, and .reach[i] has
+ * the shares b_j (c_i - c_j). Their .stage is zero, so the stages have no rates: systems whose accelerations depend on
+ * rates cannot use them (WH_NO_RATES). Their first stage need not be at the step's begin.
  *
- * A row of several stages may rotate the sines of the step's begin (stage_turn.h). Its .turns gives the distance of
- * stage i as a multiple of that of stage 1, both extrapolated by the rates at the begin. These multiples follow from
- * the shares (tests/core/test_stage_turn.c). Without .turns, the sines of each stage come from the sine table. */
+ * A row with .turns may rotate the sines of the step's begin (stage_turn.h). .turns[i] is the distance of stage i as a
+ * multiple of that of stage 1, both extrapolated by the rates at the begin (tests/core/test_stage_turn.c). Without
+ * .turns, the sines of each stage come from the sine table. */
 /* clang-format off */
 #define WH_SHORT_METHOD_ROWS(X) \
     X(WH_EULER, "euler", "explicit Euler", 1, WH_ANY_SYSTEM, 1, \
@@ -94,20 +93,18 @@ typedef enum wh_method { WH_METHOD_ROWS(WH_METHOD_NAME) } wh_method;
 enum { WH_METHODS = WH_METHOD_ROWS(WH_METHOD_ONE) };
 #undef WH_METHOD_ONE
 
-/* The systems that a method can step: one bit for each wh_form (scene.h). Bit 2 (in WH_NO_RATES) restricts them to
- * accelerations that do not depend on rates. */
+/* The systems that a method can step, one bit for each wh_form. Bit 2: only accelerations that do not need rates. */
 enum { WH_SECOND_ORDER_ONLY = 1, WH_ANY_SYSTEM = 3, WH_NO_RATES = 5 };
 
 WH_C_BEGIN
 
-/* A method's data for users. */
 typedef struct wh_method_row {
-    const char *word;  /* the method's name on command lines and in file names */
+    const char *word;  /* name on command lines and in file names */
     const char *name;  /* name in C */
-    const char *title; /* the method's name in sentences */
-    uint8_t order;     /* order of convergence */
-    uint8_t takes;     /* the systems that the method can step: the bits above */
-    uint8_t stages;    /* evaluations of the right-hand side per step */
+    const char *title; /* name in sentences */
+    uint8_t order;
+    uint8_t takes;  /* the systems that the method can step: one of the values above */
+    uint8_t stages; /* evaluations of the right-hand side per step */
 } wh_method_row;
 
 #define wh_methods WH_NAME(wh_methods)
@@ -117,8 +114,8 @@ WH_C_END
 
 #ifndef __cplusplus
 
-/* The available rows. A generated scene defines WH_STAGES, its method's number of stages. If that is at most four, the
- * longer rows are omitted, because they can cost an 8-bit chip 200 bytes of RAM. */
+/* The available rows. A generated scene defines WH_STAGES, its method's number of stages. Up to four, the longer rows
+ * are omitted, because they can cost an 8-bit chip 200 bytes of RAM. */
 #if defined(WH_STAGES) && WH_STAGES <= 4
 #define WH_TABLEAUS(X) WH_SHORT_METHOD_ROWS(X)
 #define WH_NO_TABLEAUS(X) WH_LONG_METHOD_ROWS(X)
@@ -135,8 +132,7 @@ union wh_method_stages {
 /* The largest number of stages of an available row. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
-/* Weights of the stages: the derivative of stage j has the weight share[j] / parts. Shares are reals, because
- * higher-order methods have weights that are not ratios of small integers. */
+/* Stage j has the weight share[j] / parts. Higher orders have weights that are no ratios of small integers. */
 typedef struct wh_shares {
     wh_real parts;
     wh_real share[WH_STAGES_MAX];
@@ -162,8 +158,8 @@ typedef struct wh_tableau {
 WH_TABLEAUS(WH_METHOD_TABLEAU)
 #undef WH_METHOD_TABLEAU
 
-/* There is one object for each row instead of an array. If the method is constant, generated code then contains only
- * its own row, and not even that row if the loops over it are unrolled. */
+/* One object for each row, not an array: if the method is constant, generated code contains only its own row, or none
+ * if the loops over it are unrolled. */
 WH_INLINE const wh_tableau *wh_tableau_of(wh_method method) {
 #define WH_METHOD_NONE(id, ...) case id:
 #define WH_METHOD_TABLEAU(id, ...) \

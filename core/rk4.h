@@ -11,12 +11,10 @@
  *
  * The vector x is a scene's state (state.h): its angles, then its reals. In a mechanism, q'' = f(q, q', u), x holds the
  * positions q and the rates q'. The slopes of the positions are the rates, and the slopes of the rates are the
- * accelerations. Angles are integers: wh_angle_move() moves an angle by slope times time, without a loss of digits
- * after a million turns (angle.h).
+ * accelerations. Angles are integers: wh_angle_move() moves an angle by slope times time (angle.h).
  *
- * `--method rk4-plain` runs a scene by this step. The method `rk4` has the same formulas as a row of method.h. The
- * steps of step.h share sums between positions and rates, and look each sine up only once (stage_turn.h), so they cost
- * less. `build/tests/host rk4` compares both. */
+ * `--method rk4-plain` runs a scene by this step. The method `rk4` is the same in exact arithmetic, but costs less:
+ * step.h shares sums between positions and rates, and looks each sine up only once (stage_turn.h). */
 #ifndef WH_RK4_H
 #define WH_RK4_H
 
@@ -27,7 +25,7 @@ typedef void wh_slope_fn(const void *model, const wh_phase *phase, const wh_real
                          const wh_real *input, wh_real *slope);
 
 /* The system x' = f(x, u). Either `slope` computes all slopes, or `accel` computes the accelerations of a mechanism
- * with `coordinates` positions, of which the first `angles` are angles. The unused pointer is NULL. */
+ * with `coordinates` positions, the first `angles` of them angles. The unused pointer is NULL. */
 typedef struct wh_rk4_system {
     const void *model;
     wh_slope_fn *slope;

@@ -1,15 +1,14 @@
-/* step.h: the fixed-step integrators, as inline functions.
+/* step.h: the fixed-step integrators, as inline functions. One loop over the stages of a row of method.h serves all
+ * methods; rk4.h has the classic method in full.
  *
  * A generated scene and the host's interpreter both include this file, so both have the same order of floating-point
  * operations and the same bits. In a generated scene the counts, the method and `compensated` are constants and the
- * right-hand side is inlined, so the compiler unrolls the loops and drops unused operations. The file is C only:
- * programs that embed a scene include scene.h and the generated header.
+ * right-hand side is inlined, so the compiler unrolls the loops and drops unused operations. C only: programs that
+ * embed a scene include scene.h and the generated header.
  *
- * One loop over the stages of a row of method.h serves all methods.
- *
- * For q'' = f(q, q', u) the position stages are written out. The result is that of the same method on the first-order
- * form, up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I,
- * section II.14). rk4.h has the classic method in full. */
+ * For q'' = f(q, q', u), positions and rates have separate sums. The result is that of the same method on the
+ * first-order form, up to round-off, with fewer operations (Hairer, Norsett & Wanner, Solving Ordinary Differential
+ * Equations I, section II.14). */
 #ifndef WH_STEP_H
 #define WH_STEP_H
 
@@ -19,8 +18,8 @@
 #include "step/multi_step.h"
 #include "step/step_end.h"
 
-/* Computes the angle at a stage: the step's begin plus h / parts times `sum`, the sum of the rates with the stage's
- * shares. Returns false if wh_phase_move() does. */
+/* Computes a phase at a stage: the angle at the begin plus h / parts * sum, with the sum of the rates weighted by the
+ * stage's shares. Returns as wh_phase_move() does. */
 WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real parts,
                               wh_phase *phase) {
     return parts == WH_R(2.0)
@@ -28,8 +27,7 @@ WH_INLINE bool wh_stage_angle(wh_angle angle, wh_real sum, wh_real h, wh_real pa
                : wh_phase_move(wh_phase_of(angle), sum * (h / parts * WH_PHASE_PER_RAD), phase);
 }
 
-/* The arguments of a step that all its stages share. All are scalars: compilers keep them in registers, and know the
- * constant ones before they unroll loops. */
+/* The arguments of a step that all its stages share. Scalars stay in registers, and their constants are known early. */
 typedef struct wh_stepping {
     const wh_tableau *by; /* the method */
     const wh_state *state;
@@ -39,16 +37,15 @@ typedef struct wh_stepping {
     bool compensated;
 } wh_stepping;
 
-/* Arguments and results of an operation list. The separate struct lets compilers keep all other variables in registers
- * if the list is called. */
+/* Arguments and results of an operation list, in one struct: other variables then stay in registers if it is called. */
 typedef struct wh_stepped_list {
     wh_phase phase[WH_COORDS];
-    wh_real at[WH_COORDS];    /* linear positions (second order) or reals (first order) */
+    wh_real at[WH_COORDS];    /* linear positions (second order), or reals (first order) */
     wh_real v[WH_COORDS];     /* rates */
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_stepped_list;
 
-/* Zeroes the entries that no scene uses. The compiler cannot know that they are unused. */
+/* Fills the phases at the begin. Zeroes entries that no scene uses, because the compiler does not know that. */
 WH_INLINE void wh_stepped_begin(const wh_state *state, unsigned angles, unsigned linears,
                                 wh_stepped_list *list) {
     WH_UNROLL
@@ -66,7 +63,7 @@ typedef struct wh_stepped_second {
     const wh_real *rate;
     const wh_real *input;
     wh_real a1[WH_COORDS];               /* accelerations of the first stage */
-    wh_real rates[WH_STAGES][WH_COORDS]; /* accelerations of the later stages */
+    wh_real rates[WH_STAGES][WH_COORDS]; /* rates of the later stages */
     wh_real accels[WH_STAGES][WH_COORDS];
     wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
 } wh_stepped_second;
@@ -91,8 +88,7 @@ WH_INLINE unsigned wh_step_reach(const wh_stepping *to, unsigned s, wh_given acc
     return angles;
 }
 
-/* Computes stage s > 0. Returns the first angle that would move by half a turn or more, or `angles` if there is
- * none. */
+/* Computes stage s > 0. Returns the first angle that would move by half a turn or more, or `angles`. */
 WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel,
                                         const wh_stepping *to, unsigned s, wh_stepped_list *list,
                                         wh_stepped_second *k) {
@@ -134,7 +130,7 @@ WH_INLINE unsigned wh_step_second_stage(const void *model, wh_accel_fn *accel,
     return angles;
 }
 
-/* One step of q'' = f(q, q', u). angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and
+/* One step of q'' = f(q, q', u), angles <= n <= WH_COORDS. Returns WH_OK, or WH_E_DIVERGED with state->fault set and
  * the rest of the state unchanged. */
 WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_method method,
                                    bool compensated, unsigned angles, unsigned n, wh_two_part h,
@@ -203,9 +199,8 @@ WH_INLINE unsigned wh_step_first_stage(const void *model, wh_slope_fn *slope, co
 }
 
 /* One step of x' = f(x, u) with `angles` turn angles and `reals` reals, angles + reals <= WH_COORDS. Returns
- * WH_E_ARGUMENT, with the state unchanged, if the method cannot step such a system. Semi-implicit Euler cannot: it
- * moves rates before positions, and a first-order system does not distinguish them. Otherwise returns as
- * wh_step_second() does. */
+ * WH_E_ARGUMENT, with the state unchanged, if the method cannot step such a system. (Semi-implicit Euler moves rates
+ * before positions, which a first-order system does not distinguish.) Otherwise returns as wh_step_second() does. */
 WH_INLINE wh_status wh_step_first(const void *model, wh_slope_fn *slope, wh_method method,
                                   bool compensated, unsigned angles, unsigned reals, wh_two_part h,
                                   wh_state *state) {

@@ -1,6 +1,6 @@
-/* driven.h: inputs with a rate (`input L rate Lv`). Part of generated scenes that have such inputs. Inside a step such
- * an input moves like a coordinate without forces, at its constant rate. Between steps the caller sets the value and
- * the rate, or the rate alone. A step starts from both and updates both; a refused step leaves the state as it was. */
+/* driven.h: inputs with a rate (`input L rate Lv`), for generated scenes that have such inputs. Inside a step such an
+ * input moves like a coordinate without forces, at its constant rate. Between steps the caller sets the value and the
+ * rate, or the rate alone. A step starts from both and updates both; a refused step leaves the state as it was. */
 #ifndef WH_DRIVEN_H
 #define WH_DRIVEN_H
 
@@ -9,13 +9,12 @@
 #include "refuse.h"
 #include "unroll.h"
 
-/* Maximum number of accounts: the energy, and a momentum for each coordinate. A generated scene defines its own
- * value. */
+/* Maximum number of accounts: the energy, and a momentum for each coordinate. A generated scene defines its own. */
 #ifndef WH_ACCOUNTS_MAX
 #define WH_ACCOUNTS_MAX (WH_COORDS + 1)
 #endif
 
-/* Indices of an input and of its rate (among the inputs), and of the components in state->real[] that they set. */
+/* Indices of an input and of its rate in state->input[], and of the components in state->real[] that they set. */
 typedef struct wh_driven {
     uint8_t input;
     uint8_t rate;
@@ -23,8 +22,7 @@ typedef struct wh_driven {
     uint8_t rate_at;
 } wh_driven;
 
-/* The values that a refused step restores: the driven components, the ledger's levels at the start, and its
- * corrections. */
+/* For a refused step: the old driven components, and the ledger's levels at the start and corrections. */
 typedef struct wh_driven_kept {
     wh_real real[2 * WH_COORDS];
     wh_real books[2 * WH_ACCOUNTS_MAX];
@@ -48,7 +46,7 @@ static inline void wh_ledger_correct(const wh_ledger_form *form, const wh_state 
 }
 
 /* Call this before a step. It copies the inputs to the components. If `form` is not NULL, the ledger counts the change
- * of the accounts as a correction, as in wh_scene_set_real(). */
+ * of the accounts as a correction. */
 WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_ledger_form *form,
                                wh_driven_kept *kept, wh_state *state) {
     wh_real before[WH_ACCOUNTS_MAX];
@@ -75,8 +73,8 @@ WH_INLINE void wh_driven_begin(const wh_driven *drive, unsigned count, const wh_
     }
 }
 
-/* Call this after a step. After a completed step, it copies the components to the inputs; after a refused step, it
- * restores components and ledger. Returns the step's status. */
+/* Call this after a step. It copies the components to the inputs, or restores components and ledger after a refused
+ * step. Returns the step's status. */
 WH_INLINE wh_status wh_driven_end(const wh_driven *drive, unsigned count,
                                   const wh_ledger_form *form, const wh_driven_kept *kept,
                                   wh_status status, wh_state *state) {

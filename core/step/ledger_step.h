@@ -6,12 +6,11 @@
 #include "driven.h"
 #include "stabilize.h"
 
-/* Maximum number of entries. A generated scene defines its own value. */
+/* Maximum number of entries. A generated scene defines its own. */
 #ifndef WH_LEDGER_MAX
 #define WH_LEDGER_MAX 2048
 #endif
 
-/* The ledger's part of a step in progress. */
 typedef struct wh_ledger_work {
     wh_real attempt[WH_LEDGER_MAX]; /* entries of the present trial step */
     wh_real step[WH_LEDGER_MAX];    /* entries of the whole step so far */
@@ -20,8 +19,7 @@ typedef struct wh_ledger_work {
     unsigned stage;
 } wh_ledger_work;
 
-/* Returns the weight of stage `stage` in the method's quadrature. Because of the loop the code needs no table, even if
- * `stage` is not constant. */
+/* Returns the weight of a stage in the method's quadrature, without a table even if `stage` is not constant. */
 WH_INLINE wh_real wh_ledger_weight(wh_method method, unsigned stage) {
     const wh_tableau *by = wh_tableau_of(method);
     wh_real rates = by->rates[0];
@@ -45,7 +43,6 @@ WH_INLINE void wh_ledger_begin(const wh_ledger_form *form, const wh_angle *angle
     w->stage = 0;
 }
 
-/* Accept the trial step: add its entries to those of the whole step. */
 WH_INLINE void wh_ledger_accept(const wh_ledger_form *form, wh_ledger_work *w) {
     for (unsigned i = 0; i < form->entries; i++) {
         w->step[i] += w->attempt[i];
@@ -76,8 +73,7 @@ WH_INLINE wh_real wh_ledger_stage(const wh_ledger_form *form, wh_method method,
     return share;
 }
 
-/* Call this before a step. It enters the effects of the inputs that changed since the last step, one input after the
- * other. */
+/* Call this before a step. It enters the energy changes by the inputs that changed since the last step, one by one. */
 static inline void wh_ledger_move(const wh_ledger_form *form, const wh_state *state,
                                   wh_ledger_work *w) {
     const wh_real *kept = wh_ledger_kept(form, state);
@@ -114,8 +110,7 @@ WH_INLINE void wh_ledger_open(const wh_ledger_form *form, wh_state *state, wh_le
     }
 }
 
-/* Call this after a step. It adds the step's entries to the totals. If the scene asks for stabilization, it gives back
- * part of the energy drift. */
+/* Call this after a step. It adds the step's entries to the totals, and stabilizes the energy if form->stabilized. */
 WH_INLINE void wh_ledger_commit(const wh_ledger_form *form, const wh_ledger_work *w,
                                 wh_state *state) {
     wh_real *total = state->ledger;
@@ -140,7 +135,7 @@ typedef struct wh_ledger_model {
     wh_ledger_work *work;
 } wh_ledger_model;
 
-/* Computes the accelerations and enters the stage in the ledger. A wh_accel_fn. */
+/* A wh_accel_fn that also enters the stage in the ledger. */
 WH_INLINE void wh_ledger_accel(const void *of, const wh_phase *phase, const wh_real *linear,
                                const wh_real *rate, const wh_real *input, wh_real *accel) {
     const wh_ledger_model *m = of;

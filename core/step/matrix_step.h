@@ -1,8 +1,7 @@
 /* matrix_step.h: a whole step of a linear scene as one constant matrix: x+ = Phi x + Gamma u + g. The scene's operation
- * list computes the products. It omits entries of 0, and multiplies by no entry of 1. If a step hardly changes a
- * component, the list computes x+ = x + ((Phi - 1) x + Gamma u + g) instead. Round-off is then a small part of the
- * change; with the entries of Phi it would be a small part of the whole state, which is much larger. Bounds, statuses
- * and turn angles are handled as in every step (step_end.h). */
+ * list computes the products, except those by 0 and 1. If a step hardly changes a component, the list computes x+ = x +
+ * ((Phi - 1) x + Gamma u + g) instead: the round-off is then a part of the change, not of the much larger state.
+ * Bounds, statuses and turn angles are those of every step (step_end.h). */
 #ifndef WH_MATRIX_STEP_H
 #define WH_MATRIX_STEP_H
 
@@ -10,8 +9,7 @@
 #include "multi_step.h"
 #include "step_end.h"
 
-/* Returns what wh_all_believable() returns. Without floating-point hardware it first compares the bits of the
- * magnitudes, which takes a tenth of the time on an ATmega328P. */
+/* wh_all_believable(). Without an FPU it first compares the magnitudes' bits, in a tenth of the time (ATmega328P). */
 WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
 #if WH_SOFT_FLOAT && !WH_DOUBLE
     /* the upper byte of 2^39: the sum of smaller numbers is below WH_ABSURD */
@@ -33,8 +31,7 @@ WH_INLINE bool wh_matrix_believable(const wh_real *value, unsigned n) {
     return wh_all_believable(value, n);
 }
 
-/* Accept the results of the operation list, or refuse the step. For a scene without turn angles and without
- * compensation. */
+/* Accept the results of the operation list, or refuse the step, in a scene without turn angles and compensation. */
 WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_state *state) {
     if (!wh_matrix_believable(given, reals)) {
         return wh_refuse_among(given, reals, 0, state);
@@ -48,7 +45,7 @@ WH_INLINE wh_status wh_matrix_accept(const wh_real *given, unsigned reals, wh_st
 
 /* Returns value + increment + *carry; *carry becomes the round-off of both sums. *carry contains the error of the
  * rounded constants, which is less than half a unit of the increment's last place. wh_sum() would round it away in
- * every step: 2.5e-5 rad in 1e6 steps of an oscillator. The sum here loses 5e-8 rad. */
+ * every step: 2.5e-5 rad in 1e6 steps of an oscillator. This sum loses 5e-8 rad. */
 WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry) {
     const wh_real wanted = increment + *carry;
     const wh_real of_carry = wanted - increment;
@@ -58,9 +55,8 @@ WH_INLINE wh_real wh_matrix_sum(wh_real value, wh_real increment, wh_real *carry
     return sum;
 }
 
-/* Does one step of h by the operation list `matrix`, which has the signature of an acceleration function; the phases
- * that it gets are not used. `rates_at` is the index of the first rate in the reals (second order; otherwise unused).
- * The list gives
+/* Does one step of h by the operation list `matrix`, a wh_accel_fn that does not use the phases. `rates_at` is the
+ * index of the first rate in the reals (second order; otherwise unused). The list gives
  *
  *      angles             the mean rate of each angle over the step
  *      reals              the value of each real after the step; if compensated, its change

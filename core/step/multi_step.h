@@ -1,4 +1,4 @@
-/* multi_step.h: many steps in one call, with the state in registers between the steps. Part of step.h. Compiled only if
+/* multi_step.h: many steps in one call, with the state in registers between them. Part of step.h. Compiled only if
  * WH_MULTI_STEP is 1, because it is a second copy of the step. */
 #ifndef WH_MULTI_STEP_H
 #define WH_MULTI_STEP_H
@@ -7,23 +7,21 @@
 #include "unroll.h"
 
 /* With ira-loop-pressure, gcc loads as many constants before the loop as fit into registers: up to 5 % fewer
- * instructions in a small scene. In small scenes gcse needs more registers for constants than it saves, so it is
- * off. */
+ * instructions in a small scene. There gcse is off, because it occupies more registers than it frees. */
 #if defined(WH_MULTI_STEP) && WH_MULTI_STEP && defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("ira-loop-pressure")
 #if defined(WH_WAVES) && WH_WAVES <= 1
 #pragma GCC optimize("no-gcse")
 #endif
-/* tree-ter is off for one coordinate: it would move expressions next to the operation that uses them, which must then
- * wait for their results. That costs up to 4 % of the cycles of a Cortex-M4F. */
+/* tree-ter is off for one coordinate: it moves expressions next to the operation that uses them, which must then wait
+ * for their results. That costs up to 4 % of the cycles of a Cortex-M4F. */
 #if defined(WH_COORDS) && WH_COORDS <= 1
 #pragma GCC optimize("no-tree-ter")
 #endif
 #endif
 
-/* Does what `steps` > 0 calls of scene->advance() do, and counts the steps in state->steps. The variables are copied to
- * local memory: no pointer of the caller refers to it, so compilers keep the variables in registers. Returns as
- * wh_scene_steps() does. */
+/* Does what `steps` > 0 calls of scene->advance() do, and counts them. The variables are copied to local memory, to
+ * which no pointer of the caller refers, so that they can be in registers. Returns as wh_scene_steps() does. */
 WH_INLINE wh_status wh_multi_step(const wh_scene *of,
                                   wh_status (*one)(const wh_scene *of, wh_state *state),
                                   unsigned angles, unsigned reals, bool compensated,

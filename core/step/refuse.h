@@ -9,7 +9,7 @@
 
 #include "../state.h"
 
-/* Limit on linear positions and rates: a step that exceeds it is refused. */
+/* Limit on linear positions and rates. */
 #define WH_ABSURD WH_R(1e15)
 
 /* True for finite numbers within the limit; false for NaN. */
@@ -20,8 +20,8 @@ WH_INLINE wh_status wh_refuse(wh_state *state, unsigned fault) {
     return WH_E_DIVERGED;
 }
 
-/* Does the same as wh_refuse_first() of step_end.h, with the numbers in registers: `four` for n = 2 to 4, `eight` for n
- * = 5 to 8. The caller fills unused arguments with the last number. The code is in scene.c, once for all steps. */
+/* wh_refuse_first() of step_end.h with the numbers in registers: `four` for n = 2 to 4, `eight` for n = 5 to 8. The
+ * caller fills unused arguments with the last number. The code is in scene.c, once for all steps. */
 #define wh_refuse_four WH_NAME(wh_refuse_four)
 #define wh_refuse_eight WH_NAME(wh_refuse_eight)
 wh_status wh_refuse_four(wh_state *state, unsigned first, unsigned n, wh_real a, wh_real b,

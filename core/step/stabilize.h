@@ -1,5 +1,5 @@
-/* stabilize.h: energy stabilization by small corrections along the rates. Part of ledger_step.h. For runs so long that
- * the method's error, or round-off, would add up.
+/* stabilize.h: energy stabilization by small corrections along the rates, for runs so long that the method's error, or
+ * round-off, would add up. Part of ledger_step.h.
  *
  * The ledger gives the drift D: the part of the energy's change that no entry explains (ledger.h), without earlier
  * corrections. Scaling all rates by 1 + s changes the energy by s P, if the kinetic energy is a quadratic form of the
@@ -10,13 +10,13 @@
  *
  * which is x' = f(x) - g F(x) D(x) with F along the rates (Ascher, Chin & Reich, Stabilization of DAEs and invariant
  * manifolds, Numerische Mathematik 67, 1994). A step corrects only a thousandth of the drift, because in float D is
- * mostly round-off. A thousand steps average that noise, and compensated sums keep the small corrections. max P is the
- * largest P so far, so that s does not grow when an oscillation reverses: P is small at that moment, and slow motions
- * of other coordinates would get the whole correction.
+ * mostly round-off: a thousand steps average it, and compensated sums keep the small corrections. max P is the largest
+ * P so far. With the present P, s would grow when an oscillation reverses, and slow motions of other coordinates would
+ * get the whole correction.
  *
  * D does not show where the energy was lost: a loss of the fast motion is returned to all motions. So the correction
- * has an entry in the ledger, whose size is the energy that was lost. The method is for motions without drive and
- * damping. In other motions D includes the quadrature error of the ledger, which is not an error of the motion. */
+ * has an entry in the ledger. The method is for motions without drive and damping: in others D includes the quadrature
+ * error of the ledger, which is not an error of the motion. */
 #ifndef WH_STABILIZE_H
 #define WH_STABILIZE_H
 

@@ -1,4 +1,4 @@
-/* stage_sums.h: weighted sums of a step's stages, with the weights of the method's row (method.h). Part of step.h. */
+/* stage_sums.h: weighted sums of a step's stages, with the weights of method.h. Part of step.h. */
 #ifndef WH_STAGE_SUMS_H
 #define WH_STAGE_SUMS_H
 
@@ -7,8 +7,7 @@
 #include "../method.h"
 #include "unroll.h"
 
-/* Maximum number of stages of a method. A generated scene defines its own number, because a larger one would spill more
- * registers. */
+/* Maximum number of stages. A generated scene defines its own, because a larger one would spill more registers. */
 #ifndef WH_STAGES
 #define WH_STAGES WH_STAGES_MAX
 #define WH_HAS_LONG_ROWS 1
@@ -16,8 +15,8 @@
 #define WH_HAS_LONG_ROWS 1
 #endif
 
-/* Calls stage(s); for all stages except the first. A loop would read the shares, and multiply by them, at run time. So
- * the compiler unrolls it; if there is no pragma for that, the macro has one line for each stage. */
+/* Calls stage(s); for all stages except the first. The loop must be unrolled: otherwise it would read the shares, and
+ * multiply by them, at run time. If no pragma unrolls it, the macro has one line for each stage. */
 #ifdef WH_UNROLLS
 #define WH_LATER_STAGES(by, stage) \
     do { \
@@ -54,13 +53,12 @@ WH_INLINE void wh_copy(const wh_real *from, unsigned n, wh_real *to) {
     }
 }
 
-/* The results of the stages: of the first one, and of the later ones. */
 typedef struct wh_given {
     const wh_real *first;
     wh_real (*next)[WH_COORDS];
 } wh_given;
 
-/* Returns sum_j share[j] * (component i of stage j), summed in the order of the stages. */
+/* Returns sum_j share[j] * (component i of stage j) for j < stage, summed in this order. */
 WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given given, unsigned i) {
     wh_real sum = WH_R(0.0);
     bool any = false;
@@ -75,7 +73,6 @@ WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given gi
     return sum;
 }
 
-/* True if the method gives the positions of its stages separately from the rates. */
 WH_INLINE bool wh_stage_reaches(const wh_tableau *by) { return by->places != NULL; }
 
 /* True if the method's first stage is not at the step's begin. */
@@ -86,8 +83,7 @@ WH_INLINE bool wh_begins_away(const wh_tableau *by) {
 /* True if all stages of the method are at the step's begin. */
 WH_INLINE bool wh_all_begin(const wh_tableau *by) { return by->stages == 1 && !wh_begins_away(by); }
 
-/* Returns the distance of component i from the step's begin at a stage that is not at the begin. `rate` is the
- * component's rate at the begin. */
+/* Returns the distance of position i from the step's begin at a stage, by .places. `rate` is its rate at the begin. */
 WH_INLINE wh_real wh_stage_reach(const wh_tableau *by, unsigned stage, wh_real rate,
                                  wh_given accels, wh_real h, unsigned i) {
     const wh_shares *of = &by->places->reach[stage];
@@ -103,7 +99,7 @@ WH_INLINE bool wh_stages_alike(const wh_tableau *by, unsigned stage, bool has_po
            (!has_positions || by->positions[stage] == by->positions[stage - 1]);
 }
 
-/* Store the result `now` of stage `stage` in given[] and in the sums of stages with equal weights. */
+/* Store the result `now` of a stage in given[], and in alike[], the sums of stages with equal weights. */
 WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_positions, unsigned n,
                               const wh_real *first, const wh_real *now, wh_real (*given)[WH_COORDS],
                               wh_real (*alike)[WH_COORDS]) {
@@ -116,7 +112,7 @@ WH_INLINE void wh_stage_given(const wh_tableau *by, unsigned stage, bool has_pos
     }
 }
 
-/* Adds share * more to *sum. The first call, with *any false, assigns the product instead. */
+/* Adds share * more to *sum. The first time, when *any is false, sets *sum to it. */
 WH_INLINE void wh_total_add(wh_real *sum, bool *any, wh_real share, wh_real more) {
     if (share != WH_R(0.0)) {
         *sum = *any ? *sum + share * more : share * more;

@@ -1,7 +1,7 @@
 /* stage_turn.h: steps whose stages rotate sines and cosines instead of looking them up.
  *
- * A step looks up the sine and cosine of each angle of its list once, at its begin. With r the angle's rate at the
- * begin and r_j that of stage j, the angle at stage s is larger by
+ * A step looks up the sine and cosine of each angle of its list once, at its begin. With the angle's rate r at the
+ * begin and r_j at stage j, the angle at stage s is larger by
  *
  *      c_s h r + h sum_j share_j (r_j - r) / parts,        c_s = sum_j share_j / parts.
  *
@@ -9,39 +9,37 @@
  * cosine of a small angle, two short polynomials, serve all stages: p' = p + w, w' = w + b p'. Here p is a sine (or a
  * cosine), w the increment of the last rotation and b = 2 (cos d - 1).
  *
- * The second part, the shear angle e, is of order h^2, because r_j - r is of order h. The pair (s, c) is rotated by e
- * by three shears: half of e in c, all of e in s, and half of e in c again. The error of this rotation is e^3/6, of
- * order h^6. So the stages agree with looked-up ones to a higher order than any method here has. For the classic
- * method, with d = h/2 v:
+ * The second part, the shear angle e, is of order h^2, because r_j - r is of order h. Three shears rotate the pair (s,
+ * c) by e: half of e in c, all of e in s, and half of e in c again. The error of this rotation is e^3/6, of order h^6.
+ * So the stages agree with looked-up ones to a higher order than any method here has. The classic method has d = h r/2,
+ * and with the accelerations a1 and a2 of its first two stages
  *
  *      stage 2:  d     stage 3:  d, and the shear h^2 a1/4     stage 4:  2 d, and the shear h^2 a2/2
  *
- * The whole step moves the angle itself as usual (step.h), and the next step looks up its sine again, so no error
- * accumulates.
+ * The step moves the angle itself as usual (step.h), and the next step looks up its sine, so no error accumulates.
  *
  * The polynomials are valid if the magnitudes of d, summed over the angles whose sine the list takes, are at most half
- * a radian. For larger d, the rotation is that of d / 2^k, doubled k times (sincos_small.h). The stages are then nearly
- * as accurate, and the step takes more instructions. If a step with a lookup at each stage (step.h) would be accepted,
- * the step with rotations is accepted, too. */
+ * a radian. For larger d, the rotation is that of d / 2^k, doubled k times (sincos_small.h): the stages are nearly as
+ * accurate, and the step takes more instructions. Every step that step.h would accept is accepted. */
 #ifndef WH_STAGE_TURN_H
 #define WH_STAGE_TURN_H
 
 #include "../number/sincos_small.h"
 #include "../step.h"
 
-/* These options are off: with them gcc computes the operands of some branches before the branch, which costs 1 % more
- * instructions and up to 3 % more cycles on a Cortex-M4F. In double, on a PC, they save instructions. */
+/* tree-pre is off: with it gcc computes the operands of some branches before the branch (1 % more instructions, up to 3
+ * % more cycles on a Cortex-M4F). In double, on a PC, it saves instructions. */
 #if defined(__GNUC__) && !defined(__clang__) && !WH_DOUBLE
 #pragma GCC optimize("no-tree-pre")
 #endif
 
-/* Maximum number of angles whose sine a list takes. A generated scene defines its own value. */
+/* Maximum number of waves. A generated scene defines its own. */
 #ifndef WH_WAVES
 #define WH_WAVES 256
 #endif
 
-/* On a PC, these choices of registers need fewer copies: 1 to 6 % fewer instructions. With one angle, loading constants
- * where they are used frees registers: 1 % fewer instructions (2 % more if the list has no quotient). */
+/* On a PC, rename-registers saves copies: 1 to 6 % fewer instructions. With one angle, no-gcse frees registers by
+ * loading constants where they are used: 1 % fewer instructions (2 % more if the list has no quotient). */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
 #pragma GCC optimize("rename-registers")
 #if WH_WAVES <= 1
@@ -49,30 +47,27 @@
 #endif
 #endif
 
-/* True if a step tests whether d is small before its first accelerations. Then the function call that may follow saves
- * few registers. But the variables of the rotation must survive the accelerations. The 16 registers of a PC are too few
- * for that: the early test would cost 3 % more instructions in double. */
+/* 1 if a step computes its rotations before its first accelerations: a call for a large d then spills few registers.
+ * But the rotations must survive the accelerations: 3 % more instructions in double with a PC's 16 registers. */
 #define WH_TURN_ASKS_FIRST (!WH_DOUBLE)
 
-/* Like wh_accel_fn and wh_slope_fn, but with the sine-cosine pairs of the waves instead of the angles' phases. */
+/* Like wh_accel_fn and wh_slope_fn, but with the sine-cosine pairs of the waves instead of the phases. */
 typedef void wh_turned_accel_fn(const void *model, const wh_wave *pair, const wh_real *linear,
                                 const wh_real *rate, const wh_real *input, wh_real *accel);
 typedef void wh_turned_slope_fn(const void *model, const wh_wave *pair, const wh_real *real,
                                 const wh_real *input, wh_real *slope);
 
-/* The waves: the angles whose sine and cosine a list takes. A wave is a turn angle, or a sum of whole multiples of turn
- * angles. */
+/* The waves: the angles whose sine and cosine a list takes, turn angles or sums of whole multiples of turn angles. */
 typedef struct wh_waves {
     const void *model;
-    /* Computes parts[count], the sine and cosine of each wave at these phases of the angles. */
+    /* Computes parts[count], the sine and cosine of each wave, from the phases of the angles. */
     void (*sines)(const void *model, const wh_phase *phase, wh_sine_parts *parts);
-    /* Computes result[count], the waves' rates times `scale`, from the angles' rates. It also serves for other
-     * quantities that are linear in the angles. */
+    /* Computes result[count], the waves' rates times `scale`, or other quantities that are linear in the angles. */
     void (*rates)(const void *model, wh_real scale, const wh_real *rate, wh_real *result);
     unsigned count; /* <= WH_WAVES */
 } wh_waves;
 
-/* True if the method's row has .turns, so that its stages can rotate sines. */
+/* True if the method's stages can rotate sines: its row has .turns, or one stage, at the step's begin. */
 WH_INLINE bool wh_method_turns(wh_method method) {
     const wh_tableau *by = wh_tableau_of(method);
     return !wh_begins_away(by) && (by->stages == 1 || by->turns[1] == 1);
@@ -82,14 +77,13 @@ WH_INLINE bool wh_method_turns(wh_method method) {
 typedef struct wh_turning {
     /* Pairs at the begin, as sums of two parts. If `precise`, the second parts include the increments. */
     wh_sine_parts parts[WH_WAVES];
-    wh_wave at[WH_WAVES]; /* pairs rotated by the rates at the begin alone */
+    wh_wave at[WH_WAVES]; /* the pairs at the begin, rotated by multiples of d */
     /* if `precise`, the increment of the last rotation; otherwise the pair before `at` */
     wh_wave way[WH_WAVES];
     wh_real bend[WH_WAVES]; /* 2 (cos d - 1) if `precise`, otherwise 2 cos d */
     unsigned turns;         /* number of rotations done */
 } wh_turning;
 
-/* Look up the pairs at the step's begin. */
 WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, unsigned angles,
                                   wh_phase *stage_phase, wh_turning *t) {
     wh_phase phase[WH_COORDS];
@@ -109,8 +103,8 @@ WH_INLINE void wh_turning_look_up(const wh_waves *waves, const wh_angle *angle, 
     t->turns = 0;
 }
 
-/* Computes the rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. Not inlined,
- * because several rotations need a stack frame anyway, and at the begin of a step a call spills few registers. */
+/* Computes the rotations turn[n] by the angles d[n], whose magnitudes add up to more than WH_SINCOS_SMALL. Several
+ * rotations need a stack frame anyway, so they may be calls: at a step's begin a call spills few registers. */
 WH_INLINE void wh_sincos_far_all(const wh_real *d, unsigned n, wh_wave *turn) {
     WH_UNROLL
     for (unsigned i = 0; i < n; i++) {
@@ -157,8 +151,7 @@ WH_INLINE void wh_turning_begin(const wh_waves *waves, const wh_wave *turn, bool
     }
 }
 
-/* Rotates until `turns` rotations are done. If `precise`, increments are summed separately, so that each pair is
- * rounded only once. */
+/* Rotates until `turns` rotations are done. If `precise`, sums increments separately, to round each pair only once. */
 WH_INLINE void wh_turning_to(const wh_waves *waves, unsigned turns, bool precise, wh_turning *t) {
     WH_UNROLL
     for (unsigned k = 0; k < WH_STAGES; k++) {
@@ -217,7 +210,7 @@ WH_INLINE bool wh_turning_leans(const wh_shares *of, unsigned stage, wh_real (*g
     return leans;
 }
 
-/* Returns the pair `at`, rotated by the small angle `lean` by three shears. */
+/* Rotates the pair `at` by the small angle `lean`, by three shears. */
 WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_real half = WH_R(0.5) * lean;
     const wh_real cosine = at.cosine - half * at.sine;
@@ -232,7 +225,7 @@ WH_INLINE_WITH_FPU wh_wave wh_lean(wh_wave at, wh_sine_parts parts, wh_real lean
     return leant;
 }
 
-/* Returns the pair `at`, rotated by the angle `lean` of any size. */
+/* Rotates the pair `at` by the angle `lean` of any size. */
 WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, bool precise) {
     const wh_wave turn =
         WH_ABS(lean) <= WH_SINCOS_SMALL ? wh_sincos_small(lean) : wh_sincos_far(lean, true);
@@ -249,8 +242,7 @@ WH_INLINE wh_wave wh_lean_far(wh_wave at, wh_sine_parts parts, wh_real lean, boo
     return leant;
 }
 
-/* Computes the pairs at stage `stage`. gained[] is that of wh_turning_leans(). If `far`, the shear angles may be
- * large. */
+/* Computes the pairs at stage `stage`; gained[] as in wh_turning_leans(). If `far`, the shear angles may be large. */
 WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_real (*gained)[WH_COORDS], bool far, wh_turning *t,
                                 wh_wave *pair) {
@@ -271,7 +263,7 @@ WH_INLINE void wh_turning_stage(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* Does the same as wh_turning_stage(), for a method that gives the positions of its stages. */
+/* wh_turning_stage() for a method with .places. */
 WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, unsigned stage,
                                 wh_given accels, wh_turning *t, wh_wave *pair) {
     const wh_shares *of = &to->by->places->reach[stage];
@@ -290,7 +282,7 @@ WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* Computes the phases of the angles at a stage, for the ledger. They equal those of wh_stage_angle(). */
+/* Computes the phases of the angles at a stage, for the ledger: those of step.h. */
 WH_INLINE void wh_turning_phases(const wh_stepping *to, unsigned stage, const wh_real *rate,
                                  wh_given rates, wh_given accels, wh_phase *stage_phase) {
     const wh_shares *of = &to->by->stage[stage];
@@ -306,8 +298,7 @@ WH_INLINE void wh_turning_phases(const wh_stepping *to, unsigned stage, const wh
     }
 }
 
-/* Arguments and results of an operation list. The separate struct lets compilers keep all other variables in registers
- * if the list is called. */
+/* Arguments and results of an operation list, in one struct: other variables then stay in registers if it is called. */
 typedef struct wh_turned_list {
     wh_wave pair[WH_WAVES];
     wh_real at[WH_COORDS];    /* linear positions, or reals */
@@ -315,7 +306,6 @@ typedef struct wh_turned_list {
     wh_real given[WH_COORDS]; /* accelerations, or slopes */
 } wh_turned_list;
 
-/* Copies the pairs at a step's begin to the list. */
 WH_INLINE void wh_turned_take(const wh_waves *waves, const wh_turning *t, wh_turned_list *list) {
     WH_UNROLL
     for (unsigned w = 0; w < waves->count; w++) {
@@ -374,8 +364,7 @@ WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel
     wh_stage_given(by, s, true, to->n, k->a1, list->given, k->accels, k->alike);
 }
 
-/* Does a step of to->h = h.high. Before each call of accel(), stage_phase[to->angles] gets the phases of the angles, unless
- * `stage_phase` is NULL. */
+/* Does a step of to->h = h.high. stage_phase[to->angles] gets the phases before each accel(), unless it is NULL. */
 WH_INLINE wh_status wh_turn_second_phases(const void *model, wh_turned_accel_fn *accel,
                                           const wh_waves *waves, const wh_stepping *to,
                                           wh_two_part h, wh_phase *stage_phase, wh_state *state) {
@@ -407,7 +396,7 @@ WH_INLINE wh_status wh_turn_second_phases(const void *model, wh_turned_accel_fn 
     return wh_second_end(by, k.a1, k.alike, true, compensated, angles, n, h, state);
 }
 
-/* Does what wh_step_second() does, with rotated sines, for a method that has .turns. */
+/* wh_step_second() with rotated sines, for a method that has .turns. */
 WH_INLINE wh_status wh_turn_second(const void *model, wh_turned_accel_fn *accel,
                                    const wh_waves *waves, wh_method method, bool compensated,
                                    unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
@@ -448,8 +437,7 @@ WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,
     }
 }
 
-/* Does what wh_step_first() does, with rotated sines, for a method that has .turns. Returns as wh_turn_second()
- * does. */
+/* wh_step_first() with rotated sines, for a method that has .turns. */
 WH_INLINE wh_status wh_turn_first(const void *model, wh_turned_slope_fn *slope,
                                   const wh_waves *waves, wh_method method, bool compensated,
                                   unsigned angles, unsigned reals, wh_two_part h, wh_state *state) {

@@ -1,5 +1,4 @@
-/* step_end.h: the end of a step: adds the weighted sums of the stages to the state, unless the result is out of bounds.
- * Part of step.h. */
+/* step_end.h: the end of a step: adds the stages' weighted sums to the state, or refuses the step. Part of step.h. */
 #ifndef WH_STEP_END_H
 #define WH_STEP_END_H
 
@@ -9,9 +8,9 @@
 #include "refuse.h"
 #include "stage_sums.h"
 
-/* Moves *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size. The move is rounded to nearest: truncation
- * would slow every angle down by half a unit per step. If compensated, *carry is added to the move's rounded-off part,
- * and becomes the round-off. Added to a large move, it would be lost. */
+/* Moves *angle by `steps` phase units, less than WH_PHASE_STEP_MAX in size, rounded to nearest: truncation would slow
+ * every angle down by half a unit per step. If compensated, *carry becomes the round-off. It is added to the
+ * rounded-off part of the move, because a large `steps` would absorb it. */
 WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, wh_real *carry) {
 #if WH_DOUBLE
     *angle = wh_sum(*angle, steps, compensated, carry);
@@ -28,14 +27,12 @@ WH_INLINE void wh_angle_move(wh_angle *angle, wh_real steps, bool compensated, w
 #endif
 }
 
-/* WH_ANGLE_LOST receives the round-off of turn angle i in a step of length h, in phase units. The interpreter defines
- * it (host/engine/loss.inc). Elsewhere it is empty. */
+/* For the interpreter (host/engine/loss.inc): the round-off of turn angle i in a step of length h, in phase units. */
 #ifndef WH_ANGLE_LOST
 #define WH_ANGLE_LOST(i, h, lost) ((void)0)
 #endif
 
-/* True if all value[n] are within WH_ABSURD. One comparison suffices: if the sum of all magnitudes is within the limit,
- * each number is. */
+/* True if the sum of the magnitudes of value[n] is below WH_ABSURD, and so each of them. One comparison suffices. */
 WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     wh_real all = WH_R(0.0);
     WH_UNROLL
@@ -45,8 +42,8 @@ WH_INLINE bool wh_all_believable(const wh_real *value, unsigned n) {
     return n == 0 || all < WH_ABSURD;
 }
 
-/* Refuse the step: the sum of the magnitudes of value[n], the components from number `first` on, is not believable. The
- * fault is the first component beyond the limit; if only the sum is beyond the limit, the last component. */
+/* Refuse the step: value[n], the components from number `first` on, have too large a sum of magnitudes. The fault is
+ * the first component beyond the limit; if there is none, the last one. */
 WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     WH_UNROLL
@@ -58,7 +55,7 @@ WH_INLINE wh_status wh_refuse_first(const wh_real *value, unsigned n, unsigned f
     return wh_refuse(state, first + n - 1);
 }
 
-/* Does the same as wh_refuse_first(), in the form that takes the least flash. */
+/* wh_refuse_first() in the form that takes the least flash. */
 WH_INLINE wh_status wh_refuse_among(const wh_real *value, unsigned n, unsigned first,
                                     wh_state *state) {
     if (WH_REALS_IN_REGISTERS && n > 1 && n <= 4) {
@@ -106,7 +103,6 @@ WH_INLINE void wh_commit(const wh_trial *trial, unsigned angles, unsigned reals,
     }
 }
 
-/* Copy the trial to the state if it is in bounds, or refuse the step. */
 WH_INLINE wh_status wh_accept(const wh_trial *trial, unsigned angles, unsigned reals,
                               bool compensated, wh_state *state) {
     if (!wh_all_believable(trial->real, reals)) {
@@ -123,7 +119,7 @@ WH_INLINE wh_status wh_step_counted(wh_status status, wh_state *state) {
     return status;
 }
 
-/* Fills trial->carry[count] at a step's begin: with the carries of the last step if sums are compensated. */
+/* Fills trial->carry[count]: with the carries of the last step if sums are compensated. */
 WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned count,
                               wh_trial *trial) {
     WH_UNROLL
@@ -132,10 +128,9 @@ WH_INLINE void wh_carry_begin(const wh_state *state, bool compensated, unsigned 
     }
 }
 
-/* Computes trial->angle[], the angles after a step of length h. Each angle moves by move[] times rad_a_move. If
- * compensated, trial->carry[] is added and becomes the round-off. Returns the first angle that would move by half a
- * turn or more, or by NaN; `angles` if there is none. One check of the sum of all magnitudes comes first, because such
- * moves are rare. */
+/* Computes trial->angle[]: each angle moves by move[] times rad_a_move. If compensated, trial->carry[] is added and
+ * becomes the round-off. Returns the first angle that would move by half a turn or more, or by NaN; `angles` if there
+ * is none. The sum of all magnitudes is checked first, because such moves are rare. */
 WH_INLINE unsigned wh_angles_move(const wh_real *move, wh_two_part rad_a_move, wh_real h,
                                   bool compensated, unsigned angles, const wh_state *state,
                                   wh_trial *trial) {
@@ -187,19 +182,18 @@ WH_INLINE wh_real wh_sum_product(wh_real value, wh_two_part by, wh_real factor, 
     return sum;
 }
 
-/* Returns the error of h^2 divided by the row's parts, in s^2. The caller multiplies it by the sum of accelerations in
- * the change of positions. One cause of the error is rounding. The other is that stages use h.high alone, so they are
- * too far from the begin by a share e. This would change the energy by the same amount in every step: 5e-13 of a
- * pendulum's energy in a step of a millisecond. So the accelerations in the change of positions are reduced by the share
- * e. The energy then stays constant if the mass matrix is constant, and otherwise most of the error vanishes
- * (docs/dev/numerics.md). A method whose only stage is at the step's begin has no such error. */
+/* Returns the correction of h^2 divided by the row's parts, in s^2. The caller multiplies it by the sum of
+ * accelerations in the change of positions. One part is the round-off of the quotient. The other is due to the stages:
+ * they use h.high alone, so their distances from the begin have the relative error -h.low / h. This would change the
+ * energy by the same amount in every step: 5e-13 of a pendulum's energy in a step of a millisecond. The correction
+ * removes this change if the mass matrix is constant, otherwise most of it (docs/dev/numerics.md). */
 WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_part part) {
     const wh_real stages = wh_all_begin(by) ? WH_R(0.0) : h.low / by->parts;
     return h.high * (part.low + stages);
 }
 
-/* Returns wh_square_short() for angles, in phase units times s^2. The three cases match the rounding in the stages:
- * with rotated sines or all at the begin, with .places, and by wh_stage_angle(). */
+/* wh_square_short() for angles, in phase units s^2 per radian. The three cases match the rounding in the stages: with
+ * rotated sines or all at the begin, with .places, and by wh_stage_angle(). */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
@@ -215,7 +209,7 @@ WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part
 }
 
 /* Adds this step's error of the positions to their carries. pulled[] are the sums of accelerations that move the
- * positions. If h has no low part, only angles need this, because phase units are not exact either. */
+ * positions. If h has no low part, only angles have such an error, because WH_PHASE_PER_RAD is rounded. */
 WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, wh_two_part part,
                                   wh_two_part h, bool turned, unsigned angles, unsigned linears,
                                   wh_trial *trial) {
@@ -229,9 +223,8 @@ WH_INLINE void wh_carry_positions(const wh_tableau *by, const wh_real *pulled, w
     }
 }
 
-/* Ends a step of q'' = f: moves the state by a1 (the result of the first stage), the results of the later stages, and
- * the sums of stages with equal weights. `turned` is true if the stages rotated sines. Returns as wh_step_second()
- * does. */
+/* Ends a step of q'' = f. a1 is the result of the first stage; alike[] are the later results, with those of equal
+ * weights summed. `turned`: the stages rotated sines. Returns as wh_step_second() does. */
 WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
                                   wh_real (*alike)[WH_COORDS], bool turned, bool compensated,
                                   unsigned angles, unsigned n, wh_two_part h, wh_state *state) {
@@ -240,9 +233,9 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     const wh_real *linear = state->real;
     const wh_real *rate = state->real + linears;
     wh_real move[WH_COORDS];   /* mean rate that moves the position in this step */
-    wh_real gain[WH_COORDS];   /* weighted sum of the accelerations, divided by `parts` */
+    wh_real gain[WH_COORDS];   /* sum of the accelerations, weighted by .rates */
     wh_real kick[WH_COORDS];   /* change of the rate in this step */
-    wh_real pulled[WH_COORDS]; /* weighted sum of the accelerations in the change of the position */
+    wh_real pulled[WH_COORDS]; /* sum of the accelerations, weighted by .positions */
     wh_trial trial;
 
     WH_UNROLL
@@ -286,7 +279,7 @@ WH_INLINE wh_status wh_second_end(const wh_tableau *by, const wh_real *a1,
     return wh_accept(&trial, angles, linears + n, compensated, state);
 }
 
-/* Does the same as wh_second_end(), for a step of x' = f. */
+/* wh_second_end() for a step of x' = f. */
 WH_INLINE wh_status wh_first_end(const wh_tableau *by, const wh_real *k1,
                                  wh_real (*alike)[WH_COORDS], bool compensated, unsigned angles,
                                  unsigned reals, wh_two_part h, wh_state *state) {

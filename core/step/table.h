@@ -1,16 +1,15 @@
 /* table.h: functions of one phase as constant tables in flash, interpolated within a cell.
  *
- * The terms of a mechanism's accelerations that depend only on one turn angle, including sines, divisions and roots,
- * are in tables (host/derive/tables.c), and a step reads them there. The turn is divided into 2^bits cells; the middle
- * of cell i is at i cells. A cell stores the polynomials of all tables one after the other, so that one lookup of the
- * phase finds all of them. y is the distance from the cell's middle, in cells:
+ * The tables have the terms of a mechanism's accelerations that depend only on one turn angle, including sines,
+ * divisions and roots (host/derive/tables.c). The turn is divided into 2^bits cells; the middle of cell i is at i
+ * cells. A cell stores the polynomials of all tables one after the other, so that one lookup of the phase finds them
+ * all. y is the distance from the cell's middle, in cells:
  *
  *      linear: a + y b        cubic: a + y (b + y (c + y d)),        -1/2 <= y < 1/2
  *
- * The pieces are continuous; those of cubic tables also have continuous slopes. A cubic cell has four coefficients.
- * Storing values and slopes at the borders of cells would need half the flash, but eleven operations instead of six,
- * which matters without an FPU. The increment to `a` is small, so the round-off is little more than that of one
- * addition. */
+ * The pieces are continuous; those of cubic tables also have continuous slopes. Values and slopes at the borders of
+ * cells would need half the flash of the four coefficients, but eleven operations instead of six, which matters without
+ * an FPU. The increment to `a` is small, so the round-off is little more than that of one addition. */
 #ifndef WH_TABLE_H
 #define WH_TABLE_H
 
@@ -24,7 +23,7 @@
 
 #include <stddef.h>
 
-/* Binary logarithm of the number of cells per turn: its least and its largest value. */
+/* Limits on the binary logarithm of the number of cells per turn. */
 #define WH_TABLE_BITS_LEAST 3U
 #define WH_TABLE_BITS_MOST 16U
 
@@ -32,9 +31,8 @@
 #define WH_TABLE_LINEAR 2U
 #define WH_TABLE_CUBIC 4U
 
-/* WH_TABLE_FOLD is 1 if only half a turn is stored when all of a list's tables are even or odd functions: half the
- * flash, the same bits. It is used without an FPU, because it costs at most 1 % of a step's cycles there. With an FPU
- * it would cost 14 %. */
+/* If WH_TABLE_FOLD is 1, only half a turn is stored if all of a list's tables are even or odd functions: half the
+ * flash, the same bits. This costs at most 1 % of a step's cycles without an FPU, but 14 % with an FPU. */
 #ifndef WH_TABLE_FOLD
 #if !WH_DOUBLE && (defined(__AVR__) || (defined(__arm__) && !defined(__ARM_FP)) || \
                    (defined(__riscv) && !defined(__riscv_flen)))
@@ -47,12 +45,11 @@
 #error "core/step/table.h: WH_TABLE_FOLD is for float"
 #endif
 
-/* Number of cells stored for the table of an even or odd function: half a turn and one cell if WH_TABLE_FOLD, otherwise
- * a turn. */
+/* Number of cells stored for the table of an even or odd function: half a turn and one cell, or a turn. */
 #define WH_TABLE_HALF(bits) (WH_TABLE_FOLD ? (1U << ((bits)-1U)) + 1U : 1U << (bits))
 
 /* Scale of y in a table's coefficients. In float, y is 2^32 times the distance in cells, so that it has all digits of
- * the phase. The coefficients contain the inverse of this factor, at no cost. */
+ * the phase. The coefficients contain the inverse of this factor. */
 #if WH_DOUBLE
 #define WH_TABLE_B(x) (x)
 #define WH_TABLE_C(x) (x)
@@ -79,8 +76,8 @@ WH_INLINE double wh_table_whole(double x, uint32_t *low) {
     return sum - 6755399441055744.0;
 }
 
-/* The method is that of wh_sincos_parts(): with up to 128 cells per turn, pi/64 has three parts whose products are
- * exact. With more cells, a cell is a part of one of 128 coarse cells. */
+/* The method of wh_sincos_parts(): with up to 128 cells per turn, pi/64 has three parts whose products are exact. With
+ * more cells, a cell is a part of one of 128 coarse cells. */
 WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y) {
     const unsigned coarse = bits < 7U ? bits : 7U;
@@ -113,13 +110,12 @@ WH_INLINE const wh_real *wh_table_cell(const wh_real *cells, unsigned bits, unsi
 
 #endif
 
-/* Does the same as wh_table_cell(), for tables that are even or odd. *back becomes true if the phase was beyond half a
- * turn and was mirrored: the value of an odd function then needs wh_table_back(). */
+/* wh_table_cell() for tables that are even or odd. *back becomes true if the phase was beyond half a turn and was
+ * mirrored: the value of an odd function then needs wh_table_back(). */
 WH_INLINE const wh_real *wh_table_half(const wh_real *cells, unsigned bits, unsigned width,
                                        wh_phase phase, wh_real *y, bool *back) {
 #if WH_TABLE_FOLD
-    /* The one's complement keeps a phase on the border of two cells in the cell that it has without folding; the
-     * negative would not. */
+    /* The one's complement keeps a phase on the border of two cells in the cell that it has without folding. */
     const bool beyond = (int32_t)phase < 0;
     const wh_real *row = wh_table_cell(cells, bits, width, beyond ? ~phase : phase, y);
     const wh_real way = (wh_real)(int32_t)(phase << bits);
@@ -145,7 +141,7 @@ WH_INLINE wh_real wh_table_back(wh_real value, bool back) {
     return value;
 }
 
-/* Returns the value of the function whose coefficients begin at `of`, at the distance y from the cell's middle. */
+/* Returns the function whose coefficients begin at `of`, at the distance y from the cell's middle. */
 WH_INLINE wh_real wh_table_linear(const wh_real *of, wh_real y) {
     return wh_flash_real(&of[0]) + y * wh_flash_real(&of[1]);
 }

@@ -1,5 +1,4 @@
-/* unroll.h: loops that generated code unrolls, and gcc optimizations that are switched off in generated code. Part of
- * step.h. */
+/* unroll.h: loops that generated code unrolls, and gcc optimizations that it switches off. Part of step.h. */
 #ifndef WH_UNROLL_H
 #define WH_UNROLL_H
 
@@ -9,8 +8,7 @@
 #endif
 
 /* Maximum number of coordinates (second order) or components (first order). A generated scene defines its own number
- * and unrolls its loops. Compilers do not unroll them by themselves, and arrays indexed by a counter would stay in
- * memory. */
+ * and unrolls its loops: compilers do not, and arrays indexed by a counter would stay in memory. */
 #ifndef WH_COORDS
 #define WH_COORDS 64
 #define WH_UNROLL
@@ -28,9 +26,9 @@
 #define WH_UNROLL
 #endif
 
-/* Older gcc unrolls loops with constant bounds only if it optimizes for speed: on an ATmega328P a step then takes 15 to
- * 30 % fewer cycles. Generated code defines WH_SMALL_STEP for steps that are small enough. With contacts, ledgers,
- * compensated sums or long lists, a step would need two or three times the flash. */
+/* Older gcc unrolls loops with constant bounds only if it optimizes for speed: 15 to 30 % fewer cycles of a step on an
+ * ATmega328P. Generated code defines WH_SMALL_STEP for small steps. With contacts, ledgers, compensated sums or long
+ * lists, a step would need two or three times the flash. */
 #if defined(__GNUC__) && !defined(__clang__) && __GNUC__ < 8 && defined(WH_SMALL_STEP)
 #pragma GCC optimize("O3")
 #endif
@@ -45,10 +43,10 @@
                      "no-tree-slp-vectorize")
 #endif
 
-/* The operations of a long list are ordered so that few values are live at a time. If the processor seems to have
- * enough registers, gcc reorders them for latency before it allocates registers; this option prevents that. For a
- * pendulum of ten links the reordering costs 14 % more instructions per step on a Cortex-M4F, and a third more code on
- * an RV32IMAFC or an AArch64. (Short lists fit into registers, and the reordering saves cycles.) */
+/* The operations of a long list are ordered so that few values are live at a time. On processors with many registers,
+ * gcc reorders them for latency before it allocates registers; these options prevent that. For a pendulum of ten links
+ * the reordering costs 14 % more instructions per step on a Cortex-M4F, and a third more code on an RV32IMAFC or an
+ * AArch64. (Short lists fit into registers, and the reordering saves cycles.) */
 #if defined(WH_LONG_LIST) && defined(__GNUC__) && !defined(__clang__) && \
     (defined(__ARM_FP) || defined(__aarch64__) || defined(__riscv_flen))
 #pragma GCC optimize("no-schedule-insns", "no-tree-ter")
