@@ -66,7 +66,7 @@ unsigned wh_cobs_short(uint8_t *bytes, unsigned count) {
     return count + 2U;
 }
 
-/* Processes eight bits at once. `out` has the bits that the polynomial feeds back. */
+/* Eight bits at a time. `out` has the bits that the polynomial feeds back. */
 uint16_t wh_crc16(uint16_t crc, const uint8_t *bytes, unsigned count) {
     for (unsigned i = 0; i < count; i++) {
         unsigned out = (crc >> 8 ^ bytes[i]) & 0xFFU;

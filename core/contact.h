@@ -1,48 +1,46 @@
 /* contact.h: stops, holds, dry friction and located crossings, with their events inside a step.
  *
- * Between events a mechanism with contacts is smooth: M(q) q'' = f(q, q', u) + sum_k J_k(q)^T lambda_k, with J_k =
- * d(expression k)/dq and lambda_k the force of contact k. The force is zero for an open stop and -sign(v) mu N for
- * sliding friction. For a resting stop, a held expression or a stuck coordinate, the force keeps J_k q' at zero: J M^-1
- * J^T lambda = -(J q'' + J' q').
+ * Between events the motion is smooth: M(q) q'' = f(q, q', u) + sum_k J_k(q)^T lambda_k. J_k is the gradient of contact
+ * k's expression by q, and lambda_k is the contact's force. It is zero for an open stop, and -sign(v) mu N for sliding
+ * friction. A resting stop, a held expression or a stuck coordinate has the force that keeps J_k q' zero:
  *
- * A step looks for events at its end. It locates the first event with a bounded number of probes on cubics through the
- * step's ends. Then it steps again, to just past the event, and changes the modes. An impact is an impulse through the
- * mass matrix with Newton's restitution. A step has at most WH_EVENTS_MAX such moments. At the last moment stops come
- * to rest instead of bouncing, and later events are not located. If this may have changed the motion, the state counts
- * an overrun. So the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth Mechanics, chapters 1 and
- * 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
+ *      J M^-1 J^T lambda = -(J a + J' q'),        with the accelerations a without contact forces.
+ *
+ * A step checks for events at its end. It locates the first event by a bounded number of probes on cubics through the
+ * step's two ends. Then it steps again, to just past the event, and changes the modes. An impact is an impulse through
+ * the mass matrix with Newton's restitution. A step handles events at up to WH_EVENTS_MAX moments. At the last one,
+ * stops come to rest instead of bouncing, and later events are not located. If this may have changed the motion, the
+ * state counts an overrun. So the cost of a step is bounded, and no step is skipped. (Brogliato, Nonsmooth Mechanics,
+ * chapters 1 and 7; Pfeiffer & Glocker, Multibody Dynamics with Unilateral Contacts.)
  *
  * Contacts are numbered stops first, then holds, frictions and crossings, each kind in order of declaration. Events of
- * one instant are resolved together, kind by kind (contact_resolve.h). Friction's normal force is finite, so friction
- * gives no impulse in an impact. A stop rests if its bounce would be shorter than WH_REST_SHARE of a step.
+ * one moment are resolved together, kind by kind (contact_resolve.h). Friction's normal force is finite, so friction
+ * gives no impulse in an impact.
  *
- * A scene provides `wh_contact_system`. The running state is `wh_contacts` (scene.h). The first line of each file in
- * core/contact/ names its subject. Scenes without contacts include none of these files. All of them are C only. */
+ * A scene provides a `wh_contact_system`; the variables of a run are in `wh_contacts` (state.h). C only. */
 #ifndef WH_CONTACT_H
 #define WH_CONTACT_H
 
 #include "step.h"
 #include "step/ledger_step.h"
 
-/* WH_LEDGER is 1 if the scene keeps a ledger (ledger.h). A generated scene defines it. */
+/* 1 if the scene keeps a ledger (ledger.h). A generated scene defines it. */
 #ifndef WH_LEDGER
 #define WH_LEDGER 0
 #endif
 
-/* Maximum number of contacts of a scene. A generated scene defines its own value. */
+/* Maximum number of contacts, and of values that crossings assign. A generated scene defines its own values. */
 #ifndef WH_CONTACTS_MAX
 #define WH_CONTACTS_MAX WH_CONTACTS_LIMIT
 #endif
 
-/* Maximum number of values that a scene's crossings assign. A generated scene defines its own value. */
 #ifndef WH_SETS_MAX
 #define WH_SETS_MAX (2 * WH_COORDS)
 #endif
 
-/* The search for an event takes at most WH_PROBES probes: four more than halving needs to shrink the interval to
- * WH_BRACKET times its length. With the spare probes the search can try better guesses than the middle: after n probes
- * the interval is at most WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes reach WH_BRACKET_FINE, the limit of
- * round-off. */
+/* The search for an event takes at most WH_PROBES probes: four more than bisection needs to shrink the interval to
+ * WH_BRACKET times its length. The spare probes allow better guesses than the middle: after n probes the interval is at
+ * most WH_PROBES_SPARE / 2^(n - 1). Usually six to ten probes reach WH_BRACKET_FINE, the limit of round-off. */
 #if WH_DOUBLE
 #define WH_PROBES 24
 #define WH_BRACKET WH_R(0x1p-20)
@@ -57,31 +55,27 @@
 /* Maximum number of probes for a stop that a body enters and leaves within one trial step. */
 #define WH_DIP_PROBES 6U
 
-/* If a curved hold or stop slipped by more than this share of the displacement, it is projected twice. One
- * projection leaves an error of second order in the slip. */
+/* If a curved hold or stop slips by more than this share of its expression's change in the step, it is projected twice.
+ * One projection leaves an error of second order in the slip. */
 #define WH_SLIP_COARSE (WH_DOUBLE ? WH_R(1e-6) : WH_R(1e-3))
 
 /* Maximum number of projections onto the stops and holds after a step with too many events. */
 #define WH_SQUEEZE_LOOKS 3U
 
-/* Maximum number of projections of a body that is beyond a stop when a step begins, for example after a correction of
- * the state. A curved gap takes several projections. */
+/* Maximum number of projections of a body that is beyond a stop when a step begins. A curved gap needs several. */
 #define WH_PUSH_LOOKS 12U
 
-/* A stop rests if its next flight is shorter than this share of a step. */
+/* A stop comes to rest if its next flight would be shorter than this share of a step. */
 #define WH_REST_SHARE WH_R(0.125)
 
-/* Traits of a kind of contact. */
 enum {
-    WH_FORCED = 1,     /* the contact has a force, and a row of the Jacobian */
-    WH_UNILATERAL = 2, /* the contact pushes and does not pull */
-    /* the force has a limit, at which the contact slides; the contact gives no impulse */
-    WH_LIMITED = 4
+    WH_FORCED = 1,     /* has a force, and a row of the Jacobian */
+    WH_UNILATERAL = 2, /* pushes and does not pull */
+    WH_LIMITED = 4     /* has a limit, at which the contact slides; no impulse */
 };
 
-/* The kinds, in the order in which contacts are numbered: X(name, traits). Each kind has its own events. If you add a
- * kind, the compiler reports only the switch of contact_locate.h. Some seventy other lines of contact_*.h test for a
- * kind; CONTRIBUTING.md says how to find them. The language's row is in host/lang/words.h. */
+/* X(kind, traits), in the order in which contacts are numbered. If you add a kind, the compiler reports only the switch
+ * of contact_locate.h; CONTRIBUTING.md says how to find the other lines. The language's row is in host/lang/words.h. */
 #define WH_CONTACT_KINDS(X) \
     X(WH_STOP, WH_FORCED | WH_UNILATERAL) \
     X(WH_HOLD, WH_FORCED) \
@@ -98,20 +92,16 @@ typedef enum wh_contact_kind {
 
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
-    int8_t
-        /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves the stop between steps, 2 if an input with
-         * a rate does. Hold: 1 if the held expression is straight (J_k constant), -1 if the hold follows an input with
-         * a rate. Otherwise 0. */
-        direction;
-    /* If the expression is linear in one coordinate, pin is this coordinate's index: J_k is then constant, and its rate
-     * is exactly zero. Otherwise pin is -1. */
+    /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves the stop between steps, 2 if an input with a
+     * rate does. Hold: 1 if its expression is straight (J_k constant), -1 if it follows an input with a rate. Or 0. */
+    int8_t direction;
+    /* Index of the only coordinate in the expression, if J_k is constant; otherwise -1. J_k' is then exactly zero. */
     int16_t pin;
     uint8_t first_set; /* index of a crossing's first assignment, or of a hold's value in held[] */
     uint8_t sets;
 } wh_contact;
 
-/* Indices into the numbers that `forces` gives for a contact: the numbers of this enum, then J_k[n] and (M^-1
- * J_k^T)[n]. */
+/* Layout of the numbers that `forces` gives for contact k: first these, then J_k[n], then (M^-1 J_k^T)[n]. */
 enum {
     WH_LAW_FIRST,  /* stop: restitution; friction: mu_static * max(N, 0); curved hold: value */
     WH_LAW_SECOND, /* friction: mu_kinetic * max(N, 0) */
@@ -119,29 +109,27 @@ enum {
     WH_LAW_ROWS    /* index of J_k[0] */
 };
 
-/* Most evaluations of the accelerations in one step. Each has at most one evaluation of `forces`.
+/* Most evaluations of the accelerations in one step, each with at most one evaluation of `forces`.
  *
  * In each of WH_EVENTS_MAX rounds:
  * - Two trial steps, to the step's end and to the event: `stages` evaluations each, up to three to project the slip,
  * and one at the end.
- * - The search: one at its begin and one for each probe. If no event depends on a force: only one at each end.
- * - An impact takes two, a capture one, assignments three, and a release of contacts one more than their number.
+ * - The search: one at its begin and one for each probe. If no event depends on a force: one at each end.
+ * - Two for an impact, one for a capture, three for assignments, one more than their number for released contacts.
  *
- * Once per step: the last trial step, its three projections, the settling of the modes, and the update of coordinates
- * that follow inputs with rates. */
+ * Once: the last trial step, its three projections, settling the modes, and updating coordinates that follow inputs. */
 #define WH_CONTACT_EVALUATIONS(stages, stops, forced) \
     (WH_EVENTS_MAX * (2 * (stages) + WH_PROBES + 12 + WH_CONTACT_LOOKS(stops, forced)) + \
      (stages) + 10 + 2 * WH_CONTACT_LOOKS(stops, forced))
 #define WH_CONTACT_LOOKS(stops, forced) (2 * ((stops) > 0) + ((forced) > (stops)) + (forced))
 
-/* Most evaluations of `signals` in one step. Each evaluation above has one, except for the stages and the search's two
- * ends. One more compares a trial step's begin with its end. A capture takes one, a crossing two, and crossings that may
- * turn back two. One more finds the crossings that stand at zero when the step begins. */
+/* Most evaluations of `signals` in one step: one with each evaluation above, except those of the stages and of the
+ * search's two ends. One more compares a trial step's begin with its end. A capture takes one, a crossing two, and
+ * crossings that may turn back two. One more finds the crossings that are at zero when the step begins. */
 #define WH_CONTACT_SIGNALS(forced, crossings) \
     (WH_EVENTS_MAX * (WH_PROBES + 15 + 3 * (forced) + 2 * (crossings)) + 12 + 6 * (forced))
 
-/* A scene's contacts. All members are constant. The functions are generated as lists of operations, like the
- * accelerations. */
+/* A scene's contacts, all constant. The functions are operation lists, like the accelerations. */
 typedef struct wh_contact_system {
     const void *model;  /* first argument of the functions */
     wh_accel_fn *accel; /* accelerations without contact forces */
@@ -149,11 +137,9 @@ typedef struct wh_contact_system {
      * rate of the held expression. Friction: rate, 0. Crossing: value, 0. */
     wh_accel_fn *signals;
     wh_accel_fn *forces; /* result[forced * (WH_LAW_ROWS + 2 n)] */
-    /* result[all sets]: the values that crossings assign, in SI units; or NULL */
-    wh_accel_fn *sets;
-    const wh_contact *contact; /* [contacts] */
-    /* [all sets]: index of the assigned component; angles first, then reals */
-    const uint8_t *target;
+    wh_accel_fn *sets;   /* result[all sets]: the values that crossings assign, SI units; or NULL */
+    const wh_contact *contact;    /* [contacts] */
+    const uint8_t *target;        /* [all sets]: assigned components; angles first, then reals */
     const wh_ledger_form *ledger; /* NULL: no ledger */
     uint8_t contacts;
     uint8_t forced;       /* number of contacts with a force: all except crossings */
@@ -165,8 +151,7 @@ typedef struct wh_contact_system {
     bool compensated;
     uint8_t angles;
     uint8_t coordinates;
-    /* number of inputs with a rate (driven.h): they set the last coordinates, which no force moves */
-    uint8_t driven;
+    uint8_t driven; /* number of inputs with a rate; they set the last coordinates (driven.h) */
 } wh_contact_system;
 
 #endif

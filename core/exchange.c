@@ -1,4 +1,4 @@
-/* exchange.c: writes and reads the payloads, field by field. Each `put` function is followed by its `get` function. */
+/* exchange.c: writes and reads the payloads of exchange.h, field by field. */
 #include "exchange.h"
 
 static unsigned written(const wh_bytes *out) { return out->over ? 0 : out->at; }

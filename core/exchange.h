@@ -2,14 +2,12 @@
  *
  * The controller speaks first: a `hello` names its inputs and outputs, with units and ranges. Then frames alternate.
  * The plant sends the time and the sensors' readings since the last exchange (`wh_readings`). The controller sends its
- * new outputs and the time at which it wants the next readings (`wh_orders`). Both sides use this file, so the meaning
- * of a byte is defined once.
+ * new outputs and the time at which it wants the next readings (`wh_orders`).
  *
  * After a reset the controller sends its hello again. The plant answers with the cause of the reset and the bytes that
  * the controller had asked it to remember.
  *
- * Times are ticks of the controller's own timer: 32 bits, wrapping. Values are SI, as floats; converters give
- * counts. */
+ * Times are ticks of the controller's timer, 32 bits, wrapping. Values are floats in SI units; samples are counts. */
 #ifndef WH_EXCHANGE_H
 #define WH_EXCHANGE_H
 
@@ -21,30 +19,26 @@ enum {
     WH_FRAME_HELLO = 1,
     WH_FRAME_ORDERS = 2,
     WH_FRAME_READINGS = 3,
-    /* the cause of a reset (wh_reset), to a restarted controller before its first readings */
-    WH_FRAME_RESET = 4,
-    /* From the controller, before its orders: 0 to WH_REMEMBER_MAX bytes that shall survive a reset. */
-    WH_FRAME_REMEMBER = 5,
-    /* For a line that does not show when a controller starts or ends. ASK goes to a controller before its first
-     * readings and requests the hello again. END comes from a controller instead of orders: the program has ended, with
-     * the exit status in the payload (4 bytes). */
+    WH_FRAME_RESET = 4,    /* wh_reset, to a restarted controller before its first readings */
+    WH_FRAME_REMEMBER = 5, /* before the orders: up to WH_REMEMBER_MAX bytes that survive a reset */
+    /* For a line that does not show when a controller starts or ends: ASK requests the hello again, before the first
+     * readings. END comes instead of orders: the program has ended, with its exit status in the payload (4 bytes). */
     WH_FRAME_ASK = 6,
     WH_FRAME_END = 7
 };
 
-#define WH_SIGNALS_MAX 20U /* maximum number of signals, all kinds together */
-#define WH_EDGES_MAX 16U   /* maximum number of edges in one exchange; later edges are lost */
+#define WH_SIGNALS_MAX 20U /* all kinds together */
+#define WH_EDGES_MAX 16U   /* per exchange; later edges are lost */
 #define WH_SAMPLES_MAX 24U
 
 typedef enum wh_signal_kind {
     WH_SIGNAL_OUTPUT, /* a value that the controller sets, in `low`..`high` */
-    /* counts of a converter with the range `low`..`high`: in every period_ticks, value / per_count, rounded */
-    WH_SIGNAL_SAMPLE,
-    WH_SIGNAL_EDGE, /* a pulse when the value (angle: modulo a turn) enters `low`..`high` */
-    WH_SIGNAL_NOTE  /* a value that the controller reports about itself: no signal of the plant */
+    WH_SIGNAL_SAMPLE, /* counts of a converter: value / per_count, rounded, every period_ticks */
+    WH_SIGNAL_EDGE,   /* a pulse when the value (angle: modulo a turn) enters `low`..`high` */
+    WH_SIGNAL_NOTE    /* a value that the controller reports; not a signal of the plant */
 } wh_signal_kind;
 
-/* Each kind of signal has channels of its own, numbered from 0 in the order of the signals. */
+/* The channels of each kind are numbered from 0 in the order of the signals. */
 typedef struct wh_signal {
     wh_signal_kind kind;
     const char *name; /* name of an input, an output, a coordinate or a rate of the plant */
@@ -59,7 +53,7 @@ typedef struct wh_hello {
     const char *program;
     const char *board;
     uint32_t ticks_per_s; /* rate of all time stamps */
-    uint32_t timer_per_s; /* the rate of the timer that measures computing time; 0: no such timer */
+    uint32_t timer_per_s; /* rate of the timer that measures computing time; 0: no such timer */
     uint32_t start_ticks; /* the timer's reading at the plant's time 0 */
     const wh_signal *signal;
     unsigned signals;
@@ -71,7 +65,7 @@ typedef struct wh_orders {
     uint32_t until_ticks;    /* time of the next readings */
     uint32_t acted_timer;    /* timer counts from the readings' arrival to the outputs */
     uint32_t busy_timer;     /* timer counts from the readings' arrival to these orders */
-    uint32_t step_timer;     /* longest control step since the last orders; 0: not measured */
+    uint32_t step_timer;     /* longest control step since the last orders; 0: unknown */
     uint32_t watchdog_ticks; /* outputs become 0 after this time without ALIVE; 0: never */
     uint8_t flags;
     unsigned outputs;             /* number of outputs and notes together */
@@ -109,7 +103,7 @@ typedef struct wh_readings {
 
 #define WH_REMEMBER_MAX 32U
 
-/* The cause of a controller's restart. After a power-on the plant sends no reset frame. */
+/* After a power-on the plant sends no reset frame. */
 enum { WH_RESET_WATCHDOG = 1, WH_RESET_OTHER = 2 };
 typedef struct wh_reset {
     uint8_t cause;
@@ -130,7 +124,7 @@ typedef struct wh_reset {
 #define wh_reset_put WH_NAME(wh_reset_put)
 #define wh_reset_get WH_NAME(wh_reset_get)
 
-/* Write a payload into bytes[room]; returns its length, or 0 if there is no room. */
+/* Write a payload into bytes[room]. Returns its length; 0 if it does not fit. */
 unsigned wh_hello_put(const wh_hello *hello, uint8_t *bytes, unsigned room);
 unsigned wh_orders_put(const wh_orders *orders, uint8_t *bytes, unsigned room);
 unsigned wh_readings_put(const wh_readings *readings, uint8_t *bytes, unsigned room);

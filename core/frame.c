@@ -1,4 +1,4 @@
-/* frame.c: framing: CRC, numbers in bytes. */
+/* frame.c: frames: CRC, coding, and numbers in bytes. */
 #include "frame.h"
 
 #include "cobs.h"
@@ -14,8 +14,8 @@ static uint32_t crc_step(uint32_t crc, uint8_t byte) {
     return crc;
 }
 #else
-/* Processes four bits at a time: the table has the reflected polynomial 0xEDB88320 times each number of four bits. An
- * 8-bit processor must finish a record's CRC within a control step. */
+/* Four bits at a time, because an 8-bit processor must finish a record's CRC within a control step. of_nibble[i] is the
+ * four-bit number i times the reflected polynomial 0xEDB88320. */
 static uint32_t crc_step(uint32_t crc, uint8_t byte) {
     static const uint32_t of_nibble[16] = {0x00000000U, 0x1DB71064U, 0x3B6E20C8U, 0x26D930ACU,
                                            0x76DC4190U, 0x6B6B51F4U, 0x4DB26158U, 0x5005713CU,

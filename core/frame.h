@@ -4,11 +4,9 @@
  *
  *     version 1 | kind 1 | sequence 2 | ticks 4 | payload 0 .. | CRC-32 4
  *
- * The CRC is that of IEEE 802.3 over all bytes before it. The frame is coded so that no byte of it is zero, and a zero byte
- * ends it (cobs.h). So a reader that starts in the middle, or has lost bytes, is in step again after the next zero. Bytes
- * that do not end in the right CRC are dropped and counted.
- *
- * Uses only the caller's memory; the same code on every machine. */
+ * The CRC is that of IEEE 802.3 over all bytes before it. The coded frame has no zero byte, and a zero byte ends it
+ * (cobs.h). So a reader that starts within a frame, or has lost bytes, is synchronized again after the next zero. It
+ * drops and counts frames with a wrong CRC. The functions use only the caller's memory. */
 #ifndef WH_FRAME_H
 #define WH_FRAME_H
 
@@ -16,31 +14,30 @@
 
 WH_C_BEGIN
 
-/* Raised whenever the meaning of a frame changes. wh_frame_take() returns frames of every version: the caller must
- * check it. */
+/* Raised whenever the meaning of a frame changes. wh_frame_take() returns all versions: the caller must check them. */
 #define WH_FRAME_VERSION 1U
 
-/* Bytes of a frame other than payload, before coding. */
+/* Bytes other than payload, before coding. */
 #define WH_FRAME_FIXED_BYTES 12U
-/* Largest coded size of a frame with this payload, including the final zero. A constant if `payload` is constant. */
+/* Largest coded size of a frame with this payload, including the final zero. */
 #define WH_FRAME_BYTES(payload) \
     (WH_FRAME_FIXED_BYTES + (payload) + (WH_FRAME_FIXED_BYTES + (payload)) / 254U + 2U)
 
 typedef struct wh_frame {
     uint8_t version;
     uint8_t kind;      /* kind of payload, defined by the user of this file */
-    uint16_t sequence; /* number of the frame from this sender, wrapping: a gap shows lost frames */
+    uint16_t sequence; /* counts this sender's frames, wrapping: a gap shows lost frames */
     uint32_t ticks;    /* the sender's time */
     const uint8_t *payload;
-    unsigned length; /* bytes of the payload */
+    unsigned length; /* in bytes */
 } wh_frame;
 
 typedef struct wh_frame_reader {
-    uint8_t *bytes; /* memory of the caller, room[] bytes */
+    uint8_t *bytes; /* the caller's memory, bytes[room] */
     unsigned room;
     unsigned length;  /* bytes of the frame in progress */
-    bool too_long;    /* the frame in progress is longer than the room and will be dropped */
-    uint32_t dropped; /* number of bad frames; other bytes between two zeros count as one; wraps */
+    bool too_long;    /* the frame in progress exceeds `room` and will be dropped */
+    uint32_t dropped; /* number of bad frames, wrapping; any bytes between two zeros are a frame */
 } wh_frame_reader;
 
 #define wh_frame_crc WH_NAME(wh_frame_crc)
@@ -51,22 +48,20 @@ typedef struct wh_frame_reader {
 /* CRC-32 of bytes[count]. `crc` is 0, or the CRC of the preceding bytes. */
 uint32_t wh_frame_crc(uint32_t crc, const uint8_t *bytes, unsigned count);
 
-/* Write the frame, coded and with its final zero, into bytes[room]. The function sets the frame's version. Returns the
- * coded length; or 0 if there is no room, and then `bytes` has no valid content. */
+/* Write the coded frame with its final zero into bytes[room], with version WH_FRAME_VERSION. Returns the coded length;
+ * 0 if it does not fit, and then `bytes` is invalid. */
 unsigned wh_frame_write(const wh_frame *frame, uint8_t *bytes, unsigned room);
 
-/* Begin to read. The reader accepts frames of up to room - 1 coded bytes, not counting the final zero: a room of
- * WH_FRAME_BYTES(payload) is enough. */
+/* Begin to read frames of up to `room` coded bytes without the final zero. WH_FRAME_BYTES(payload) is enough. */
 void wh_frame_reader_start(wh_frame_reader *reader, uint8_t *bytes, unsigned room);
 
-/* Process the next byte of the line. Returns true if the byte ends a good frame. *frame is then that frame; its
- * payload stays in the reader's memory until the next call. */
+/* Process the next byte. Returns true if it ends a good frame: *frame is then that frame, and its payload stays in the
+ * reader's memory until the next call. */
 bool wh_frame_take(wh_frame_reader *reader, uint8_t byte, wh_frame *frame);
 
 /* --- numbers in a payload, low byte first -------------------------------------------------------*/
 
-/* A cursor for writing or reading a payload number by number. Beyond the end of the payload, writing does nothing and
- * reading gives zeros; both set `over`. */
+/* A cursor in a payload. Beyond the payload's end, writing does nothing and reading gives zeros; both set `over`. */
 typedef struct wh_bytes {
     uint8_t *to;         /* for writing */
     const uint8_t *from; /* for reading */
@@ -86,12 +81,10 @@ typedef struct wh_bytes {
 void wh_bytes_put(wh_bytes *bytes, uint32_t number, unsigned size);
 uint32_t wh_bytes_get(wh_bytes *bytes, unsigned size);
 
-/* Write or read the 32 bits of a float. */
 void wh_bytes_put_float(wh_bytes *bytes, float number);
 float wh_bytes_get_float(wh_bytes *bytes);
 
-/* Write or read a string with its final zero. A string that was read points into the payload. If its final zero is
- * missing, the result is "". */
+/* Write or read a string with its final zero. Reading returns a pointer into the payload; "" if the zero is missing. */
 void wh_bytes_put_words(wh_bytes *bytes, const char *words);
 const char *wh_bytes_get_words(wh_bytes *bytes);
 

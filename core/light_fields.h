@@ -1,5 +1,5 @@
-/* light_fields.h: the record of a board's first light. An image (boards/programs/firstlight.c) prints the record as
- * lines of text, and `whirl firstlight` reads it:
+/* light_fields.h: the record of a board's first light. boards/programs/firstlight.c prints the record as lines of text,
+ * and `whirl firstlight` reads it:
  *
  *     firstlight record 1
  *     NAME VALUE          one line for each field, in the order of WH_LIGHT_FIELDS
@@ -16,7 +16,7 @@
 #define WH_LIGHT_NONE "none"
 
 /* Scenes that the image runs to their end. They cover an angle under gravity, a hinge, a gear on a carriage, a
- * coordinate that is computed from its momentum, and stops with friction. */
+ * coordinate that follows from its conserved momentum, and stops with friction. */
 #define WH_LIGHT_SCENES(X) \
     X(rig_fixed) \
     X(driven_hinge_from_rest) \
@@ -24,8 +24,8 @@
     X(thomson_a_conserved) \
     X(shuttle_buffers)
 
-/* The fields of one scene, in order: the hash of its operations; the hash of its last state, with steps and status; the
- * least, median and largest number of cycles of a step. */
+/* The fields of one scene: the hash of its operations; the hash of its last state, steps and status; cycles of a step,
+ * as least, median and largest number. */
 #define WH_LIGHT_OF_SCENE(scene) "model." #scene, "hash." #scene, "cycles." #scene,
 #define WH_LIGHT_FIELDS \
     "board", "chip", "version", "compiler", WH_LIGHT_SCENES(WH_LIGHT_OF_SCENE) "stack", "clock", \

@@ -1,4 +1,4 @@
-/* scene.c: starting, stepping and comparing runs. step.h has the arithmetic. */
+/* scene.c: start, step, time and hash of a run. step.h has the arithmetic. */
 #include "scene.h"
 
 #include "hash.h"
@@ -72,7 +72,7 @@ static size_t carries(const wh_scene *scene) {
     return scene->compensated ? (size_t)scene->angles + scene->reals : 0U;
 }
 
-/* Unsets the contacts' modes. The first step finds them. */
+/* The first step finds the contacts' modes. */
 static void start_contacts(const wh_scene *scene, wh_state *state, wh_contacts *memory) {
     state->contacts = memory;
     memory->events = 0;
@@ -83,7 +83,7 @@ static void start_contacts(const wh_scene *scene, wh_state *state, wh_contacts *
     }
 }
 
-/* Returns the number of reals in the memory of the ledger. */
+/* Returns the number of reals of the ledger in the caller's memory. */
 static size_t ledgers(const wh_scene *scene) {
     return scene->ledger == NULL ? 0U
                                  : 2U * (size_t)scene->ledger->entries + scene->ledger->accounts;
@@ -93,8 +93,8 @@ static size_t all_reals(const wh_scene *scene) {
     return scene->reals + carries(scene) + scene->inputs + scene->held + ledgers(scene);
 }
 
-/* True if every object in a state's memory may begin at this address. It must be a multiple of the objects' alignment
- * in a struct. On some machines (i386, AVR) that is less than their size. */
+/* True if every object in a state's memory may begin here: at a multiple of its alignment in a struct. On some machines
+ * (i386, AVR) that is less than its size. */
 static bool is_aligned(const void *memory) {
     struct behind_a_byte {
         char byte;
@@ -107,7 +107,6 @@ static bool is_aligned(const void *memory) {
     return (uintptr_t)memory % offsetof(struct behind_a_byte, behind) == 0;
 }
 
-/* True if this scene can start with this state and memory. */
 static bool is_possible(const wh_scene *scene, const wh_state *state, const void *memory) {
     return scene != NULL && state != NULL && scene->contacts <= WH_CONTACTS_LIMIT &&
            wh_method_takes(scene->method, scene->form) && is_aligned(memory);
@@ -185,8 +184,8 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
     return status;
 }
 
-/* Returns part / of, rounded to the nearest real, for 0 <= part < of < 2^63. The result may be one. This is a long
- * division: the quotient has one bit more than a real, and a sticky bit stands for the lower bits. */
+/* Returns part / of, rounded to the nearest real, for 0 <= part < of < 2^63. The result may be one. Long division: the
+ * quotient has one bit more than a real, and a sticky bit stands for the lower bits. */
 static wh_real rounded(uint64_t part, uint64_t of) {
     const unsigned bits = sizeof(wh_real) == sizeof(float) ? 25 : 54;
     wh_real unit = WH_R(1.0); /* at the end: the value of the sticky bit */
@@ -212,8 +211,8 @@ static wh_real rounded(uint64_t part, uint64_t of) {
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state) {
     const wh_fraction step = scene->step;
     wh_time time = {0, wh_scene_time_s(scene, state)};
-    if (step.denominator ==
-        0) { /* in two parts, because small cores convert 64 bits by double arithmetic */
+    /* in two parts, because small cores convert 64 bits by double arithmetic */
+    if (step.denominator == 0) {
         const wh_real high = time.fraction_s * WH_R(0x1p-24);
         const uint32_t upper = high < WH_R(0x1p32) ? (uint32_t)high : UINT32_MAX;
         time.fraction_s -= (wh_real)upper * WH_R(0x1p24);
@@ -273,11 +272,11 @@ uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state) {
 }
 
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state) {
-    /* reals = linear + coordinates, and coordinates = linear + angles. */
+    /* reals = linear + coordinates, and coordinates = linear + angles */
     return state->real == NULL ? NULL : state->real + (scene->reals - scene->angles) / 2;
 }
 
-/* Does what wh_refuse_first() does, in a loop that is not unrolled. */
+/* wh_refuse_first() in a loop that is not unrolled. */
 WH_COLD static wh_status refuse_first(const wh_real *value, unsigned n, unsigned first,
                                       wh_state *state) {
     unsigned at = 0;

@@ -1,16 +1,16 @@
-/* scene.h: a scene is one mechanism, compiled with only the effects that it names, ready to step.
+/* scene.h: a scene: one mechanism with the effects that it names, compiled and ready to step.
  *
- * A generated file (build/gen/NAME.c) defines one constant `wh_scene`, which lives in flash. The variables of a run
- * live in a `wh_state` and in memory that the caller owns. The generated header (build/gen/NAME.h) gives the memory's
- * size and the indices of coordinates, inputs and outputs:
+ * A generated file (build/gen/NAME.c) defines one constant `wh_scene`, in flash. A run's variables are in a `wh_state`
+ * and in memory that the caller owns. The generated header (build/gen/NAME.h) gives the memory's size and the indices
+ * of coordinates, inputs and outputs:
  *
  *     static uint64_t memory[thomson_a_MEMORY_WORDS];
  *     wh_state state;
  *     wh_scene_start(&thomson_a, &state, memory, sizeof memory);
  *     while (wh_scene_step(&thomson_a, &state) == WH_OK) { ... }
  *
- * The function names follow eFMI's Startup / DoStep. Nothing here allocates, recurses or calls a library. This file,
- * the generated header and their includes are C11 and C++11; generated .c files and the core's .c files are C only. */
+ * Nothing here allocates, recurses or calls a library. This file, the generated header and their includes are C11 and
+ * C++11; generated .c files and the core's .c files are C only. */
 #ifndef WH_SCENE_H
 #define WH_SCENE_H
 
@@ -21,7 +21,6 @@
 
 WH_C_BEGIN
 
-/* True if the method (method.h) can step a system of this form. */
 WH_INLINE bool wh_method_takes(wh_method method, wh_form form) {
 #define WH_METHOD_TAKES(id, word, title, order, takes, ...) | ((unsigned)(takes) >> 1 & 1U) << (id)
     const unsigned first_order = 0U WH_METHOD_ROWS(WH_METHOD_TAKES);
@@ -30,13 +29,11 @@ WH_INLINE bool wh_method_takes(wh_method method, wh_form form) {
            (form == WH_SECOND_ORDER || (first_order >> method & 1U) != 0);
 }
 
-/* The fraction numerator / denominator; both are below 2^63. */
-typedef struct wh_fraction {
+typedef struct wh_fraction { /* both are below 2^63 */
     uint64_t numerator;
     uint64_t denominator;
 } wh_fraction;
 
-/* The time whole_s + fraction_s, in seconds. */
 typedef struct wh_time {
     uint64_t whole_s;
     wh_real fraction_s; /* 0 <= fraction_s < 1 */
@@ -49,12 +46,11 @@ struct wh_scene {
     wh_method method;
     uint8_t angles;   /* number of components stored as a turn angle */
     uint8_t reals;    /* number of components stored as a real */
-    uint8_t inputs;   /* number of inputs: values that may change between steps */
-    uint8_t outputs;  /* number of outputs: observe() computes them, a step does not */
+    uint8_t inputs;   /* number of values that may change between steps */
+    uint8_t outputs;  /* number of outputs, computed by observe() */
     uint8_t contacts; /* number of stops, holds, frictions and crossings, <= WH_CONTACTS_LIMIT */
     uint8_t held;     /* number of holds that could slip: curved, or of several coordinates */
-    /* number of inputs with a rate: they set the last positions and the last rates */
-    uint8_t driven;
+    uint8_t driven;   /* number of inputs with a rate: they set the last positions and rates */
     bool compensated; /* sums are compensated for round-off */
     wh_real step_s;   /* fixed step, seconds, > 0 */
     wh_fraction step; /* step_s as an exact fraction, for wh_scene_time(); {0, 0}: not known */
@@ -65,39 +61,34 @@ struct wh_scene {
     const wh_ledger_form *ledger; /* NULL: the scene has no ledger */
     const void *model;            /* the interpreter's operation list; NULL in generated code */
     uint64_t model_hash;          /* hash of the operation list: identifies the physics */
-    /* Does one step and counts it in state->steps. Returns WH_OK or an error: see wh_scene_step(). On an error it sets
-     * state->fault and leaves the rest unchanged. */
+    /* Does one step and increments state->steps. Returns as wh_scene_step() does. */
     wh_status (*advance)(const wh_scene *scene, wh_state *state);
-    /* Does `steps` steps, at least one, and counts them in state->steps: see wh_scene_steps(). NULL: wh_scene_steps()
-     * calls advance() in a loop. Generated code has this function if it is compiled with -DWH_MULTI_STEP=1. */
+    /* Does `steps` >= 1 steps: see wh_scene_steps(). NULL unless generated code is compiled with -DWH_MULTI_STEP=1. */
     wh_status (*ahead)(const wh_scene *scene, wh_state *state, uint32_t steps);
     /* Computes the outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
-    /* Shows how the file of advance() was compiled (wh_arithmetic() of arithmetic.h). May be NULL. */
+    /* wh_arithmetic() (arithmetic.h) as compiled in the file of advance(). May be NULL. */
     void (*arithmetic)(wh_real *result);
 };
 
-/* Bytes of caller memory that wh_scene_start() needs. all_reals counts the state's reals, a low part for each component
- * if the scene is compensated, the inputs, the holds' values and the ledger's reals. The result is constant if the
- * arguments are. The generated header computes it with the scene's own numbers. */
+/* Bytes of caller memory for wh_scene_start() (the generated header has them). all_reals counts the state's reals, a
+ * low part for each component if the scene is compensated, the inputs, the holds' values and the ledger's reals. */
 #define WH_MEMORY_BYTES(angles, all_reals, contacts) \
     ((contacts) > 0 ? (WH_NUMBER_BYTES(angles, all_reals) + 7U) / 8U * 8U + sizeof(wh_contacts) \
                     : WH_NUMBER_BYTES(angles, all_reals))
 #define WH_NUMBER_BYTES(angles, all_reals) \
     (WH_SIZE(angles) * sizeof(wh_angle) + WH_SIZE(all_reals) * sizeof(wh_real))
 
-/* Eight-byte words of caller memory for a state with `angles` angles, `reals` reals and `inputs` inputs, for arrays
- * sized by hand. Enough for float and double, and for compensated sums. */
+/* For arrays sized by hand: eight-byte words of caller memory for a state with `angles` angles, `reals` reals and
+ * `inputs` inputs. Enough for float and double, and for compensated sums. The other macros give the words to add for
+ * contacts, for holds that could slip, and for a ledger's entries and its other stored words. */
 #define WH_STATE_WORDS(angles, reals, inputs) \
     (WH_SIZE(angles) + (2U * WH_SIZE(reals) + WH_SIZE(angles) + WH_SIZE(inputs)))
 
-/* Words to add for `contacts` contacts. */
 #define WH_CONTACT_WORDS(contacts) ((contacts) > 0 ? (sizeof(wh_contacts) + 7U) / 8U : 0U)
 
-/* Words to add for `held` holds that could slip. */
 #define WH_HELD_WORDS(held) (WH_SIZE(held))
 
-/* Words to add for a ledger with `entries` entries and `accounts` stored words besides. */
 #define WH_LEDGER_WORDS(entries, accounts) (2U * WH_SIZE(entries) + WH_SIZE(accounts))
 
 #define wh_scene_start WH_NAME(wh_scene_start)
@@ -112,59 +103,54 @@ struct wh_scene {
 #define wh_scene_rates WH_NAME(wh_scene_rates)
 #define wh_status_text WH_NAME(wh_status_text)
 
-/* Put `state` at the scene's start. `memory` has `bytes` bytes, is aligned as a uint64_t in a struct, and must
- * outlive the run. Returns WH_OK; or an error, with the memory untouched and the state not started:
+/* Put `state` at the scene's start. `memory` has `bytes` bytes, is aligned as a uint64_t in a struct, and must outlive
+ * the run. Returns WH_OK; or an error, with the memory untouched and the state not started:
  * - WH_E_MEMORY: the memory is too small or NULL.
- * - WH_E_ARGUMENT: the memory is not aligned, scene or state is NULL, or no generator writes such a scene (its
- * method does not take its form, or it has too many contacts).
- * - WH_E_ARITHMETIC: compiler flags or the machine's modes would give other bits than every other machine;
- * state->fault says how. */
+ * - WH_E_ARGUMENT: the memory is not aligned, scene or state is NULL, the scene's method does not take its form, or the
+ * scene has too many contacts. No generator writes such a scene.
+ * - WH_E_ARITHMETIC: compiler flags or the machine's modes would give bits of their own (state->fault). */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step; `scene` and `state` must not be NULL. Returns WH_OK; or WH_E_DIVERGED, WH_E_UNDEFINED or WH_E_SINGULAR
- * with the last good state and state->fault set. While the inputs stay the same, another call fails in the same way.
- * Returns WH_E_ARGUMENT for a state that was not started: zeroed, or refused by wh_scene_start(). */
+ * with the last good state and state->fault set, again at each call with the same inputs. Returns WH_E_ARGUMENT for a
+ * state that was not started: zeroed, or refused by wh_scene_start(). */
 wh_status wh_scene_step(const wh_scene *scene, wh_state *state);
 
-/* Do `steps` steps (0 is allowed), for example to predict faster than real time. The result has the same bits as
- * `steps` calls of wh_scene_step(). If the scene's file is compiled with -DWH_MULTI_STEP=1, the steps take fewer
- * instructions and twice the flash. Returns as wh_scene_step() does; state->steps counts the steps done. */
+/* Do `steps` steps (0 is allowed), with the same bits as `steps` calls of wh_scene_step(). If the scene's file is
+ * compiled with -DWH_MULTI_STEP=1, the steps take fewer instructions, but twice the flash. Returns as wh_scene_step()
+ * does; state->steps counts the steps done. */
 wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps);
 
 /* Correct the state from a measurement, between two steps; SI units. `real` and `angle` are the generated header's
- * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. wh_scene_move_angle() adds to the angle, so the angle
- * keeps all its digits after many turns.
+ * indices: SCENE_REAL_x, SCENE_RATE_x and SCENE_ANGLE_theta. wh_scene_move_angle() adds to the angle, which keeps all
+ * its digits after many turns.
  *
  * The next step goes on like a run that starts from the corrected state. A coordinate beyond a stop goes back onto the
  * stop, every contact's mode is found again, and each hold keeps its present value. The corrected component loses its
- * compensation. With a ledger, the change of each account is stored apart (wh_ledger_corrected()).
+ * compensation. With a ledger, the change of each account is stored separately (wh_ledger_corrected()).
  *
  * Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged, for a state that was not started, an unknown index, or a
- * value that is not finite or out of bounds. An index that follows an input with a rate also gives WH_E_ARGUMENT: set
- * the input instead. */
+ * value that is not finite or out of bounds. For an index that follows an input with a rate, set the input instead. */
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
 wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,
                               wh_real by_rad);
 
-/* Time of the state: state->steps * scene->step. Only the fraction of a second is rounded, once, to the nearest real.
- * Valid for all times below 2^64 s: float resolves a microsecond in a run of years. If the scene's step is not given as
- * a fraction, the result is wh_scene_time_s(), split. */
+/* Time of the state: state->steps * scene->step, for all times below 2^64 s. Only the fraction of a second is rounded,
+ * once, to the nearest real, so float resolves a microsecond in a run of years. If the scene's step is not given as a
+ * fraction, the result is wh_scene_time_s(), split. */
 wh_time wh_scene_time(const wh_scene *scene, const wh_state *state);
 
-/* Time of the state as one real: steps * step_s. The error is at most 1.5 U of the result plus the error of step_s. (In
- * float U is 2^-24: 1.5 U of 3 h is 1 ms.) The outputs of generated scenes use this time. */
+/* Time of the state as one real: steps * step_s. The relative error is at most 1.5 U plus that of step_s, with the unit
+ * round-off U: in float 2^-24, so 1 ms in 3 h. The outputs of generated scenes use this time. */
 wh_real wh_scene_time_s(const wh_scene *scene, const wh_state *state);
 
-/* Returns a hash of step count, angles, reals, holds' values and contact modes, or 0 for a state that was not started.
- * Equal runs give equal hashes on any two machines. */
+/* Returns a hash of steps, angles, reals, holds' values and contact modes, equal on all machines; 0 if not started. */
 uint64_t wh_scene_hash(const wh_scene *scene, const wh_state *state);
 
-/* Returns a pointer to the first rate of a second-order scene, in state->real; NULL for a state that was not
- * started. */
+/* Returns the first rate of a second-order scene, in state->real; NULL for a state that was not started. */
 const wh_real *wh_scene_rates(const wh_scene *scene, const wh_state *state);
 
-/* Returns a status in words, for consoles. */
 const char *wh_status_text(wh_status status);
 
 WH_C_END

@@ -1,8 +1,7 @@
-/* scene_set.c: corrects a state from a measurement: one component gets a new value, and the next step finds the
- * contacts' modes again. */
+/* scene_set.c: corrects one component of a state from a measurement. The next step finds the contacts' modes again. */
 #include "step/driven.h"
 
-/* Limit on an angle in radians, the same as in contact_crossing.h. */
+/* Radians, the same as in contact_crossing.h. */
 #define ANGLE_MOST WH_R(1e9)
 
 static bool has_books(const wh_scene *scene, const wh_state *state) {

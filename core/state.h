@@ -1,4 +1,4 @@
-/* state.h: the variables of a running scene (scene.h), and the functions that compute with them. */
+/* state.h: the variables of a run of a scene (scene.h). */
 #ifndef WH_STATE_H
 #define WH_STATE_H
 
@@ -8,9 +8,9 @@ WH_C_BEGIN
 
 /* The layout of a scene's state.
  *
- * Second order (Lagrangian mechanisms, q'' = f(q, q', u)): coordinates are ordered with the angles first. angle[i] is
- * coordinate i for i < angles; real[] holds the positions of the other coordinates, then the rates of all coordinates
- * in the same order. reals = 2*coordinates - angles.
+ * Second order (Lagrangian mechanisms, q'' = f(q, q', u)): angles come first among the coordinates. angle[i] is
+ * coordinate i for i < angles; real[] has the positions of the other coordinates, then the rates of all coordinates in
+ * the same order. reals = 2*coordinates - angles.
  *
  * First order (systems stated directly): angle[] and real[] are the components of x' = f(x, u). */
 typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
@@ -22,8 +22,7 @@ typedef enum wh_form { WH_SECOND_ORDER, WH_FIRST_ORDER } wh_form;
 /* Maximum number of contacts of any scene. */
 #define WH_CONTACTS_LIMIT 16
 
-/* Modes of a contact. The mode of a sliding friction is the sign of its rate; the mode of a crossing is the sign of its
- * value. */
+/* Modes of a contact. A sliding friction's mode is the sign of its rate, a crossing's the sign of its value. */
 enum {
     WH_FREE = 0,   /* stop that is not touched, or released hold */
     WH_ACTIVE = 1, /* resting stop, or closed hold */
@@ -31,7 +30,6 @@ enum {
     WH_UNSET = 127 /* after the start and after a correction, until the next step */
 };
 
-/* An event of a scene with contacts (contact.h). */
 typedef struct wh_event {
     uint8_t contact;
     int8_t mode;     /* the contact's mode after the event */
@@ -51,20 +49,16 @@ typedef struct wh_contacts {
 
 /* The variables of a run. All pointers point into the memory given to wh_scene_start(). */
 typedef struct wh_state {
-    uint64_t steps;  /* number of steps done; time is computed from it and is never a running sum */
+    uint64_t steps;  /* number of steps done: the time is computed from it */
     wh_angle *angle; /* [scene->angles] */
     wh_real *real;   /* [scene->reals] SI units */
-    /* [scene->angles + scene->reals] low parts if the scene is compensated, else NULL */
-    wh_real *carry;
-    wh_real *input;        /* [scene->inputs] SI units; the caller may change them between steps */
+    wh_real *carry;  /* [scene->angles + scene->reals] low parts; NULL: sums are not compensated */
+    wh_real *input;  /* [scene->inputs] SI units; the caller may set them between steps */
     wh_contacts *contacts; /* NULL without contacts */
-    /* [scene->held] SI units: value of a curved hold, slip of a straight one */
-    wh_real *held;
-    /* totals, carries, levels at the start, corrections; NULL without a ledger */
-    wh_real *ledger;
-    /* After WH_E_DIVERGED: index of the component that diverged; angles first, then reals. After WH_E_UNDEFINED or
-     * WH_E_SINGULAR: index of the contact, numbered as in contact.h. After WH_E_ARITHMETIC: the failed probe, a
-     * wh_probed (arithmetic.h). */
+    wh_real *held;   /* [scene->held] SI units: value of a curved hold, slip of a straight one */
+    wh_real *ledger; /* totals, carries, levels at the start, corrections; NULL: no ledger */
+    /* After WH_E_DIVERGED: index of the component, angles first, then reals. After WH_E_UNDEFINED or WH_E_SINGULAR:
+     * index of the contact (contact.h). After WH_E_ARITHMETIC: the failed check, a wh_probed (arithmetic.h). */
     int fault;
 } wh_state;
 

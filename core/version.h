@@ -1,4 +1,4 @@
-/* version.h: the version of Whirl's program, and of images that name it. */
+/* version.h: the version of Whirl, and a link-time check that a scene's header and .c file belong together. */
 #ifndef WH_VERSION_H
 #define WH_VERSION_H
 
@@ -9,7 +9,7 @@
 enum { WH_VERSION_MAJOR = 0, WH_VERSION_MINOR = 3, WH_VERSION_PATCH = 0 };
 
 /* A scene's header refers to the scene by WH_LINKS_TO, with a name that contains a hash of the header. The .c file
- * gives the scene the same name by WH_LINKED_AS. If header and .c file are of different versions, the linker reports an
+ * gives the scene that name by WH_LINKED_AS. If the two files are of different versions, the linker reports an
  * undefined symbol. This costs no byte. */
 #if defined(__GNUC__) && defined(__ELF__)
 #define WH_STRING_OF(text) #text
