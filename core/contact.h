@@ -95,7 +95,7 @@ typedef struct wh_contact {
     /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves the stop between steps, 2 if an input with a
      * rate does. Hold: 1 if its expression is straight (J_k constant), -1 if it follows an input with a rate. Or 0. */
     int8_t direction;
-    /* Index of the only coordinate in the expression, if J_k is constant; otherwise -1. J_k' is then exactly zero. */
+    /* Index of the only coordinate in the expression if J_k is constant, so that J_k' is exactly zero; otherwise -1. */
     int16_t pin;
     uint8_t first_set; /* index of a crossing's first assignment, or of a hold's value in held[] */
     uint8_t sets;

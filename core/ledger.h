@@ -40,7 +40,7 @@ struct wh_ledger_form {
     uint16_t entries;       /* smooth + contacts * (1 + coordinates) + inputs + stabilized */
     uint8_t accounts;       /* words: two for each account, one for each input, one if stabilized */
     uint8_t coordinates;    /* number of integrated coordinates */
-    uint8_t angles;         /* the first ones, stored as turn angles */
+    uint8_t angles;         /* number of coordinates stored as turn angles; they come first */
     uint8_t inputs;
     bool stabilized; /* each step gives back part of the drift (stabilize.h) */
 };

@@ -85,7 +85,7 @@ typedef float wh_real;
 #define WH_INLINE_WITH_FPU WH_INLINE
 #endif
 
-/* 1 on chips that pass floats in registers: all scenes then share one function for a rare path, to save flash. */
+/* 1 on chips that pass floats in registers: rare paths are then calls into scene.c and angle.c, to save flash. */
 #if defined(__ARM_PCS_VFP) && !WH_DOUBLE && !(defined(WH_MULTI_STEP) && WH_MULTI_STEP)
 #define WH_REALS_IN_REGISTERS 1
 #else

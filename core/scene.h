@@ -67,7 +67,7 @@ struct wh_scene {
     wh_status (*ahead)(const wh_scene *scene, wh_state *state, uint32_t steps);
     /* Computes the outputs at the present state: output[scene->outputs], SI units. May be NULL. */
     void (*observe)(const wh_scene *scene, const wh_state *state, wh_real *output);
-    /* wh_arithmetic() (arithmetic.h) as compiled in the file of advance(). May be NULL. */
+    /* wh_arithmetic() (arithmetic.h), compiled in the same file as advance(). May be NULL. */
     void (*arithmetic)(wh_real *result);
 };
 
@@ -130,7 +130,7 @@ wh_status wh_scene_steps(const wh_scene *scene, wh_state *state, uint32_t steps)
  * compensation. With a ledger, the change of each account is stored separately (wh_ledger_corrected()).
  *
  * Returns WH_OK; or WH_E_ARGUMENT, with the state unchanged, for a state that was not started, an unknown index, or a
- * value that is not finite or out of bounds. For an index that follows an input with a rate, set the input instead. */
+ * value that is not finite or out of bounds. So also for an index that follows an input with a rate: set the input. */
 wh_status wh_scene_set_real(const wh_scene *scene, wh_state *state, unsigned real, wh_real value);
 wh_status wh_scene_set_angle(const wh_scene *scene, wh_state *state, unsigned angle, wh_real rad);
 wh_status wh_scene_move_angle(const wh_scene *scene, wh_state *state, unsigned angle,

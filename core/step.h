@@ -37,7 +37,8 @@ typedef struct wh_stepping {
     bool compensated;
 } wh_stepping;
 
-/* Arguments and results of an operation list, in one struct: other variables then stay in registers if it is called. */
+/* Arguments and results of an operation list in one struct, so that a call of the list leaves other variables in
+ * registers. */
 typedef struct wh_stepped_list {
     wh_phase phase[WH_COORDS];
     wh_real at[WH_COORDS];    /* linear positions (second order), or reals (first order) */
@@ -65,7 +66,7 @@ typedef struct wh_stepped_second {
     wh_real a1[WH_COORDS];               /* accelerations of the first stage */
     wh_real rates[WH_STAGES][WH_COORDS]; /* rates of the later stages */
     wh_real accels[WH_STAGES][WH_COORDS];
-    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS]; /* results, summed over stages of equal weights */
 } wh_stepped_second;
 
 /* Computes the positions of stage s, for a method with .places. Returns as wh_step_second_stage() does. */
@@ -167,7 +168,7 @@ WH_INLINE wh_status wh_step_second(const void *model, wh_accel_fn *accel, wh_met
 typedef struct wh_stepped_first {
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
-    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* results, summed over stages of equal weights */
 } wh_stepped_first;
 
 /* Computes stage s > 0. Returns as wh_step_second_stage() does. */

@@ -36,7 +36,7 @@ extern const wh_probes wh_probe;
 typedef enum wh_probed {
     WH_PROBED_PRODUCT,   /* not 0 if products are not rounded before a sum: contraction, x87 */
     WH_PROBED_ORDER,     /* not 0 if a sum is reordered */
-    WH_PROBED_ROUNDING,  /* not an ulp of 1 if sums are rounded twice, or in another mode */
+    WH_PROBED_ROUNDING,  /* an ulp of 1, unless sums are rounded twice, or in another mode */
     WH_PROBED_SUBNORMAL, /* 0 if subnormal numbers are flushed to zero */
     /* 5/3, and below 7/3 and 10/3: wrong if division is a product with a reciprocal */
     WH_PROBED_FIVE,
@@ -71,8 +71,8 @@ static inline void wh_arithmetic(wh_real result[WH_PROBED_COUNT]) {
     result[WH_PROBED_LITERAL] = seven / WH_R(0.1);
 }
 
-/* Returns the first result of compute() that differs from its reference, or WH_PROBED_COUNT. The argument wh_arithmetic
- * checks the file that calls the function. */
+/* compute() is wh_arithmetic() of the file to be checked. Returns the first result that differs from its reference, or
+ * WH_PROBED_COUNT. */
 #define wh_arithmetic_wrong WH_NAME(wh_arithmetic_wrong)
 wh_probed wh_arithmetic_wrong(void (*compute)(wh_real *result));
 

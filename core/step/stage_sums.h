@@ -58,7 +58,7 @@ typedef struct wh_given {
     wh_real (*next)[WH_COORDS];
 } wh_given;
 
-/* Returns sum_j share[j] * (component i of stage j) for j < stage, summed in this order. */
+/* Returns the sum of share[j] * (component i of stage j) over j < stage, in the order of j. */
 WH_INLINE wh_real wh_stage_sum(const wh_real *share, unsigned stage, wh_given given, unsigned i) {
     wh_real sum = WH_R(0.0);
     bool any = false;

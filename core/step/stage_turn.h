@@ -282,7 +282,7 @@ WH_INLINE void wh_turning_reach(const wh_stepping *to, const wh_waves *waves, un
     }
 }
 
-/* Computes the phases of the angles at a stage, for the ledger: those of step.h. */
+/* Computes the phases of the angles at a stage for the ledger, as step.h does. */
 WH_INLINE void wh_turning_phases(const wh_stepping *to, unsigned stage, const wh_real *rate,
                                  wh_given rates, wh_given accels, wh_phase *stage_phase) {
     const wh_shares *of = &to->by->stage[stage];
@@ -298,7 +298,8 @@ WH_INLINE void wh_turning_phases(const wh_stepping *to, unsigned stage, const wh
     }
 }
 
-/* Arguments and results of an operation list, in one struct: other variables then stay in registers if it is called. */
+/* Arguments and results of an operation list in one struct, so that a call of the list leaves other variables in
+ * registers. */
 typedef struct wh_turned_list {
     wh_wave pair[WH_WAVES];
     wh_real at[WH_COORDS];    /* linear positions, or reals */
@@ -322,7 +323,7 @@ typedef struct wh_turned_second {
     wh_real gained[WH_STAGES][WH_COORDS]; /* change of the rates since the begin */
     wh_real rates[WH_STAGES][WH_COORDS];
     wh_real accels[WH_STAGES][WH_COORDS];
-    wh_real alike[WH_STAGES][WH_COORDS]; /* sums of stages with equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS]; /* results, summed over stages of equal weights */
 } wh_turned_second;
 
 WH_INLINE void wh_turn_second_stage(const void *model, wh_turned_accel_fn *accel,
@@ -409,7 +410,7 @@ typedef struct wh_turned_first {
     wh_real k1[WH_COORDS];                /* derivatives of the first stage */
     wh_real gained[WH_STAGES][WH_COORDS]; /* derivatives minus the first stage's */
     wh_real slopes[WH_STAGES][WH_COORDS]; /* derivatives of the later stages */
-    wh_real alike[WH_STAGES][WH_COORDS];  /* sums of stages with equal weights */
+    wh_real alike[WH_STAGES][WH_COORDS];  /* results, summed over stages of equal weights */
 } wh_turned_first;
 
 WH_INLINE void wh_turn_first_stage(const void *model, wh_turned_slope_fn *slope,

@@ -192,8 +192,8 @@ WH_INLINE wh_real wh_square_short(const wh_tableau *by, wh_two_part h, wh_two_pa
     return h.high * (part.low + stages);
 }
 
-/* wh_square_short() for angles, in phase units s^2 per radian. The three cases match the rounding in the stages: with
- * rotated sines or all at the begin, with .places, and by wh_stage_angle(). */
+/* wh_square_short() for angles, in phase units s^2 per radian. Each case has the round-off of its stages: rotated
+ * sines, or all stages at the begin; stages by .places; stages by wh_stage_angle(). */
 WH_INLINE wh_real wh_turn_short(const wh_tableau *by, wh_two_part h, wh_two_part part,
                                 bool turned) {
     const wh_two_part per_rad = {WH_PHASE_PER_RAD, WH_PHASE_PER_RAD_REST};
