@@ -159,7 +159,7 @@ static void round_to_whole(uint8_t *byte) {
     }
 }
 
-/* Copies the mantissa's bits into byte[BYTES], which is initially zero. Returns false if the number exceeds WHOLE_BYTES,
+/* Copies the mantissa's bits into byte[BYTES], initially zero. Returns false if the number exceeds WHOLE_BYTES,
  * as a double may. Drops bits below 2^-160: only doubles below 2^-107 have them, far from a tie at 18 decimals. */
 static bool lay(const parts *number, uint8_t *byte) {
     const int place = number->exponent + 8 * (int)FRACTION_BYTES;
