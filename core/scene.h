@@ -108,7 +108,7 @@ struct wh_scene {
  * - WH_E_MEMORY: the memory is too small or NULL.
  * - WH_E_ARGUMENT: the memory is not aligned, scene or state is NULL, the scene's method does not take its form, or the
  * scene has too many contacts. No generator writes such a scene.
- * - WH_E_ARITHMETIC: compiler flags or the machine's modes would give bits of their own (state->fault). */
+ * - WH_E_ARITHMETIC: compiler flags or the machine's modes change results (state->fault: which). */
 wh_status wh_scene_start(const wh_scene *scene, wh_state *state, void *memory, size_t bytes);
 
 /* Do one step; `scene` and `state` must not be NULL. Returns WH_OK; or WH_E_DIVERGED, WH_E_UNDEFINED or WH_E_SINGULAR
