@@ -1,5 +1,5 @@
-/* apart.c: start values that satisfy the holds. Newton's method finds the positions, one linear step the rates, each with
- * the smallest change. A coordinate whose start the scene sets changes only if the others do not suffice. */
+/* apart.c: start values that satisfy the holds. Newton's method finds the positions, one linear step the rates, each
+ * with the smallest change. A start value that the scene sets changes only if changing the others is not enough. */
 #include "apart.h"
 
 #include <math.h>
@@ -13,9 +13,9 @@
 
 enum { N = IMAGE_COMPONENTS_MAX, HOLDS = WH_CONTACTS_LIMIT, NEWTON_MOST = 50 };
 
-/* A hold's expression is meant to be zero at the start if its value is below this part of the sum of its terms' sizes. */
+/* A nonzero hold expression is an error if it is below this part of its scale terms(); a larger value is intended. */
 #define OFF_MOST 0.5
-/* The conditions of holds are evaluated at this share of a step after the start, because a condition may end at once. */
+/* The holds' conditions are evaluated this many steps after the start, because a condition may become false at once. */
 #define SOON 1e-6
 
 typedef struct apart {
@@ -24,10 +24,9 @@ typedef struct apart {
     int n;
     int hold[HOLDS]; /* active holds at the start */
     int holds;
-    /* does the expression of this hold change its sign near the start? A distance does not: it is never negative */
-    bool vanishes[HOLDS];
-    bool closes;     /* the expression of some hold is not zero, but its value is below OFF_MOST */
-    double x[2 * N]; /* [2 n] the state: places, then rates */
+    bool vanishes[HOLDS]; /* has_zero(); false for a distance, which is never negative */
+    bool closes;          /* some hold has an error below OFF_MOST */
+    double x[2 * N];      /* [2 n] positions, then rates */
 } apart;
 
 static const double *rates(const apart *a) { return a->x + a->n; }
@@ -47,7 +46,7 @@ static double along(const apart *a, int h, const double *x) {
     return sum;
 }
 
-/* The sum of the sizes of the terms of a hold's expression (`places`: x has positions) or of its rate (x has rates). */
+/* The scale of a hold: the sum of |row[i] x[i]| over positions (`places`; an angle counts as 1 rad) or rates. */
 static double terms(const apart *a, int h, const double *x, bool places) {
     double sum = 0.0;
     for (int i = 0; i < a->n; i++) {
@@ -56,8 +55,8 @@ static double terms(const apart *a, int h, const double *x, bool places) {
     return sum;
 }
 
-/* The error of a curved hold whose expression is meant to be zero; else 0. Holds close one linkage: if one of them is
- * meant to be zero, all are, whatever their values. */
+/* The value of a curved hold's expression if it is an error; else 0. All holds close one linkage: if one has an error
+ * below OFF_MOST, larger values of the others are errors, too. */
 static double off_zero(const apart *a, int h) {
     const image_contact *c = &a->im->contact[a->hold[h]];
     const double value = law_of(a, h)[WH_LAW_FIRST];
@@ -68,7 +67,7 @@ static double off_zero(const apart *a, int h) {
     return is ? value : 0.0;
 }
 
-/* Moves a->x to from + share * row. Returns the value of the hold's expression there. */
+/* Sets a->x to from + share * row, and returns the hold's expression there. */
 static double value_at(apart *a, int h, const double *from, const double *row, double share) {
     for (int i = 0; i < a->n; i++) {
         a->x[i] = from[i] + share * row[i];
@@ -77,7 +76,7 @@ static double value_at(apart *a, int h, const double *from, const double *row, d
     return law_of(a, h)[WH_LAW_FIRST];
 }
 
-/* Does this hold's expression change its sign at a zero near the start? The zero is found by Newton's method. */
+/* Does the hold's expression change its sign at the zero that Newton's method finds from the start? */
 static bool has_zero(apart *a, int h) {
     double start[2 * N];
     double row[N] = {0.0};
@@ -101,8 +100,7 @@ static bool has_zero(apart *a, int h) {
     return changes;
 }
 
-/* Solves n linear equations: matrix[n][n + 1], with the right-hand side in the last entry of each row. The solution replaces
- * the right-hand side. Returns false if the matrix is singular. */
+/* Solves matrix[n][n + 1]; its last column is the right-hand side, and becomes the solution. False: singular. */
 static bool solve(int n, double *matrix) {
     int lead[HOLDS];
     if (gauss_reduce(matrix, n, n + 1, n, false, 1e-12, lead) < n) {
@@ -114,7 +112,7 @@ static bool solve(int n, double *matrix) {
     return true;
 }
 
-/* Changes x as little as possible so that the expression of each hold h changes by by[h]. Only x[i] with may[i] change. */
+/* Changes the x[i] with may[i] as little as possible, so that the expression of each hold h changes by by[h]. */
 static bool move(const apart *a, const bool *may, const double *by, double *x) {
     double matrix[HOLDS * (HOLDS + 1)] = {0.0};
     const int n = a->holds;
@@ -140,8 +138,7 @@ static bool move(const apart *a, const bool *may, const double *by, double *x) {
 
 static bool fit_places(apart *a, const bool *may) {
     double worst = 1.0;
-    /* wanted value of each hold: 0 for a hold with an error, else its present value */
-    double wanted[HOLDS];
+    double wanted[HOLDS]; /* 0 for a hold with an error, else its value at the start */
     for (int h = 0; h < a->holds; h++) {
         const double value = law_of(a, h)[WH_LAW_FIRST];
         wanted[h] = off_zero(a, h) != 0.0 ? 0.0 : value;
@@ -171,7 +168,7 @@ static bool fit_rates(apart *a, const bool *may) {
     return move(a, may, by, a->x + a->n);
 }
 
-/* First changes only coordinates whose start the scene does not set. If that fails, changes all coordinates. */
+/* Changes only start values that the scene does not set; if that fails, all except those of driven coordinates. */
 static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     const apart before = *a;
     for (int all = 0; all < 2; all++) {
@@ -189,7 +186,7 @@ static bool fit(apart *a, int primes, bool (*with)(apart *a, const bool *may)) {
     return false;
 }
 
-/* The energy lost when an impulse stops the holds' speeds w: 1/2 w (J M^-1 J^T)^-1 w; NaN if the holds are redundant. */
+/* The energy that an impulse removes by stopping the holds' rates w: 1/2 w (J M^-1 J^T)^-1 w; NaN: redundant holds. */
 static double lost_J(const apart *a) {
     double matrix[HOLDS * (HOLDS + 1)];
     const int n = a->holds;
@@ -275,7 +272,7 @@ static void say(FILE *out, const char *who, apart *a) {
     }
 }
 
-/* The error or the rate of a hold, divided by the sum of its terms' sizes; 0: the start satisfies the hold. */
+/* The larger of a hold's error and rate, each divided by its scale terms(); 0: the start satisfies the hold. */
 static double part_of(const apart *a, int h) {
     const double off = fabs(off_zero(a, h));
     const double speed = fabs(moving(a, h));
@@ -290,7 +287,7 @@ double apart_say(FILE *out, const char *who, const image *im) {
     }
     apart a = {.im = im, .forces = state_list_open(im, IMAGE_FORCES), .n = im->coordinates};
     const state_list signals = state_list_open(im, IMAGE_SIGNALS);
-    double soon[2 * N]; /* the state at SOON of a step */
+    double soon[2 * N]; /* the state SOON steps after the start */
     for (int i = 0; i < 2 * a.n; i++) {
         a.x[i] = image_start(im, i);
     }

@@ -1,6 +1,5 @@
-/* apart.h: holds that the start of a run does not satisfy. An expression of a hold keeps the value with which it starts.
- * If the expression starts with a rate, an impulse stops it and takes energy. The warning gives the error, and start
- * values that satisfy the holds. */
+/* apart.h: warnings about holds that a run's start violates. The run keeps the initial error of a hold's expression. An
+ * impulse at t = 0 stops an initial rate and removes its energy. The warning suggests start values. */
 #ifndef CHECK_APART_H
 #define CHECK_APART_H
 
@@ -8,11 +7,11 @@
 
 #include "host/image/image.h"
 
-/* An error or rate above this part of the sum of its terms' sizes is more than round-off. */
+/* An error or rate of a hold up to this part of the sum of its terms' magnitudes is round-off. */
 #define APART_LEAST 1e-6
 
-/* The largest error or rate of a hold, divided by the sum of its terms' sizes; 0: the start satisfies all holds. Warnings
- * to `out` (may be NULL) begin with `who`, such as "whirl run". If `who` is NULL, prints only the first warning's text. */
+/* Returns the largest error or rate of a hold, relative to the sum of its terms' magnitudes. Warnings to `out` (may be
+ * NULL) begin with `who`, such as "whirl run"; if `who` is NULL, prints only the text of the first. */
 double apart_say(FILE *out, const char *who, const image *im);
 
 #endif

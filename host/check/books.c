@@ -76,12 +76,9 @@ double books_swing_J(const books *b) {
 
 /* --- round-off ---------------------------------------------------------------------------------*/
 
-/* FLOAT_LEAST: the smallest normal float. SUMS_OF_A_STEP: how often a step, with its stages and events, rounds each entry. */
-#define FLOAT_LEAST 0x1p-126
-#define SUMS_OF_A_STEP 8.0
-
-/* To measure how the energy changes with a component of the state, the component is changed by this part of its value. */
-#define SLOPE_SHARE 0x1p-20
+#define FLOAT_LEAST 0x1p-126 /* smallest normal float */
+#define SUMS_OF_A_STEP 8.0   /* roundings of each ledger entry in a step with stages and events */
+#define SLOPE_SHARE 0x1p-20  /* relative change of a component to measure the energy's slope */
 
 static void evaluate_now(const books *b, const double *angle_rad, const double *real,
                          double time_s) {
@@ -104,10 +101,9 @@ static double unit_rounding(const engine_kind *kind) {
     return kind == &engine_float ? 0x1p-24 : 0x1p-53;
 }
 
-/* by: the round-off of a component of the state in one step. change: the change by which the energy's slope is measured. */
 typedef struct state_rounding {
-    double by;
-    double change;
+    double by;     /* round-off of a state component in one step */
+    double change; /* of the component, to measure the energy's slope */
 } state_rounding;
 
 static state_rounding rounding_of_component(const image *im, const engine_kind *kind,
@@ -121,7 +117,7 @@ static state_rounding rounding_of_component(const image *im, const engine_kind *
                  : (state_rounding){unit_rounding(kind) * fabs(value), SLOPE_SHARE * value};
 }
 
-/* The energy change when each component of the state is rounded once. */
+/* The sum of the |energy changes| by rounding each component of the state once; 0 if it is not finite. */
 static double state_rounding_J(const books *b, const engine_kind *kind, const void *run) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
@@ -148,8 +144,8 @@ static double state_rounding_J(const books *b, const engine_kind *kind, const vo
     return isfinite(sum) ? sum : 0.0;
 }
 
-/* Energy change of a step by the round-off of its accelerations and of its powers. A small difference of large
- * terms, such as balanced forces, has a round-off in proportion to the terms. */
+/* Energy change of a step by the round-off of its accelerations and powers. off[] accounts for cancellation: the
+ * round-off of balanced forces is in proportion to the forces. */
 static double step_rounding_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     const double *entry = b->value + im->count;
@@ -165,9 +161,8 @@ static double step_rounding_J(const books *b, const engine_kind *kind) {
     return sum_W * b->step_s;
 }
 
-/* Energy that the entries of a step may lose to underflow. A run with contacts keeps its ledger in its own number type. In
- * float, values below the smallest normal number have an error of that size, or become zero, and all errors may have one
- * sign. In double this loss is negligible. */
+/* Energy that a step's ledger entries may lose to underflow, in float with contacts. The round-off of a value below
+ * FLOAT_LEAST is that of FLOAT_LEAST, and always of one sign in the worst case. */
 static double step_lost_J(const books *b, const engine_kind *kind) {
     const image *im = b->image;
     if (im->contacts == 0 || kind != &engine_float) {
@@ -188,7 +183,7 @@ static double step_lost_J(const books *b, const engine_kind *kind) {
            (SUMS_OF_A_STEP * entries * FLOAT_LEAST + (isfinite(lost_W) ? b->step_s * lost_W : 0.0));
 }
 
-/* Updates terms[]: a momentum is a sum of masses times rates, and of terms without rates (rateless[]). */
+/* Updates terms[]. The terms of a momentum are masses times rates, and rateless[]. */
 static void look_at_momenta(books *b) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -233,15 +228,15 @@ double books_lost_J(const books *b) { return (double)b->entries * b->lost_J; }
 
 /* --- the balance -------------------------------------------------------------------------------*/
 
-/* Error bound of the work of two steps. If the powers are smooth, it is the difference between Simpson's and the
- * trapezoidal rule. Otherwise it is half a step times the changes of the power in both steps. */
+/* Error bound of the work of two steps: the difference between Simpson's and the trapezoidal rule if the power is
+ * smooth, otherwise half a step times the changes of the power in both steps. */
 static double rule_off_J(double step_s, double begin_W, double middle_W, double end_W) {
     const double rules_J = fabs(step_s / 6.0 * (2.0 * middle_W - begin_W - end_W));
     const double change_J = 0.5 * step_s * (fabs(middle_W - begin_W) + fabs(end_W - middle_W));
     return rules_J > 0.1 * change_J ? change_J : rules_J;
 }
 
-/* Simpson's rule needs pairs of steps. A single last step counts as a trapezoid until the next entry completes the pair. */
+/* Simpson's rule takes two steps at once. The first of them counts as a trapezoid until the second one is entered. */
 static void add_work(books *b, const double power_W[2]) {
     double *work[2] = {&b->input_J, &b->loss_J};
     double off_J = 0.0;
@@ -269,7 +264,7 @@ double books_rule_J(const books *b) {
 
 /* --- terms linear in the rates -------------------------------------------------------------------*/
 
-/* The kinetic energy at this state with every rate reversed. rateless[] gets the momenta of the reversed state. */
+/* Returns the kinetic energy with all rates reversed, and sets rateless[] to the momenta of that state. */
 static double reversed_J(books *b, const double *angle_rad, const double *from) {
     const image *im = b->image;
     double real[2 * IMAGE_COMPONENTS_MAX];
@@ -282,15 +277,15 @@ static double reversed_J(books *b, const double *angle_rad, const double *from) 
     return b->value[im->count + BOOK_KINETIC];
 }
 
-/* rateless[] becomes the mean of the momenta with reversed rates and of those just evaluated with the actual rates. */
+/* Sets rateless[] to the mean of the momenta with reversed rates (reversed_J()) and with actual rates (value[]). */
 static void take_rateless(books *b) {
     for (int i = 0; i < b->image->count; i++) {
         b->rateless[i] = 0.5 * (b->rateless[i] + b->value[b->image->count + BOOK_MOMENTA + i]);
     }
 }
 
-/* Does a momentum have a part that stays the same if all rates are reversed? Tests three states other than the start. A
- * coordinate that is recovered from its momentum has no rate to reverse. */
+/* Is a rateless[] nonzero at one of three test states? Not tested if a coordinate is recovered from its momentum,
+ * because such a coordinate has no rate to reverse. */
 static bool find_rateless(books *b) {
     const image *im = b->image;
     double angle_rad[IMAGE_COMPONENTS_MAX];
@@ -319,14 +314,11 @@ static bool find_rateless(books *b) {
 
 /* --- momenta that every motion conserves ---------------------------------------------------------------*/
 
-/* Conserved sums of momenta are not searched in mechanisms with more coordinates. */
-enum { FRAME_MOST = 24 };
-/* FRAME_ASIDE_S: a short motion lasts this time before and after its state, s. FRAME_LEAST: a smaller part of the
- * largest change of a momentum is round-off. */
-#define FRAME_ASIDE_S 1e-5
-#define FRAME_LEAST 1e-6
+enum { FRAME_MOST = 24 };  /* most momenta among which conserved sums are searched */
+#define FRAME_ASIDE_S 1e-5 /* half the duration of the motion in momenta_change(), s */
+#define FRAME_LEAST 1e-6   /* a smaller part of the largest change of a momentum is round-off */
 
-/* change[]: the change of each momentum in a short motion through state number `draw`, whose positions and rates are random.
+/* change[]: by how much each momentum falls in a motion of 2 FRAME_ASIDE_S through a random state, number `draw`.
  * Returns false if a change is not finite. */
 static bool momenta_change(books *b, int draw, double *change) {
     const image *im = b->image;
@@ -360,8 +352,8 @@ static bool momenta_change(books *b, int draw, double *change) {
     return finite;
 }
 
-/* Finds conserved sums of momenta. A matrix has the changes of the n momenta at 2 n random states. Elimination finds its
- * null vectors: these are the sums. frame[] is set for each momentum in such a sum. */
+/* Sets frame[] for each momentum in a conserved sum. The sums are the null vectors of a matrix, found by elimination.
+ * Its rows are the changes of the n momenta at 2 n random states. */
 static void find_frame(books *b) {
     const int n = b->image->count;
     const int rows = 2 * n;
@@ -384,8 +376,8 @@ static void find_frame(books *b) {
         leads[lead[r]] = true;
     }
     for (int c = 0; c < n && known; c++) {
-        for (int r = -1; r < rank && !leads[c];
-             r++) { /* column c has no pivot: in its null vector, entry c is 1 (r = -1) */
+        /* column c has no pivot: entry c of its null vector is 1 (r = -1) */
+        for (int r = -1; r < rank && !leads[c]; r++) {
             const int i = r < 0 ? c : lead[r];
             const double share = r < 0 ? 1.0 : fabs(a[r * n + c] / a[r * n + i]);
             b->frame[i] = b->frame[i] || share > FRAME_LEAST;
@@ -394,8 +386,7 @@ static void find_frame(books *b) {
     free(a);
 }
 
-/* A kinetic energy that is negative by more than this part of all energies is not round-off. */
-#define NEGATIVE 1e-6
+#define NEGATIVE 1e-6 /* a kinetic energy below -NEGATIVE * size_J is not round-off */
 
 /* --- all of a step ---------------------------------------------------------------------------------*/
 
@@ -463,7 +454,7 @@ void books_enter(books *b, const engine_kind *kind, const void *run) {
         b->undefined_s = b->time_s;
     }
     if (b->entries == 0 || ((b->entries & (b->entries - 1)) == 0 && b->entries % 3 == 1)) {
-        /* not at each step, because it takes long: at the start, and after 1, 4, 16, ... steps */
+        /* costly, so only at the start and after 1, 4, 16, ... steps */
         look_at_rounding(b, kind, run);
     }
     b->entries++;

@@ -7,8 +7,8 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 
-/* Round-off that is allowed after N steps: ROUNDINGS sqrt(N) times the energy change by the rounding of one step. For N up to
- * 1000 this allows for N errors of one sign. */
+/* The allowance for the round-off of N steps is ROUNDINGS sqrt(N) times that of one step, because the signs vary. Up to
+ * N = 1000 it covers N errors of one sign. */
 #define ROUNDINGS 32.0
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }
@@ -32,8 +32,7 @@ static void enter_kept(const image *im, const engine_kind *kind, const void *run
     kept_account_free(&kept);
 }
 
-/* With --stabilized, steps give back energy that earlier steps have lost, or too much of it. So the larger of two
- * residuals counts: without the returned energy, or with it. */
+/* --stabilized corrects the energy, perhaps by too much. So the larger residual counts, with or without the corrections. */
 static void enter_given_back(const image *im, const engine_kind *kind, const void *run,
                              energy_residual *made) {
     kept_account kept = kept_account_read(im, kind, run, 0);
@@ -44,8 +43,8 @@ static void enter_given_back(const image *im, const engine_kind *kind, const voi
     made->energy.left = fabs(lost_J) >= fabs(made->energy.left) ? lost_J : made->energy.left;
 }
 
-/* The balance (books.h) does not see contact forces, and its integration rule fails across an impact. So with contacts the
- * entries are from the run's ledger. The levels are always those of the balance, which computes them in double. */
+/* With contacts the entries come from the run's ledger: the balance (books.h) omits contact forces, and Simpson's rule
+ * fails across an impact. The levels always come from the balance, in double. */
 energy_residual energy_residual_of(books *b, const engine_kind *kind, const void *run) {
     energy_residual made = {.jump_s = -1.0};
     if (b == NULL || (b->image->contacts > 0 && !b->image->ledger.kept)) {
@@ -155,7 +154,6 @@ static void account_print_level(FILE *out, const char *text, const double level[
     fprintf(out, "  %-*s %.9g -> %.9g\n", ACCOUNT_WIDTH, text, level[0], level[1]);
 }
 
-/* `more`: text after the number; may be "". */
 static void account_print_entry(FILE *out, const char *text, double given, const char *more) {
     fprintf(out, "  %-*s %+.9g%s\n", ACCOUNT_WIDTH, text, number_shown(given), more);
 }
@@ -165,7 +163,6 @@ static void account_print_end(FILE *out, double change, double left) {
     fprintf(out, "  %-*s %+.2e (numerical)\n", ACCOUNT_WIDTH, "residual", left);
 }
 
-/* Prints the two energies, and the balanced energy if it differs from their sum. */
 static void print_levels(FILE *out, const books *b) {
     fprintf(out, "energy balance [J]\n");
     account_print_level(out, "kinetic", b->kinetic_J);
@@ -220,7 +217,6 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
 
 /* --- by statement ------------------------------------------------------------------------------------*/
 
-/* Prints the entries of an account, except those of contacts that changed nothing. */
 static void print_entries(FILE *out, const kept_account *kept, const char *unknown) {
     char text[ACCOUNT_WIDTH + 1];
     for (int i = 0; i < kept->entries; i++) {

@@ -22,8 +22,8 @@ typedef enum finding_id {
 /* Findings about the scene's start. No other step or number type removes them. */
 #define FINDING_OF_SCENE FINDING_BIT(FINDING_APART)
 
-/* A warning means that the run cannot be trusted: `whirl run` and `whirl sweep` then end with exit status 1. After a
- * note the status is 0. run_checks.c reports a small FINDING_MASS as a note. */
+/* A warning means that the run cannot be trusted: `whirl run` and `whirl sweep` end with exit status 1, with a note
+ * they end with 0. run_checks.c reports a small FINDING_MASS as a note. */
 typedef enum finding_severity { FINDING_NOTE, FINDING_WARNING } finding_severity;
 
 /* --strict: with STRICT_OFF the exit status stays 0. With STRICT_FINDINGS it is 1 if there are warnings. A positive
@@ -43,21 +43,21 @@ typedef struct finding_row {
 
 extern const finding_row finding_rows[FINDINGS];
 
-/* FINDING_ACCURACY reports an error of RUN_CHECKS_TOLERANCE, as a part of a coordinate's range, if it comes early in the
- * run. An error as in a chaotic motion is not reported, because no step helps: it reaches RUN_CHECKS_EARLY_TOLERANCE after
- * the part RUN_CHECKS_BEGIN of the run, and RUN_CHECKS_TOLERANCE in less than RUN_CHECKS_GROWS times that time. */
+/* FINDING_ACCURACY: the error of a coordinate reaches RUN_CHECKS_TOLERANCE of its range at until_s, in the first half
+ * of the run. It is reported if it reached RUN_CHECKS_EARLY_TOLERANCE before until_s / RUN_CHECKS_GROWS, or in the
+ * first RUN_CHECKS_BEGIN of the run. Otherwise it grew as fast as in a chaotic motion, and no smaller step helps. */
 #define RUN_CHECKS_TOLERANCE 1e-2
 #define RUN_CHECKS_EARLY_TOLERANCE 1e-4
 #define RUN_CHECKS_GROWS 8.0
 #define RUN_CHECKS_BEGIN 0.02
-/* FINDING_ACCURACY also reports a sudden error of a position: it grows RUN_CHECKS_SUDDEN-fold, to HORIZON_TOLERANCE,
- * within RUN_CHECKS_SUDDEN_STEPS steps. Twice as many steps at the begin of the run do not count. */
+/* FINDING_ACCURACY also reports an error of a position that grows RUN_CHECKS_SUDDEN-fold, to HORIZON_TOLERANCE, within
+ * RUN_CHECKS_SUDDEN_STEPS steps, except in the first 2 RUN_CHECKS_SUDDEN_STEPS steps of the run. */
 #define RUN_CHECKS_SUDDEN 30.0
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
-/* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry; too small to be seen in a plot. */
+/* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry; invisible in a plot. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* FINDING_EVENTS ignores the last bounces before a rest: steps with too many events that change the energy by less than
- * RUN_CHECKS_RESTS of the largest entry, if they are fewer than RUN_CHECKS_RESTS_STEPS of all steps. */
+/* FINDING_EVENTS ignores the last bounces before a rest: steps with too many events that together change the energy by
+ * at most RUN_CHECKS_RESTS of the largest entry, and are at most one plus RUN_CHECKS_RESTS_STEPS of all steps. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

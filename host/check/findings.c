@@ -46,7 +46,7 @@ static void say_constants(FILE *out, const run_checks *v) {
 static void say_energy(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const double part = v->found[FINDING_ENERGY].value;
-    const bool before = part > 2.0 * b->ratio; /* it was larger before the end */
+    const bool before = part > 2.0 * b->ratio; /* the residual was larger before the end */
     fprintf(
         out,
         "the energy balance fails: its residual %s %.3g J, %.2e of the largest entry of the energy balance",
@@ -139,7 +139,7 @@ static void say_aliased(FILE *out, const run_checks *v) {
         a->at_s, a->value);
 }
 
-/* The contact, except `besides`, with the most events in steps with too many events; -1 if there is none. */
+/* The contact other than `besides` with the most events in the overruns; -1: none. */
 static int busiest(const run_checks *v, int besides) {
     int found = -1;
     for (int k = 0; k < v->image->contacts; k++) {
@@ -191,7 +191,7 @@ static void (*const say[FINDINGS])(FILE *, const run_checks *) = {
 };
 
 /* --- trying remedies --------------------------------------------------------------------------------------*/
-/* Options that leave a run without findings. Before Whirl names an option, it runs the scene with it and checks that run, too. */
+/* Options with which a run has no findings. Whirl names only options that it has tried. */
 
 typedef enum remedy_outcome {
     REMEDY_DOES, /* a run with these options has no findings */
@@ -201,18 +201,16 @@ typedef enum remedy_outcome {
 
 enum { REMEDY_TEXT = 120 };
 
-/* A remedy must stay below this part of the limits, because the lists of the user's next run may round differently. */
+/* A remedy must stay below this part of the limits, because the user's next run may round differently. */
 #define LEAVES 0.3
-/* The finest step that is tried: the step of the run divided by this. */
-#define PARTS_MOST 20000.0
-/* In float, a remedy with this many times more steps also gets compensated sums. */
-#define COMPENSATED_FROM 10.0
+#define PARTS_MOST 20000.0    /* largest divisor of the run's step that is tried */
+#define COMPENSATED_FROM 10.0 /* in float, steps divided by this or more get compensated sums */
 
 typedef struct search {
     const image *image;
     const engine_kind *kind;
     budget *budget;
-    double part;   /* factor of the limits (run_checks.h) */
+    double part;   /* factor on the limits (run_checks.h) */
     double a_step; /* operations of a step of the run, with its checks */
     double stages; /* stages of the run's method */
     bool over_budget;
@@ -225,7 +223,7 @@ typedef struct request {
     bool in_double;
 } request;
 
-/* *made: the scene with the settings `w`. Returns false if the end is not a whole number of steps. */
+/* *made: the scene with the settings `w`. Returns false if the step is too small, or does not divide the duration. */
 static bool image_with(const image *im, const request *w, image *made) {
     *made = *im;
     made->settings.method = w->method;
@@ -243,8 +241,8 @@ static bool image_with(const image *im, const request *w, image *made) {
     return ratio_count(ratio_of(im->until_s), made->step, &made->steps) && made->steps > 0;
 }
 
-/* A trial in float must be accurate to its end; if it is not, the same settings are tried in double. A trial in double is
- * inaccurate only if its error comes near its begin: the error of a chaotic motion comes later. */
+/* Is a trial inaccurate? In float it must be accurate to its end, because double is tried next. In double only an error
+ * near the start counts: the error of a chaotic motion comes later. */
 static bool is_off_at_once(const run_checks *v) {
     if (v->doubling == NULL) {
         return false;
@@ -262,7 +260,7 @@ static bool does(const run_checks *v) {
            !is_off_at_once(v);
 }
 
-/* Called after each step of a trial. False ends the trial: after a jump over a pole or through a contact it has failed. */
+/* Called after each step of a trial. Ends the trial (false) after a jump over a pole or through a contact. */
 static bool see(void *of, uint64_t step) {
     run_checks *v = of;
     (void)step;
@@ -292,7 +290,8 @@ static bool try(search *s, const request *w) {
     v->part = s->part;
     const loop l = {
         .kind = kind, .run = run, .steps = with.steps, .pays = s->budget, .see = see, .of = v};
-    wh_status status = WH_OK; /* without a finer run the error is not known */
+    wh_status status = WH_OK;
+    /* without a finer run, which the budget did not allow, the error is unknown */
     const loop_end end = v->doubling != NULL ? loop_run(&l, &status) : LOOP_SPENT;
     run_checks_end(v, status);
     const bool good = end == LOOP_DONE && does(v);
@@ -302,7 +301,7 @@ static bool try(search *s, const request *w) {
     return good;
 }
 
-/* Tries the settings with the number type of the run. If that is float and fails, tries double, too. */
+/* Tries the settings in the run's number type; if that is float and fails, in double. */
 static bool try_either(search *s, request *w) {
     if (try(s, w)) {
         return true;
@@ -375,8 +374,8 @@ static remedy_outcome find(search *s, double parts, char text[REMEDY_TEXT]) {
     return try_steps(s, w, parts, text) ? REMEDY_DOES : s->over_budget ? REMEDY_DEAR : REMEDY_NONE;
 }
 
-/* Finds options such as "--step 50us --compensated" for a finished run, within the budget that its checks left. The first
- * trial divides the step by `parts`, at least 1. */
+/* Finds options such as "--step 50us --compensated" for a finished run, within the rest of the checks' budget. `parts`:
+ * divisor of the first finer step that is tried, at least 2. */
 static remedy_outcome remedy_find(const run_checks *v, double parts, char text[REMEDY_TEXT]) {
     const double steps = number_most((double)v->kind->steps(v->run), 1.0);
     budget_begin(v->budget);
@@ -404,7 +403,7 @@ bool remedy_not_needed(const image *im, const engine_kind *kind) {
 
 static bool is_reported(const run_checks *v, finding_id id) { return v->found[id].reported; }
 
-/* Names a cause that no smaller step removes. */
+/* Prints a hint about a cause that no smaller step removes. Returns false if there is none. */
 static bool say_cause(FILE *out, const run_checks *v) {
     const energy_residual *b = &v->balance;
     const char *hint = NULL;
@@ -436,7 +435,7 @@ static bool say_cause(FILE *out, const run_checks *v) {
     return hint != NULL;
 }
 
-/* The divisor of the step for the first trial, from the order of the method. */
+/* The divisor of the step that should reduce the energy residual to 3e-4, by the order of the method. */
 static double first_parts(const run_checks *v) {
     const wh_method_row *row = &wh_methods[v->image->settings.method];
     const double ratio = v->found[FINDING_ENERGY].value;
@@ -545,7 +544,7 @@ static bool starts_beyond(const image *im) {
     return found;
 }
 
-/* The first contact that pushes more than one coordinate; -1: there is no such contact. */
+/* The first contact that pushes more than one coordinate; -1: none. */
 static int pushing(const image *im) {
     const int n = im->coordinates;
     for (int k = 0; k < im->forced; k++) {
@@ -571,7 +570,7 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     diags_flush(errors, out);
     diags_free(errors);
     if (known) {
-        /* no remedy: a step past the flat position of a linkage would choose one of several motions */
+        /* a singular matrix has no remedy: past a linkage's flat position a step would select one of several motions */
         if (status != WH_E_SINGULAR) {
             findings_say_failed(out, v);
         }

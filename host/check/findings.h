@@ -7,18 +7,17 @@
 #include "host/base/diag.h"
 #include "run_checks.h"
 
-/* One line for each finding, "whirl run: warning: ... [word]", then hints with remedies that have been tried. `fails`: the
- * energy finding is printed as an error. */
+/* Prints a line for each finding, "whirl run: warning: ... [word]", then hints with tried remedies. `fails`: the energy
+ * finding is printed as an error. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
 /* findings_message(): the text of a reported finding, without its word. findings_where(): its coordinate or contact;
  * false: the finding is about the whole run. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const run_checks *v, finding_id id);
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);
-/* For a run that ended too early, or with undefined energies: reports an option with which the run completes, if one is
- * found. */
+/* For a run that ended too early, or with undefined energies: prints options with which it completes, if found. */
 void findings_say_failed(FILE *out, const run_checks *v);
-/* After a step with `status`: reports the expression that was not a finite number, or the coordinate that diverged. */
+/* After a step with `status`: reports the expression that was not finite, or the coordinate that diverged. */
 void failure_say(FILE *out, wh_status status, const run_checks *v);
 
 /* Is a run of this image without findings? */

@@ -9,23 +9,20 @@
 #include "host/check/nonfinite.h"
 #include "host/number/functions.h"
 
-/* Factor on the round-off bound. It allows for round-off that the bound does not include: in the sums of a step and in
- * library functions. */
+/* Factor on the round-off bound, which omits the round-off of the sums of a step and of library functions. */
 #define ROUNDING_ROOM 8.0
-/* Least range of a rate, as a part of its size: if a rate of 34.56 rad/s varies by 0.007, float cannot resolve a thousandth
- * of the variation. Positions have no such least range, because their origin is arbitrary. */
+/* Least range of a column without a rate in the state, as a part of its magnitude: in float, a rate of 34.56 rad/s that
+ * varies by 0.007 does not resolve a thousandth of that. Positions have none, because their origin is arbitrary. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
-/* A position counts as constant if its range is at most STAYS times its distance from the origin, or STAYS metres or
- * radians. It is also constant if its range is at most BESIDE_OTHERS of the largest range of positions with its unit. */
+/* A position counts as constant if its range is at most STAYS times its magnitude or one SI unit, whichever is larger,
+ * or at most BESIDE_OTHERS times the largest range of positions with its unit. */
 #define STAYS 1e-9
-/* In float, a position that moves by less than this part of its distance from the origin is constant. */
-#define FLOAT_STAYS 3e-7
+#define FLOAT_STAYS 3e-7 /* in float, a range up to this part of the magnitude is round-off */
 #define BESIDE_OTHERS 1e-3
-/* A start that is computed by sums counts as zero if it is at most this part of a metre or radian. */
-#define STARTS 1e-12
-/* The round-off bound is about 20 times the round-off of the finer run. It is only 8 times as large if the round-off is
- * the same at all states, as for a root of a nearly constant value. In that case both runs have the same round-off. */
+#define STARTS 1e-12 /* a computed start value up to this, in SI units, counts as zero */
+/* Both runs may have the same round-off if its bound exceeds BOUND_OVER times the error to be detected. The bound is
+ * about 20 times the round-off, or 8 times if that is equal at all states, as of a root of a nearly constant value. */
 #define BOUND_OVER 8.0
 
 static double size_of(const step_doubling_column *c) {
@@ -47,20 +44,19 @@ bool horizon_moves(const step_doubling *t, int k) {
     return !stays(t, k) || fabs(c->start) > (c->written ? 0.0 : STARTS * c->one);
 }
 
-/* The size with which round-off is compared: the column's largest size, but at least one SI unit if it starts at zero. */
+/* The scale of round-off: the column's largest magnitude, and at least one SI unit if the column starts at zero. */
 static double least_size(const step_doubling_column *c) {
     const double least = c->written ? 0.0 : STARTS * c->one;
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* May both runs have the same round-off in this column? Yes, if the bound exceeds BOUND_OVER times `least`, the error to be
- * detected. In a constant column it must also exceed the column's size, or one metre or radian for a start at zero. */
+/* May both runs have the same round-off in this column? `least`: the error to be detected. In a constant column the
+ * bound must exceed least_size(), too. */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));
 }
 
-/* Double has more digits for nearly constant values, so their least range is smaller. */
 static double least_range(const step_doubling *t) {
     return t->shape->kind == &engine_double ? LEAST_RANGE_DOUBLE : LEAST_RANGE;
 }
@@ -132,18 +128,15 @@ void horizon_free(horizon *h) {
 }
 
 /* === aliasing ==================================================================================== */
-/* Detects forcing that aliases with the step. In steps of 4 ms a force of 1 kHz is the same at every stage, like a
- * constant force. The same is true for steps of 2 ms, so the finer run agrees. A third run has a step with no common
- * period: the run's span divided by a prime number. It samples such a force at varying phases, and has another result.
- * The runs are compared at the end of the finer run's trusted span. */
+/* Detects forcing that aliases with the step. In steps of 4 ms, and of 2 ms, a force of 1 kHz has the same value at
+ * every stage, like a constant force: the run and its finer run agree, and are wrong. So a third run covers their
+ * trusted span in a prime number of steps. It samples the force at varying phases, and ends in another state. */
 
-/* Number of steps of the third run per step of the run. Above one, so that the third run is more accurate, and far from
- * simple ratios. */
+/* Steps of the third run per step of the run: above one for accuracy, and far from simple ratios. */
 #define STEPS 1.41
-/* Because of its own step, the third run may differ by this many times the difference between the run and the finer one. */
+/* Allowance for the third run's own error, in differences between the run and the finer run. */
 #define ITS_OWN 2.0
-/* A smaller difference does not count, in SI units. */
-#define ALIKE 1e-9
+#define ALIKE 1e-9 /* a smaller difference, in SI units, does not count */
 
 static bool is_prime(uint64_t n) {
     for (uint64_t i = 3; i * i <= n; i += 2) {
@@ -171,7 +164,7 @@ static bool third_image(const step_doubling *t, uint64_t steps, image *im) {
     return true;
 }
 
-/* Rates jump at contacts, and two runs do not jump at the same time. */
+/* With contacts, rates are not compared: they jump at impacts, and not at the same time in both runs. */
 static bool is_compared(const step_doubling *t, const horizon_column *c, int k) {
     return (t->shape->image->contacts == 0 || t->shape->column[k].primes == 0) &&
            c->verdict != HORIZON_ROUNDING;
@@ -198,7 +191,7 @@ static void compare(step_doubling *t, const horizon *h, const double *now, const
     }
 }
 
-/* The number of steps up to which the run is accurate in every column, according to the finer run. */
+/* The number of steps until the first column becomes inaccurate, compared with the finer run. */
 static uint64_t trusted_steps(const step_doubling *t, const horizon *h) {
     const image *im = t->shape->image;
     double until_s = t->end_s;
@@ -330,7 +323,7 @@ static void print_momenta(FILE *out, const horizon *h, const books *b) {
     }
 }
 
-/* Quantities of the balance that stay correct after the run has left the motion. */
+/* Prints the balances, which stay meaningful after the coordinates have become inaccurate. */
 static void print_invariants(FILE *out, const horizon *h, const books *b,
                              const energy_residual *balance) {
     fputs("after that no single coordinate is accurate", out);
@@ -367,7 +360,7 @@ static const char *cut_by(const step_doubling *t) {
                : "after that a step, of this run or of the finer one, jumped over a pole of an expression";
 }
 
-/* Until when the run is accurate, and why no longer. `end`: the end of the run is printed, too. */
+/* Prints the time until which the run is accurate, and what happens then. `end`: prints the end of the run, too. */
 static void say_until(FILE *out, const horizon *h, bool end) {
     const step_doubling *t = h->of;
     char name[NAME_SIZE];

@@ -1,6 +1,6 @@
-/* horizon.h: the time until which a run is accurate to a tolerance, for each coordinate, by step doubling
- * (step_doubling.h). This time ends when the two runs first differ by more than the tolerance times the coordinate's
- * range in the finer run. Measured in docs/dev/stability.md. */
+/* horizon.h: the time until which each coordinate of a run is accurate to a tolerance, by step doubling
+ * (step_doubling.h): until the two runs first differ by more than the tolerance times the coordinate's range in the
+ * finer run. docs/dev/stability.md has measurements. */
 #ifndef CHECK_HORIZON_H
 #define CHECK_HORIZON_H
 
@@ -17,14 +17,13 @@ typedef enum horizon_verdict {
     HORIZON_UNTIL,    /* until_s */
     HORIZON_STILL,    /* the column is constant, so it is accurate to the end */
     HORIZON_ROUNDING, /* only round-off changes the column, so it counts as constant */
-    /* both runs have too few digits for the column, so their agreement proves nothing */
-    HORIZON_NOT_TOLD,
+    HORIZON_NOT_TOLD, /* unknown: too few digits in both runs, or an angle too large for a sine */
 } horizon_verdict;
 
 typedef struct horizon_column {
     horizon_verdict verdict;
-    /* Largest minus least value, in the column's unit. For a column whose rate is not in the state, at least 1e-3 (double:
-     * 1e-9) of its largest magnitude. */
+    /* Largest minus least value, in the column's unit. For a column whose rate is not in the state, at least 1e-3
+     * (double: 1e-9) of its largest magnitude. */
     double range;
     double rounding; /* bound on the round-off in the finer run */
     double off;      /* largest difference of both runs, plus the finer run's own error */
@@ -41,26 +40,24 @@ typedef struct horizon {
 } horizon;
 
 horizon horizon_of(const step_doubling *t, double tolerance);
-/* Does the scene move column k? A column that symmetry keeps at zero does not count, even if round-off changes it. */
+/* False if only round-off moves column k, such as a column that symmetry keeps at zero: its error is meaningless. */
 bool horizon_moves(const step_doubling *t, int k);
-/* The run is accurate until this time, s; below 0: unknown, for lack of digits or because the finer run has the same error. */
+/* The run is accurate until this time, s; below 0: unknown (HORIZON_NOT_TOLD, or the steps alias). */
 double horizon_trusted_s(const horizon *h);
 void horizon_free(horizon *h);
 
 /* === aliasing ==================================================================================== */
 
-/* Sets t->aliased, or t->unaliased if the budget is too small. Call it after both runs have ended. `of`: the budget to
- * charge. */
+/* Sets t->aliased, or t->unaliased if the budget `of` is too small. Call it after both runs have ended. */
 void aliasing_find(step_doubling *t, budget *of);
 
 /* === in words ================================================================================= */
-/* Prints each coordinate and rate, the run, and the quantities that stay correct afterwards. `b`: the run's balance, or
- * NULL for a system without energies. */
+/* Prints the run, each coordinate and rate, and the balances. `b`: NULL for a system without energies. */
 void horizon_print(FILE *out, const horizon *h, const books *b, const energy_residual *balance);
 /* Prints one line for a summary. `doubted`: a finding against the run may affect the finer run, too. */
 void horizon_print_line(FILE *out, const horizon *h, bool doubted);
 extern const char *const horizon_words[];
-/* Writes a header, and a row for each coordinate and rate. */
+/* Writes CSV: a header, and a row for each coordinate and rate. */
 void horizon_write(FILE *out, const horizon *h);
 
 #endif

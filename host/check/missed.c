@@ -11,20 +11,21 @@
 #include "host/number/functions.h"
 
 /* === Taylor bounds =============================================================================== */
-/* Bounds of an operation list on a part of a step, by Taylor forms of second order in the time (Moore, Kearfott,
- * Cloud, Introduction to Interval Analysis, 2009, chapter 6).
+/* Bounds of an operation list on a part of a step's path, by Taylor forms of second order (Moore, Kearfott, Cloud,
+ * Introduction to Interval Analysis, 2009, chapter 6).
  *
- * Natural interval bounds of a multiplied-out polynomial are wide, because they treat each occurrence of x as another variable.
- * Here each operation carries its value and slope at the middle m of the part, and bounds on value, slope and curvature over the
- * part. Each value is intersected with  f(m) + f'(m) d + f''(part) d^2/2  and with  f(m) + f'(part) d. */
+ * Natural interval bounds are wide, because they treat each occurrence of a variable as another variable. Here each
+ * operation has its value and slope at the middle m of the part, and bounds on value, slope and curvature over the
+ * part. Each value is intersected with f(m) + f'(m) d + f''(part) d^2/2 and with f(m) + f'(part) d, d being the
+ * distance from m. */
 typedef struct taylor_bounds taylor_bounds;
 
-/* A value with its first two derivatives by the share of the path; NaN: unknown. */
+/* A value and its first two derivatives by s, the share of the path from 0 to 1; NaN: unknown. */
 typedef struct jet {
     enclosure f[3];
 } jet;
 
-/* The jets at a place of the path: at the middle of a part, or over a part. */
+/* Jets at the middle of a part of the path, or bounding jets over the part. */
 typedef struct spot {
     int order;     /* number of derivatives that are computed */
     jet *position; /* [coordinates] */
@@ -91,8 +92,7 @@ static void taylor_bounds_close(taylor_bounds *a) {
 
 /* --- jets -----------------------------------------------------------------------------------------------*/
 
-/* The intersection of two enclosures, or the known one if the other is unknown. If the intersection is empty because of
- * round-off, the result is `a`. */
+/* The intersection; the known enclosure if one is unknown; `a` if round-off makes the intersection empty. */
 static enclosure both(enclosure a, enclosure b) {
     if (!enclosure_is_finite(a) || !enclosure_is_finite(b)) {
         return enclosure_is_finite(a) ? a : b;
@@ -174,8 +174,7 @@ static jet chain(jet u, jet of, int order) {
     return of;
 }
 
-/* A jet with this value that is `a` or `b`, if it is not known which. At a kink the slope is between their slopes, and there is
- * no curvature. */
+/* The jet of a kink between the branches a and b: its slope is between theirs, and it has no curvature. */
 static jet either(jet a, jet b, enclosure value) {
     const bool sloped = enclosure_is_finite(a.f[1]) && enclosure_is_finite(b.f[1]);
     return (jet){{value, sloped ? enclosure_hull(a.f[1], b.f[1]) : unknown, unknown}};
@@ -263,7 +262,7 @@ static jet call(function_id function, jet u, int order) {
     return chain(u, derivatives_of(function, u.f[0]), order);
 }
 
-/* The angle of (x, y). With n = x y' - y x' and q = x^2 + y^2 its slope is n / q. At the jump from -pi to pi it has no slope. */
+/* atan2(y, x): its slope is n / q, n = x y' - y x', q = x^2 + y^2. It has no slope at the jump from -pi to pi. */
 static jet angle_of(jet y, jet x, int order) {
     const jet n = {{enclosure_sub(enclosure_mul(x.f[0], y.f[1]), enclosure_mul(y.f[0], x.f[1])),
                     enclosure_sub(enclosure_mul(x.f[0], y.f[2]), enclosure_mul(y.f[0], x.f[2])),
@@ -344,10 +343,10 @@ static void cut(jet *part, const jet *middle, double half) {
                                     enclosure_mul(f[2], bend)));
 }
 
-/* --- the way ------------------------------------------------------------------------------------------------*/
+/* --- the path -----------------------------------------------------------------------------------------------*/
 
-/* The path: the cubic through positions and rates at its ends, which are `span_s` apart. from, to: [angles + reals],
- * angles in radians. */
+/* Sets the path: the cubic with these positions and rates at its ends, `span_s` apart. from, to: [angles + reals];
+ * rad. */
 static void taylor_bounds_way(taylor_bounds *a, const double *from, const double *to,
                               double span_s) {
     const int n = a->image->coordinates;
@@ -366,7 +365,7 @@ static void taylor_bounds_way(taylor_bounds *a, const double *from, const double
     a->glanced = false;
 }
 
-/* Encloses a function with the values a and b at the ends, which deviates by at most `bend` from the straight line. */
+/* Encloses a function from a to b that deviates by at most `bend` from the straight line. */
 static enclosure between(double a, double b, double bend) {
     return (enclosure){enclosure_below(number_least(a, b) - bend),
                        enclosure_above(number_most(a, b) + bend)};
@@ -393,7 +392,7 @@ static void go(taylor_bounds *a, double low, double high) {
         const double most = number_most(fabs(curve[0]), fabs(curve[2]));
         const enclosure slopes_on = between(slope[0], slope[2], bend * fabs(third));
         const enclosure curves = between(curve[0], curve[2], 0.0);
-        /* the state is known only up to its rounding */
+        /* positions are enclosed to their round-off, as the state is known only up to it */
         const jet middle_rate = {{enclosure_of(slope[1]), enclosure_of(curve[1]), unknown}};
         const jet part_rate = {{slopes_on, curves, enclosure_of(third)}};
         a->middle.position[i] = (jet){{enclosure_about(at[1], 0), middle_rate.f[0], unknown}};
@@ -403,8 +402,8 @@ static void go(taylor_bounds *a, double low, double high) {
     }
 }
 
-/* Costs in operations. BOUNDS: natural bounds of an operation. WAY: a coordinate on the path. FORM: the jets of an operation.
- * CALLED: the jets of a function or power. */
+/* Costs in operations. BOUNDS: natural bounds of an operation. WAY: a coordinate on the path. FORM: jets of an
+ * operation. CALLED: jets of a function or power. */
 enum { BOUNDS = 6, WAY = 10, FORM = 20, CALLED = 200 };
 
 /* Natural bounds of one result on the whole path: a quick test. */
@@ -414,8 +413,7 @@ static enclosure taylor_bounds_glance(taylor_bounds *a, int result) {
         engine_operations += (uint64_t)(BOUNDS * a->list->count + WAY * a->image->coordinates);
         go(a, 0.0, 1.0);
         memcpy(a->natural.position, a->part.position,
-               2 * (size_t)a->image->coordinates *
-                   sizeof(jet)); /* the rates follow the positions */
+               2 * (size_t)a->image->coordinates * sizeof(jet)); /* with the rates */
         for (int i = 0; i < a->list->count; i++) {
             a->natural.of[i] = value_of(a, &a->natural, &a->list->ops[i]);
         }
@@ -423,7 +421,7 @@ static enclosure taylor_bounds_glance(taylor_bounds *a, int result) {
     return a->natural.of[a->list->result[result]].f[0];
 }
 
-/* Bounds one result, or all (-1), on the part of the path from `low` to `high`, as shares. */
+/* Bounds one result, or all (-1), on the path from s = low to s = high. */
 static void taylor_bounds_look(taylor_bounds *a, int result, double low, double high) {
     const op_list *t = a->list;
     const bool *needs = result < 0 ? NULL : a->needs + (ptrdiff_t)result * t->count;
@@ -447,12 +445,11 @@ static enclosure taylor_bounds_value(const taylor_bounds *a, int result) {
     return a->part.of[a->list->result[result]].f[0];
 }
 
-/* The value at the middle of the part. */
 static enclosure taylor_bounds_middle(const taylor_bounds *a, int result) {
     return a->middle.of[a->list->result[result]].f[0];
 }
 
-/* How much the result would change over the whole path, with the slope and curvature of this part. */
+/* A bound on the result's change over the whole path, if slope and curvature were those of this part. */
 static double taylor_bounds_change(const taylor_bounds *a, int result) {
     const int of = a->list->result[result];
     const double slope = enclosure_size(a->middle.of[of].f[1]);
@@ -462,34 +459,31 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 
 /* === what a step passes ========================================================================== */
 
-/* HALVINGS: how often a path is halved at most. PARTS_MOST: most parts of a path that are tested for one contact or
- * coordinate. */
-#define HALVINGS 24
-#define PARTS_MOST 400
-/* A negative margin is a mere touch if its size is below TOUCH times the larger margin at the ends, and below TOUCH times its
- * change over the path. It is round-off if its size is below WIDTHS times the width of the bounds. */
+#define HALVINGS 24    /* most halvings of a path */
+#define PARTS_MOST 400 /* most parts of a path that are tested for one contact or coordinate */
+/* A negative margin() is a mere touch if it is below TOUCH times both the larger margin at the ends and its change over
+ * the path. It is round-off if it is below WIDTHS times the width of the bounds at the middle of the part. */
 #define TOUCH 1e-9
 #define WIDTHS 64.0
-/* An acceleration between the ends of a path counts as hidden if it exceeds HIDDEN times the sum of those at both ends. It
- * must also be large enough to change the rate by the part TURNS within the path. */
+/* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends, and
+ * would change the rate by the part TURNS within the path. */
 #define HIDDEN 2.0
 #define TURNS 0.05
-/* The slope of a gap has an edge if it changes by the part EDGE of its size within 2^-EDGE_HALVINGS of a path. */
+/* A gap has an edge if its slope changes by the part EDGE within 2^-EDGE_HALVINGS of a path. */
 #define EDGE 0.05
 #define EDGE_HALVINGS 8
 
 struct missed {
     const image *image;
-    taylor_bounds *
-        signals; /* bounds of each contact's gap, condition, rate or value; NULL without contacts */
-    taylor_bounds *accel; /* bounds of the accelerations, if one must be tested; or NULL */
-    bool hills;           /* the accelerations may have a narrow hill */
-    bool smooth;          /* the accelerations have no kink: undecided hills are reported, too */
-    bool edges;           /* a gap may have an edge */
-    taylor_bounds *laws;  /* bounds of the contacts' laws, if a friction's limits move; or NULL */
-    int *mode;            /* [contacts] modes before and after the step */
-    int *mode_to;
-    double most[IMAGE_COMPONENTS_MAX]; /* a larger acceleration counts as hidden */
+    taylor_bounds *signals; /* of gaps, conditions, rates and values; NULL without contacts */
+    taylor_bounds *accel;   /* of the accelerations; NULL if not needed */
+    bool hills;             /* the accelerations may have a narrow peak */
+    bool smooth;            /* the accelerations have no kink: undecided peaks are reported, too */
+    bool edges;             /* a gap may have an edge */
+    taylor_bounds *laws;    /* of the contact laws, for edges and moving friction limits; or NULL */
+    int *mode;              /* [contacts] before the step */
+    int *mode_to;           /* [contacts] after the step */
+    double most[IMAGE_COMPONENTS_MAX]; /* larger accelerations are hidden */
     const engine_piece *piece;         /* the present path */
     double size;                       /* the larger of the margins at the ends of the path */
     int parts;                         /* number of parts tested so far */
@@ -503,7 +497,7 @@ static bool calls(const op_list *t, function_id function) {
     return some;
 }
 
-/* May the list have a narrow hill: a kink, or a function that decays like an exponential? */
+/* Has the list a kink, or an exponential or hyperbolic function, either of which may make a narrow peak? */
 static bool has_hills(const op_list *t) {
     return op_list_has_kinks(t) || calls(t, FN_EXP) || calls(t, FN_TANH) || calls(t, FN_SINH) ||
            calls(t, FN_COSH);
@@ -514,7 +508,7 @@ static bool has_edges(const image *im) {
            op_list_has_kinks(im->list[IMAGE_SIGNALS]);
 }
 
-/* The index, in the results of the contacts' laws, of this row of contact k. */
+/* The index of this row of contact k in the results of IMAGE_FORCES. */
 static int law_of(const image *im, int k, int row) {
     return k * (WH_LAW_ROWS + 2 * im->coordinates) + row;
 }
@@ -568,10 +562,10 @@ static enclosure margin(const missed *m, int k, enclosure signal) {
     return is ? signal : enclosure_neg(signal);
 }
 
-/* Is the condition met on a part of the path (1), excluded there (0), or undecided (-1)? */
+/* A test of a part of the path: 1 found, 0 excluded, -1 undecided. `bar`: the threshold of the test. */
 typedef int looking(missed *m, int k, double low, double high, double bar);
 
-/* Is this a finest part? A contact that lasts for less is not searched. */
+/* Contacts shorter than the finest part are not searched. */
 static bool is_finest(double low, double high) { return high - low <= 1.0 / (1 << HALVINGS); }
 
 /* `beyond`: a negative margin up to this size is the error of a located event, and does not count. */
@@ -636,7 +630,7 @@ static missed_found or_this(missed_found found, int passed, int what) {
                : found;
 }
 
-/* A hold that would close has no effect if its expression does not move on this path. */
+/* Is contact k an open hold whose expression is constant on this path? Closing it would have no effect. */
 static bool is_idle(missed *m, int k) {
     if (m->image->contact[k].kind != WH_HOLD || m->piece->mode[k] != WH_FREE) {
         return false;
@@ -670,11 +664,11 @@ static double middle_of(taylor_bounds *a, int result) {
     return 0.5 * e.low + 0.5 * e.high;
 }
 
-/* Friction k at the ends of the path: of each number the larger one. */
+/* Friction k: each number is the larger of those at both ends of the path. */
 typedef struct met {
-    double turns; /* the acceleration by a unit of its force */
-    double load;  /* the force that keeps it stuck; infinite if other contacts act */
-    double rate;  /* the sliding speed */
+    double turns; /* acceleration per unit of friction force */
+    double load;  /* force that keeps it stuck; infinite if other contacts act */
+    double rate;  /* sliding speed */
 } met;
 
 static met met_by(missed *m, int k) {
@@ -704,8 +698,8 @@ static met met_by(missed *m, int k) {
     return of;
 }
 
-/* Friction k has the same mode at both ends of the path. If it slides, is its limit far larger between them? If it sticks, is
- * its limit too small between them to keep it stuck? */
+/* Between the ends of the path, is the limit of a sliding friction far larger than at the ends, or that of a sticking
+ * friction too small to keep it stuck? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);
@@ -743,7 +737,7 @@ static int look_edge(missed *m, int i, double low, double high, double most) {
                                                               : -1;
 }
 
-/* Does the slope of stop k's gap jump on the path? If the stop is on an edge at both ends, that is no jump. */
+/* Does the slope of stop k's gap jump on the path? It does not if both ends are on an edge. */
 static bool slope_jumps(missed *m, int k) {
     bool some = false;
     for (int c = 0; c < m->image->coordinates && !some; c++) {
@@ -759,8 +753,8 @@ static bool slope_jumps(missed *m, int k) {
     return some;
 }
 
-/* A body that rests on a stop is put back onto the stop's face at the end of each step, even after it slid over an edge. So
- * the straight path along the rates at the begin is tested, too. */
+/* The core projects a resting body back onto the stop's face after each step, even if it slid over an edge. So the
+ * straight path along the initial rates is tested, too. */
 static missed_found edge_passed(missed *m) {
     const engine_piece *p = m->piece;
     const int n = m->image->coordinates;
@@ -796,8 +790,7 @@ static missed_found contact_passed(missed *m) {
     return found;
 }
 
-/* Finds a coordinate with an acceleration on the path that neither end shows. If a body is at rest in balance, the bounds are
- * only underflow, below DBL_MIN. */
+/* Finds a coordinate with a hidden acceleration on the path. Below DBL_MIN it is underflow, as of a body at rest. */
 static missed_found force_passed(missed *m) {
     missed_found found = MISSED_NOTHING;
     const int n = m->image->coordinates;
@@ -805,8 +798,7 @@ static missed_found force_passed(missed *m) {
     for (int end = 0; end < 2; end++) {
         taylor_bounds_look(m->accel, -1, end, end);
         for (int i = 0; i < n; i++) {
-            const enclosure value =
-                taylor_bounds_value(m->accel, i); /* if the end has no bounds, nothing is proved */
+            const enclosure value = taylor_bounds_value(m->accel, i);
             const double size = enclosure_is_finite(value) ? HIDDEN * enclosure_size(value) : 0.0;
             m->most[i] = (end == 0 ? 0.0 : m->most[i]) + size;
         }
@@ -827,7 +819,7 @@ static missed_found force_passed(missed *m) {
 static missed_found piece_passed(missed *m, const engine_piece *piece) {
     missed_found found = MISSED_NOTHING;
     if (piece->span_s <= m->image->step_s / (1 << HALVINGS)) {
-        return found; /* thinner than is_finest() */
+        return found; /* shorter than the finest part */
     }
     m->piece = piece;
     taylor_bounds *const bounds[] = {m->signals, m->accel, m->laws};

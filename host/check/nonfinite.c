@@ -133,7 +133,7 @@ static bool sine_beyond(const blamed *v, int i, const nonfinite_at *at, const bo
     return beyond && !(at->turns && turning[n->a]);
 }
 
-/* Which nodes of the expressions depend on a turn angle: an array [blame.nodes], to be freed by the caller. */
+/* [blame.nodes]: true for nodes that depend on a turn angle. The caller frees it. */
 static bool *nodes_that_turn(const image *im) {
     bool *turning = alloc(im->blame.nodes, sizeof *turning);
     for (int i = 0; i < im->blame.nodes; i++) {
@@ -171,7 +171,7 @@ static blamed look(const nonfinite_at *at, double ahead_s) {
 
 /* --- questions ---------------------------------------------------------------------------------*/
 
-/* The innermost part that is not finite but has finite operands; -1 if the whole is finite. */
+/* The innermost part of `node` that is not finite but has finite operands; -1 if `node` is finite. */
 static int innermost(const blamed *v, int node) {
     int operand[2];
     int part = -1;
@@ -225,7 +225,7 @@ static bool find(const blamed *v, const nonfinite_at *at, int first, int count, 
     return false;
 }
 
-/* Searches these questions at the last good state, and at some states that its rates lead to. */
+/* Searches these questions at the last good state, and at states ahead along its rates. */
 static bool look_ahead(const nonfinite_at *at, int first, int count, diags *errors) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     bool found = false;

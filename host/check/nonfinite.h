@@ -1,7 +1,5 @@
-/* nonfinite.h: locates the expression of a scene that is not a finite number, for messages.
- *
- * A failed step keeps the last good state. The expressions are evaluated at that state and at a few states that its
- * rates lead to. */
+/* nonfinite.h: locates the expression of a scene that is not a finite number, for messages. After a failed step,
+ * expressions are evaluated at the last good state, and at a few states ahead along its rates. */
 #ifndef CHECK_NONFINITE_H
 #define CHECK_NONFINITE_H
 
@@ -20,26 +18,27 @@ typedef struct blamed {
 blamed blamed_open(const image *im);
 void blamed_close(blamed *b);
 
-/* Sets the components of a state, as engine_kind.state() gives them; all other values stay. */
+/* Sets the components of a state, as from engine_kind.state(); other values do not change. */
 void blamed_place(blamed *b, const double *angle_rad, const double *real);
 /* The value of a node, from the values of its operands. */
 double blamed_node(const blamed *b, const diagnostics_node *n);
-/* The operands of a node; returns how many it has. */
+/* of[]: the operands of a node. Returns their number. */
 int blamed_operands(const diagnostics_node *n, int of[static 2]);
 /* [node + 1]: true for this node and all nodes that it depends on. The caller frees it. */
 bool *blamed_parts(const image *im, int node);
 
-/* Largest angle with a sine, rad: in double, and in float (core/angle.h). Turn angles of float runs have no such limit. */
+/* Largest angle with a sine, rad: in double, and in float (core/angle.h). Turn angles of float runs have no such
+ * limit. */
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
-/* The state where a failure is searched. Use an image made for a run: only that has the expressions as written. */
+/* The state at which a failure is searched. Use an image made for a run: only that has the expressions as written. */
 typedef struct nonfinite_at {
     const image *image;
     const double *angle_rad; /* [angles] the last good state */
     const double *real;      /* [reals] */
     bool turns;              /* angles are integers (float), so their sines exist for all values */
-    double ahead_steps;      /* steps from the state to the evaluation; 0: at the state */
+    double ahead_steps;      /* evaluates up to 2 ahead_steps steps after the state */
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 
@@ -50,7 +49,7 @@ typedef struct nonfinite_at {
 bool nonfinite_term(const nonfinite_at *at, diags *errors);
 /* Searches the values that crossings set. */
 bool nonfinite_set(const nonfinite_at *at, diags *errors);
-/* Searches contact k. Always reports: the contact as a whole if no expression is found. */
+/* Searches contact k. If no expression is found, reports the contact as a whole. */
 void nonfinite_contact(const nonfinite_at *at, int k, diags *errors);
 
 /* Reports why the energies of a run were not finite at this time. */

@@ -12,47 +12,39 @@
 
 /* === a pole on the way =========================================================================== */
 
-/* After this many halvings the located share of the path has no more digits. */
-enum { HALVINGS = 56 };
-/* Factor by which the distance is increased if round-off hides the growth of a value. */
-#define FARTHER 2.5
-/* A smooth expression has few zeros between a state and a pole. If its sign alternates TURNS_MOST times, its values are
- * round-off. The tested distances grow by FURTHER, up to the part NEAR of the path on that side. */
+enum { HALVINGS = 56 }; /* these locate a share of the path to its last digit */
+#define FARTHER 2.5     /* factor on the distance if round-off hides the growth of a value */
+/* An expression whose sign alternates TURNS_MOST times near a place is round-off, because a smooth one has few zeros
+ * there. The tested distances grow by FURTHER, up to the part NEAR of the path on that side. */
 enum { TURNS_MOST = 4 };
 #define NEAR 0.2
 #define FURTHER 1.4
-/* A value may touch zero if the tangents at both ends cross below this part of the smaller of the values at the ends. */
+/* A value may touch zero if its tangents at both ends cross below this part of the smaller end value. */
 #define TOUCHES 1e-3
 /* SECTIONS golden sections find the minimum of a value to its last digit. */
 #define GOLDEN 0.6180339887498949
 enum { SECTIONS = 72 };
-/* Most parts into which rejected points split the path of a step. */
-enum { PARTS_MOST = 16 };
+enum { PARTS_MOST = 16 }; /* most rejected places on the path of a step */
 
-/* Number of sampled distances, each GROWTH_CLOSER times nearer than the one before. GROWTH_CLOSER is no power of two: numbers
+/* Number of sampled distances, each GROWTH_CLOSER times smaller than the one before. That is no power of two: numbers
  * with the same digits have the same round-off, which would look like steady growth. */
 enum { GROWTH_POINTS = 10 };
 #define GROWTH_CLOSER 1.7099759466766968 /* the third root of 5 */
-/* The farthest distance, relative to the nearest. */
-#define GROWTH_REACH 125.0
-/* A value that overflows must have been this large before. */
-#define GROWTH_BEYOND 1e60
+#define GROWTH_REACH 125.0               /* largest sampled distance, relative to the smallest */
+#define GROWTH_BEYOND 1e60 /* a value that overflows at a pole is larger than this before */
 
 typedef enum growth {
-    /* the growth is not steady, because of round-off or a zero; from a greater distance it may be steady */
-    GROWTH_ROUGH,
-    GROWTH_NONE, /* steady growth, but no pole: a limit, or growth like one over a root */
-    GROWTH_POLE  /* steady growth, as at a pole */
+    GROWTH_ROUGH, /* not steady: round-off or a zero; at greater distances it may be steady */
+    GROWTH_NONE,  /* steady, but no pole: a limit, or growth like one over a root */
+    GROWTH_POLE   /* steady, as at a pole */
 } growth;
 
-/* Least growth from one distance to the next that counts as a pole. One over the distance grows by 1.71, the distance to
- * the power -9/10 by 1.62. */
+/* Least growth from one distance to the next at a pole: 1/distance grows by 1.71, distance^(-9/10) by 1.62. */
 #define GROWS 1.64
-/* Growth is steady if its ratios differ by less than this factor. */
-#define EVEN 1.1
+#define EVEN 1.1 /* growth is steady if its ratios differ by less than this factor */
 
 typedef struct part {
-    double low; /* shares of the way */
+    double low; /* shares of the path */
     double high;
 } part;
 
@@ -66,7 +58,7 @@ typedef struct looker {
     double *touch; /* [4 * signs] */
 } looker;
 
-/* The growth of value[k * stride] at the k-th distance, the farthest first. */
+/* The kind of growth of value[k * stride] at the distances k, the largest first. */
 static growth growth_of(const double *value, int stride) {
     double least = (double)INFINITY;
     double most = 0.0;
@@ -174,8 +166,7 @@ static part halve(const looker *l, int i, part p) {
     return p;
 }
 
-/* Does expression i change its sign repeatedly at distances from `from` to `most` beside the zero? Then its values are only
- * round-off. */
+/* Is expression i only round-off, because its sign alternates at distances `from` to `most` from the zero? */
 static bool is_rounding(const looker *l, int i, double zero_at, double from, double most) {
     double before = 0.0;
     double off = from;
@@ -189,8 +180,8 @@ static bool is_rounding(const looker *l, int i, double zero_at, double from, dou
     return turns >= TURNS_MOST;
 }
 
-/* Expression i overflows at the distance `from`. True: it is very large at the nearest greater distance where it is
- * finite. False: a difference that cancels to zero causes the overflow. */
+/* Expression i overflows at the distance `from`. Is it very large at the next greater distance at which it is finite?
+ * If not, the overflow comes from a difference that cancels to zero. */
 static bool overflows(const looker *l, int i, double zero_at, double from) {
     const double most = from < 0.0 ? zero_at : 1.0 - zero_at;
     double off = from;
@@ -201,23 +192,21 @@ static bool overflows(const looker *l, int i, double zero_at, double from) {
     return fabs(l->value[i]) > GROWTH_BEYOND;
 }
 
-/* A place on the path at which a value changes its sign or may touch zero: perhaps a pole. */
+/* A place on the path at which the value `of` changes its sign or may touch zero: perhaps a pole. */
 typedef struct spot {
     part in;
     double zero_at;
     double nearest; /* smallest tested distance from the place */
-    int of;         /* the value that changes its sign at the place */
-    bool touches;   /* the value only touches zero */
+    int of;
+    bool touches; /* the value has no sign change */
 } spot;
 
-/* NEAREST: number of nearest points that are tested. NINE_TIMES: index of the point about nine times as far from the place as
- * the nearest point. */
+/* NEAREST: number of tested points nearest to the place. NINE_TIMES: index of a point about nine times as far. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
-/* Relative tolerance of the extrapolated value at the place. */
-#define LEFT 0.05
+#define LEFT 0.05 /* relative tolerance of the value extrapolated to the place */
 
-/* Does the value stay above zero at the place, as y^2 + x^2 does? Then its samples near the place, minus their quadratic
- * part, equal the value at the place. */
+/* Is the value above zero at the place, as x^2 + y^2 with y != 0 at x = 0? Then its samples near the place, minus their
+ * quadratic part, equal the value at the place. */
 static bool stands_off(double at_place, const double *over, double far) {
     double off[GROWTH_POINTS];
     off[0] = far;
@@ -233,13 +222,13 @@ static bool stands_off(double at_place, const double *over, double far) {
     return stands;
 }
 
-/* Is there a zero of the value at the place? Decided from over[GROWTH_POINTS], the reciprocals of the value's sizes. */
+/* Has the value a zero at the place? over[GROWTH_POINTS]: 1 / |value| at the distances. */
 static bool is_there(const spot *s, const double *over) {
     const growth kind = growth_of(over, 1);
     return s->touches ? kind == GROWTH_POLE : kind != GROWTH_ROUGH;
 }
 
-/* The first expression that grows like a pole at the place, when approached from the distance `far` on this side, or -1. */
+/* The first expression that grows like a pole from the signed distance `far` to the place, or -1. */
 static int grows_from(const looker *l, const spot *s, double far) {
     const double zero_at = s->zero_at;
     const int values = l->way->values;
@@ -275,8 +264,7 @@ static bool all_done(const looker *l) {
     return done == l->way->values;
 }
 
-/* The first expression with a pole at the place, approached from one side, or -1. The nearest distances with steady growth
- * decide. */
+/* The first expression with a pole at the place, or -1. Tests one side, outwards until the growth is steady. */
 static int pole_on_side(const looker *l, const spot *s, double side) {
     int found = -1;
     memset(l->done, 0, (size_t)l->way->values * sizeof *l->done);
@@ -352,16 +340,15 @@ int pole_on(const pole_way *w) {
 }
 
 /* === divisors ==================================================================================== */
-/* Expressions with a sign change at a pole, and expressions that may grow there.
+/* Divisors, which change their sign at a pole, and expressions that may grow there.
  *
- * Divisors and bases of negative powers are tested for a sign change, down to their factors. If a system has moving
- * factors of a highest derivative, as in (k + s)*s' = -v*s, the divisors of its solution are tested, too. Values that
- * depend on anything outside the state, such as a rate recovered from a momentum, are not tested. */
+ * Divisors and bases of negative powers are split into factors. If a system has moving factors of a highest derivative,
+ * as in (k + s)*s' = -v*s, the divisors of its solution are tested, too. Values that depend on more than the state,
+ * such as a rate recovered from a momentum, are not tested. */
 
 typedef struct divisor {
-    /* index in the list of diagnostic expressions; if `derived`, an operation of the list for the energy balance */
-    int node;
-    bool of_a_tan; /* true: the divisor is the cosine of a tangent's argument */
+    int node;      /* of image_blame; if `derived`, an operation of IMAGE_BOOKS */
+    bool of_a_tan; /* the divisor is the cosine of a tangent's argument */
     bool derived;
     bool leaps;    /* an event may change the value abruptly */
     bool bends;    /* the value is nonlinear in the state, and may touch zero */
@@ -385,9 +372,8 @@ typedef struct denominators {
 } denominators;
 
 enum {
-    MOVES = 1U, /* depends on the state */
-    /* values that depend on more than the state: on a highest derivative, or a rate recovered from a momentum */
-    HIDDEN = 2U,
+    MOVES = 1U,    /* depends on the state */
+    HIDDEN = 2U,   /* depends on a highest derivative, or on a rate recovered from a momentum */
     DIVIDES = 4U,  /* a factor of a divisor */
     OF_A_TAN = 8U, /* is the argument of a tangent */
     NEEDED = 16U,
@@ -507,7 +493,7 @@ static void find_order(denominators *d) {
     }
 }
 
-/* Energies, losses, forces, equations, their slopes, and the normal forces of frictions. */
+/* Collects the expressions that may grow: energies, losses, forces, equations, their slopes, and normal forces. */
 static void find_questions(denominators *d) {
     const image *im = d->at.image;
     d->asked = alloc(im->blame.questions, sizeof *d->asked);
@@ -536,7 +522,7 @@ static bool has_factors_that_move(const denominators *d) {
     return false;
 }
 
-/* The divisors of the list that solves for the slopes, down to their factors. */
+/* Adds the divisors of the list that solves for the slopes, split into factors. */
 static void find_derived(denominators *d) {
     const op_list *t = d->at.image->list[IMAGE_BOOKS];
     bool *divides = alloc(t->count, sizeof *divides);
@@ -632,7 +618,7 @@ static double denominators_value(const denominators *d, const divisor *of) {
     return of->of_a_tan ? number_cosine(value) : value;
 }
 
-/* Does this node depend on the highest derivative of that unknown? */
+/* Does this node depend on the highest derivative of `unknown`? */
 static bool has_highest(const image *im, int node, int unknown) {
     bool *of = blamed_parts(im, node);
     bool has = false;
@@ -645,7 +631,7 @@ static bool has_highest(const image *im, int node, int unknown) {
     return has;
 }
 
-/* The image's expression that corresponds to a value; for a slope, the first equation with its highest derivative. */
+/* The image's expression for a value; for a slope, the first equation with that highest derivative. */
 static int denominators_question(const denominators *d, int value) {
     const image *im = d->at.image;
     if (value < d->questions) {
@@ -662,7 +648,7 @@ static int denominators_question(const denominators *d, int value) {
 
 /* === step by step ================================================================================ */
 
-/* Smallest tested distance from a place, as a part of a component's value. Nearer values are only round-off. */
+/* Smallest tested distance from a place, as a part of a component's value; below it there is only round-off. */
 #define RESOLVED 2e-13
 
 struct pole_crossing {
@@ -708,12 +694,12 @@ void pole_crossing_close(pole_crossing *j) {
     }
 }
 
-/* --- the way of a step --------------------------------------------------------------------------------*/
+/* --- the path of a step -------------------------------------------------------------------------------*/
 
 /* Is the denominator tested in this step? A jump of rates at an impact passes no pole. */
 static bool counts(const pole_crossing *j, const divisor *d) { return !(j->leapt && d->leaps); }
 
-/* The change of this component in the step. Turn angles are given within a turn, so this is the shorter way. */
+/* The change of this component in the step; for angles, which are modulo a turn, the shorter one. */
 static double way_of(const pole_crossing *j, int i) {
     const double way = j->to[i] - j->from[i];
     return i < j->image->angles ? number_centred(way, 6.283185307179586) : way;
@@ -743,8 +729,7 @@ static double relative_way_of(const pole_crossing *j, int c) {
     return size > 0.0 ? fabs(way_of(j, c)) / size : 0.0;
 }
 
-/* The largest relative change of the components that this denominator depends on; a derived denominator may depend on
- * any. */
+/* The largest relative change of the components that the divisor depends on; a derived one may depend on all. */
 static double relative_way(const pole_crossing *j, const divisor *d) {
     double most = 0.0;
     for (int c = 0; c < j->components && d->derived; c++) {

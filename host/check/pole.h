@@ -1,10 +1,10 @@
-/* pole.h: steps that jump over a pole, or through a contact (missed.h). No motion passes a state at which an expression
- * grows without bound, such as x'/(v0 + x') at x' = -v0. But a step that is longer than the distance to the pole does
- * not evaluate the expression near it. Nor does a step of half the length, so the run and its finer run agree.
+/* pole.h: detects steps that jump over a pole, or through a contact (missed.h). No motion passes a state at which an
+ * expression grows without bound, such as x'/(v0 + x') at x' = -v0. But a step over the pole does not evaluate the
+ * expression near it, and nor may one of half the length, so that the run and its finer run agree.
  *
  * Values that change their sign at a pole are evaluated after each step. After a sign change the path between the two
- * states is tested for a pole. In a step with events, divisors that an event may change abruptly are not tested: an
- * impact changes rates, and a crossing assigns values, without passing through a pole. */
+ * states is tested for a pole. In a step with events, divisors that depend on values set by the event are not tested:
+ * an impact changes rates, and a crossing assigns values, without passing through a pole. */
 #ifndef CHECK_POLE_H
 #define CHECK_POLE_H
 
@@ -15,45 +15,42 @@ typedef struct pole_crossing pole_crossing;
 /* Returns NULL if the scene has no moving divisor, and no contact or force that a step may miss. */
 pole_crossing *pole_crossing_open(const image *im);
 void pole_crossing_close(pole_crossing *j); /* NULL is fine */
-/* Enters the state after each step, the start included. The search ends at the first pole. */
+/* Call it at the start and after each step. The search ends at the first pole or missed contact. */
 void pole_crossing_enter(pole_crossing *j, const engine_kind *kind, const void *run);
-/* pole_crossing_pass(): skips a step, in place of pole_crossing_enter(). The next step is not tested either, because its
- * begin is unknown. pole_crossing_unseen(): number of steps that were not tested. */
+/* pole_crossing_pass(): skips a step, in place of pole_crossing_enter(). The next step is not tested either, because
+ * its begin is unknown. pole_crossing_unseen(): number of untested steps. */
 void pole_crossing_pass(pole_crossing *j);
 uint64_t pole_crossing_unseen(const pole_crossing *j);
 /* Has the run jumped over a pole or missed a contact? */
 bool pole_crossing_some(const pole_crossing *j);
-/* The contact that the run passed through, as missed_enter() reports it; MISSED_NOTHING if it was a pole. *begin_s: the
- * begin of that step. */
+/* The missed contact or force (missed_enter()); MISSED_NOTHING for a pole. *begin_s: the begin of the step. */
 missed_found pole_crossing_through(const pole_crossing *j, double *begin_s);
-/* The expression with the pole. *begin_s: the begin of the step that jumped. */
+/* The expression with the pole. *begin_s: the begin of the step that jumped over it. */
 const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *begin_s);
 
 /* === a pole on the way =========================================================================== */
-/* Finds a pole on the way from one state to the next.
+/* Finds a pole on the path from one state to the next.
  *
- * Some values change their sign at a pole (divisors), others grow there (expressions). A sign change is located by halving. Each
- * expression is followed towards that place on both sides, down to the smallest distances at which it still changes smoothly.
- * Nearer there is only round-off. The place is a pole if an expression grows at least as fast as one over the distance. A limit,
- * an integrable singularity (one over a root), growth in jumps and growth that ends are no poles. After a rejected place the rest
- * of the way is tested separately, because 1 + k/s changes its sign twice where s changes its sign once.
+ * Divisors change their sign at a pole, expressions grow there. Halving locates a sign change. Each expression is
+ * sampled towards that place from both sides, down to the smallest distances at which it changes smoothly; below them
+ * is only round-off. The place is a pole if an expression grows about as fast as one over the distance. A limit, an
+ * * integrable singularity (one over a root), growth in jumps and growth that ends are no poles. After a rejected place
+ * the path on both sides is tested: 1 + k/s changes its sign at its zero s = -k, and at its pole s = 0.
  *
- * A value that only touches zero, such as 1 - cos(q), changes no sign. If its size falls at the begin of a way and rises at the
- * end, steeply enough to touch zero, golden sections find its minimum. The minimum is tested in the same way. If the value has
- * changed its sign at the minimum, as k + s + s^2/m may, the ways on both sides of it are tested. */
+ * A divisor that only touches zero, such as 1 - cos(q), changes no sign. If its magnitude falls at the begin of a part
+ * and rises at the end, steeply enough to touch zero, golden sections find its minimum, which is tested as well. */
 
 typedef struct pole_way {
     void *of;
     int signs;
     int values;
-    const double
-        *nearest; /* [signs] smallest tested distance from a zero, as a share of the path */
-    /* Evaluates sign[signs] and value[values] at this share of the way, 0 to 1. */
+    const double *nearest; /* [signs] smallest tested distance from a zero, as a share */
+    /* Evaluates divisors, sign[signs], and expressions, value[values], at this share of the path, 0 to 1. */
     void (*at)(void *of, double share, double *sign, double *value);
 } pole_way;
 
-/* May a value with these samples at 0, POLE_ASIDE, 1 - POLE_ASIDE and 1 have touched zero in between? A value with the
- * curvature of a square stays above its tangents. */
+/* May a value with these samples at 0, POLE_ASIDE, 1 - POLE_ASIDE and 1 have touched zero in between? It is assumed to
+ * stay above its tangents at both ends, as a square does. */
 #define POLE_ASIDE 0x1p-20
 bool pole_may_touch(const double value[static 4]);
 

@@ -9,8 +9,7 @@
 #include "host/number/functions.h"
 #include "slow.h"
 
-/* Operations that no run takes. */
-#define UNLIMITED ((uint64_t)1 << 62)
+#define UNLIMITED ((uint64_t)1 << 62) /* more operations than any run takes */
 
 static run_checks *checks_of(const image *im, const engine_kind *kind, void *run, budget *of,
                              bool whole) {
@@ -65,17 +64,15 @@ static void watch_events(run_checks *v) {
     v->energy_J = energy_J;
 }
 
-/* The remaining budget as a part of BUDGET_LEAST, minus the part that is reserved for the remaining steps. While the result
- * is below 0, checks that are less important than the finer run are skipped. So these checks are spread over the whole run,
- * not only over its begin. */
+/* The remaining part of BUDGET_LEAST, minus the part reserved for the remaining steps. While the result is below 0, the
+ * search for poles is skipped; so the searched steps are spread over the whole run. */
 static double part_left(const run_checks *v) {
     const double come = (double)(v->image->steps - v->kind->steps(v->run));
     const double share = v->budget == &v->own ? come / (double)(v->image->steps + 1U) : 0.0;
     return budget_left(v->budget) / BUDGET_LEAST - share;
 }
 
-/* If part_left() falls below this, the finer run alone is too expensive, and is ended. */
-#define BEHIND (-1.0 / 16.0)
+#define BEHIND (-1.0 / 16.0) /* below this part_left() the finer run, too expensive, is ended */
 
 void run_checks_enter(run_checks *v) {
     budget_begin(v->budget);
@@ -102,7 +99,7 @@ void run_checks_enter(run_checks *v) {
 
 /* --- judging -----------------------------------------------------------------------------------------------*/
 
-/* Reports a finding. FINDING_MASS is only a note if rounding changes the accelerations by less than HORIZON_TOLERANCE. */
+/* Reports a finding. FINDING_MASS is only a note up to HORIZON_TOLERANCE. */
 static void tell(run_checks *v, finding_id id, double value, double at_s, int of) {
     const bool is_note = finding_rows[id].severity == FINDING_NOTE ||
                          (id == FINDING_MASS && value <= HORIZON_TOLERANCE);
@@ -114,7 +111,7 @@ static double end_s(const run_checks *v) {
     return ratio_times(v->kind->steps(v->run), v->image->step);
 }
 
-/* Is the run accurate to its end, according to the finer run? */
+/* Is the run accurate to its end, compared with the finer run? */
 static bool is_right(const run_checks *v) {
     if (v->doubling == NULL) {
         return false;
@@ -147,7 +144,7 @@ static void judge_energy(run_checks *v) {
     }
 }
 
-/* In float: if a coordinate has less than this fraction of the energy, its rate is below the round-off of other rates. */
+/* In float, the rate of a coordinate with less than this part of the energy is below the round-off of other rates. */
 #define FAINT 0x1p-48
 
 static bool is_faint(const run_checks *v, int unknown) {
@@ -157,7 +154,7 @@ static bool is_faint(const run_checks *v, int unknown) {
         return false;
     }
     double own = 0.0;
-    double fastest = 0.0; /* includes the finer run's rate, because the rate in float may be zero */
+    double fastest = 0.0; /* includes the runs' difference: one of the two rates may be zero */
     for (int k = 1; k < t->columns; k++) {
         const record_column *c = &t->shape->column[k];
         const step_doubling_column *at = &t->column[k];
@@ -170,8 +167,7 @@ static bool is_faint(const run_checks *v, int unknown) {
     return own > 0.0 && mass > 0.0 && mass * fastest * fastest < FAINT * v->books->size_J;
 }
 
-/* Is the error of the column at most two units of a float turn angle? Turn angles move by whole units, so this error is
- * always possible. */
+/* Is column k a float turn angle with an error of at most two units, to which it is rounded? */
 static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
     const step_doubling_column *t = &v->doubling->column[k];
     const int own = image_find_component(v->image, v->doubling->shape->column[k].unknown, 0);
@@ -179,7 +175,7 @@ static bool is_of_units(const run_checks *v, int k, const horizon_column *c) {
            own < v->image->angles && c->off <= SLOW_LEAST_RAD * t->one;
 }
 
-/* Rates jump at contacts. Two runs may have the jump in different steps, and then their rates differ at that time. */
+/* Is column k judged? With contacts, rates are not: they jump at impacts, perhaps not in the same step of both runs. */
 static bool is_asked(const run_checks *v, int k) {
     const record_column *c = &v->doubling->shape->column[k];
     return (v->image->contacts == 0 || c->primes == 0) && horizon_moves(v->doubling, k) &&
@@ -191,23 +187,22 @@ static bool is_worse(const horizon_column *a, const horizon_column *b) {
            (a->until_s == b->until_s && a->off * b->range > b->off * a->range);
 }
 
-/* Shall this error be reported? It reached a small tolerance at early_s, and the full tolerance at until_s. Yes, if early_s
- * is near the run's begin, or if the error grew slowly. It grows faster in a chaotic motion, which no finer step cures. */
+/* Is an error reported that reached the small tolerance at early_s, and the full one at until_s? See finding.h. */
 static bool is_off(const run_checks *v, int k, double until_s, double early_s) {
     (void)k;
     return early_s <= RUN_CHECKS_BEGIN * v->doubling->end_s ||
            until_s >= RUN_CHECKS_GROWS * early_s;
 }
 
-/* Did the error of a position grow within a few steps? Such steps do not resolve some part of the motion, such as the
- * neighbourhood of a singularity of the coordinates. In a resolved chaotic motion errors grow more slowly. */
+/* Did the error of a position grow within a few steps? Then they do not resolve the motion, as near a singularity of
+ * the coordinates. In a resolved chaotic motion errors grow more slowly. */
 static bool is_sudden(const run_checks *v, int k, double until_s, double early_s) {
     const double steps_s = RUN_CHECKS_SUDDEN_STEPS * v->image->step_s;
     return v->image->contacts == 0 && v->doubling->shape->column[k].primes == 0 &&
            early_s > 2.0 * steps_s && until_s - early_s <= steps_s;
 }
 
-/* The column whose error comes first, of the columns for which is() is true; -1: none. *until_s: time of that error. */
+/* The column with the first error among those for which is() is true; -1: none. *until_s: time of that error. */
 static int first_with(const run_checks *v, double tolerance, double early_tolerance,
                       bool (*is)(const run_checks *v, int k, double until_s, double early_s),
                       double *until_s) {
@@ -228,7 +223,7 @@ static int first_with(const run_checks *v, double tolerance, double early_tolera
     return found;
 }
 
-/* An error is not reported if the comparison ended there, as after too many events: another finding reports that end. */
+/* An error at the time when the comparison ended early is not reported: another finding reports that end. */
 static void judge_accuracy(run_checks *v) {
     const step_doubling *t = v->doubling;
     double until_s = 0.0;

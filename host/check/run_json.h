@@ -1,4 +1,4 @@
-/* run_json.h: the results of `whirl run` and `whirl trust` as one JSON object each (docs/warnings.md has the schema). */
+/* run_json.h: the results of `whirl run` and `whirl trust` as one JSON object each (schema: docs/warnings.md). */
 #ifndef CHECK_RUN_JSON_H
 #define CHECK_RUN_JSON_H
 
@@ -26,7 +26,7 @@ void json_begin(json *j, const char *command, const char *scene, const char *tit
                 const engine_kind *kind, wh_method method);
 /* Writes the key "not_looked_at", with the words of the findings in `ids`. */
 void json_unlooked(json *j, unsigned ids);
-/* A time, or null below zero. */
+/* Writes a time, or null if it is negative. */
 void json_time(json *j, const char *key, double time_s);
 
 #endif

@@ -21,8 +21,7 @@
 #include "host/os/system.h"
 #include "run_json.h"
 
-/* Most events that a picture shows. */
-#define MARKS 400.0
+#define MARKS 400.0 /* most events that a picture shows */
 
 typedef struct simulation {
     const image *image;
@@ -49,7 +48,7 @@ typedef struct simulation {
     uint64_t output_rows; /* number of records and points in which an output was not finite */
 } simulation;
 
-/* Returns true if the file is open, or if there is no file to open. */
+/* Returns false if the file cannot be opened. NULL is fine. */
 static bool open_records(const char *name, FILE **file) {
     if (name != NULL) {
         *file = atomic_file_open(name);
@@ -95,7 +94,7 @@ static void tell_energies(simulation *sim) {
     }
 }
 
-/* Undefined outputs make a run fail at its end, too. They are checked when they are recorded or drawn, and at the end. */
+/* Undefined outputs make a run fail at its end, too. They are checked when recorded or drawn, and at the end. */
 static void watch_outputs(simulation *sim, double time_s) {
     const int own = sim->image->own_outputs;
     const double *value = sim->records->row + (sim->records->columns - own);
@@ -133,8 +132,7 @@ static bool has_records(const simulation *sim) {
     return sim->csv != NULL || sim->columns != NULL || sim->vcd != NULL;
 }
 
-/* Marks an event of the completed step, unless the last mark is so near that a picture cannot show both. The release of
- * a stop is not marked. */
+/* Marks the events of the step, except releases of stops and events too near to the last mark for a picture. */
 static void mark_events(simulation *sim, uint64_t step) {
     engine_event list[WH_EVENT_LOG];
     plot_run *to = &sim->course;
@@ -221,7 +219,7 @@ static void say_interrupted(const simulation *sim) {
             has_records(sim) ? "; the records so far are kept" : "");
 }
 
-/* Values were clamped to their ranges. The run has not failed, but this is hardly intended. */
+/* Warns of values that were clamped to their ranges: the run has not failed, but this is hardly intended. */
 static void say_saturated(const simulation *sim) {
     const engine_kind *kind = sim->settings->kind;
     const uint64_t held = kind->saturated != NULL ? kind->saturated(sim->run) : 0;
@@ -233,7 +231,7 @@ static void say_saturated(const simulation *sim) {
     }
 }
 
-/* Reports a restitution, which may depend on the motion, that has left its range. */
+/* Warns of a restitution, which may be an expression, that left its range. */
 static void say_clamped(const simulation *sim) {
     const engine_kind *kind = sim->settings->kind;
     const engine_clamped c =
@@ -299,7 +297,7 @@ static simulation_result conclude(simulation *sim, wh_status status, bool ended)
     return ended ? SIMULATION_INTERRUPTED : SIMULATION_DONE;
 }
 
-/* The quantities' names, as in the records. */
+/* Names the quantities of a picture, as in the records. */
 static void name_course(simulation *sim) {
     const image *im = sim->image;
     const records *r = sim->records;
@@ -371,7 +369,7 @@ FILE *simulation_summary(const simulation_settings *s) {
     return out;
 }
 
-/* Prints the summary for people: a sentence, the findings, then the numbers. */
+/* Prints the opening sentence, the scene, the trusted time, unchecked findings, and the numbers. */
 static void print_summary(simulation *sim, wh_status status, simulation_result result,
                           const horizon *h) {
     const simulation_settings *s = sim->settings;
@@ -415,7 +413,7 @@ static void print_summary(simulation *sim, wh_status status, simulation_result r
     summary_print(out, sim->image, s->kind, sim->run, sim->checks->books, &sim->checks->balance);
 }
 
-/* Fills in *to, from the horizon if there is one (`h` may be NULL). */
+/* Sets *h, sim->trusted_s and to->until_s. The caller frees *h. */
 static void trust(simulation *sim, horizon *h, simulation_trust *to) {
     const run_checks *v = sim->checks;
     *h = horizon_of(v->doubling, HORIZON_TOLERANCE);

@@ -38,9 +38,9 @@ FILE *simulation_summary(const simulation_settings *s);
 typedef struct simulation_trust {
     unsigned fails;   /* the findings that fail the run, as bits (run_checks_fails()) */
     bool over_budget; /* the finer run would take too long */
-    double left;    /* remaining operations of the checks' budget; summary rows take at most half */
-    bool still;     /* no coordinate moves */
-    double until_s; /* the run is accurate until this time; below 0: unknown */
+    double left;      /* remaining operations of the checks' budget */
+    bool still;       /* no coordinate moves */
+    double until_s;   /* the run is accurate until this time; below 0: unknown */
 } simulation_trust;
 
 int simulation_status(simulation_result result, const simulation_trust *trust);

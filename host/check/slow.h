@@ -1,10 +1,8 @@
-/* slow.h: detects components that move too slowly for the units of their numbers.
+/* slow.h: detects components that move too slowly for the units to which they are rounded.
  *
- * A float turn angle moves by whole units of 2^-32 turn, 1.5e-9 rad. If an angle should move by less than half a unit
- * per step, it does not move; slightly above that, its rate is wrong. In fixed point all components move by units of
- * their ranges. A component is reported if the round-off of its steps, summed since the start, has exceeded both
- * SLOW_SHARE of its span and a few units. A component that is slow only now and then is not reported, because it loses
- * little of its span. */
+ * A float turn angle is rounded to 2^-32 turn, 1.5e-9 rad. If it should move by less than half a unit per step, it does
+ * not move; slightly above that, its rate is wrong. In fixed point all components are rounded to units of their ranges.
+ * * A component is slow if the summed round-off of its steps exceeds SLOW_SHARE of its range and a few units. */
 #ifndef CHECK_SLOW_H
 #define CHECK_SLOW_H
 
@@ -19,10 +17,10 @@
 /* Is component i, angles first, too slow? */
 bool slow_component(const engine_kind *kind, const void *run, int i);
 
-/* The number of slow components. *share: their largest round-off, as a part of its component's span; 0 if there are none. */
+/* The number of slow components. *share: their largest round-off, as a part of the component's range; 0: none. */
 int slow_count(const engine_kind *kind, const image *im, const void *run, double *share);
 
-/* slow_say() prints a note for each slow component, and the remedies. slow_message() prints the text of the first note. */
+/* slow_say(): prints a note for each slow component, and remedies. slow_message(): only the text of the first note. */
 void slow_say(FILE *out, const image *im, const engine_kind *kind, const void *run);
 void slow_message(FILE *out, const image *im, const engine_kind *kind, const void *run);
 

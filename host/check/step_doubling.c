@@ -9,10 +9,9 @@
 #include "host/engine/loop.h"
 #include "host/number/functions.h"
 
-/* Estimated evaluations per step in the search for events. */
-#define EVALUATIONS_OF_EVENTS 8.0
+#define EVALUATIONS_OF_EVENTS 8.0 /* estimate per step of the search for events */
 
-/* --- other ways of folding constants ------------------------------------------------------------------*/
+/* --- other roundings of constants ---------------------------------------------------------------------*/
 /* Sensitivity of a scene's accelerations to the round-off of its folded constants. Compares the scene's lists with
  * variants whose constants are folded with other roundings (host/number/folding.h). Most scenes need no variants. */
 
@@ -65,8 +64,8 @@ static void compare_starts(const image *im, double *share) {
     free(off);
 }
 
-/* The variant that differs most near the scene's start; NULL if there are no variants. Evaluates at the start, and with
- * one SI unit added to each component, because a component that is zero may hide a factor. */
+/* The variant that differs most near the scene's start; NULL: no variants. Evaluates at the start, and with one SI unit
+ * added to each component in turn, because a zero component may hide the error of a factor. */
 static const image *constant_sensitivity_furthest(const image *im) {
     static const image_role roles[] = {IMAGE_STEP, IMAGE_SIGNALS, IMAGE_FORCES, IMAGE_SETS};
     const int n = im->angles + im->reals;
@@ -104,7 +103,7 @@ static whole_ratio half_of(whole_ratio step) {
     return ratio_of(0.5 * ratio_times(1, step));
 }
 
-/* The order of the finer run's error, if it shares the run's method; else 0. */
+/* The order of the run's method if the finer run has the same method; else 0. */
 static int shared_order(const image *im) {
     const wh_method_row *row = &wh_methods[im->settings.method];
     return im->settings.matrix == MATRIX_NONE && row->order >= wh_methods[WH_METHOD_DEFAULT].order
@@ -116,21 +115,19 @@ wh_method step_doubling_method(const image *im) {
     return shared_order(im) > 0 ? im->settings.method : WH_METHOD_DEFAULT;
 }
 
-/* The error of a step across a kink depends on where in the step the kink is, also in the finer run. So the order is
- * only one. */
+/* A kink reduces the order to one, because the error of a step depends on the kink's place within it. */
 int step_doubling_order(const image *im) {
     return op_list_has_kinks(im->list[IMAGE_STEP]) ? 1 : wh_methods[step_doubling_method(im)].order;
 }
 
-/* Gives the finer run constants that are folded with other roundings. With the same constants both runs would have the
- * same round-off. */
+/* Gives the finer run constants with other roundings: the same constants would have the same round-off in both runs. */
 static void fold_the_other_way(image *im) {
     const image *other = constant_sensitivity_furthest(im);
     for (int role = 0; role < IMAGE_ROLES && other != NULL; role++) {
         const bool is_its_own = role != IMAGE_MATRIX || im->step_s == other->step_s;
         im->list[role] = is_its_own ? other->list[role] : im->list[role];
     }
-    if (other != NULL && im->base == NULL) { /* the starts of a point of a sweep are its own */
+    if (other != NULL && im->base == NULL) { /* a point of a sweep has its own start */
         im->start_rad = other->start_rad;
         im->start_turns = other->start_turns;
         im->start_real = other->start_real;
@@ -218,11 +215,10 @@ typedef struct rounded {
     double *off;
     double *most;   /* [results]: largest bound of all samples with a bound */
     uint64_t *lost; /* [results]: number of samples without a bound */
-    uint64_t looks; /* number of comparisons */
+    uint64_t looks; /* number of samples */
 } rounded;
 
-/* Unit round-off of double. */
-#define UNIT 0x1p-53
+#define UNIT 0x1p-53 /* unit round-off of double */
 
 /* Is result i of the accelerations' list a highest derivative, which comes from solving the equations? */
 static bool is_solved_for(const image *im, int i) {
@@ -274,8 +270,8 @@ static int result_of(const image *im, int unknown, int primes) {
     return image_find_component(im, unknown, primes - 1);
 }
 
-/* Bounds the round-off of each column: that of its derivative, times the whole time. The highest derivatives come first,
- * because the round-off of a derivative includes that of the next higher one. */
+/* Bounds the round-off of each column by that of its derivative, times the run's duration. The highest derivatives come
+ * first, because the round-off of a derivative includes that of the next higher one. */
 static void take_rounding(step_doubling *t) {
     const rounded *r = t->rounded;
     for (int k = t->columns - 1; k > 0; k--) {
@@ -290,8 +286,7 @@ static void take_rounding(step_doubling *t) {
         }
         const int result = result_of(r->list.image, c->unknown, c->primes + 1);
         if (result >= 0) {
-            /* A state without a bound is at a pole, or at a root of nearly zero. If most states have a bound, the others do
-             * not count. */
+            /* A state without a bound is at a pole, or at a root of nearly zero; it counts only if most are so. */
             slope += 2U * r->lost[result] > r->looks ? (double)INFINITY : UNIT * r->most[result];
         }
         const double size = number_most(fabs(to->low), fabs(to->high));
@@ -320,13 +315,12 @@ static void take_places(step_doubling *t) {
     }
 }
 
-/* An angle above this part of the sine's range counts as outside: the next step may fail. */
-#define UNWRAPPED 0.9
+#define UNWRAPPED 0.9 /* an angle above this part of the sine's range may soon leave it */
 
 /* --- side by side ------------------------------------------------------------------------------------*/
 
-/* Compares the two runs. With contacts, a difference in a single comparison does not count, because the other run may
- * have the same event within the step. A run of one step has only one comparison, which counts. */
+/* Compares the two runs. With contacts a difference must last for two comparisons, because the runs may have an event
+ * in different steps. In a run of one step, the only comparison counts. */
 static void look(step_doubling *t, double time_s) {
     const image *im = t->shape->image;
     const bool events = im->contacts > 0 && im->steps > 1U;
@@ -339,7 +333,7 @@ static void look(step_doubling *t, double time_s) {
         const double now = isfinite(off) ? off : (double)INFINITY;
         const double ranged = t->otherwise ? t->shape->row[k] : value;
         c->start = t->looks == 0 ? value : c->start;
-        if (t->cut_s < 0.0) { /* after a jump over a pole the finer run may explode */
+        if (t->cut_s < 0.0) { /* after a jump over a pole the finer run may diverge */
             c->low = t->looks == 0 || ranged < c->low ? ranged : c->low;
             c->high = t->looks == 0 || ranged > c->high ? ranged : c->high;
         }
@@ -380,7 +374,7 @@ static bool is_unwrapped(const step_doubling *t) {
     return found;
 }
 
-/* After time_s nothing is known: the difference of every column counts as infinite. */
+/* From time_s on nothing is known: the difference of every column counts as infinite. */
 static void end_passages(step_doubling *t, double time_s) {
     for (int k = 1; k < t->columns; k++) {
         passages_enter(&t->column[k].off, time_s, (double)INFINITY);
@@ -388,8 +382,8 @@ static void end_passages(step_doubling *t, double time_s) {
     t->cut_s = t->cut_s < 0.0 ? time_s : t->cut_s;
 }
 
-/* A step with too many events lets stops rest that would not rest. A step of half the length has the same error, and
- * the two runs agree. */
+/* Has either run had a step with too many events? Such a step lets stops rest that would not rest. As both runs may do
+ * so, their agreement proves nothing. */
 static bool has_overrun(const step_doubling *t) {
     uint64_t ours = 0;
     uint64_t finers = 0;

@@ -1,19 +1,18 @@
 /* step_doubling.h: the difference between a run and a finer run of the same scene, over time.
  *
- * The finer run takes half the step, in double with compensated sums, and computes functions that the run looks up in
- * tables. It takes the run's method if that is of order 4 or more, else RK4. So the difference contains all errors of
- * the run: round-off, step, tables, formats. The finer run's own error is a part of it. If a step is the motion itself
- * (--matrix exact), the finer run takes the same step, and the difference is round-off. */
+ * The finer run has half the step, in double with compensated sums, and computes functions that the run looks up in
+ * tables. It has the run's method if that is of order 4 or more, else RK4. So the difference contains all errors of the
+ * run: step, round-off, tables, formats; and the smaller error of the finer run. With --matrix exact, steps have no
+ * error: the finer run has the same step, and the difference is round-off. */
 #ifndef CHECK_STEP_DOUBLING_H
 #define CHECK_STEP_DOUBLING_H
 
 #include "host/io/records.h"
 #include "pole.h"
 
-/* Largest number of comparisons of the two runs. They are made at ends of steps, at equal intervals. */
-enum { STEP_DOUBLING_LOOKS = 20000 };
+enum { STEP_DOUBLING_LOOKS = 20000 }; /* most comparisons of the two runs, at equal intervals */
 
-/* After `time_s` the difference was `size` or more for the first time. */
+/* In the comparison after `time_s` the difference reached `size` for the first time. */
 typedef struct passage {
     double time_s;
     double size;
@@ -26,10 +25,9 @@ typedef struct passages {
     double most;
 } passages;
 
-/* Relative resolution of the recorded levels. */
-#define PASSAGE_GRAIN 1e-3
+#define PASSAGE_GRAIN 1e-3 /* relative resolution of the recorded sizes */
 
-/* Enters one comparison: the difference is `size`, and the comparison before was at before_s. NaN exceeds every level. */
+/* Enters a comparison with the difference `size`; the comparison before was at before_s. NaN exceeds every level. */
 void passages_enter(passages *p, double before_s, double size);
 void passages_free(passages *p);
 
@@ -42,12 +40,11 @@ typedef struct step_doubling_column {
     double high;     /* largest such value */
     double rounding; /* bound on the column's round-off in the finer run */
     double last;     /* difference at the last comparison */
-    /* the rate of this column is in the state, so the column's origin is arbitrary */
-    bool has_rate;
-    bool written; /* its start is the scene's value, without the round-off of sums */
-    int place;    /* of a rate: the column of its coordinate; else this column */
-    double one;   /* one SI unit, in the column's unit */
-    double alike; /* the largest range of all positions with the column's unit */
+    bool has_rate;   /* the column's rate is in the state, so the column's origin is arbitrary */
+    bool written;    /* the start is the scene's number, without round-off */
+    int place;       /* of a rate: the column of its coordinate; else this column */
+    double one;      /* one SI unit, in the column's unit */
+    double alike;    /* the largest range of all positions with the column's unit */
     passages off;
 } step_doubling_column;
 
@@ -67,20 +64,18 @@ typedef struct step_doubling {
     uint64_t operations; /* operations of all steps of the finer run */
     double left_out;     /* factor on the difference that adds the finer run's own error */
     records *shape;      /* names and units of the columns: 0 is the time, outputs come last */
-    bool
-        otherwise; /* the finer run's constants have other roundings, so low and high are the run's */
-    int columns;   /* number of columns without outputs: the time, coordinates and rates */
+    bool otherwise; /* the finer run's constants round differently; low and high are the run's */
+    int columns;    /* number of columns without outputs: the time, coordinates and rates */
     step_doubling_column *column; /* [columns] */
     double end_s;                 /* end of the run's last completed step */
     wh_status status;             /* of the run's last step */
     void *run;                    /* the final state */
-    bool unwrapped; /* the finer run failed at an angle beyond the range of double's sine */
-    /* after this time the finer run has left its bounds; below 0: it has not */
-    double finer_failed_s;
-    double overrun_s; /* begin of a step of either run with too many events; below 0: none */
-    double jumped_s;  /* begin of a step of the run over a pole (pole.h); below 0: none */
-    bool missed;      /* true: a missed contact or force at jumped_s (missed.h); false: a pole */
-    double cut_s;     /* after this time nothing is known (failure, overrun, jump); below 0: none */
+    bool unwrapped;        /* the finer run failed at an angle beyond the range of double's sine */
+    double finer_failed_s; /* begin of the step in which the finer run failed; below 0: none */
+    double overrun_s;      /* begin of a step of either run with too many events; below 0: none */
+    double jumped_s;       /* begin of a step of the run over a pole (pole.h); below 0: none */
+    bool missed;  /* true: a missed contact or force at jumped_s (missed.h); false: a pole */
+    double cut_s; /* after this time nothing is known (failure, overrun, jump); below 0: none */
     step_doubling_aliased aliased; /* set by aliasing_find() */
     bool unaliased;                /* the budget was too small for aliasing's third run */
     const pole_crossing *jumped;   /* the run's search for poles; NULL: the scene needs none */
@@ -97,7 +92,8 @@ typedef struct step_doubling {
 wh_method step_doubling_method(const image *im);
 int step_doubling_order(const image *im);
 
-/* Starts the finer run of a run that the caller steps. `jumped`: the run's search for poles; NULL: the scene needs none. All must outlive the result. */
+/* Starts the finer run of a run that the caller steps. `jumped`: the run's search for poles, or NULL. All must outlive
+ * the result. */
 step_doubling *step_doubling_open(const image *im, const engine_kind *kind, void *run,
                                   const pole_crossing *jumped);
 /* Call it at the start of the run and after each step. */

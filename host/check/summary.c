@@ -125,22 +125,21 @@ static double strayed(const opening *o, int i) {
     return number_most(o->high[i] - o->first[i], o->first[i] - o->low[i]);
 }
 
-/* Is output i a length that is constant while another length moves? It is constant if it moves by less than STAYS times
- * `most`. */
+/* Is output i a length that moves by less than STAYS times `most`, the largest range of a length? */
 static bool stays(const opening *o, const records *r, int i, double most) {
     const record_column *c = &r->column[i];
     return c->unknown < 0 && strcmp(c->unit->si, "m") == 0 &&
            strayed(o, i) * c->unit->scale / c->unit->divisor < STAYS * most;
 }
 
-/* A coordinate that moves, or an output that is a length and moves. */
+/* Is column i a coordinate that moves, or (`is_output`) an output that is a length and moves? */
 static bool moves(const opening *o, const records *r, int i, bool is_output) {
     const record_column *c = &r->column[i];
     return c->primes == 0 && o->high[i] > o->low[i] &&
            (is_output ? c->unknown < 0 && strcmp(c->unit->si, "m") == 0 : c->unknown >= 0);
 }
 
-/* The marked column whose name comes first, or -1. So the text does not depend on the order in the file. */
+/* The marked column with the alphabetically first name, or -1: the order in the file shall not matter. */
 static int next_by_name(const records *r, const bool *marked) {
     int next = -1;
     for (int i = 1; i < r->columns; i++) {
@@ -265,7 +264,7 @@ static void print_state(FILE *out, const image *im, const engine_kind *kind, voi
     records_close(r);
 }
 
-/* For a run without events, lists the stops that stayed open and the inactive holds: they had no effect. */
+/* For a run without events, lists the stops that stayed open and the inactive holds. */
 static void print_idle(FILE *out, const image *im, const engine_kind *kind, const void *run) {
     int mode[WH_CONTACTS_LIMIT];
     kind->modes(run, mode);

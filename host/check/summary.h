@@ -48,7 +48,8 @@ void opening_print(FILE *out, const opening *o, const records *r, const books *b
 /* Prints the scene, its effects, and the method. */
 void summary_head(FILE *out, const image *im, const engine_kind *kind, const void *run);
 
-/* Prints the numbers. `b` may be NULL; `balance` is its residual. There are no timings, so equal runs have equal summaries. */
+/* Prints the numbers, without timings, so that equal runs have equal summaries. `b` may be NULL; `balance`: its
+ * residual. */
 void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
                    const energy_residual *balance);
 
