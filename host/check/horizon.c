@@ -11,12 +11,12 @@
 
 /* Factor on the round-off bound, which omits the round-off of the sums of a step and of library functions. */
 #define ROUNDING_ROOM 8.0
-/* Least range of a column without a rate in the state, as a part of its magnitude: in float, a rate of 34.56 rad/s that
- * varies by 0.007 does not resolve a thousandth of that. Positions have none, because their origin is arbitrary. */
+/* Least range of a rate, as a part of its magnitude: float cannot resolve a thousandth of the variation of a rate of
+ * 34.56 rad/s that varies by 0.007. Positions have no least range, because their origin is arbitrary. */
 #define LEAST_RANGE 1e-3
 #define LEAST_RANGE_DOUBLE 1e-9
-/* A position counts as constant if its range is at most STAYS times its magnitude or one SI unit, whichever is larger,
- * or at most BESIDE_OTHERS times the largest range of positions with its unit. */
+/* A position counts as constant if its range is at most STAYS times its magnitude, or STAYS SI units. It is also
+ * constant if its range is at most BESIDE_OTHERS times the largest range of positions with its unit. */
 #define STAYS 1e-9
 #define FLOAT_STAYS 3e-7 /* in float, a range up to this part of the magnitude is round-off */
 #define BESIDE_OTHERS 1e-3
@@ -129,7 +129,7 @@ void horizon_free(horizon *h) {
 
 /* === aliasing ==================================================================================== */
 /* Detects forcing that aliases with the step. In steps of 4 ms, and of 2 ms, a force of 1 kHz has the same value at
- * every stage, like a constant force: the run and its finer run agree, and are wrong. So a third run covers their
+ * every stage, like a constant force. The run and its finer run agree, and are wrong. So a third run covers their
  * trusted span in a prime number of steps. It samples the force at varying phases, and ends in another state. */
 
 /* Steps of the third run per step of the run: above one for accuracy, and far from simple ratios. */

@@ -1,6 +1,6 @@
 /* horizon.h: the time until which each coordinate of a run is accurate to a tolerance, by step doubling
- * (step_doubling.h): until the two runs first differ by more than the tolerance times the coordinate's range in the
- * finer run. docs/dev/stability.md has measurements. */
+ * (step_doubling.h). It ends when the two runs first differ by more than the tolerance times the coordinate's range in
+ * the finer run. Measured in docs/dev/stability.md. */
 #ifndef CHECK_HORIZON_H
 #define CHECK_HORIZON_H
 

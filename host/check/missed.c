@@ -698,8 +698,8 @@ static met met_by(missed *m, int k) {
     return of;
 }
 
-/* Between the ends of the path, is the limit of a sliding friction far larger than at the ends, or that of a sticking
- * friction too small to keep it stuck? */
+/* Is a sliding friction's limit far larger between the ends of the path, or a sticking friction's limit too small
+ * there? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);

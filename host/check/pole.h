@@ -1,6 +1,6 @@
 /* pole.h: detects steps that jump over a pole, or through a contact (missed.h). No motion passes a state at which an
  * expression grows without bound, such as x'/(v0 + x') at x' = -v0. But a step over the pole does not evaluate the
- * expression near it, and nor may one of half the length, so that the run and its finer run agree.
+ * expression near it. Nor may a step of half the length, so that the run and its finer run agree.
  *
  * Values that change their sign at a pole are evaluated after each step. After a sign change the path between the two
  * states is tested for a pole. In a step with events, divisors that depend on values set by the event are not tested:
@@ -33,12 +33,13 @@ const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *b
  *
  * Divisors change their sign at a pole, expressions grow there. Halving locates a sign change. Each expression is
  * sampled towards that place from both sides, down to the smallest distances at which it changes smoothly; below them
- * is only round-off. The place is a pole if an expression grows about as fast as one over the distance. A limit, an
- * * integrable singularity (one over a root), growth in jumps and growth that ends are no poles. After a rejected place
+ * is only round-off. The place is a pole if an expression grows about as fast as one over the distance. A limit, an *
+ * integrable singularity (one over a root), growth in jumps and growth that ends are no poles. After a rejected place
  * the path on both sides is tested: 1 + k/s changes its sign at its zero s = -k, and at its pole s = 0.
  *
  * A divisor that only touches zero, such as 1 - cos(q), changes no sign. If its magnitude falls at the begin of a part
- * and rises at the end, steeply enough to touch zero, golden sections find its minimum, which is tested as well. */
+ * and rises at the end, steeply enough to touch zero, golden sections find its minimum. The minimum is tested in the
+ * same way. */
 
 typedef struct pole_way {
     void *of;
