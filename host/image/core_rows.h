@@ -1,5 +1,4 @@
-/* core_rows.h: conversion of an image to the core's tables (core/contact.h, core/ledger.h), in one place. The
- * interpreter gives these tables to the core and adds the functions; the writer of C prints them. */
+/* core_rows.h: an image as the core's tables (core/contact.h, core/ledger.h), for interpreter and generated C. */
 #ifndef IMAGE_CORE_ROWS_H
 #define IMAGE_CORE_ROWS_H
 
@@ -17,8 +16,8 @@ static inline wh_contact core_contact_row(const image_contact *c) {
                         .sets = (uint8_t)c->sets};
 }
 
-/* The core's contact system, except for its functions, the ledger and the number of evaluations. The caller owns
- * `contact` [contacts] and `target` [set_count]. */
+/* Without its functions, the ledger and the number of evaluations. The caller owns `contact` and `target`
+ * [set_count]. */
 static inline wh_contact_system core_contact_system(const image *im, const wh_contact *contact,
                                                     const uint8_t *target) {
     unsigned kinds = 0;
@@ -46,12 +45,10 @@ static inline wh_driven core_drive(const image_drive *d) {
                        (uint8_t)d->rate_at};
 }
 
-/* The number of stages, for WH_CONTACT_EVALUATIONS(); 0 if a step is a matrix. */
 static inline int core_stages(const image *im) {
     return im->settings.matrix != MATRIX_NONE ? 0 : wh_methods[im->settings.method].stages;
 }
 
-/* Index of the first rate among the reals, for wh_step_matrix(). */
 static inline int core_rates_at(const image *im) {
     return im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : 0;
 }
@@ -74,7 +71,7 @@ static inline int core_signals(const image *im) {
     return im->contacts == 0 ? 0 : WH_CONTACT_SIGNALS(im->forced, im->contacts - im->forced);
 }
 
-/* The core's form of the ledger, except for its functions. The caller owns `account` [smooth] and `input` [inputs]. */
+/* The core's form of the ledger, without its functions. The caller owns `account` [smooth] and `input` [inputs]. */
 static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *account,
                                               const uint8_t *input) {
     const image_ledger *l = &im->ledger;
@@ -90,7 +87,7 @@ static inline wh_ledger_form core_ledger_form(const image *im, const uint8_t *ac
                             .stabilized = im->settings.stabilized};
 }
 
-/* Number of reals for the ledger: entries, their round-off, and one for each account of the form. */
+/* Number of reals for the ledger: entries, their round-off, and one for each account. */
 static inline int core_ledger_words(const image *im) {
     const wh_ledger_form form = core_ledger_form(im, NULL, NULL);
     return im->ledger.kept ? 2 * form.entries + form.accounts : 0;

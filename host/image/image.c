@@ -102,7 +102,7 @@ bool image_calls(const image *im) {
     bool calls = false;
     for (int role = 0; role < IMAGE_ROLES; role++) {
         const op_list *t = im->list[role];
-        /* the balance runs on the host only */
+        /* generated code does not have IMAGE_BOOKS */
         calls = calls || (role != IMAGE_BOOKS && t != NULL && op_list_count(t).calls > 0);
     }
     return calls;

@@ -1,13 +1,11 @@
-/* image.h: the image: one scene with its effects and settings, ready to run, to be written as code, or to be described.
- * It has the complete result of the derivation in numbers, names and operation lists, for both number types. It has no
- * pointers to the model or the algebra, so these may be freed after host/derive/image_make.h has made it. host/engine
- * and host/emit read only the image.
+/* image.h: one scene with its effects and settings, ready to run, to be written as code, or to be described. The image
+ * has the complete result of the derivation in numbers, names and operation lists, for both number types. It has no
+ * pointers to the model or the algebra. host/engine and host/emit read only the image.
  *
  * Arrays state their length in brackets. Units are SI, angles are in radians, and an `index` counts from 0. Texts are
  * never NULL.
  *
- * To extend the image: a new list gets a role. A property of each operation of a list, such as a range, is stored
- * beside that list, by role. A property of a parameter is stored in the parameter's row. */
+ * A new list gets a role. A property of each operation, such as a range, is stored beside its list, by role. */
 #ifndef IMAGE_IMAGE_H
 #define IMAGE_IMAGE_H
 
@@ -16,19 +14,17 @@
 #include "host/image/op_list.h"
 #include "host/number/ratio.h"
 
-/* Largest number of variants of an image with other ways of folding numbers. */
-enum { IMAGE_WAYS = 6 };
+enum { IMAGE_WAYS = 6 }; /* variants in other ways of folding */
 
-/* Largest number of coordinates of a mechanism, or of first-order components of a system. */
-#define IMAGE_COMPONENTS_MAX 64
+#define IMAGE_COMPONENTS_MAX 64 /* coordinates of a mechanism, or first-order components */
 
-/* The columns of the settings below, and their number: X(id, word in options and descriptions). */
+/* Columns of the settings below, and their number: X(id, word in options and descriptions). */
 #define IMAGE_ROW_ID(id, word) id,
 #define IMAGE_ROW_WORD(id, word) word,
 #define IMAGE_ROW_ONE(id, word) +1
 
-/* How the stages of a step get the sines of turn angles. ANGLES_TURNED: looked up once per step and then rotated, if
- * possible (core/step/stage_turn.h). ANGLES_LOOKUP: looked up at each stage (core/step.h). */
+/* How the stages of a step get the sines of turn angles. ANGLES_TURNED: computed once per step, then rotated, if
+ * possible (core/step/stage_turn.h). ANGLES_LOOKUP: at each stage (core/step.h). */
 #define IMAGE_ANGLES_ROWS(X) \
     X(ANGLES_TURNED, "turned") \
     X(ANGLES_LOOKUP, "lookup")
@@ -36,8 +32,8 @@ typedef enum image_angles { IMAGE_ANGLES_ROWS(IMAGE_ROW_ID) } image_angles;
 enum { IMAGE_ANGLES = IMAGE_ANGLES_ROWS(IMAGE_ROW_ONE) };
 extern const char *const image_angles_words[IMAGE_ANGLES];
 
-/* A whole step of a linear mechanism as one constant matrix (core/step/matrix_step.h): none, the exact motion with constant
- * inputs during the step, or the result of WH_RK4. */
+/* A whole step of a linear mechanism as one constant matrix (core/step/matrix_step.h): none, the exact motion with
+ * inputs constant during the step, or the result of WH_RK4. */
 #define IMAGE_MATRIX_ROWS(X) \
     X(MATRIX_NONE, "none") \
     X(MATRIX_EXACT, "exact") \
@@ -56,34 +52,30 @@ typedef enum image_tables { IMAGE_TABLES_ROWS(IMAGE_ROW_ID) } image_tables;
 enum { IMAGE_TABLES_FORMS = IMAGE_TABLES_ROWS(IMAGE_ROW_ONE) };
 extern const char *const image_tables_words[IMAGE_TABLES_FORMS];
 
-/* Smallest and largest number of cells of a table for one turn; both are powers of two. */
+/* cells of a table for one turn; powers of two */
 enum { IMAGE_CELLS_LEAST = 8, IMAGE_CELLS_MOST = 65536 };
 
-/* The settings of the integration. */
 typedef struct image_settings {
     wh_method method;
     bool compensated;
-    bool stabilized; /* correct the energy drift (core/step/stabilize.h): needs the ledger */
+    bool stabilized; /* corrects the energy drift (core/step/stabilize.h), with the ledger */
     image_angles angles;
     image_matrix_of matrix;
     image_tables tables;
-    /* number of cells of a table, for one turn: a power of two; 0: the default of the table's form */
+    /* cells of a table for one turn: a power of two; 0: the default of the table's form */
     int cells;
 } image_settings;
 
 #define IMAGE_SETTINGS_DEFAULT \
     { WH_METHOD_DEFAULT, false, false, ANGLES_TURNED, MATRIX_NONE, TABLES_NONE, 0 }
 
-/* --- the lists -----------------------------------------------------------------------------------*/
-
 typedef enum image_role {
-    /* result[i]. Second order: the acceleration of the scene's coordinate i. First order: the derivative of component
-     * i, angles first. */
+    /* result[i]: acceleration of the scene's coordinate i; in first order, derivative of component i, angles first */
     IMAGE_STEP,
-    /* the outputs, then value and rate of each coordinate that is recovered from its momentum */
+    /* the outputs, then value and rate of each coordinate recovered from its momentum */
     IMAGE_OBSERVE,
-    /* The highest derivatives, by unknown. If the mechanism has energies, then BOOK_KINETIC to BOOK_LOSS_POWER, the
-     * momenta by unknown, and the energy integral if it is not T + V. */
+    /* highest derivatives by unknown; with energies also BOOK_KINETIC to BOOK_LOSS_POWER, the momenta by unknown, and
+     * the energy integral if it is not T + V */
     IMAGE_BOOKS,
     IMAGE_SIGNALS, /* IMAGE_SIGNALS to IMAGE_SETS: for contacts (core/contact.h) */
     IMAGE_FORCES,
@@ -91,14 +83,12 @@ typedef enum image_role {
     IMAGE_POWERS, /* IMAGE_POWERS and IMAGE_LEVELS: for the ledger (core/ledger.h) */
     IMAGE_LEVELS,
     IMAGE_MATRIX, /* a whole step, for core/step/matrix_step.h */
-    IMAGE_TABLES, /* the exact functions of a step's tables: result[k] is that of table k */
+    IMAGE_TABLES, /* exact functions of a step's tables: result[k] is that of table k */
     IMAGE_ROLES
 } image_role;
 
-/* Results of the list IMAGE_BOOKS, counted from the end of the highest derivatives. */
+/* Results of IMAGE_BOOKS, counted from the end of the highest derivatives. */
 enum { BOOK_KINETIC, BOOK_STORED, BOOK_INPUT_POWER, BOOK_LOSS_POWER, BOOK_MOMENTA };
-
-/* --- names, units, places ------------------------------------------------------------------------*/
 
 /* The unit in which a number is displayed, and its SI unit. */
 typedef struct image_unit {
@@ -143,8 +133,7 @@ typedef struct image_unknown {
         start_written;
 } image_unknown;
 
-/* An input with a rate. Inside a step, two components of the state move with its value and its rate: real[value_at] and
- * real[rate_at]. */
+/* An input with a rate. Within a step, real[value_at] and real[rate_at] move with its value and rate. */
 typedef struct image_drive {
     int input;
     int rate; /* index of the rate, which is also an input */
@@ -152,13 +141,13 @@ typedef struct image_drive {
     int rate_at;
 } image_drive;
 
-/* A component of the state: its unknown, and the order of its derivative. */
+/* The unknown of a component of the state, and the order of its derivative. */
 typedef struct component {
     int unknown;
     int primes;
 } component;
 
-/* The range of a real component, or of an input, in fixed point. */
+/* The range of a real component or of an input, for fixed point. */
 typedef struct image_range {
     const char *name; /* "theta'" */
     place at;         /* place of the range in the source, or of the symbol */
@@ -166,8 +155,6 @@ typedef struct image_range {
     double low; /* SI; only if `declared` is true */
     double high;
 } image_range;
-
-/* --- contacts and ledger ---------------------------------------------------------------------------*/
 
 typedef struct image_contact {
     int kind;              /* wh_contact_kind */
@@ -179,8 +166,7 @@ typedef struct image_contact {
     int sets;
     const char *unit; /* SI, of a stop's gap; "1" for other kinds */
     place at;
-    /* Indices of blame.question: expressions that may be undefined, then expressions that are evaluated only at an
-     * impact. */
+    /* indices of blame.question: expressions that may be undefined; then those evaluated only at an impact */
     int first_question, questions;
     int first_late, late;
 } image_contact;
@@ -203,7 +189,7 @@ typedef struct image_ledger {
     bool kept;  /* the run has a ledger */
     bool asked; /* requested by `with ledger`; else the ledger only balances the run */
     int smooth; /* number of continuous entries, between events */
-    /* number of all entries: smooth ones, then each contact's energy and impulses by coordinate, then inputs */
+    /* smooth entries, then each contact's energy and impulses by coordinate, then inputs */
     int entries;
     int accounts;       /* 1 + unknowns: the energy, then the momenta */
     int inputs;         /* number of inputs in the energies: their changes are the last entries */
@@ -213,10 +199,8 @@ typedef struct image_ledger {
     int *input;         /* [inputs] indices of the image's inputs */
 } image_ledger;
 
-/* --- expressions for messages -------------------------------------------------------------------- */
-
-/* The expressions of the file, operation by operation, in the spelling of the file, so that a message can point at the
- * undefined part. They are not folded. An expression that occurs twice is entered twice. */
+/* The file's expressions as written, unfolded, operation by operation, so that a message can point at the undefined
+ * part. An expression that occurs twice is entered twice. */
 typedef enum diagnostics_code {
     DIAGNOSTICS_NUMBER, /* number */
     DIAGNOSTICS_STATE,  /* derivative b of unknown a */
@@ -240,10 +224,10 @@ typedef struct diagnostics_node {
     place at; /* no source in a derived expression */
 } diagnostics_node;
 
-/* A number that must be finite. If it is not, a message names `what` in the statement at `where`. */
+/* A number that must be finite; if it is not, a message names `what` in the statement at `where`. */
 typedef struct diagnostics_question {
     int node;
-    /* a derivative: a message can name only the statement, not a part of it */
+    /* a derivative: a message can name only the statement */
     bool derived;
     const char *what;
     place where;
@@ -258,16 +242,12 @@ typedef struct image_blame {
     int sets;  /* number of values that crossings set */
 } image_blame;
 
-/* --- a step as a matrix ------------------------------------------------------------------------------*/
-
-/* x+ = Phi x + Gamma u + g: `states` rows, angles first; columns: states, inputs, 1. SI units, angles in radians. */
+/* x+ = Phi x + Gamma u + g, in SI units and radians: rows: states, angles first; columns: states, inputs, 1 */
 typedef struct image_matrix {
     int states;
     int columns;
     double *entry; /* [states * columns] row by row, rounded to the nearest double */
 } image_matrix;
-
-/* --- the image ---------------------------------------------------------------------------------------*/
 
 typedef struct image {
     struct arena *memory;
@@ -299,8 +279,8 @@ typedef struct image {
     int recovered;    /* coordinates recovered from their momentum */
     int parameters;   /* the mechanism's own and those of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
-    /* If constant folding lost digits: the same image, folded in other ways (host/number/folding.h). Only the lists
-     * of these variants are used. */
+    /* if constant folding lost digits: variants in other ways of folding (folding.h), of which only the lists are
+     * used */
     struct image *otherwise[IMAGE_WAYS];
     int ways;
     struct image *finer;    /* the finer run's image (image_settings_finer()); NULL: this one */
@@ -321,7 +301,7 @@ typedef struct image {
     double *start_real;   /* [reals] */
 
     image_range *range; /* [reals + inputs] components, then inputs */
-    /* [angles] declared ranges of turn angles, which fixed point does not use */
+    /* [angles] declared ranges of turn angles, which fixed point ignores */
     image_range *angle_range;
     const struct fixed_plan
         *fixed; /* the run in fixed point (host/fixed), which the image does not own; or NULL */
@@ -347,51 +327,45 @@ typedef struct image {
 void image_free(image *im); /* `im` may be NULL */
 
 /* *finer: the settings of the finer run (host/check/step_doubling.h), without tables, and with compensated sums for a
- * matrix. Returns false if they are the run's. */
+ * matrix. Returns false if they equal `of`. */
 bool image_settings_finer(const image_settings *of, image_settings *finer);
 
-/* Returns component i of the state; angles come first. */
-component image_component(const image *im, int i);
+component image_component(const image *im, int i); /* angles come first */
 /* Returns the index of the component that is this derivative of this unknown, or -1. */
 int image_find_component(const image *im, int unknown, int primes);
 
-/* Returns the name of the stepper: the method's title, or the kind of matrix. */
+/* The method's title, or the kind of matrix. */
 const char *image_stepper(const image *im);
-/* Returns the words after the stepper's name: " compensated", " stabilized", both, or "". */
+/* The words after image_stepper(): " compensated", " stabilized", both, or "". */
 const char *image_sums(const image *im);
 
-/* image_shown() converts an SI value to the displayed number. image_shows_si() returns true if the two are equal. */
+/* Converts an SI value to the displayed number; image_shows_si(): are the two equal? */
 double image_shown(const image_unit *unit, double si);
 bool image_shows_si(const image_unit *unit);
 
-/* image_inputs() writes the inputs at the start to input[inputs]. image_start() returns the start of component i:
- * angles (rad) come first, then reals. */
+/* image_inputs() writes the start of each input to input[inputs]. image_start(): component i, angles (rad) first. */
 void image_inputs(const image *im, double *input);
 double image_start(const image *im, int i);
 
 /* Does generated code call functions of core/function.h? */
 bool image_calls(const image *im);
 
-/* Returns the first constant of the equations, or the first input, that is neither zero nor a normal number of float;
- * 0 if there is none. */
+/* Returns the first constant of the equations, or the first input, that is neither zero nor a normal float, or 0. */
 double image_out_of_float(const image *im);
 
 /* === memory =================================================================================== */
-/* The memory of a scene for each number type, in bytes of this machine: WH_MEMORY_BYTES(). On a board it may differ, by
- * the size of pointers and the alignment of 64-bit integers. */
+/* WH_MEMORY_BYTES() for each number type, on this machine. Pointers and alignment differ on a board. */
 
 size_t memory_float_bytes(const image *im);
 size_t memory_double_bytes(const image *im);
 
 /* === turned or looked up ====================================================================== */
 
-/* Largest number of phases whose sines a step turns. */
-#define TURNED_WAVES_MAX 256
+#define TURNED_WAVES_MAX 256 /* most phases whose sines a step rotates */
 
-/* Returns true if a step turns its sines instead of looking them up at each stage. This depends only on the image's
- * step and settings, so that the interpreter and generated code agree. It is false with --angles lookup, with a
- * matrix, with tables in place of sines, with contacts, without a turn angle, and if the method or the list does not
- * support it. */
+/* Does a step rotate its sines instead of computing them at each stage? This depends only on the image's step and
+ * settings, so that interpreter and generated code agree. It is false with --angles lookup, a matrix, tables in place
+ * of sines, contacts, no turn angle, or a method or list that does not support it. */
 bool image_turns(const image *im);
 
 #endif

@@ -1,4 +1,4 @@
-/* op_list.c: entry of operations, with sharing, folding and signs moved outwards. */
+/* op_list.c: entry of operations into a list, with sharing, folding and signs moved outwards. */
 #include "host/image/op_list.h"
 
 #include <math.h>
@@ -67,8 +67,7 @@ static uint64_t mix(uint64_t hash, uint64_t word) {
     return (hash ^ word) * UINT64_C(0x9e3779b97f4a7c15) + (hash >> 29);
 }
 
-/* Hashes of models use this number for an operation without a function: the number of functions when hashes were
- * introduced. It must not change. */
+/* Stands for "no function" in model hashes: the number of functions when hashes were introduced. It must not change. */
 #define HASHED_NO_FUNCTION UINT64_C(14)
 
 uint64_t op_list_op_hash(const op_list *t, const op *o) {
@@ -177,7 +176,7 @@ bool op_list_is_whole(double multiple) {
     return multiple == number_floor(multiple) && fabs(multiple) <= 2147483647.0;
 }
 
-/* A multiple that is not a whole number is stored in `parts`. */
+/* Multiples that are not whole numbers are stored in `parts`. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians) {
     int *turns = NULL;
     double *parts = NULL;

@@ -1,7 +1,7 @@
 /* op_list.h: the operation list: a model's right-hand side as a table of elementary operations. One list serves the
  * interpreter (host/engine) and the generated C and Octave (host/emit). Each operation is one IEEE operation on earlier
- * results, so interpreter and generated code give the same bits. Equal operations are entered once; constants are
- * folded; signs move outwards and vanish into subtractions. */
+ * results, so both give the same bits. Equal operations are entered once. Constants are folded. Signs move outwards,
+ * and vanish into subtractions. */
 #ifndef IMAGE_OP_LIST_H
 #define IMAGE_OP_LIST_H
 
@@ -11,8 +11,8 @@
 #include "host/number/functions.h"
 
 /* === the operations =========================================================================== */
-/* The table of operations. All code that lists the operations uses these rows, or switches over op_code with
- * -Wswitch-enum.
+/* The table of operations. Code that lists the operations uses these rows, or switches over op_code with -Wswitch-enum.
+ * value_at() in op_list_scaling.c evaluates each operation without such a switch.
  *
  * X(id, kind, cost, C, Octave, meaning)
  *
@@ -25,10 +25,7 @@
  *           n      a test for b being NaN: " || b != b", or nothing if b is a constant.
  *           i      the number in a.
  *           v      the value, a whole number.
- *           l, r, u   in Octave: the linear component, rate or input with the number a.
- *
- * Four more files evaluate each operation: host/engine/evaluate.inc, host/engine/rounding.c, host/derive/solve.c,
- * host/image/op_list_scaling.c, which also multiplies it. */
+ *           l, r, u   in Octave: the linear component, rate or input with the number a. */
 
 /* clang-format off */
 #define OP_ROWS(X) \
@@ -103,7 +100,7 @@ typedef enum op_cost {
 typedef struct op_row {
     op_kind kind;
     op_cost cost;
-    /* largest number of earlier values that the operation uses: 1 (a), 2 (a and b), 0 for a leaf or a phase */
+    /* number of earlier values that the operation uses: 2 (a and b), 1 (a), 0 for a leaf or a phase */
     int values;
     const char *c;      /* NULL: not written in C */
     const char *octave; /* NULL: not written in Octave */
@@ -118,12 +115,11 @@ typedef struct op {
     int b;
     double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
     const int *turns; /* OP_PHASE, OP_CELL: [angles] whole factors, or NULL */
-    /* OP_PHASE in records only: [angles] fractional factors, which need the whole angle and not only its phase; or
-     * NULL */
+    /* OP_PHASE in records only: [angles] fractional factors of whole angles, or NULL */
     const double *parts;
 } op;
 
-/* The tables of a list as in core/step/table.h. But a position y is in cells, without the scale of float. */
+/* As in core/step/table.h, except that a position y is in cells, without the scale of float. */
 typedef struct op_list_tables {
     int count;
     int bits;       /* 2^bits cells */
@@ -157,10 +153,10 @@ int op_list_noise(op_list *t, uint32_t seed);
 /* Enters a phase: the sum of turn angles times multiple[t->angles] (may be NULL), the offset, and the operation
  * `radians` (-1: none). Whole multiples apply to phases, others to the whole angles. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians);
-/* Returns true if a phase can be multiplied by this number: it must be a whole number within bounds. */
+/* Can a phase be multiplied by this number? It must be a whole number within bounds. */
 bool op_list_is_whole(double multiple);
-/* op_list_tables_new() allocates zeroed tables. op_list_cell() enters the cell of the phase with these multiples of
- * the turn angles, turns[t->angles]. op_list_look_up() enters the value of table `which` in that cell. */
+/* Allocates zeroed tables. op_list_cell() enters the cell of the phase with the factors turns[t->angles],
+ * op_list_look_up() the value of table `which` in that cell. */
 void op_list_tables_new(op_list *t, int count, int bits, int terms);
 int op_list_cell(op_list *t, const int *turns);
 int op_list_look_up(op_list *t, int cell, int which);
@@ -179,50 +175,46 @@ bool op_list_is_constant(const op_list *t, int a, double *value);
 /* Returns the language's function that the operation computes, or FUNCTION_NONE. */
 function_id op_list_function(const op *o);
 
-/* Returns the operation with this code and operands a and b, or -1 if there is no such operation yet. */
+/* Returns the operation with this code and operands, or -1 if there is none yet. */
 int op_list_find_binary(const op_list *t, op_code code, int a, int b);
 
-/* Rebuilds the index of equal operations after operations were moved. */
+/* Rebuilds the hash table after operations were moved. */
 void op_list_reindex(op_list *t);
 uint64_t op_list_op_hash(const op_list *t, const op *o);
 
-/* Writes the earlier operations that `o` uses to operand[]; a phase may use its radians. Returns their number. */
+/* Writes the operations that `o` uses, including a phase's `radians`, to operand[]. Returns their number. */
 int op_list_operands(const op *o, int operand[static 2]);
-/* Sets needed[i] to true for operation `number` and for all operations i on which it depends. All entries must be
- * false before. */
+/* Sets needed[i] for operation `number` and all operations on which it depends. All entries must be false before. */
 void op_list_mark_needed(const op_list *t, int number, bool *needed);
-/* Has the list an operation with this code? False for a NULL list. */
-bool op_list_has(const op_list *t, op_code code);
+bool op_list_has(const op_list *t, op_code code); /* false for a NULL list */
 /* Has the list an operation with a kink or a jump? */
 bool op_list_has_kinks(const op_list *t);
 
 /* Removes operations that no result uses, and renumbers the others. */
 void op_list_prune(op_list *t);
-/* Writes a + 2 b as (a + b) + b if the list has a + b, which saves a product. Removes operations that are then
- * unused. */
+/* Writes a + 2 b as (a + b) + b if the list has a + b, which saves a product, and removes operations then unused. */
 void op_list_share_sums(op_list *t);
-/* Reorders a finished list so that few values are needed at a time, if op_list_carried() falls. The results do not
- * change by a bit; phases stay in their order. */
+/* Reorders a finished list so that few values are live at a time, if that lowers op_list_carried(). No bit of the
+ * results changes; phases stay in their order. */
 void op_list_order(op_list *t);
-/* Estimates the least number of loads and stores of the list in its order, with some twenty registers. */
+/* Estimates the least number of loads and stores in the list's order, with some twenty registers. */
 int op_list_carried(const op_list *t);
 
-/* Does the list use whole angles, turns included, and not only their phases? A step has no whole angles. */
+/* Does the list use whole angles, turns included, instead of their phases only? A step has no whole angles. */
 bool op_list_reads_turns(const op_list *t);
 
 /* A wave: a phase composed of turn angles, which a step can rotate (core/step/stage_turn.h). */
 static inline bool op_list_is_wave(const op *o) { return o->code == OP_PHASE && o->turns != NULL; }
 int op_list_waves(const op_list *t);
-/* Is every wave a sum of turn angles and a number? Then the list can receive its pairs of sine and cosine, in the order
- * of its operations. */
+/* Is every wave a sum of turn angles and a number? Then the list can receive the sine-cosine pairs in its order. */
 bool op_list_takes_waves(const op_list *t);
 
 /* Returns the number of the first result that depends on a constant that is not finite, or -1. */
 int op_list_not_finite(const op_list *t);
 
-/* Is the number zero, or a normal number of float? */
+/* Is the number zero, or a normal float? */
 bool fits_float(double value);
-/* Returns the first constant that is neither zero nor a normal number of float; 0 if there is none. */
+/* Returns the first constant that is neither zero nor a normal float, or 0. */
 double op_list_out_of_float(const op_list *t);
 
 typedef struct op_list_cost {
@@ -237,8 +229,7 @@ typedef struct op_list_cost {
 op_list_cost op_list_count(const op_list *t);
 /* Estimated instructions on a Cortex-M4F, for comparing lists. */
 int op_list_weight(const op_list *t);
-/* Number of operations as flops are counted: all operations except leaves, phases and constants. A sine and a cosine
- * count one each. */
+/* Operations as flops are counted: without leaves, phases and constants; a sine and a cosine count one each. */
 int op_list_operations(const op_list *t);
 uint64_t op_list_hash(const op_list *t);
 

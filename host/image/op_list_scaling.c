@@ -1,4 +1,4 @@
-/* op_list_scaling.c: the search for factors with which constants that are rounded to float have smaller errors. */
+/* op_list_scaling.c: the search for factors that reduce the errors of constants rounded to float. */
 #include "host/image/op_list_scaling.h"
 
 #include <math.h>
@@ -11,9 +11,9 @@
 static bool op_list_is_raw(const op *o);
 
 /* === which operations may be multiplied together ============================================== */
-/* A scaling multiplies each operation by a power of one factor x. The two operands of a sum need the same exponent. The
- * exponent of a product is the sum of its operands' exponents. A constant accepts any exponent, and a result has exponent 0.
- * The scalings are the solutions of these linear equations. */
+/* A scaling multiplies each operation by a power of one factor x. The operands of a sum need equal exponents; a product
+ * has the sum of its operands' exponents; a constant accepts any exponent; a result has exponent 0. The scalings are
+ * the solutions of these linear equations. */
 
 /* The exponents are small whole numbers or halves, so a smaller value is zero. */
 #define NOTHING 1e-9
@@ -30,7 +30,7 @@ static matrix matrix_new(int rows, int columns) {
 
 static double *row_of(const matrix *m, int row) { return m->at + (size_t)row * (size_t)m->columns; }
 
-/* Returns the vectors v with m v = 0, as rows. m is destroyed. */
+/* Returns the vectors v with m v = 0, as rows, and overwrites m. */
 static matrix kernel_of(const matrix *m) {
     int *lead = alloc((int64_t)m->rows + 1, sizeof *lead);
     bool *leads = alloc((int64_t)m->columns + 1, sizeof *leads);
@@ -55,8 +55,8 @@ static matrix kernel_of(const matrix *m) {
     return kernel;
 }
 
-/* The unknowns: an exponent for each operation, and one for each operand that is a raw value (op_list_is_raw()). A
- * raw value may be used as it is or multiplied by a factor. */
+/* The unknowns: an exponent for each operation, and one for each operand that is a raw value (op_list_is_raw()),
+ * because each use of a raw value may have its own factor. */
 typedef struct unknowns {
     const op_list *of;
     /* [2 * count] column of operand a (at 2 i) and b (at 2 i + 1) of operation i; 0: none */
@@ -69,7 +69,7 @@ static bool is_constant(const op_list *t, int i) { return t->ops[i].code == OP_C
 
 static int operand_of(const op *o, int which) { return which == 0 ? o->a : o->b; }
 
-/* Returns true if an operand is a constant, which can absorb any factor. Then there is no equation. */
+/* A constant operand can absorb any factor, so that there is no equation. */
 static bool absorbs(const op_list *t, const op *o) {
     return (o->code == OP_MUL || o->code == OP_DIV) &&
            (is_constant(t, o->a) || is_constant(t, o->b));
@@ -96,8 +96,7 @@ static int column_of(const unknowns *u, int i, int which) {
     return column != 0 ? column : operand_of(&u->of->ops[i], which);
 }
 
-/* Adds the equation own * e(i) = a * e(operand a) + b * e(operand b) between exponents e. A constant accepts any exponent,
- * so it has no term. */
+/* Adds the equation own * e(i) = a * e(operand a) + b * e(operand b) between exponents e. Constants have no term. */
 static void equation(const unknowns *u, matrix *m, double own, int i, double a, double b) {
     const op *o = &u->of->ops[i];
     double *row = row_of(m, m->rows++);
@@ -148,14 +147,14 @@ static matrix all_freedoms(const unknowns *u) {
 
 enum { PLACES = 64, SUBSETS_OF = 5 };
 
-/* The uses of raw values that are multiplied. Uses of the same value have a common factor. */
+/* The uses of raw values that are multiplied, with one factor for each raw value. */
 typedef struct chosen {
     int column[PLACES];
     int like[PLACES]; /* column of an earlier use of the same value, or this column */
     int count;
 } chosen;
 
-/* Is the solution e[] nonzero at each chosen use, and at an operation without a constant that could absorb the factor? */
+/* Is e[] nonzero at each chosen use, and at an operation without a constant that could absorb the factor? */
 static bool tells(const op_list *t, const double *e, const chosen *c) {
     bool all = true;
     bool changes = false;
@@ -168,7 +167,6 @@ static bool tells(const op_list *t, const double *e, const chosen *c) {
     return all && changes;
 }
 
-/* Scales the exponents so that the smallest becomes one. */
 static void normalise(double *e, int length) {
     double least = 0.0;
     for (int i = 0; i < length; i++) {
@@ -193,8 +191,8 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* Returns conditions on sums of rows of `all`: a raw value is multiplied only at its chosen uses, and by the same factor at
- * each. */
+/* Returns conditions on combinations of all->rows: a raw value has a factor only at its chosen uses, and there the
+ * same. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;
@@ -234,7 +232,7 @@ static void add_freedoms(const unknowns *u, const matrix *all, const chosen *c,
     free(m.at);
 }
 
-/* Adds to `c` those uses of raw value `raw` whose bits are set in `which`. */
+/* Adds to `c` the uses of operation `raw` whose bits are set in `which`. */
 static chosen choose(const unknowns *u, chosen c, int raw, unsigned which) {
     int first = -1;
     int seen = 0;
@@ -298,7 +296,7 @@ typedef struct multiplied {
         made; /* [from->count] the operation in `to` for each of `from`; raw values are not multiplied */
 } multiplied;
 
-/* Is the value of this operation raw? Multiplying a leaf, a sine or a function costs a product. */
+/* Multiplying a leaf, a sine or a function costs a product: its value is raw. */
 static bool op_list_is_raw(const op *o) {
     switch (op_rows[o->code].kind) {
     case OP_IS_LEAF:
@@ -314,13 +312,12 @@ static bool op_list_is_raw(const op *o) {
     return o->code == OP_SIGN || o->code == OP_POW;
 }
 
-/* Enters a constant. If it differs from a float only by double's round-off, the float is entered. */
+/* Enters a constant. A value that differs from a float only by double's round-off becomes that float. */
 static int constant(op_list *t, double value) {
     const double nearest = (double)(float)value;
     return op_list_constant(t, fabs(value - nearest) <= 1e-15 * fabs(value) ? nearest : value);
 }
 
-/* Returns operation i multiplied by `times`, for use as an operand. */
 static int taken(const multiplied *m, int i, double times) {
     const op *o = &m->from->ops[i];
     double number;
@@ -345,7 +342,7 @@ static int make_phase(const multiplied *m, const op *o) {
     return made;
 }
 
-/* The factor of an operand; for a raw value, the factor of that use. */
+/* The factor of an operand. Each use of a raw value has its own. */
 static double times_of(const multiplied *m, int i, int which) {
     const op *o = &m->from->ops[i];
     const int operand = which == 0 ? o->a : o->b;
@@ -353,8 +350,8 @@ static double times_of(const multiplied *m, int i, int which) {
                                                   : m->times[operand];
 }
 
-/* Enters operation i, a product or quotient. Its operands have factors of their own; a constant corrects the factor of the
- * result. C does not fix the order of arguments, so no call has two arguments that enter operations. */
+/* Enters operation i, a product or quotient. A constant corrects the factor of the result. C does not fix the order of
+ * arguments, so no call has two arguments that enter operations. */
 static int make_product(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double a = times_of(m, i, 0);
@@ -371,7 +368,7 @@ static int make_product(const multiplied *m, int i) {
     return op_list_mul(m->to, constant(m->to, divides ? wanted * b / a : wanted / (a * b)), made);
 }
 
-/* Enters operation i, whose operands are multiplied by `times`. The second operand is always entered first. */
+/* Enters an operation whose operands are multiplied by `times`. The second is entered first, always. */
 static int make_of_operands(const multiplied *m, const op *o, double times) {
     const int second = o->b >= 0 ? taken(m, o->b, times) : -1;
     const int first = taken(m, o->a, times);
@@ -381,7 +378,6 @@ static int make_of_operands(const multiplied *m, const op *o, double times) {
                                : op_list_call(m->to, op_list_function(o), first, second);
 }
 
-/* Enters operation i. */
 static int make(const multiplied *m, int i) {
     const op *o = &m->from->ops[i];
     const double times = m->times[i];
@@ -430,10 +426,10 @@ op_list *op_list_multiplied(const op_list *t, const double *times) {
 
 enum { SIZES = 3, STATES = 6 };
 
-/* Sizes of rates. At rest, forces and torques matter; at high speed, only the rates. */
+/* Factors of the rates. At rest, forces and torques dominate; at high speed, terms with rates. */
 static const double size_of_rates[SIZES] = {0.0, 1.0, 10.0};
 
-/* Returns an artificial value, from -1 to 1, of this leaf in this state. */
+/* A reproducible value from -1 to 1 for this leaf in this state. */
 static double drawn(op_code code, int which, int state) {
     uint64_t x = (uint64_t)code * 7919U + (uint64_t)which * 131U + (uint64_t)state * 1000003U + 1U;
     for (int i = 0; i < 3; i++) {
@@ -480,7 +476,7 @@ static double value_at(const op_list *t, const op *o, int state, double rates, b
                                : number_call(op_list_function(o), a, b);
 }
 
-/* Computes the results of a list in a state: result[t->results]. */
+/* Computes result[t->results] in a state. */
 static void results_at(const op_list *t, int state, double rates, bool as_float, double *v,
                        double *result) {
     for (int i = 0; i < t->count; i++) {
@@ -491,12 +487,10 @@ static void results_at(const op_list *t, int state, double rates, bool as_float,
     }
 }
 
-/* The weight of an error in a result on which no other result depends, such as the acceleration of a free carriage.
- * The error of such a result does not grow; that of other results grows with the motion. */
+/* Weight of a result that feeds back into no other, as of a free carriage's acceleration: its error does not grow. */
 #define UNREAD (1.0 / 64.0)
 
-/* Sets the weights of all results: 1 if the list reads the component that a result changes, else UNREAD. Results and
- * components have the same order: angles, then reals. */
+/* Weight 1 if the list reads the component that a result changes. Both are in the order angles, then reals. */
 static void weigh_results(const op_list *t, double *weight) {
     for (int i = 0; i < t->results; i++) {
         weight[i] = UNREAD;
@@ -534,7 +528,7 @@ double op_list_bias(const op_list *t, const op_list *like) {
             results_at(t, state, size_of_rates[s], true, v, now);
             results_at(like, state, size_of_rates[s], false, v, meant);
             for (int i = 0; i < n; i++) {
-                /* only states with a finite result count; a root of a negative number is not finite */
+                /* states with a result that is not finite, such as a root of a negative number, are skipped */
                 const bool known = isfinite(now[i]) && isfinite(meant[i]);
                 off[i] += known ? fabs(now[i] - meant[i]) : 0.0;
                 size[i] += known ? fabs(meant[i]) : 0.0;
@@ -566,9 +560,9 @@ enum {
     PATIENCE = 150000 /* operations of all tried lists together, after which a round ends */
 };
 
-/* a list is clearly better if its bias is at most this part of the bias so far */
+/* a list is clearly better if its bias is at most this part of the best so far */
 #define CLEARLY 0.5
-#define LESS 0.99 /* a list is better if its bias is at most this part of the bias so far */
+#define LESS 0.99 /* a list is better if its bias is at most this part of the best so far */
 
 int op_list_scaling_price(const op_list *t) { return 1 + op_list_operations(t) / 40; }
 
@@ -584,7 +578,7 @@ typedef struct scaling_search {
     int64_t tried; /* total operations of tried lists */
 } scaling_search;
 
-/* Returns x^e. Small whole powers are computed as products, which are exact for the numbers that are tried. */
+/* Returns x^e. Small whole powers are products, which are exact for the tried numbers. */
 static double power(double x, double e) {
     if (e == number_floor(e) && fabs(e) <= 4.0) {
         double product = 1.0;
@@ -596,7 +590,7 @@ static double power(double x, double e) {
     return number_power(x, e);
 }
 
-/* A clearly lower bias may take more operations. A lower bias must not take more. An equal bias must take fewer. */
+/* A clearly lower bias may take more operations, a lower bias no more, an equal bias must take fewer. */
 static bool is_better(const scaling_search *s, double bias, int operations) {
     return bias < CLEARLY * s->bias || (bias < LESS * s->bias && operations <= s->operations) ||
            (bias <= s->bias && operations < s->operations);
@@ -625,8 +619,8 @@ static void try_number(scaling_search *s, const double *exponent, double x) {
     op_list_free(made);
 }
 
-/* Tries products of small primes, the simplest first. A decimal times enough fives is a whole number over a power of
- * two, and a third times three is whole. Factors of two change nothing. */
+/* Tries products of small primes, the simplest first: fives make a decimal a fraction over a power of two, threes make
+ * a third whole. Factors of two change nothing. */
 static void try_primes(scaling_search *s, const double *exponent) {
     for (int all = 1; all <= FIVES + THREES + SEVENS; all++) {
         for (int fives = -FIVES; fives <= FIVES; fives++) {
@@ -667,7 +661,7 @@ static void try_reals(scaling_search *s, const double *exponent) {
     }
 }
 
-/* Is the number of operations acceptable for an arbitrary factor? Such a factor turns no constant into one. */
+/* Does an arbitrary factor, which turns no constant into one, cost an acceptable number of operations? */
 static bool affordable(const scaling_search *s, const double *exponent) {
     for (int i = 0; i < 3 * s->from->count; i++) {
         s->times[i] = power(1.2345678901, exponent[i]);
@@ -678,7 +672,7 @@ static bool affordable(const scaling_search *s, const double *exponent) {
     return can;
 }
 
-/* The round may end early, so simple numbers are tried for every freedom before others. */
+/* A round may end early, so simple numbers are tried for every freedom before others. */
 static void search_round(scaling_search *s) {
     op_list_freedoms f = op_list_freedoms_of(s->from);
     bool *can = alloc((int64_t)f.count + 1, sizeof *can);

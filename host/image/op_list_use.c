@@ -12,22 +12,21 @@ static void op_list_renumber(op_list *t, const int *order, const int *number);
 
 /* === dependencies between operations ========================================================== */
 
-/* Single-precision registers of an Arm or RISC-V FPU for a list: 32, less those of the surrounding step. */
+/* Single-precision registers of an Arm or RISC-V FPU, 32, less those of the surrounding step. */
 enum { OP_LIST_REGISTERS = 20 };
 
-/* The dependencies of operations. A phase depends on the previous phase, because a list numbers its waves in
- * order. */
+/* The dependencies of operations. A phase depends on the previous phase, because a list numbers its waves in order. */
 typedef struct op_list_needs {
     const op_list *t;
-    int *before; /* [t->count]: for a phase, the previous phase; else -1 */
-    bool *given; /* [t->count]: needs no computation */
-    int *first;  /* [t->count + 1]: index in user[] of the first user; users are in order */
+    int *before; /* [t->count] for a phase, the previous phase; else -1 */
+    bool *given; /* [t->count] needs no computation */
+    int *first;  /* [t->count + 1] index in user[] of the first user; users are in order */
     int *user;
 } op_list_needs;
 
 enum { NEEDED_MOST = 3, TAKEN_MOST = 2 };
 
-/* Finds the operations that must come before operation i, and returns their number. */
+/* Finds the operations that must precede operation i; returns their number. */
 static int op_list_needed(const op_list_needs *n, int i, int found[static NEEDED_MOST]) {
     int count = op_list_operands(&n->t->ops[i], found);
     if (n->before[i] >= 0) {
@@ -36,8 +35,8 @@ static int op_list_needed(const op_list_needs *n, int i, int found[static NEEDED
     return count;
 }
 
-/* Finds the values that operation i reads from registers, each once, and returns their number. Constants and phases
- * need no register. */
+/* Finds the different values that operation i reads from registers, without constants and phases. Returns their
+ * number. */
 static int op_list_taken(const op_list *t, int i, int found[static TAKEN_MOST]) {
     int operand[TAKEN_MOST];
     const int operands = op_list_operands(&t->ops[i], operand);
@@ -92,18 +91,17 @@ static void op_list_needs_free(op_list_needs *n) {
     free(n->user);
 }
 
-/* Values in registers, and the number of loads and stores so far. */
 typedef struct registers {
     int value[OP_LIST_REGISTERS];
     int count;
     int *
         next; /* [ops]: position of the value's next use, or INT_MAX; a result is used after the end */
-    bool *stored; /* [ops]: memory has a copy */
-    int carried;
+    bool *stored; /* [ops] memory has a copy */
+    int carried;  /* loads and stores so far */
 } registers;
 
-/* Gives value v a register. If none is free, the value whose next use is latest loses its register. An operand of the
- * current operation keeps its register, because it is used now. */
+/* Gives value v a register. If none is free, the value whose next use is latest loses its register; an operand of the
+ * current operation is in use, and so never does. */
 static void hold(registers *r, int v) {
     if (r->count == OP_LIST_REGISTERS) {
         int last = 0;
@@ -128,8 +126,8 @@ static bool is_held(const registers *r, int v) {
     return k < r->count;
 }
 
-/* Finds the next use of each value before the sequence begins: next[ops]. Returns the use that follows the one by operand
- * k at position `at`: after[TAKEN_MOST * at + k]. The caller frees it. */
+/* Finds the first use of each value: next[ops]. Returns after[TAKEN_MOST * at + k]: the use that follows that by
+ * operand k at position `at`. The caller frees it. */
 static int *uses_after(const op_list *t, const int *sequence, int count, int *next) {
     int *after = alloc_more(NULL, TAKEN_MOST * count, sizeof *after);
     int found[TAKEN_MOST];
@@ -148,8 +146,7 @@ static int *uses_after(const op_list *t, const int *sequence, int count, int *ne
     return after;
 }
 
-/* Counts the loads and stores of values in this sequence if the value whose next use is latest is always replaced,
- * which is the best choice (Belady, 1966). */
+/* Counts loads and stores in this sequence. Replacing the value whose next use is latest is optimal (Belady, 1966). */
 static int op_list_carried_by(const op_list_needs *n, const int *sequence, int count) {
     registers r = {.next = alloc_more(NULL, n->t->count, sizeof *r.next),
                    .stored = alloc_more(NULL, n->t->count, sizeof *r.stored)};
@@ -184,7 +181,7 @@ static int op_list_carried_by(const op_list_needs *n, const int *sequence, int c
     return r.carried;
 }
 
-/* Returns the operations to compute, in the order of the list. The caller frees the array. */
+/* The caller frees the array. */
 static int *op_list_computed(const op_list_needs *n, int *count) {
     int *sequence = alloc_more(NULL, n->t->count, sizeof *sequence);
     *count = 0;
@@ -207,27 +204,26 @@ int op_list_carried(const op_list *t) {
 }
 
 /* === order of a list ========================================================================== */
-/* A reordering of a finished list's operations with few live values. In the order in which operations were entered, a
- * whole matrix is computed before its first row is eliminated. In a large list more values are then live than a
- * processor has registers, and a third of the instructions move them to memory and back. The new order always takes
- * next the operation that is the last use of the most values. Ties go to the first in order of entry, or to the
- * operation with the earliest last use: two orders. Given values (the state, the pairs of sine and cosine) are read at
- * their first use. This rule considers only one operation at a time. So both orders are compared with the order of
- * entry by their numbers of loads and stores, and the best is taken. A list whose values fit into registers keeps its
+/* Reorders a finished list so that few values are live. In the order of entry, a whole matrix is computed before its
+ * first row is eliminated. A large list then has more live values than a processor has registers, and a third of the
+ * instructions move them to memory and back. The new order takes the operation that is the last use of the most values.
+ * Ties go to the first in order of entry, or to the operation whose own last use is earliest: two orders. Given values
+ * (the state, the sine-cosine pairs) are read at their first use. The rule looks only one operation ahead, so the best
+ * of both orders and the order of entry is taken, by loads and stores. A list whose values fit into registers keeps its
  * order. */
 
 typedef struct schedule {
     const op_list_needs *needs;
-    int *waits; /* [ops]: dependencies not yet computed */
-    int *uses;  /* [ops]: remaining users; a result counts as two more */
-    int *ends;  /* [ops]: number of values that the operation is the last to use */
-    int *until; /* [ops]: last user of the operation's value */
+    int *waits; /* [ops] dependencies not yet computed */
+    int *uses;  /* [ops] remaining users; a result counts as two more */
+    int *ends;  /* [ops] number of values that the operation is the last to use */
+    int *until; /* [ops] last user of the operation's value */
     int *ready; /* operations without pending dependencies, unordered */
     int count;  /* number of ready operations */
     bool *done; /* [ops] */
 } schedule;
 
-/* Value v has one user less. If one user remains, the life of v ends with that user. */
+/* Value v has one user less. If one remains, the life of v ends with that user. */
 static void use_up(schedule *s, int v) {
     const op_list_needs *n = s->needs;
     if (--s->uses[v] != 1) {
@@ -289,11 +285,9 @@ static void schedule_free(schedule *s) {
     free(s->done);
 }
 
-/* The rule for ready operations that are the last use of equally many values: the first in order of entry, or the one
- * whose value is used up first. */
+/* The rule for ties: the first in order of entry, or the operation whose value is used up first. */
 typedef enum first_of { AS_ENTERED, SOONEST_DONE, FIRST_OF } first_of;
 
-/* Does operation i come before operation j? */
 static bool leads(const schedule *s, first_of way, int i, int j) {
     if (s->ends[i] != s->ends[j]) {
         return s->ends[i] > s->ends[j];
@@ -302,7 +296,6 @@ static bool leads(const schedule *s, first_of way, int i, int j) {
     return soonest ? s->until[i] < s->until[j] : i < j;
 }
 
-/* Removes and returns the next ready operation. */
 static int take_best(schedule *s, first_of way) {
     int best = 0;
     for (int k = 1; k < s->count; k++) {
@@ -344,7 +337,7 @@ typedef struct placing {
     int count;
 } placing;
 
-/* Appends operation i to the sequence; operations on which it depends are appended before it, if missing. */
+/* Appends operation i to the sequence, after the missing operations on which it depends. */
 static void put_next(placing *p, int i) {
     int found[NEEDED_MOST];
     const int count = p->number[i] >= 0  ? 0
@@ -359,7 +352,7 @@ static void put_next(placing *p, int i) {
     }
 }
 
-/* Puts the operations of the sequence first. The others are given or unused, or are only results. */
+/* Puts the operations of the sequence first. All others are given, unused, or only results. */
 static void reorder(op_list *t, const op_list_needs *n, const int *sequence, int count) {
     placing p = {t, n, alloc_more(NULL, t->count, sizeof *p.order),
                  alloc_more(NULL, t->count, sizeof *p.number), 0};
@@ -404,8 +397,8 @@ void op_list_order(op_list *t) {
 }
 
 /* === sums with a common part ================================================================== */
-/* Replaces a + 2 b by (a + b) + b if the list already has a + b, which saves a product. Kinetic energies produce such
- * pairs: a chain of two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
+/* Replaces a + 2 b by (a + b) + b if the list has a + b, which saves a product. Kinetic energies produce such pairs: a
+ * chain of two arms moves with sin x + sin y, and its forces have sin x + 2 sin y. */
 
 /* Returns b if operation i is 2 b with a single user; else -1. */
 static int doubled(const op_list *t, const int *uses, int i) {
@@ -420,8 +413,7 @@ static int doubled(const op_list *t, const int *uses, int i) {
     return op_list_is_constant(t, o->b, &two) && two == 2.0 ? o->a : -1;
 }
 
-/* Operation i is a + 2 b, a - 2 b or 2 b - a. Finds the operation that has b in place of 2 b: *half is that operation,
- * *part is b. Returns false if the list has none. */
+/* Operation i is a + 2 b, a - 2 b or 2 b - a. Finds the operation *half that has *part = b in place of 2 b. */
 static bool half_of(const op_list *t, const int *uses, int i, int *half, int *part) {
     const op *o = &t->ops[i];
     const int twice_a = doubled(t, uses, o->a);
@@ -470,7 +462,7 @@ void op_list_share_sums(op_list *t) {
     }
     free(uses);
     if (shared) {
-        reorder(t, NULL, NULL, 0); /* the half may come after the operation that now uses it */
+        reorder(t, NULL, NULL, 0); /* *half may come after the operation that now uses it */
         op_list_prune(t);
     }
 }
@@ -489,7 +481,7 @@ int op_list_operands(const op *o, int operand[static 2]) {
     return count;
 }
 
-/* Marks all operations on which marked ones depend, of operation `last` and those before. */
+/* Marks the operations up to `last` on which marked ones depend. */
 static void mark_operands(const op_list *t, int last, bool *needed) {
     int operand[2];
     for (int i = last; i >= 0; i--) {
@@ -517,14 +509,13 @@ bool op_list_has_kinks(const op_list *t) {
            op_list_has(t, OP_MAX);
 }
 
-/* Renumbers the operands that op_list_operands() finds. */
 static void renumber(op *o, const int *number) {
     const bool values = op_rows[o->code].values > 0;
     o->a = values && o->a >= 0 ? number[o->a] : o->a;
     o->b = (values || o->code == OP_PHASE) && o->b >= 0 ? number[o->b] : o->b;
 }
 
-/* x * (1/y) becomes x/y if 1/y has no other use: saves one rounding and one operation. */
+/* x * (1/y) becomes x/y if 1/y has no other use, which saves a rounding and an operation. */
 static void fuse_reciprocals(op_list *t) {
     int *uses = uses_of(t);
     double one;
@@ -678,8 +669,7 @@ int op_list_operations(const op_list *t) {
     return operations;
 }
 
-/* Reorders the operations: order[t->count] is the operation at each position, number[t->count] its new position. No
- * operation may precede its operands. */
+/* order[t->count]: the operation at each position; number[t->count]: its new position. Operands must come first. */
 static void op_list_renumber(op_list *t, const int *order, const int *number) {
     op *ops = alloc_more(NULL, t->room, sizeof *ops);
     for (int i = 0; i < t->count; i++) {
