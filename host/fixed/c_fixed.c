@@ -1,4 +1,4 @@
-/* c_fixed.c: a scene in fixed point as C: the list, the formats, the start, and a step as engine_fixed.c makes it. */
+/* c_fixed.c: a scene in fixed point as C: the list, the formats, the start, and a step as in engine_fixed.c. */
 #include "host/fixed/c_fixed.h"
 
 #include <inttypes.h>
@@ -8,10 +8,9 @@
 #include "host/fixed/fixed_list.h"
 
 /* === a list in fixed point as C =============================================================== */
-/* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are written as constants. */
+/* Each operation is one statement. Numbers and shifts that engine_fixed.c computes are constants. */
 
-/* A list with more operations than this is called at each stage, not inlined. */
-enum { INLINED_MOST = 80 };
+enum { INLINED_MOST = 80 }; /* a list with more operations is called at each stage, not inlined */
 
 /* Writes a number in C. INT32_C() accepts no sign, so -5 becomes -INT32_C(5). */
 static void c_fixed_number(FILE *out, int32_t number) {
@@ -77,7 +76,7 @@ static void quotient(FILE *out, const fixed_list *l, int i) {
     const fixed_op *o = &l->op[i];
     fprintf(out, "    const uint32_t %c%d = (%s(uint32_t)x%d) << %d;\n", o->spread > 0 ? 'u' : 'd',
             i, o->negated ? "0U - " : "", o->b.op, o->zeros);
-    if (o->spread == 1) { /* the sign bit is the whole choice: shift by 0 or 1 */
+    if (o->spread == 1) { /* a sign bit is the whole choice: shift by 0 or 1 */
         fprintf(out, "    const int z%d = (int)(~u%d >> 31);\n", i, i);
     } else if (o->spread > 1) {
         fprintf(out, "    const int z%d = wh_fixed_zeros(u%d);\n", i, i);
@@ -133,7 +132,7 @@ static void value(FILE *out, const fixed_list *l, const fixed_op *o) {
     }
 }
 
-/* Has the operation a statement? A constant has none, unless it is a result. */
+/* Has the operation a statement? A constant has one only as a result. */
 static bool is_stated(const fixed_list *l, int i) {
     bool result = false;
     for (int k = 0; k < l->results; k++) {
@@ -194,8 +193,7 @@ static void gained(FILE *out, fixed_gain g, const char *x) {
     fprintf(out, ", %d)", g.by);
 }
 
-/* Writes the first half of a statement, which adds an increment to component i and limits the sum to the range. The
- * caller writes the increment next; limits() writes the second half. */
+/* The first half of a statement that adds to component i and limits the sum. Then come the increment and limits(). */
 static void limited(FILE *out, int i) {
     fprintf(out, "    state->real[%d] = wh_fixed_limit(wh_fixed_add(state->real[%d], ", i, i);
 }
@@ -208,7 +206,6 @@ static void limits(FILE *out, const fixed_plan *p, int at) {
     fputs(", &saturated);\n", out);
 }
 
-/* Writes the increment of a position at a stage. */
 static void put_more(FILE *out, const fixed_mover *m, int i, int stage) {
     fputs("wh_fixed_round(", out);
     if (stage == 1) {
@@ -305,8 +302,7 @@ static void end_first(FILE *out, const fixed_plan *p) {
     }
 }
 
-/* Returns the length of an array, which C requires to be at least one. */
-static int at_least_one(int count) { return count > 0 ? count : 1; }
+static int at_least_one(int count) { return count > 0 ? count : 1; } /* C allows no empty arrays */
 
 static void begin_step(FILE *out, const fixed_plan *p) {
     const int angles = p->image->angles;

@@ -1,4 +1,4 @@
-/* c_fixed.h: a scene in fixed point as C: core/fixed.h's operations on integers, in the interpreter's order. */
+/* c_fixed.h: a scene in fixed point as C: core/fixed.h's operations on integers, in engine_fixed.c's order. */
 #ifndef FIXED_C_FIXED_H
 #define FIXED_C_FIXED_H
 
@@ -6,7 +6,7 @@
 
 #include "host/fixed/fixed_plan.h"
 
-/* Write the scene as C for core/fixed_scene.h, and the header, which C and C++ can include. */
+/* The scene as C for core/fixed_scene.h, and its header for C and C++. */
 void c_fixed(FILE *out, const fixed_plan *plan, const char *file);
 void c_fixed_header(FILE *out, const fixed_plan *plan, const char *file);
 

@@ -9,8 +9,8 @@
 #include "host/number/functions.h"
 
 /* === round-off of a run ======================================================================= */
-/* The round-off of a run in fixed point: each step is compared with the same step of RK4 in double from the same
- * state. The difference of the increments is lost. Its sum since the start is reported (host/check/slow.h). */
+/* Each step is compared with the same step of RK4 in double, from the same state. The sum of the differences of the
+ * increments since the start is reported (host/check/slow.h). */
 
 typedef struct fixed_loss fixed_loss;
 
@@ -19,8 +19,8 @@ typedef struct fixed_loss fixed_loss;
 enum { ALL_MOST = 3 * IMAGE_COMPONENTS_MAX };
 
 typedef struct component_loss {
-    double asked; /* exact increment in the step in progress */
-    double lost;  /* sum of the lost increments since the start */
+    double asked; /* exact increment in the current step */
+    double lost;  /* sum of the differences since the start */
     double most;
     double low, high; /* range without round-off */
 } component_loss;
@@ -35,7 +35,7 @@ struct fixed_loss {
     double *input;
 };
 
-/* Returns the smallest increment of component i; SI. */
+/* The smallest increment of component i, SI. */
 static double fixed_loss_unit(const fixed_plan *p, int i) {
     const int angles = p->image->angles;
     return i < angles ? RAD_PER_UNIT : number_scaled(1.0, -p->format[i - angles].bits);
@@ -74,7 +74,7 @@ static void fixed_loss_free(fixed_loss *l) {
     }
 }
 
-/* Computes slope[]: the time derivatives of all components, angles first. */
+/* Computes slope[], the time derivatives of all components, angles first. */
 static void slopes(const fixed_loss *l, const double *at, double *slope) {
     const fixed_plan *p = l->plan;
     const int angles = p->image->angles;
@@ -85,7 +85,7 @@ static void slopes(const fixed_loss *l, const double *at, double *slope) {
     evaluator_run(l->step, 0.0, at, at + angles, at + moved, l->input, slope + moved);
 }
 
-/* Called before each step. A step with clamped values is not counted, because clamping is reported separately. */
+/* Called before each step. A step with clamped values is skipped, because clamping is reported separately. */
 static void fixed_loss_before(fixed_loss *l, const wh_fixed_state *state) {
     static const double part[] = {0.0, 0.5, 0.5, 1.0};
     static const double weight[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
@@ -135,8 +135,7 @@ static void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state) {
     }
 }
 
-/* Returns, for component i, angles first, the largest size of its lost sum since the start. *span: the range that it
- * would have covered without the loss. SI. */
+/* The largest size of component i's lost sum since the start, angles first. *span: its range without the loss. SI. */
 static double fixed_loss_off(const fixed_loss *l, int i, double *span) {
     *span = l->component[i].high - l->component[i].low;
     return l->component[i].most;
@@ -242,8 +241,8 @@ typedef struct fixed_stages {
     int32_t given[4][IMAGE_COMPONENTS_MAX];
 } fixed_stages;
 
-/* Returns the increment of a position at a stage, before rounding. Stages are not clamped to the ranges: the list has
- * room for all stages of steps that begin within the ranges (fixed_plan.c). */
+/* Returns the increment of a position at a stage, before rounding. Stages may exceed the ranges: fixed_plan.c makes the
+ * list fit all stages of steps that begin within the ranges. */
 static int32_t place_more(const fixed_mover *m, const fixed_stages *k, int i, int stage) {
     return stage == 1
                ? k->half_rate[i]
@@ -256,7 +255,8 @@ static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
     const int linears = p->coordinates - angles;
-    const int twice = stage == 3 ? 1 : 0; /* stage 3 is at the end of the step, not in the middle */
+    const int twice =
+        stage == 3 ? 1 : 0; /* stage 3 is at the step's end, the others in its middle */
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
         const int32_t more = wh_fixed_round(place_more(m, k, i, stage), m->guard - twice);
@@ -289,7 +289,7 @@ static int32_t limited(fixed_run *run, int at, int32_t x) {
     return wh_fixed_limit(x, f->low, f->high, &run->state.saturated);
 }
 
-/* Returns (k1 + 2 k2 + 2 k3 + k4)/3 with the binary point of the state. */
+/* (k1 + 2 k2 + 2 k3 + k4)/3 with the state's binary point */
 static int32_t sixths(const fixed_mover *m, const fixed_stages *k, int i) {
     const int32_t middle = k->given[1][i] + k->given[2][i];
     return gained(m->third, k->given[0][i] + k->given[3][i] + 2 * middle);
@@ -422,7 +422,7 @@ static void run_set_input(void *of, int input, double value) {
     const double high = f->high;
     const double wished = number_nearest(number_scaled(value, f->bits));
     const double held = wished < low ? low : wished > high ? high : wished;
-    /* the same rule as in wh_fixed_of() */
+    /* as in wh_fixed_of() */
     run->state.saturated += wished < low - 1.0 || wished > high + 1.0;
     run->state.input[input] = (int32_t)held;
 }

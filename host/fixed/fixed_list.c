@@ -1,4 +1,4 @@
-/* fixed_list.c: the fixed-point copy of an image's list, with the step's factors in its results. */
+/* fixed_list.c: the fixed-point copy of an image's list, whose results include the step's factors. */
 #include "host/fixed/fixed_list.h"
 
 #include <math.h>
@@ -100,8 +100,10 @@ bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progre
 
 /* === binary points and shifts ================================================================= */
 
-/* Limits of the binary point, which no mechanism reaches. */
-enum { BITS_LEAST = -60, BITS_MOST = 90 };
+enum {
+    BITS_LEAST = -60,
+    BITS_MOST = 90
+}; /* limits of the binary point, which no mechanism reaches */
 #define ROUNDED (1.0 - 0x1p-40)
 
 int fixed_point_of(double size, int digits) {
@@ -113,21 +115,19 @@ int fixed_point_of(double size, int digits) {
     return bits > BITS_MOST ? BITS_MOST : bits < BITS_LEAST ? BITS_LEAST : bits;
 }
 
-/* Returns the largest size of the integers of an operation, as a double. */
+/* The largest size of an operation's integer, as a double. */
 static double units(const fixed_op *o) { return number_scaled(enclosure_size(o->range), o->bits); }
 
 static int least(int a, int b) { return a < b ? a : b; }
 static int most(int a, int b) { return a > b ? a : b; }
 
-/* Returns the digits after the point of a product: as many as fit with the operands' largest sizes, so that only left
- * shifts are needed. */
+/* As many digits after the point as fit with the operands' largest sizes, so that only left shifts are needed. */
 static int product_bits(const fixed_list *l, const fixed_op *o) {
     const double size = enclosure_size(l->op[o->a.op].range) * enclosure_size(l->op[o->b.op].range);
     return fixed_point_of(size, FIXED_DIGITS);
 }
 
-/* Returns the digits after the point of a sum, at most those of the finer operand. Constants and compared values must
- * have room, too. */
+/* The digits after the point of a sum, at most the finer operand's. Constants and compared values must fit. */
 static int sum_bits(const fixed_list *l, const fixed_op *o, int bits) {
     const fixed_op *part[] = {&l->op[o->a.op], &l->op[o->b.op]};
     const bool compares = o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -169,8 +169,7 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
     }
 }
 
-/* Raises wanted[i] to the digits of operation i that its user `o` can use. A product in a sum needs no more digits after the point
- * than the sum. */
+/* Raises wanted[i] to the digits of operation i that its user `o` can use: a sum needs no more than its own. */
 static void request(int *wanted, int i, const fixed_op *o) {
     const bool adds = o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE ||
                       o->code == FIXED_LEAST || o->code == FIXED_MOST;
@@ -178,7 +177,7 @@ static void request(int *wanted, int i, const fixed_op *o) {
     wanted[i] = most(wanted[i], bits);
 }
 
-/* Reduces the digits of products, quotients and sums to those that their users need, so that they are rounded only once. */
+/* Reduces the digits of products, quotients and sums to those that their users need, to round only once. */
 static void lower(fixed_list *l) {
     int *wanted = alloc(l->count, sizeof *wanted);
     for (int i = 0; i < l->count; i++) {
@@ -210,10 +209,9 @@ static int32_t whole(double value, int bits) {
     return (int32_t)number_nearest(number_scaled(value, bits));
 }
 
-/* Relative margin of a denominator, larger than its round-off. */
-#define MARGIN 1e-6
+#define MARGIN 1e-6 /* relative margin of a denominator, above its round-off */
 
-/* Aligns an operand of a sum to the result's point: a constant is converted, a value is rounded. */
+/* Aligns a sum's operand to the result's point: a constant is converted, a value is rounded. */
 static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     const fixed_op *from = &l->op[operand->op];
     if (from->code == FIXED_CONSTANT) {
@@ -224,15 +222,15 @@ static void align(const fixed_list *l, fixed_operand *operand, int bits) {
     }
 }
 
-/* Returns the largest left shift with which a number of this many units stays within 31 digits. */
+/* The largest left shift of a number up to `size` units within 31 digits. */
 static int left_of(double size) {
     int exponent;
     (void)number_split(size + 1.0, &exponent);
     return 31 - exponent;
 }
 
-/* Chooses the shifts of a product with `bits` digits after the point. The factors have `a_bits` and `b_bits` digits
- * after the point, and room for a_left and b_left left shifts. Returns false if there is no room. */
+/* Chooses the shifts of a product. The factors have `a_bits` and `b_bits` digits after the point, and allow left shifts
+ * by a_left and b_left. Returns false if these do not suffice. */
 static bool shift_product(fixed_op *o, int a_bits, int a_left, int b_bits, int b_left) {
     const int by = a_bits + b_bits - o->bits - 32;
     const int short_of = by >= 1 ? 0 : 1 - by;
@@ -366,7 +364,7 @@ bool fixed_fits(const fixed_list *l) {
     return true;
 }
 
-/* Returns the number of digits of an operation: a sum has room for one more than a product. */
+/* A sum may have one digit more than a product. */
 static int digits_of(const fixed_list *l, int i) {
     const bool sums = l->op[i].code == FIXED_SUM || l->op[i].code == FIXED_DIFFERENCE;
     return is_result(l, i) ? FIXED_RESULT_DIGITS : sums ? FIXED_KEPT_DIGITS : FIXED_DIGITS;
@@ -395,8 +393,7 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
 }
 
 /* === ranges of values ========================================================================= */
-/* Interval arithmetic is done for each cell of the turn angles separately. Over a whole turn at once, every
- * denominator could be zero. */
+/* Intervals are computed for each cell of the turn angles: over a whole turn, every denominator could be zero. */
 
 /* Limits of the cells per turn, and of the cells of all turn angles together. */
 enum {
@@ -416,7 +413,7 @@ typedef struct hull {
     fixed_list *list;
     const fixed_leaves *leaves;
     bool bits_known;
-    enclosure *now;   /* [count] ranges in the present cell */
+    enclosure *now;   /* [count] ranges in the current cell */
     enclosure *angle; /* [angles] */
     int *cell;        /* [angles] */
     bool *cut;        /* [angles] true if a phase depends on the angle */
@@ -442,7 +439,7 @@ static enclosure leaf_of(const hull *h, enclosure range) {
     return h->at_middles ? (enclosure){middle, middle} : range;
 }
 
-/* Encloses the sines of all angles in `a`, more tightly than enclosure_sine() does. SINE_OFF covers round-off. */
+/* Encloses the sines of `a`, more tightly than enclosure_sine(). SINE_OFF covers the round-off. */
 static enclosure sines(enclosure a, double ahead_rad) {
     a = (enclosure){a.low + ahead_rad, a.high + ahead_rad};
     const double one = number_sine(a.low);
@@ -488,7 +485,7 @@ static enclosure value_of(hull *h, const fixed_op *o) {
     return none;
 }
 
-/* Returns the round-off of an operation: half a unit of the result, plus that of shifted operands, with a margin. */
+/* The round-off of an operation: half a unit, plus that of shifted operands, with a margin. */
 static double rounding_of(const hull *h, const fixed_op *o) {
     const bool rounds = o->code > FIXED_PHASE;
     return h->bits_known && rounds ? number_scaled(4.0, -o->bits) : 0.0;
@@ -516,7 +513,6 @@ static void enclose(hull *h, bool first) {
     }
 }
 
-/* Goes to the next cell. Returns false after the last. */
 static bool next(hull *h) {
     for (int k = 0; k < h->list->angles; k++) {
         if (h->cut[k]) {
@@ -559,8 +555,7 @@ static bool enclose_all(hull *h) {
     return !h->divides_zero;
 }
 
-/* Is the denominator zero somewhere in the turn if all other leaves are at the middle of their ranges? Then smaller
- * ranges do not help. */
+/* Is a denominator zero somewhere in the turn with all other leaves at mid-range? Smaller ranges would not help. */
 static bool divides_zero_anyway(hull *h) {
     h->at_middles = true;
     return !enclose_all(h);
@@ -620,7 +615,7 @@ static int enter_constant(fixed_list *l, double value) {
 
 static bool is_constant(const fixed_list *l, int i) { return l->op[i].code == FIXED_CONSTANT; }
 
-/* Is the value a power of two, with either sign? */
+/* Is the value plus or minus a power of two? */
 static bool is_power(double value) {
     int exponent;
     const double part = number_split(value, &exponent);
@@ -696,7 +691,7 @@ static fixed_op copy_of(const op *o, const int *number, const char **lacks) {
     return made;
 }
 
-/* Enters operation i times `scale`. If the operation has a constant factor, `scale` is joined with it. */
+/* Enters operation i times `scale`, which is joined with a constant factor of the operation. */
 static int enter_scaled(fixed_list *l, int i, double scale) {
     const fixed_op *o = &l->op[i];
     double factor = scale;

@@ -1,9 +1,8 @@
-/* fixed_list.h: an operation list in fixed point: the accelerations' list (host/image/op_list.h), with each value a 32-bit
- * integer with its own binary point.
+/* fixed_list.h: the accelerations' operation list in fixed point: 32-bit integers, each with its own binary point.
  *
- * It is made in three steps: the list is copied, its values are enclosed, its points chosen. The copy includes the step's
- * factors, and refuses operations without a fixed form. The interpreter (engine_fixed.c) and the C writer (c_fixed.c) read
- * numbers and shifts only, so both give the same bits. */
+ * The list is copied with the step's factors, its values are enclosed, and its points chosen. Operations without a
+ * fixed form are refused. The interpreter (engine_fixed.c) and the C writer (c_fixed.c) read only numbers and shifts,
+ * so both give the same bits. */
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 
@@ -12,15 +11,14 @@
 
 /* === the ranges that components and inputs of a scene keep to ================================= */
 
-/* Fills range[reals + inputs], components first, with the declared ranges. An undeclared range comes from a reference
- * run of the scene in double with the scene's method. Each end of the range is twice the run's extreme value. But if
- * all values have one sign, the end near zero is half the value nearest to zero; if that value is zero, the range is
- * symmetric. If the value is always zero, the range is -1 to 1. Returns false if the run failed, which is reported,
- * or was interrupted. `progress`: show the progress on standard error. */
+/* Fills range[reals + inputs], components first, with the declared ranges. An undeclared range comes from a run of the
+ * scene in double: each end is twice the run's extreme value. If all values have one sign, the end near zero is half
+ * the value nearest to zero; if that is zero, the range is symmetric. If the value is always zero, the range is -1 to
+ * 1. Returns false if the run failed (reported) or was interrupted. `progress`: show the progress on standard error. */
 bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progress, diags *errors);
 
-/* Largest number of binary digits. FIXED_DIGITS: of a value of the list; twice a value still fits, with its round-off.
- * FIXED_RESULT_DIGITS: of a result of the list; the sum of six results fits. FIXED_KEPT_DIGITS: of the state. */
+/* Largest number of binary digits. FIXED_DIGITS: of a value of the list, so that twice a value fits.
+ * FIXED_RESULT_DIGITS: of a result, so that the sum of six fits. FIXED_KEPT_DIGITS: of the state. */
 enum { FIXED_DIGITS = 29, FIXED_RESULT_DIGITS = 28, FIXED_KEPT_DIGITS = 30 };
 
 typedef enum fixed_code {
@@ -54,8 +52,8 @@ typedef struct fixed_op {
     fixed_operand b;
     int index;
     int by;
-    /* FIXED_QUOTIENT: |b| has `zeros` + `more` leading zeros, with `more` from 0 to `spread`. follows: `a` has room to be
-     * shifted by `more`, too. Otherwise `by` is smaller by `more`. */
+    /* FIXED_QUOTIENT: |b| has `zeros` + `more` leading zeros, with `more` from 0 to `spread`. follows: `a` is shifted
+     * by `more`, too; otherwise `by` is smaller by `more`. */
     int zeros;
     int spread;
     bool follows;
@@ -64,7 +62,7 @@ typedef struct fixed_op {
     double offset_rad;
     uint32_t offset;
     double value;    /* FIXED_CONSTANT: the value; FIXED_SAME: the power of two, with its sign */
-    enclosure range; /* range of the possible values */
+    enclosure range; /* of the possible values */
     int bits;        /* binary digits after the point */
     bool used;
 } fixed_op;
@@ -77,37 +75,36 @@ typedef struct fixed_list {
     int angles;
 } fixed_list;
 
-/* Returns the list with its results times scale[results]. NULL, reported, if an operation has no fixed form. */
+/* Returns the list with its results times scale[results], or NULL (reported) if an operation has no fixed form. */
 fixed_list *fixed_list_make(const image *im, const double *scale, diags *errors);
 void fixed_list_free(fixed_list *list);
 
-/* The ranges of the leaves. */
 typedef struct fixed_leaves {
     const enclosure *linear;
     const enclosure *rate;
     const enclosure *input;
 } fixed_leaves;
 
-/* Limit of the size of a value. Products of two such values are finite, so all intervals are finite. */
+/* Limit of a value's size. Products of two such values are finite, and so are all intervals. */
 #define FIXED_SIZE_MOST 0x1p80
 
-/* Encloses all values in op[].range, cell by cell of the turn angles. If `bits_known` is true, the rounding to
- * op[].bits is included. Returns the number of cells per turn, or a code. FIXED_HULL_ZERO: a denominator may be zero
- * (reported). FIXED_HULL_UNBOUNDED: a value exceeds FIXED_SIZE_MOST. FIXED_HULL_STOPPED: the user interrupted. */
+/* Encloses all values in op[].range, cell by cell of the turn angles, with the rounding to op[].bits if `bits_known`.
+ * Returns the number of cells per turn, or a code. FIXED_HULL_ZERO: a denominator may be zero (reported).
+ * FIXED_HULL_UNBOUNDED: a value exceeds FIXED_SIZE_MOST. FIXED_HULL_STOPPED: the user interrupted. */
 enum { FIXED_HULL_ZERO = 0, FIXED_HULL_UNBOUNDED = -1, FIXED_HULL_STOPPED = -2 };
 int fixed_hull(fixed_list *list, const image *im, const fixed_leaves *leaves, bool bits_known,
                diags *errors);
 
-/* Chooses op[].bits, shifts and numbers; the caller has set op[].bits of the leaves. Returns false if a value has no
- * room (reported). */
+/* Chooses op[].bits, except the leaves' (set by the caller), shifts and numbers. Returns false if a value does not fit
+ * (reported). */
 bool fixed_bits(fixed_list *list, const image *im, diags *errors);
 
-/* Do all values fit, after fixed_hull() with bits_known? */
+/* Do all values fit? For use after fixed_hull() with bits_known. */
 bool fixed_fits(const fixed_list *list);
 
-/* Returns the digits after the point with which `size` fills at most `digits` binary digits; `digits` for zero. */
+/* The digits after the point with which `size` fills at most `digits` binary digits; `digits` for zero. */
 int fixed_point_of(double size, int digits);
-/* As fixed_point_of(), for a constant factor with 31 binary digits, of which the last is rounded. */
+/* As fixed_point_of(), for a constant factor with 31 binary digits, the last of them rounded. */
 int fixed_factor_bits(double value);
 
 #endif

@@ -1,4 +1,4 @@
-/* fixed_plan.c: the plan of a scene's step in fixed point. */
+/* fixed_plan.c: a scene's step in fixed point: its ranges, binary points and constants. */
 #include "host/fixed/fixed_plan.h"
 
 #include <math.h>
@@ -12,8 +12,7 @@
 static const char refused_part[] =
     "choose --number float; or put this statement into an effect, and use --without EFFECT";
 
-/* Returns false, and reports the reason, if the scene has contacts, a ledger or noise, or another method or
- * setting. */
+/* Returns false (reported) if the scene has contacts, a ledger, noise, or another method or setting. */
 static bool fixed_has_step(const image *im, diags *errors) {
     const image_settings *s = &im->settings;
     if (op_list_has(im->list[IMAGE_OBSERVE], OP_NOISE)) {
@@ -67,7 +66,6 @@ static bool starts_inside(const image *im, const enclosure *range, diags *errors
     return good;
 }
 
-/* Do all ranges stay within FIXED_SIZE_MOST? Reports those that do not. */
 static bool ranges_are_bounded(const image *im, const enclosure *range, diags *errors) {
     bool good = true;
     for (int i = 0; i < im->reals + im->inputs; i++) {
@@ -82,8 +80,7 @@ static bool ranges_are_bounded(const image *im, const enclosure *range, diags *e
     return good;
 }
 
-/* Returns false, and reports the reason, if a range of a real or an input is too large, or a start is outside its
- * range. */
+/* Returns false (reported) if a range is too large, or a start outside its range. */
 static bool fixed_ranges_hold(const image *im, const enclosure *range, diags *errors) {
     return ranges_are_bounded(im, range, errors) && starts_inside(im, range, errors);
 }
@@ -116,7 +113,7 @@ static wh_fixed_format format_of(enclosure range, int bits) {
                              (int32_t)number_floor(number_scaled(range.high, bits))};
 }
 
-/* Returns the largest number of binary digits after the point with which `size` fits into `most` units. */
+/* The largest number of binary digits after the point with which `size` fits into `most` units. */
 static int room_for(double size, double most) {
     const int finest = fixed_point_of(size, FIXED_DIGITS) + 3;
     int less = 0;
@@ -126,8 +123,8 @@ static int room_for(double size, double most) {
     return finest - less;
 }
 
-/* Computes the gain that multiplies a number by `factor`. The number has `from` digits after the point and is at most
- * `size` units; the product gets `to` digits. Returns false if the product does not fit. */
+/* Computes the gain that multiplies a number with `from` digits after the point, at most `size` units, by `factor`, to
+ * `to` digits. Returns false if the product does not fit. */
 static bool make_gain(fixed_gain *gain, double factor, double size, int from, int to) {
     const int bits = fixed_factor_bits(factor);
     int digits;
@@ -139,15 +136,14 @@ static bool make_gain(fixed_gain *gain, double factor, double size, int from, in
     return gain->shift <= 31 - digits;
 }
 
-/* Multiplies a result of the list by a factor of 15 digits, for the increments of a position at a stage. */
+/* As make_gain(), with a factor of 15 digits: for the increments of a position at a stage. */
 static fixed_gain short_gain(double factor, int from, int to) {
     const int bits = fixed_factor_bits(factor) - 16;
     const double number = number_nearest(number_scaled(factor, bits));
     return (fixed_gain){number > 32767.0 ? 32767 : (int32_t)number, 0, from - 14 + bits - to};
 }
 
-/* Returns the digits after the point of a component with increments of at most 2 `by` in a step: as many as fit, but fewer
- * than the increments have (`list_bits`). */
+/* As many digits after the point as fit in a component that changes by at most 2 `by`, but fewer than `list_bits`. */
 static int kept_bits(enclosure range, double by, int list_bits) {
     const int finest = fixed_point_of(enclosure_size(range) + 2.2 * by, FIXED_KEPT_DIGITS);
     return finest < list_bits - 1 ? finest : list_bits - 1;
@@ -170,8 +166,7 @@ static const fixed_op *result_of(const fixed_plan *p, int i) {
     return &p->list->op[p->list->result[i]];
 }
 
-/* Returns the index of the real component that result i of the list changes; -1 for an angle of a first-order
- * system. */
+/* The index of the real component that result i of the list changes; -1 for an angle of a first-order system. */
 static int kept_at(const fixed_plan *p, int i) {
     const int angles = p->image->angles;
     return p->second ? (p->coordinates - angles) + i : i - angles;
@@ -179,14 +174,14 @@ static int kept_at(const fixed_plan *p, int i) {
 
 enum { GUARD_MOST = 8 };
 
-/* Sets how a mover's results are added to a state with `kept` digits after the point. */
+/* Sets how results are added to a state with `kept` digits after the point. */
 static bool move_kept(fixed_mover *m, const fixed_op *accel, int kept) {
     const double size = number_scaled(1.0, FIXED_RESULT_DIGITS);
     m->to_kept = accel->bits - kept;
     return m->to_kept >= 1 && make_gain(&m->third, 1.0 / 3.0, 6.0 * size, accel->bits, kept);
 }
 
-/* Sets the mover of a second-order coordinate, whose position changes by its rate and acceleration. */
+/* For a second-order coordinate, whose position changes by rate and acceleration. */
 static bool move_place(fixed_plan *p, int i) {
     const image *im = p->image;
     fixed_mover *m = &p->mover[i];
@@ -196,7 +191,7 @@ static bool move_place(fixed_plan *p, int i) {
     const double half = 0.5 * im->step_s * unit;
     const double by =
         half * (enclosure_size(p->range[kept_at(p, i)]) +
-                2.0 * enclosure_size(accel->range)); /* the largest change in half a step */
+                2.0 * enclosure_size(accel->range)); /* largest change in half a step */
     int bits = 0;
     if (i < im->angles) {
         if (2.0 * by >= 1073741824.0) {
@@ -260,7 +255,7 @@ static fixed_leaves leaves_of(const fixed_plan *p) {
     return (fixed_leaves){p->stage, p->stage + linears, p->stage + im->reals};
 }
 
-/* Returns the largest change of a real component in a whole step, from the ranges of the list's results. */
+/* The largest change of a real component in a whole step, from the ranges of the list's results. */
 static double most_added(const fixed_plan *p, int at) {
     const image *im = p->image;
     const int linears = p->second ? im->coordinates - im->angles : im->reals;
@@ -276,7 +271,7 @@ static double most_added(const fixed_plan *p, int at) {
 }
 
 /* Widens the stages to the ranges plus the increments of a step. The increments depend on the stages, so this is
- * repeated. Returns true if the stages already had enough room. */
+ * repeated until it returns true: they were wide enough. */
 static bool widen_stages(fixed_plan *p) {
     const image *im = p->image;
     bool enough = true;
@@ -291,8 +286,8 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
-/* Finds the ranges of all values with the present stages. Returns false after an error (reported), such as values that are
- * too large. ranges_alone: the stages are still equal to the ranges. */
+/* Finds the ranges of all values for the current stages. Returns false after an error (reported), such as values that
+ * are too large. ranges_alone: the stages are still equal to the ranges. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
     const fixed_leaves leaves = leaves_of(p);
@@ -324,8 +319,7 @@ static bool enclose(fixed_plan *p, diags *errors) {
     return enough;
 }
 
-/* Chooses the binary points of all values. The ranges determine the points of the list's results, and these determine
- * the points of the state. */
+/* Chooses the binary points: the ranges determine those of the list's results, and these those of the state. */
 static bool make_points(fixed_plan *p, diags *errors) {
     const image *im = p->image;
     const int numbers = im->reals + im->inputs;
@@ -352,8 +346,7 @@ static bool make_points(fixed_plan *p, diags *errors) {
     return good && stands;
 }
 
-/* Chooses points until everything fits, rounding included. Rounding widens the stages, which matters if a step adds
- * little. */
+/* Rounding widens the stages, which matters if a step adds little, so points are chosen again until everything fits. */
 static bool make_all_fit(fixed_plan *p, diags *errors) {
     for (int pass = 0; pass < 6; pass++) {
         if (!make_points(p, errors) || !hull_of(p, true, false, errors)) {
@@ -396,7 +389,7 @@ static void make_starts(fixed_plan *p) {
     }
 }
 
-/* Returns the first format of a component, with room for the stages. */
+/* The first format of a component, in which the stages fit. */
 static wh_fixed_format first_format(enclosure range, enclosure stage) {
     const int bits = fixed_point_of(enclosure_size(range), FIXED_DIGITS);
     const int of_stage = fixed_point_of(enclosure_size(stage), FIXED_KEPT_DIGITS);

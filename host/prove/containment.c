@@ -1,4 +1,4 @@
-/* containment.c: comparison of a run's records with the tube, step by step. */
+/* containment.c: step-by-step comparison of a run's records with the tube. */
 #include "host/prove/containment.h"
 
 #include <inttypes.h>
@@ -12,8 +12,6 @@
 #include "host/number/functions.h"
 #include "host/number/ratio.h"
 #include "host/os/system.h"
-
-/* --- states of the run, SI, in the order of the motion -----------------------------------------------*/
 
 typedef struct reading {
     const containment_request *request;
@@ -51,12 +49,8 @@ static void read_run(const reading *r, void *run) {
     }
 }
 
-/* --- the tolerances ----------------------------------------------------------------------------------- */
-
-/* The range of a state is at least this part of its largest size, or of the range of another state with the same unit. */
-#define LITTLE 1e-3
-/* The range, SI, if no state with this unit moves: even then the tube has a width. */
-#define STILL 1e-9
+#define LITTLE 1e-3 /* least range, relative to the size, or to a range in the same unit */
+#define STILL 1e-9  /* least range, SI: a tube has a width even if nothing moves */
 
 static const char *unit_of(const containment_request *w, int i) {
     const exact_state s = w->motion->state[i];
@@ -115,9 +109,6 @@ static void find_ranges(const containment_request *w, const reading *r, containm
     free(high);
 }
 
-/* --- record by record --------------------------------------------------------------------------------*/
-
-/* Has the proof ended for all states? */
 static bool all_closed(const containment_found *h) {
     for (int i = 0; i < h->states; i++) {
         if (h->state[i].open) {
@@ -169,7 +160,7 @@ static void look_now(going *g) {
     }
 }
 
-/* Compares the records within the open step of length h_s. Returns their number. *last_s: time of the last one. */
+/* Compares the records within the open step of length h_s. Returns their number; *last_s: time of the last one. */
 static uint64_t look_within(going *g, double h_s, enclosure *last_s) {
     uint64_t count = 0;
     while (g->done < g->held->run_steps && !all_closed(g->held)) {
@@ -199,7 +190,7 @@ static bool go_on(going *g) {
     if (look_within(g, h_s, &last_s) > 0) {
         good = flowpipe_on(g->tube, last_s);
         g->next_s = g->step_s;
-    } else { /* the tube's step is shorter than the rest of the run's step */
+    } else { /* the tube's step ends before the run's step */
         const double part_s = number_least(h_s, 0.5 * g->next_s.low);
         good = flowpipe_on(g->tube, enclosure_of(part_s));
         g->next_s = enclosure_sub(g->next_s, enclosure_of(part_s));
@@ -207,7 +198,7 @@ static bool go_on(going *g) {
     return good && g->next_s.low > 0.0;
 }
 
-/* Returns the reason to end now, or CONTAINMENT_AT_END if there is none. `on`: the result of go_on(). */
+/* Returns the reason to end, or CONTAINMENT_AT_END if there is none. `on`: the result of go_on(). */
 static containment_end ended(const going *g, bool on) {
     const containment_request *w = g->request;
     const bool spent = w->products_most > 0.0 && flowpipe_products(g->tube) > w->products_most;
@@ -305,8 +296,7 @@ typedef struct figure {
     char text[40];
 } figure;
 
-/* Rounds up to this number of decimal places, so that a statement proved for x is true for the printed number,
- * too. */
+/* Rounds up to this number of decimal places, so that a statement proved for x is true for the printed number. */
 static figure not_less(double x, int places) {
     figure f;
     const char *end;
@@ -320,7 +310,7 @@ static figure not_less(double x, int places) {
     return f;
 }
 
-/* Returns the words for the reason why the proved time ends. */
+/* The reason, in words, why the proved time ends. */
 static const char *behind(const containment_found *h, const containment_state *s) {
     static const char *const ends[] = {[CONTAINMENT_AT_END] = "",
                                        [CONTAINMENT_RUN_ENDS] = "; at that time the run fails",
@@ -361,7 +351,7 @@ static void print_state(FILE *out, const containment_found *h, const containment
             off.text, wide.text, behind(h, s));
 }
 
-/* Returns the state with the shortest proof, or -1 if all are proved to the end. */
+/* Returns the state with the shortest proved time, or -1 if all are proved to the end. */
 static int first_of(const containment_found *h) {
     int first = -1;
     for (int i = 0; i < h->states; i++) {

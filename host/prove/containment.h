@@ -1,5 +1,5 @@
-/* containment.h: comparison of a run's records with a tube around the exact motion. For each coordinate and rate it proves a
- * time up to which all step ends are within a tolerance. The records are bit-exact, in float or double. */
+/* containment.h: comparison of a run's records with a tube around the exact motion. For each coordinate and rate it
+ * proves a time until which the error at every step's end is within a tolerance. */
 #ifndef PROVE_CONTAINMENT_H
 #define PROVE_CONTAINMENT_H
 
@@ -15,39 +15,39 @@ typedef struct containment_request {
     const image *image;
     const engine_kind *kind;
     double tolerance;
-    const double *within; /* [states] allowed errors, SI; 0: the tolerance times the range */
-    double products_most; /* limit on products of enclosures; 0: no limit */
-    /* Called at the start and at the end of each step that the tube reaches, with the enclosure of the exact motion,
-     * exact[states], and the run, SI. May be NULL. */
+    const double *within; /* [states] allowed errors, SI; 0: tolerance times range */
+    double products_most; /* limit on products of enclosures; 0: none */
+    /* called at the start and at each step's end that the tube reaches, with exact[states], which encloses the exact
+     * motion, and the run, SI; may be NULL */
     void (*see)(void *context, uint64_t step, const enclosure *exact, const double *run);
     void *context;
     void (*progress)(double share); /* may be NULL */
 } containment_request;
 
 typedef enum containment_verdict {
-    CONTAINMENT_TO_THE_END, /* proved within the tolerance at every step's end */
-    /* proved until until_s; at the next step's end the error is proved to be larger */
+    CONTAINMENT_TO_THE_END, /* proved at every step's end */
+    /* proved until until_s; at the next step's end, the error is proved to exceed the tolerance */
     CONTAINMENT_LEFT,
-    CONTAINMENT_UNTOLD, /* proved until until_s; after that the tube is too wide to decide */
-    CONTAINMENT_UNENDED /* proved until until_s, where the tube or the run ends: see containment_found's `end` */
+    CONTAINMENT_UNTOLD, /* proved until until_s; then the tube is too wide to decide */
+    CONTAINMENT_UNENDED /* proved until until_s, at which the tube or the run ends (containment_found's `end`) */
 } containment_verdict;
 
 typedef enum containment_end {
-    CONTAINMENT_AT_END,   /* the end of the run, or all states have left their tolerances */
+    CONTAINMENT_AT_END,   /* the run ends, or no state is open */
     CONTAINMENT_RUN_ENDS, /* the run failed */
     CONTAINMENT_NO_STEP,  /* the tube has no further step */
     CONTAINMENT_SPENT,    /* the limit on products was reached */
     CONTAINMENT_STOPPED   /* the user interrupted */
 } containment_end;
 
-/* The result for a state of the motion; SI. */
+/* The result for a state of the motion, SI. */
 typedef struct containment_state {
     containment_verdict verdict;
     bool open;
     bool begun;   /* within the tolerance at the start; otherwise nothing is proved */
-    double range; /* range in the run, but at least a thousandth of the largest size */
-    /* allowed error: the requested one, or the tolerance times a range. This is the state's range, but at least a
-     * thousandth of the range of each state with the same unit */
+    double range; /* range in the run, at least a thousandth of its largest size */
+    /* allowed error: the requested one, or the tolerance times the largest of the state's range and a thousandth of the
+     * ranges in the same unit */
     double within;
     double until_s;
     double off;    /* upper bound on the state's error until until_s */
@@ -72,8 +72,7 @@ void containment_free(containment_found *h);
 
 void containment_print(FILE *out, const containment_found *h, const containment_request *w);
 
-/* Write rows of comma-separated values, in SI, with all digits: the time, and for each state the least and greatest
- * value of the exact motion, and the run's value. */
+/* Writes, with all digits in SI: the time, and for each state the exact motion's limits and the run's value. */
 void containment_rows_head(FILE *out, const containment_request *w);
 void containment_row(FILE *out, const containment_request *w, uint64_t step, const enclosure *exact,
                      const double *run);

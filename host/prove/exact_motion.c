@@ -51,7 +51,7 @@ static bool is_smooth(const instance *inst, diags *errors) {
     return true;
 }
 
-/* Returns the sum of all terms of a kind, or -1 (reported). */
+/* Returns the node of the sum of all terms of a kind, or -1 (reported). */
 static int sum_of_terms(making *k, term_kind kind, int unknown) {
     const mechanism *m = k->instance->mechanism;
     int sum = graph_whole(k->graph, 0);
@@ -67,8 +67,7 @@ static int sum_of_terms(making *k, term_kind kind, int unknown) {
     return sum;
 }
 
-/* Builds Lagrange's equations d/dt dL/dq' - dL/dq = Q - dF/dq', with the terms of q'' on the left and all others on the
- * right. */
+/* Builds Lagrange's equations d/dt dL/dq' - dL/dq = Q - dF/dq', with only the terms of q'' on the left. */
 static bool lagrange(making *k) {
     graph *g = k->graph;
     const int kinetic = sum_of_terms(k, TERM_T, -1);
@@ -107,8 +106,8 @@ static bool not_linear(making *k, const term *t) {
     return false;
 }
 
-/* Builds the equations left - right = 0, which are linear in the highest derivatives. host/derive has checked this in
- * the normal form, which drops the smallest terms. */
+/* Builds left - right = 0. That it is linear in the highest derivatives is checked only in the normal form
+ * (host/derive). */
 static bool given_outright(making *k) {
     graph *g = k->graph;
     const mechanism *m = k->instance->mechanism;
@@ -136,8 +135,8 @@ static bool given_outright(making *k) {
     return true;
 }
 
-/* Finds a pivot: preferably a number, otherwise any node that is not zero. A mass matrix is positive definite, so its
- * diagonal has no zero pivots; then only the diagonal is used. */
+/* Finds a pivot: preferably a number, otherwise any node that is not zero. The diagonal of a mass matrix, which is
+ * positive definite, has no zero pivots, and suffices. */
 static bool find_pivot(const making *k, const bool *row_done, const bool *column_done, int *row,
                        int *column) {
     const bool diagonal = !k->instance->mechanism->is_system;
@@ -156,7 +155,7 @@ static bool find_pivot(const making *k, const bool *row_done, const bool *column
     return best > 0;
 }
 
-/* Subtracts a multiple of row p from row i, so that column c of row i becomes zero. */
+/* Subtracts a multiple of row p from row i, so that its column c becomes zero. */
 static void take_row(making *k, int i, int p, int c) {
     graph *g = k->graph;
     const int n = k->count;
@@ -172,7 +171,7 @@ static void take_row(making *k, int i, int p, int c) {
     k->force[i] = graph_sub(g, k->force[i], graph_mul(g, by, k->force[p]));
 }
 
-/* Solves row p for column c. In this row the columns of earlier pivots are zero; the unknowns of later pivots are known. */
+/* Solves row p for unknown c. Its entries at earlier pivots are zero; the unknowns of later pivots are known. */
 static void substitute(making *k, int p, int c, const bool *known) {
     graph *g = k->graph;
     int right = k->force[p];

@@ -1,12 +1,11 @@
-/* exact_motion.h: a scene's exact equations of motion: Lagrange's equations of its energies, or those of a system,
- * solved for the highest derivatives without rounding any number (graph.h). */
+/* exact_motion.h: a scene's exact equations of motion (Lagrange's, or those of a system), solved for the highest
+ * derivatives without rounding any number (graph.h). */
 #ifndef PROVE_EXACT_MOTION_H
 #define PROVE_EXACT_MOTION_H
 
 #include "host/lang/model.h"
 #include "host/prove/graph.h"
 
-/* An unknown of the mechanism, and the order of its derivative. */
 typedef struct exact_state {
     int unknown;
     int primes;
@@ -17,13 +16,12 @@ typedef struct exact_motion {
     exact_state *state; /* [states] */
     enclosure *start;   /* [states] SI */
     int *rate;          /* [states] node of each state's rate */
-    /* All nodes: the variables first, 0 to states - 1, then the others in order of evaluation. */
+    /* all nodes: the variables 0 to states - 1, then the others in order of evaluation */
     node *node;
     int nodes;
 } exact_motion;
 
-/* Returns NULL, and reports the reason, if the motion cannot be enclosed, because of contacts, functions with corners,
- * or expressions that are undefined at the start. */
+/* NULL (reported) for contacts, functions with corners, or expressions that are undefined at the start. */
 exact_motion *exact_motion_make(const instance *inst, diags *errors);
 void exact_motion_free(exact_motion *m);
 

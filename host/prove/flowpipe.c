@@ -1,4 +1,4 @@
-/* flowpipe.c: a tube around the exact motion; its axes, zonotopes and steps (flowpipe.h has the sources). */
+/* flowpipe.c: a tube around the exact motion: its axes, zonotopes and steps (sources: flowpipe.h). */
 #include "host/prove/flowpipe.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@
 #include "host/number/functions.h"
 
 /* === axes that turn with the motion =========================================================== */
-/* The axes are nearly orthogonal, so that a turned box fits closely into a new box along them (Lohner, Enclosing the
- * solutions of ordinary initial and boundary value problems, 1987). */
+/* Nearly orthogonal axes, so that a rotated box fits closely into a new box along them (Lohner, Enclosing the solutions
+ * of ordinary initial and boundary value problems, 1987). */
 
-/* Copies the columns of `of` to a[n * n], sorted by their contribution to the box, longest first. */
+/* Copies the columns of `of` to a[n * n], in order of their length times radii[n], longest first. */
 static void sorted(int n, const double *of, const double *radii, double *a) {
     bool *taken = alloc(n, sizeof *taken);
     for (int c = 0; c < n; c++) {
@@ -55,8 +55,8 @@ static void reflect(int n, double *m, const double *v, int k, int from) {
     }
 }
 
-/* Computes axes[n * n], one in each column: the columns of `of`, orthogonalized in order of their length times
- * radii[n] (Householder's reflections). Doubles suffice: their round-off can only widen the result. */
+/* Computes axes[n * n], in columns: the columns of `of`, orthogonalized in sorted order (Householder's reflections).
+ * Doubles suffice: their round-off can only widen the result. */
 static void orthogonal_axes(int n, const double *of, const double *radii, double *axes) {
     double *a = alloc((int64_t)n * n, sizeof *a);
     double *v = alloc((int64_t)n * n, sizeof *v); /* a row for each reflection */
@@ -110,9 +110,8 @@ static double off_orthogonal(int n, const double *axes) {
     return most;
 }
 
-/* Computes inverse[n * n], an enclosure of the inverse of `axes`. Returns false if the axes are too far from
- * orthogonal. A^-1 = (I - E)^-1 A^T with E = I - A^T A. In the row norm, (I - E)^-1 differs from I by at most |E| / (1
- * - |E|). */
+/* Encloses the inverse of `axes`, for nearly orthogonal axes; otherwise returns false. A^-1 = (I - E)^-1 A^T with E = I
+ * - A^T A. In the row norm, (I - E)^-1 differs from I by at most |E| / (1 - |E|). */
 static bool orthogonal_inverse(int n, const double *axes, enclosure *inverse) {
     const double e = off_orthogonal(n, axes);
     if (!(e < 0.25)) {
@@ -155,7 +154,6 @@ void zonotope_free(zonotope *z) {
 
 static double size_of(double x) { return x < 0.0 ? -x : x; }
 
-/* Adds absolute values, rounded up. */
 static double sum_up(double a, double b) { return b == 0.0 ? a : enclosure_above(a + b); }
 
 void zonotope_box(const zonotope *z, enclosure *box) {
@@ -197,7 +195,7 @@ static void longest(const zonotope *z, double *columns, double *radii) {
     free(length);
 }
 
-/* Computes the extent along each row of the inverse axes, of the generators from number `from` on. */
+/* Computes the extent of the generators from number `from` on, along each row of the inverse axes. */
 static void reach(const zonotope *z, const enclosure *inverse, int from, double *radius) {
     const int n = z->n;
     for (int i = 0; i < n; i++) {
@@ -213,7 +211,7 @@ static void reach(const zonotope *z, const enclosure *inverse, int from, double 
     }
 }
 
-/* Finds axes along the generators, and their inverse. If the inverse has no enclosure, the unit axes are used. */
+/* Finds axes along the longest generators, and their inverse. If that has no enclosure, the unit axes are used. */
 static void find_axes(const zonotope *z, double *axes, enclosure *inverse) {
     const int n = z->n;
     double *columns = alloc((int64_t)n * n, sizeof *columns);
@@ -279,8 +277,7 @@ static void sort_by_size(zonotope *z) {
     free(sorted);
 }
 
-/* Replaces the smaller half of the generators by one box along axes. The rounding of its corners is added to
- * rounding[n]. */
+/* Replaces the smaller half of the generators by a box along axes. Its corners' round-off is added to rounding[n]. */
 static void reduce(zonotope *z, double *rounding) {
     const int n = z->n;
     double *axes = alloc((int64_t)n * n, sizeof *axes);
@@ -304,8 +301,7 @@ static void reduce(zonotope *z, double *rounding) {
     free(radius);
 }
 
-/* Replaces vector[n] by the centre of map vector + more (NULL: nothing). The error of the new vector is added to
- * rounding[n]. to[n] is working memory. */
+/* Replaces vector[n] by the middle of map vector + more (NULL: 0), and adds its error to rounding[n]. */
 static void map_vector(int n, const enclosure *map, double *vector, const enclosure *more,
                        enclosure *to, double *rounding) {
     for (int i = 0; i < n; i++) {
@@ -345,11 +341,8 @@ void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more) {
 
 /* === the tube ================================================================================= */
 
-/* The length of a step is chosen so that its remainder is at most this, relative to the largest value of the state so
- * far. */
-#define REMAINDER 0x1p-54
-/* The tube ends if the step would have to be shorter than this, s. */
-#define STEP_LEAST_S 1e-9
+#define REMAINDER 0x1p-54 /* most of a step, relative to the state's largest value so far */
+#define STEP_LEAST_S 1e-9 /* the tube ends if a step would have to be shorter */
 #define STEP_FIRST_S 0.01
 enum { TRIALS = 60, GENERATORS = 3000 };
 
@@ -357,20 +350,20 @@ struct flowpipe {
     const exact_motion *motion;
     int states;
     int order;
-    int first;        /* coefficients up to this one use derivatives; later ones are small */
+    int first;        /* coefficients up to this one have derivatives; later ones are small */
     taylor *middle;   /* Taylor coefficients at the centre */
     taylor *all;      /* Taylor coefficients over the whole box, with derivatives up to `first` */
-    taylor *over;     /* Taylor coefficients over a whole step, one order more */
-    double *centre;   /* [states] a point x of the tube is centre plus off */
+    taylor *over;     /* Taylor coefficients over a whole step, to one order more */
+    double *centre;   /* [states] a point of the tube is `centre` plus `off` */
     zonotope *off;    /* deviation from the centre */
-    enclosure *box;   /* [states] box of x along the state axes */
+    enclosure *box;   /* [states] box of the points, along the state axes */
     double *axes;     /* [states * states] axes that turn with the motion */
-    enclosure *along; /* [states] box of the deviation along `axes` */
-    enclosure *turn;  /* [first + 1][states * states] the derivatives' coefficients times axes */
-    enclosure *stay;  /* [states] box that contains the motion during the whole step */
+    enclosure *along; /* [states] box of `off` along `axes` */
+    enclosure *turn;  /* [first + 1][states * states] derivatives of the coefficients, times axes */
+    enclosure *stay;  /* [states] contains the motion during the whole step */
     double *largest;  /* [states] */
-    double open_s;    /* length of the open step; 0: not open */
-    double guess_s;   /* guess of the next step, s */
+    double open_s;    /* length of the open step; 0: none */
+    double guess_s;   /* guess for the next step, s */
     uint64_t steps;
     double products;
 };
@@ -399,7 +392,7 @@ flowpipe *flowpipe_new(const exact_motion *m, int order) {
         t->along[i] = enclosure_sub(m->start[i], enclosure_of(t->centre[i]));
         t->box[i] = m->start[i];
     }
-    zonotope_map(t->off, t->turn, t->along); /* no generators yet, so any map serves */
+    zonotope_map(t->off, t->turn, t->along); /* no generators yet, so the map does not matter */
     return t;
 }
 
@@ -428,7 +421,7 @@ static bool find(flowpipe *t, taylor *series, const enclosure *x) {
     return taylor_find(series, x);
 }
 
-/* Encloses the Taylor polynomial over the whole step, from the whole box: the sum of [0, h]^k x_k over k <= order. */
+/* Encloses the Taylor polynomial from the whole box over the whole step: the sum of [0, h]^k x_k over k <= order. */
 static enclosure polynomial_over(const flowpipe *t, int i, enclosure span) {
     enclosure sum = taylor_of(t->all, i, t->order)[0];
     for (int k = t->order - 1; k >= 0; k--) {
@@ -443,9 +436,9 @@ static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
                          taylor_of(t->over, i, t->order + 1)[0]);
 }
 
-/* Does every motion from the box stay in `stay` for h_s? If a motion first left `stay` at t, its Taylor polynomial
- * with Lagrange's remainder over `stay` up to t would be inside `stay`: a contradiction. *excess: the largest
- * remainder, relative to its bound by REMAINDER. */
+/* Does every motion from the box stay in `stay` for h_s? If one first left it at t, its Taylor polynomial, with
+ * Lagrange's remainder over `stay` up to t, would be inside: a contradiction. *excess: the largest remainder in units
+ * of its bound. */
 static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;
@@ -471,7 +464,7 @@ static bool stays(flowpipe *t, double h_s, double *excess) {
     return good;
 }
 
-/* Returns the length of the next trial. It follows from the order of the remainder, and is 0.4 to 1.5 times h_s. */
+/* Returns the next trial's length, 0.4 to 1.5 times h_s, from the order of the remainder. */
 static double changed(double h_s, double excess, int order) {
     const double factor =
         excess > 0.0 ? 0.9 * number_power(1.0 / excess, 1.0 / (double)(order + 1)) : 2.0;
@@ -565,8 +558,8 @@ static bool all_finite(const flowpipe *t) {
     return good;
 }
 
-/* Moves the centre by the middle of the displacement. left[]: the rest of the displacement's enclosure. The
- * displacement is small, so little precision is lost. */
+/* Moves the centre by the middle of the displacement, which is small, so that little precision is lost; the rest is
+ * left[]. */
 static void go_to(flowpipe *t, enclosure tau, enclosure *left) {
     for (int i = 0; i < t->states; i++) {
         const enclosure way = way_at(t, i, tau);
@@ -590,7 +583,7 @@ bool flowpipe_on(flowpipe *t, enclosure tau_s) {
     t->products +=
         2.0 * (double)n * (double)n * (double)t->off->count; /* and flowpipe_open()'s products */
     for (int i = 0; i < n; i++) {
-        /* the derivatives must hold on the whole segment from the centre to the motion */
+        /* the derivatives must hold on the segment from the centre to the motion */
         const enclosure centre = enclosure_of(t->centre[i]);
         t->box[i] = enclosure_hull(enclosure_add(centre, t->box[i]), centre);
     }

@@ -96,8 +96,8 @@ int graph_variable(graph *g, int which) {
     return entered(g, NODE_VARIABLE, which, -1, enclosure_of(0.0));
 }
 
-/* Computes x op y for numbers. A double computed without an error stays a double: 2*3 is a whole exponent, as 6 is.
- * The error terms are Knuth's and Dekker's; Dekker's split requires sizes below 1e150. */
+/* Computes x op y for numbers. A double computed without an error stays a double: 2*3 is the whole exponent 6. The
+ * error terms are Knuth's and Dekker's; Dekker's split requires sizes below 1e150. */
 static enclosure folded(char op, enclosure x, enclosure y) {
     const double a = x.low;
     const double b = op == '-' ? -y.low : y.low;
@@ -212,7 +212,7 @@ int graph_div(graph *g, int a, int b) {
     return made_of_two(g, NODE_RATIO, a, b);
 }
 
-/* Makes a sine and its cosine together, in adjacent nodes, because their Taylor coefficients depend on each other. */
+/* A sine and its cosine are adjacent nodes, because their Taylor coefficients depend on each other. */
 static int wave(graph *g, int a, bool cosine) {
     const enclosure of = g->node[a].number;
     if (graph_is_number(g, a)) {
@@ -264,8 +264,7 @@ int graph_power(graph *g, int a, enclosure exponent) {
 
 /* === derivatives ============================================================================== */
 
-/* The new node for each node visited so far. New nodes are added during the walk, but only earlier ones are looked
- * up. */
+/* The new node for each node visited so far. The walk adds nodes, but looks up only earlier ones. */
 typedef struct rewriting {
     graph *graph;
     int *to; /* [number of nodes at the start] -1: not yet */
@@ -280,7 +279,7 @@ static rewriting begin(graph *g, int variable) {
     return r;
 }
 
-/* Returns the derivative of a sine, cosine, exponential and so on by its argument. */
+/* The derivative of a sine, cosine, exponential and so on by its argument. */
 static int outer_slope(graph *g, int a) {
     const node n = g->node[a];
     switch (n.kind) {
@@ -450,8 +449,8 @@ static int read_corner(reader_symbols *s, const expr *tree, int a, int b) {
     return graph_number(g, enclosure_call(tree->function, x, b >= 0 ? g->node[b].number : x));
 }
 
-/* Returns a bound of the angle in [-pi/2, pi/2] whose sine (or tangent) is x. Angles are tested farther and farther from
- * the computed one; sine and tangent increase monotonically in this interval. */
+/* Returns a bound on the angle in [-pi/2, pi/2] whose sine (or tangent), which increases there, is x. It tests angles
+ * at increasing distances from the computed one. */
 static double inverse_end(double x, bool tangent, double side) {
     const double angle = folding_call(tangent ? FN_ATAN : FN_ASIN, x, 0.0);
     const double most = 0x1.921fb54442d18p+0; /* pi/2, from below */
@@ -482,7 +481,7 @@ static enclosure inverse(enclosure x, bool tangent) {
                : (enclosure){inverse_end(x.low, tangent, -1.0), inverse_end(x.high, tangent, 1.0)};
 }
 
-/* Encloses atan2(y, x), by quadrant. NaN at its cut. */
+/* Encloses atan2(y, x), by quadrant; NaN at its cut. */
 static enclosure inverse_ratio(enclosure y, enclosure x) {
     const enclosure right = enclosure_times(enclosure_pi(), 0.5);
     if (x.low > 0.0) {

@@ -1,7 +1,7 @@
 /* graph.h: expressions as a graph of operations in which equal subexpressions are one node. Nothing is rounded or
- * dropped: numbers are enclosures, and simplifications are valid for all real values (0 + x, 1 x, x - x). So enclosing
- * the nodes encloses the motion of the given energies. The algebra's normal form, which drops terms below 1e-14, is not
- * involved. Nodes are numbers from 0 on, operands before their users. */
+ * dropped: numbers are enclosures, and simplifications hold for all real values (0 + x, 1 x, x - x). So enclosing the
+ * nodes encloses the motion of the given energies, without the algebra's normal form, which drops terms below 1e-14. A
+ * node is a number from 0 on, above those of its operands. */
 #ifndef PROVE_GRAPH_H
 #define PROVE_GRAPH_H
 
@@ -41,8 +41,7 @@ typedef struct graph {
     int slots;
 } graph;
 
-/* Largest number of nodes of a graph that is evaluated repeatedly. */
-enum { GRAPH_NODES_MAX = 20000 };
+enum { GRAPH_NODES_MAX = 20000 }; /* nodes of a graph that is evaluated repeatedly */
 
 graph *graph_new(void);
 void graph_free(graph *g);
@@ -65,11 +64,11 @@ bool graph_is_number(const graph *g, int a);
 bool graph_is_zero(const graph *g, int a);
 
 int graph_slope(graph *g, int a, int variable);
-/* Returns `a` with 0 in place of the variables from `first` on. */
-int graph_without(graph *g, int a, int first);
+int graph_without(graph *g, int a,
+                  int first); /* `a` with 0 in place of the variables from `first` on */
 
 /* === conversion of a model's expressions ====================================================== */
-/* Conversion of a model's expressions to nodes of a graph. Parameters, inputs and starts are exact decimals, not doubles. */
+/* Parameters, inputs and starts are exact decimals, not doubles. */
 
 typedef struct reader_symbols {
     graph *graph;
@@ -83,7 +82,6 @@ typedef struct reader_symbols {
     diags *errors;
 } reader_symbols;
 
-/* Returns the node, or -1 (reported). */
-int read_node(reader_symbols *s, const expr *tree);
+int read_node(reader_symbols *s, const expr *tree); /* -1: refused (reported) */
 
 #endif

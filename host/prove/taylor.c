@@ -1,5 +1,5 @@
-/* taylor.c: the recurrences of Taylor coefficients. u and v are the operands of a node. Coefficient k of the node
- * follows from their coefficients up to k, and from its own below k. */
+/* taylor.c: recurrences of Taylor coefficients. With operands u and v, coefficient k of a node follows from the
+ * operands' coefficients up to k, and from its own below k. */
 #include "host/prove/taylor.h"
 
 #include <stdlib.h>
@@ -8,8 +8,8 @@
 #include "host/number/enclosure.h"
 
 /* === enclosures with derivatives ============================================================== */
-/* An enclosure with its derivatives by all states: entry 0 is the value, then come `width` - 1 derivatives. With
- * width 1 it is only the value. Entries that are exactly zero cost almost nothing. */
+/* An enclosure (entry 0), then its `width` - 1 derivatives by all states (none for width 1). Zeros cost almost
+ * nothing. */
 
 static void dual_zero(enclosure *to, int width) {
     for (int j = 0; j < width; j++) {
@@ -73,9 +73,7 @@ static void dual_scale(enclosure *to, enclosure number, int width) {
     }
 }
 
-/* to /= a
- *
- * (u / v)' = (u' - (u / v) v') / v */
+/* to /= a: (u / v)' = (u' - (u / v) v') / v */
 static void dual_divide(enclosure *to, const enclosure *a, int width) {
     const enclosure by = a[0];
     to[0] = enclosure_div(to[0], by);
@@ -118,7 +116,7 @@ const enclosure *taylor_of(const taylor *t, int i, int k) { return at(t, i, k); 
 
 static enclosure whole(int value) { return enclosure_of((double)value); }
 
-/* Returns the number of entries of coefficient k. */
+/* Entries of coefficient k. */
 static int width_of(const taylor *t, int k) { return k <= t->slopes_to ? t->width : 1; }
 
 /* to = sum of u_j v_(k-j) */
@@ -152,8 +150,8 @@ static void ratio(const taylor *t, const node *n, int self, int k, enclosure *to
     dual_divide(to, at(t, n->right, 0), width_of(t, k));
 }
 
-/* s' = u' c, c' = -u' s: k s_k = sum of j u_j c_(k-j), and similarly for the cosine. `self` is the cosine's node, which
- * comes after the sine's. */
+/* s' = u' c, c' = -u' s: k s_k = sum of j u_j c_(k-j), and -k c_k = sum of j u_j s_(k-j). `self` is the cosine's node,
+ * after the sine's. */
 static void waves(const taylor *t, const node *n, int self, int k) {
     enclosure *sine = at(t, self - 1, k);
     enclosure *cosine = at(t, self, k);
@@ -287,7 +285,7 @@ bool taylor_find(taylor *t, const enclosure *x) {
     return all_finite(t);
 }
 
-/* Returns the cost of a product: each coefficient is a sum of products, and each derivative a sum of two. */
+/* The cost of a product: each coefficient is a sum of products, and each derivative a sum of two. */
 static double products_to(int order) { return 0.5 * (double)(order + 1) * (double)(order + 2); }
 
 double taylor_products(const taylor *t) {

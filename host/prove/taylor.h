@@ -1,6 +1,6 @@
 /* taylor.h: the Taylor coefficients of a motion at a time, x(t + h) = sum of x_k h^k, by recurrences (Moore; Rall and
- * Corliss, An introduction to automatic differentiation, 1996). Enclosures cover all motions through a box of states at
- * once. The derivatives of the first coefficients by the state are optional. */
+ * Corliss, An introduction to automatic differentiation, 1996). They are enclosed for all motions through a box of
+ * states. The first ones may have derivatives by the state. */
 #ifndef PROVE_TAYLOR_H
 #define PROVE_TAYLOR_H
 
@@ -17,13 +17,13 @@ typedef struct taylor {
 taylor *taylor_new(const exact_motion *m, int order, int slopes_to);
 void taylor_free(taylor *t);
 
-/* Computes all coefficients at the states x[states]. Returns false if one of them is not finite. */
+/* Computes all coefficients for x[states]. Returns false if one is not finite. */
 bool taylor_find(taylor *t, const enclosure *x);
 
-/* Returns the estimated products of enclosures in one taylor_find(). */
+/* Estimates the products of enclosures in one taylor_find(). */
 double taylor_products(const taylor *t);
 
-/* Returns coefficient k of state i: the value, followed by its derivatives if k is at most slopes_to. */
+/* Coefficient k of state i: the value, followed by its derivatives if k <= slopes_to. */
 const enclosure *taylor_of(const taylor *t, int i, int k);
 
 #endif
