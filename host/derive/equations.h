@@ -126,8 +126,8 @@ const poly *equations_fold(const equations *e, const poly *p);
  * relativistic speeds, T + V also changes by work that no statement of the file mentions, such as that of the
  * turntable's drive. */
 
-/* Returns h, with folded constants, or NULL if it equals T + V, or for a system. In the first case it adds no
- * expression to the algebra, so that the generated code does not change. */
+/* Returns h, with folded constants, or NULL for a system. If h equals T + V, returns NULL and adds no expression to the
+ * algebra, so that the generated code does not change. */
 const poly *energy_integral(const equations *e);
 
 /* Returns the power of the drive of unknown i, which is an input with a rate. Contacts are not included. */

@@ -312,7 +312,7 @@ image *image_again(const image *base, const instance *inst, diags *errors) {
 
 /* === the image, and ways of folding its numbers =============================================== */
 
-/* An image to run gets variants, which show the effect of folding, if that loses more than this (relative). */
+/* If folding loses more than this (relative), an image to run gets variants, which show the effect. */
 #define FOLDED_MUCH 1e-9
 
 _Static_assert((int)FOLDING_WAYS - (int)FOLDING_OTHER == (int)IMAGE_WAYS, "a place for each way");

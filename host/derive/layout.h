@@ -45,8 +45,8 @@ void layout_free(layout *map);
 /* Makes p ready for a list: folds it, and replaces conserved coordinates. */
 const poly *layout_ready(const layout *map, const poly *p);
 
-const poly *layout_recorded(const layout *map,
-                            const symbol *record); /* without its noise, ready for a list */
+/* Returns the output of a record without its noise, ready for a list. */
+const poly *layout_recorded(const layout *map, const symbol *record);
 
 /* The leaves and turn angles of the lowering come from this layout. */
 lowering layout_lowering(layout *map, op_list *t);

@@ -66,7 +66,7 @@ bool lower_only_in_waves(const poly *p, const symbol *sym) {
  * there than gained near the zero, and the sum is not rewritten. */
 #define GROWTH_MAX 8.0
 
-/* By member, because padding bytes between a 32-bit pointer and a double are undefined. */
+/* Compares by member, because padding bytes between a 32-bit pointer and a double are undefined. */
 static bool same_factors(const mono *x, const mono *y) {
     bool same = x->count == y->count;
     for (int i = 0; i < x->count && same; i++) {
@@ -107,8 +107,8 @@ static int multiple_of(const poly *angle, const poly *base) {
     return good ? (int)m : 0;
 }
 
-/* Collects the terms whose angle is a multiple of that of term `base`. Returns false if that is a multiple of
- * another. */
+/* Collects the terms whose angles are multiples of the angle of term `base`. Returns false if that angle is itself a
+ * multiple of another term's angle. */
 static bool collect(const poly *p, const bool *used, int base, family *f) {
     const mono *lead = p->terms[base].mono;
     *f = (family){.trig = lead->trig};

@@ -105,8 +105,7 @@ static op_list *make_forces(layout *map, const linear_system *s) {
             row[i] = driven ? poly_number(l.algebra, 0.0) : layout_ready(map, law->row[i]);
         }
         solve_highest(&l, &load, pushed);
-        for (int i = 0; i < n;
-             i++) { /* a driven coordinate moves the contact, but is not accelerated */
+        for (int i = 0; i < n; i++) { /* a driven coordinate moves the contact but is not pushed */
             row[i] = layout_ready(map, law->row[i]);
         }
         row[n + WH_LAW_FIRST] = layout_ready(map, law->first);

@@ -126,7 +126,8 @@ static void exchange(int *a, int *b) {
     *b = kept;
 }
 
-/* Moves the best pivot from `at` on to `at`: a constant (returns true), or else the largest at a generic state. */
+/* Moves the best pivot among rows and columns from `at` on to position `at`. Returns true if it is a constant;
+ * otherwise it is the largest at a generic state. */
 static bool bring_pivot(const op_list *t, int n, const int *mass, const double *value, int *rows,
                         int *columns, int at) {
     double best = -1.0;
@@ -394,7 +395,8 @@ static double tally_favourite(const tally *t) {
     return best < 0 ? 1.0 : t->size[best];
 }
 
-/* Chooses scale[i] for row and column i, and returns a common divisor, so that most coefficients become one. */
+/* Chooses scale[i] for row and column i, and returns a common divisor, so that as many coefficients as possible become
+ * one. */
 static double choose_scales(const linear_system *s, double *scale) {
     const int n = s->n;
     tally all = {.count = 0};
@@ -498,7 +500,7 @@ static void scale_equations(algebra *a, int n, const poly **mass, const poly **f
     }
 }
 
-/* Makes the most frequent size of the remaining equations' numbers one. */
+/* Divides the remaining equations by the most frequent size of their numbers. */
 static void scale_what_is_left(algebra *a, int n, const poly **mass, const poly **force,
                                const bool *gone) {
     tally all = {.count = 0};
@@ -582,7 +584,8 @@ static void scale_unknown(algebra *a, arranged *w, int i, double scale) {
     w->scale[i] *= scale;
 }
 
-/* Makes the most frequent numbers of the remaining equations one, first in all, then per unknown (except angles). */
+/* Scales the remaining equations together, then the row and column of each unknown except angles, so that their most
+ * frequent numbers become one. */
 static void scale_beside_hinges(algebra *a, const linear_system *s, arranged *w) {
     const int n = s->n;
     const double common = 1.0 / w->inverse[0];

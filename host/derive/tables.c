@@ -250,8 +250,7 @@ static void table_numbers(const table_functions *f, op_list_tables *into) {
 }
 
 /* === a list as sums of products =============================================================== */
-/* The state of the conversion. In list order, sums are added, multiplied out, and divided by functions of the
- * angles. */
+/* The state of the conversion, which adds and multiplies out sums, and divides them by functions of the angles. */
 
 typedef struct collecting {
     products *made;
@@ -542,7 +541,7 @@ static int leading(const int *turns, int angles) {
     return k;
 }
 
-/* Are both multiples of one phase? *turns becomes the largest such phase. */
+/* Are `turns` and `other` multiples of one phase? *turns becomes the largest such phase. */
 static bool shares(int *turns, const int *other, int angles) {
     const int k = leading(turns, angles);
     const int common = (int)ratio_divisor((uint64_t)abs(turns[k]), (uint64_t)abs(other[k]));
@@ -729,7 +728,7 @@ static op_list *write_list(const tabling *t, const op_list *list, image_tables f
     return made;
 }
 
-/* Makes the coefficients' list compute the tables' functions exactly. */
+/* Returns the coefficients' list as the list of the tables' exact functions. */
 static op_list *take_exact(tabling *t) {
     op_list *exact = t->from->coefficients;
     t->from->coefficients = NULL;

@@ -135,7 +135,7 @@ static void fixed_loss_after(fixed_loss *l, const wh_fixed_state *state) {
     }
 }
 
-/* The largest size of component i's lost sum since the start, angles first. *span: its range without the loss. SI. */
+/* The largest size of `lost` of component i since the start, angles first. *span: its range without round-off. SI. */
 static double fixed_loss_off(const fixed_loss *l, int i, double *span) {
     *span = l->component[i].high - l->component[i].low;
     return l->component[i].most;
@@ -255,8 +255,7 @@ static void at_stage_second(fixed_run *run, fixed_stages *k, int stage) {
     const fixed_plan *p = run->plan;
     const int angles = run->image->angles;
     const int linears = p->coordinates - angles;
-    const int twice =
-        stage == 3 ? 1 : 0; /* stage 3 is at the step's end, the others in its middle */
+    const int twice = stage == 3 ? 1 : 0; /* stage 3 is at the step's end, not its middle */
     for (int i = 0; i < p->coordinates; i++) {
         const fixed_mover *m = &p->mover[i];
         const int32_t more = wh_fixed_round(place_more(m, k, i, stage), m->guard - twice);

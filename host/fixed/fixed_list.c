@@ -100,10 +100,7 @@ bool fixed_ranges(const image *im, enclosure *range, bool *declared, bool progre
 
 /* === binary points and shifts ================================================================= */
 
-enum {
-    BITS_LEAST = -60,
-    BITS_MOST = 90
-}; /* limits of the binary point, which no mechanism reaches */
+enum { BITS_LEAST = -60, BITS_MOST = 90 }; /* of the binary point; no mechanism reaches them */
 #define ROUNDED (1.0 - 0x1p-40)
 
 int fixed_point_of(double size, int digits) {
@@ -169,7 +166,7 @@ static void choose(const fixed_list *l, fixed_op *o, int digits) {
     }
 }
 
-/* Raises wanted[i] to the digits of operation i that its user `o` can use: a sum needs no more than its own. */
+/* Raises wanted[i] to the digits of operation i that its user `o` can use: for a sum, at most its own. */
 static void request(int *wanted, int i, const fixed_op *o) {
     const bool adds = o->code == FIXED_SUM || o->code == FIXED_DIFFERENCE ||
                       o->code == FIXED_LEAST || o->code == FIXED_MOST;

@@ -16,8 +16,8 @@ static inline wh_contact core_contact_row(const image_contact *c) {
                         .sets = (uint8_t)c->sets};
 }
 
-/* Without its functions, the ledger and the number of evaluations. The caller owns `contact` and `target`
- * [set_count]. */
+/* The core's contact system, without its functions, the ledger and the number of evaluations. The caller owns
+ * `contact` [contacts] and `target` [set_count]. */
 static inline wh_contact_system core_contact_system(const image *im, const wh_contact *contact,
                                                     const uint8_t *target) {
     unsigned kinds = 0;

@@ -189,7 +189,7 @@ typedef struct image_ledger {
     bool kept;  /* the run has a ledger */
     bool asked; /* requested by `with ledger`; else the ledger only balances the run */
     int smooth; /* number of continuous entries, between events */
-    /* smooth entries, then each contact's energy and impulses by coordinate, then inputs */
+    /* all entries: smooth ones, then each contact's energy and impulses by coordinate, then inputs */
     int entries;
     int accounts;       /* 1 + unknowns: the energy, then the momenta */
     int inputs;         /* number of inputs in the energies: their changes are the last entries */

@@ -72,7 +72,8 @@ void containment_free(containment_found *h);
 
 void containment_print(FILE *out, const containment_found *h, const containment_request *w);
 
-/* Writes, with all digits in SI: the time, and for each state the exact motion's limits and the run's value. */
+/* Write comma-separated rows, in SI with all digits: the time, and for each state the least and greatest value of the
+ * exact motion and the run's value. */
 void containment_rows_head(FILE *out, const containment_request *w);
 void containment_row(FILE *out, const containment_request *w, uint64_t step, const enclosure *exact,
                      const double *run);

@@ -33,8 +33,8 @@ void zonotope_free(zonotope *z);
 
 /* Computes the smallest box[n] that contains the zonotope. */
 void zonotope_box(const zonotope *z, enclosure *box);
-/* Computes nearly orthogonal axes, in columns, the first along the longest extent. off[n] encloses the deviation in
- * them. */
+/* Computes nearly orthogonal axes, in columns, the first along the longest extent. off[n] encloses the
+ * deviation's components along them. */
 void zonotope_frame(const zonotope *z, double *axes, enclosure *off);
 /* Applies all maps in map[n * n], and adds `more`[n]. */
 void zonotope_map(zonotope *z, const enclosure *map, const enclosure *more);

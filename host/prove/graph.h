@@ -64,8 +64,8 @@ bool graph_is_number(const graph *g, int a);
 bool graph_is_zero(const graph *g, int a);
 
 int graph_slope(graph *g, int a, int variable);
-int graph_without(graph *g, int a,
-                  int first); /* `a` with 0 in place of the variables from `first` on */
+/* Returns `a` with 0 in place of the variables from `first` on. */
+int graph_without(graph *g, int a, int first);
 
 /* === conversion of a model's expressions ====================================================== */
 /* Parameters, inputs and starts are exact decimals, not doubles. */
