@@ -67,7 +67,7 @@ bool poly_is_place(const poly *p);
 typedef struct sum_item {
     const mono *mono;
     double coefficient;
-    /* place in the order of entry, in which equal products are added */
+    /* order of entry, in which equal products are added */
     size_t turn;
 } sum_item;
 

@@ -133,7 +133,7 @@ bool poly_is_place(const poly *p) {
     return p->count > 1;
 }
 
-/* A sum of positions stays a power if the exponent is `kept` or more. */
+/* A sum of positions stays a power if the exponent is at least `kept`. */
 static bool power_multiplies_out(const poly *base, double exponent, double kept) {
     if (exponent <= 0.0 || !exponent_is_whole(exponent) ||
         (exponent >= kept && poly_is_place(base))) {

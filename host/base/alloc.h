@@ -18,7 +18,7 @@ void *alloc_tail(size_t head, int64_t count, size_t size);
 
 /* A copy of `length` bytes with a zero byte after them. */
 char *alloc_copy(const char *text, size_t length);
-/* The same without blanks, tabs and line ends at both ends. */
+/* As alloc_copy(), without white space at both ends. */
 char *alloc_trimmed(const char *text, size_t length);
 
 /* The text that printf() would print. */

@@ -334,7 +334,7 @@ static bool is_alike(const image *im, const image *other) {
     return alike;
 }
 
-/* Evaluates and derives the scene again in another way of folding. Returns NULL if the result is not alike. */
+/* Evaluates and derives the scene again in another way of folding. Returns NULL if is_alike() is false. */
 static image *make_otherwise(image *im, const equations *e, const bool *conserve,
                              const image_settings *settings, int way) {
     diags *unsaid = diags_new();

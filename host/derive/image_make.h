@@ -10,8 +10,8 @@
 typedef enum image_use { IMAGE_TO_WRITE, IMAGE_TO_RUN, IMAGE_TO_CHECK } image_use;
 
 /* Returns an image with the lists of `base`, and the starts, inputs, step and end of `inst`, an instance of the same
- * mechanism and scene with the same parameters. For another step it gets its own matrix; if there is none, returns NULL
- * (reported). Free `base` last. */
+ * mechanism and scene with the same parameters. If the step differs, makes another matrix, or returns NULL (reported).
+ * Free `base` last. */
 image *image_again(const image *base, const instance *inst, diags *errors);
 
 /* Returns the image of an instance with the equations `e`, and its variants; NULL after an error (reported, see

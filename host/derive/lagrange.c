@@ -114,8 +114,7 @@ typedef struct generic_state {
     uint64_t seed;
 } generic_state;
 
-/* At TRY_START, every symbol has its start value; elsewhere only parameters and inputs have it, and others are
- * generic. */
+/* At TRY_START, symbols have their start values. At other states, only parameters and inputs have them. */
 static double generic_value(void *context, const symbol *s, int primes) {
     const generic_state *state = context;
     if (s->kind == SYM_PARAMETER || s->kind == SYM_INPUT || state->seed == TRY_START) {
@@ -334,7 +333,7 @@ static solvability solvability_at(const equations *e, int try, double *m, double
 }
 
 /* Returns false, with an error that names the cause, if the mass matrix is singular or undefined at all tried states.
- * That of a mechanism given by energies must also be positive definite at one of them; otherwise a mass is negative. A
+ * A mechanism's mass matrix must also be positive definite at one of them; otherwise a mass is negative. A
  * matrix that is singular only at some states, such as a pole of spherical coordinates, passes: the run finds these
  * states. Sets e->mass_blur. */
 static bool equations_check_solvable(equations *e, diags *errors) {

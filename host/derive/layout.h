@@ -21,7 +21,7 @@ typedef struct layout {
     int coordinates;  /* integrated coordinates, angles included (second order) */
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */
-    int inputs;       /* the mechanism's own and those of the active effects */
+    int inputs;       /* of the mechanism and of the active effects */
     int *input;       /* [inputs] number of each input in the mechanism */
     component *angle; /* [angles] */
     component *real;  /* [reals] */

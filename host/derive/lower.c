@@ -281,9 +281,9 @@ int pieces_of(algebra *a, const poly *p, piece *pieces) {
 }
 
 /* === which sines are evaluated ================================================================ */
-/* Few sines and cosines are evaluated: an evaluated pair costs some thirty instructions, sin(a + b) from known pairs at
- * most six. So the angles are taken in order of size, and a sum, a difference or a double of earlier angles is computed
- * from their pairs. solve.c also tries other angles as the first. */
+/* As few sines and cosines as possible are evaluated: an evaluated pair costs some thirty instructions, sin(a + b) from
+ * known pairs at most six. So the angles are taken in order of size, and a sum, a difference or a double of earlier
+ * angles is computed from their pairs. solve.c also tries other angles as the first. */
 
 typedef enum wave_rule {
     WAVE_EVALUATED, /* computed by the core's sine */
@@ -488,8 +488,8 @@ static int phase_of(lowering *l, const poly *angle) {
     return phase;
 }
 
-/* Here each operation is entered by its own statement, because C does not fix the order in which arguments are
- * evaluated, which would become the order of the list. */
+/* In this file each statement enters one operation. C does not fix the order in which arguments are evaluated, and that
+ * order would become the order of the list. */
 static int wave_node(lowering *l, int i, trig which);
 
 static int waves_product(lowering *l, int p, trig of_p, int q, trig of_q) {

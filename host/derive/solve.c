@@ -1,6 +1,6 @@
 /* solve.c: the solution for the highest derivatives in the arrangement with the least op_list_weight(). Arrangements
  * differ in the scale of the equations, the order of elimination, the first evaluated sine, and the symbolic
- * elimination. That removes coordinates with a constant diagonal (a carriage's total mass, a body on a hinge). The
+ * elimination. The last removes coordinates with a constant diagonal (a carriage's total mass, a body on a hinge). The
  * remaining equations return to normal form and may shrink. The last ones are solved by Cramer's rule, with one
  * division. */
 #include "host/derive/solve.h"
@@ -648,7 +648,7 @@ static bool arrange(algebra *a, const linear_system *s, const arrangement *how, 
 
 /* === the cheapest of several arrangements ===================================================== */
 
-/* All orders of elimination are tried within both limits; otherwise only the first. */
+/* Up to these limits, all orders of elimination are tried; above, only the first. */
 #define PERMUTED_MAX 4           /* unknowns */
 #define PERMUTED_SIZE_MAX 4000.0 /* operands in the equations */
 #define LEADS_MAX 5 /* angles, besides the smallest, that are tried as the first evaluated angle */

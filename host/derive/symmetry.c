@@ -19,7 +19,7 @@ typedef struct conditions {
     double *row; /* [count * columns] */
 } conditions;
 
-/* Entries within this of a whole number become whole; a vector within this of a sum of others depends on them. */
+/* Round-off: an entry this close to a whole number becomes whole; a smaller pivot means dependent vectors. */
 #define NULL_SPACE_ROUNDING 1e-8
 
 static double vector_length(const double *row, int columns) {

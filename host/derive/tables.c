@@ -98,7 +98,7 @@ static void turn_evaluate(const op_list *t, const int *multiple, double turns, t
         case OP_SQRT: value[i] = turn_function_of(FN_SQRT, x, y); break;
         case OP_CALL: value[i] = turn_function_of(o->function, x, y); break;
         case OP_POW: value[i] = power_of(x, y); break;
-        case OP_PHASE:  /* not a number */
+        case OP_PHASE:  /* a phase has no value */
         case OP_LINEAR: /* from here on, not in such lists */
         case OP_RATE:
         case OP_INPUT:
@@ -279,7 +279,7 @@ static void find_symbols(collecting *c) {
     }
 }
 
-/* At least one byte, so that every product has its own address. */
+/* Allocates at least one byte, so that every product has its own address. */
 static unsigned char *powers_new(const products *p) {
     return arena_alloc(p->memory, (size_t)p->symbols + 1U);
 }

@@ -20,7 +20,7 @@ enum { ALL_MOST = 3 * IMAGE_COMPONENTS_MAX };
 
 typedef struct component_loss {
     double asked; /* exact increment in the current step */
-    double lost;  /* sum of the differences since the start */
+    double lost;  /* sum of exact minus fixed-point increments since the start */
     double most;
     double low, high; /* range without round-off */
 } component_loss;

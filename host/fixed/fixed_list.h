@@ -2,7 +2,7 @@
  *
  * The list is copied with the step's factors, its values are enclosed, and its points chosen. Operations without a
  * fixed form are refused. The interpreter (engine_fixed.c) and the C writer (c_fixed.c) read only numbers and shifts,
- * so both give the same bits. */
+ * so they give the same bits. */
 #ifndef FIXED_FIXED_LIST_H
 #define FIXED_FIXED_LIST_H
 

@@ -273,11 +273,11 @@ typedef struct image {
     int coordinates;  /* integrated coordinates, angles included (second order) */
     int angles;       /* components stored as turn angles */
     int reals;        /* components stored as reals */
-    int inputs;       /* the mechanism's own and those of the active effects */
+    int inputs;       /* of the mechanism and of the active effects */
     int own_outputs;  /* number of the mechanism's outputs */
     int outputs;      /* own_outputs, plus value and rate of each recovered coordinate */
     int recovered;    /* coordinates recovered from their momentum */
-    int parameters;   /* the mechanism's own and those of the active effects */
+    int parameters;   /* of the mechanism and of the active effects */
     double mass_blur; /* relative error of the accelerations from rounding the mass matrix */
     /* if constant folding lost digits: variants in other ways of folding (folding.h), of which only the lists are
      * used */

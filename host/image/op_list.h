@@ -1,7 +1,7 @@
 /* op_list.h: the operation list: a model's right-hand side as a table of elementary operations. One list serves the
  * interpreter (host/engine) and the generated C and Octave (host/emit). Each operation is one IEEE operation on earlier
- * results, so both give the same bits. Equal operations are entered once. Constants are folded. Signs move outwards,
- * and vanish into subtractions. */
+ * results, so interpreter and C give the same bits. Equal operations are entered once. Constants are folded. Signs move
+ * outwards, and vanish into subtractions. */
 #ifndef IMAGE_OP_LIST_H
 #define IMAGE_OP_LIST_H
 
@@ -114,8 +114,8 @@ typedef struct op {
     int a;
     int b;
     double value;     /* OP_CONSTANT, OP_PHASE, OP_NOISE, OP_LINE, OP_CUBIC */
-    const int *turns; /* OP_PHASE, OP_CELL: [angles] whole factors, or NULL */
-    /* OP_PHASE in records only: [angles] fractional factors of whole angles, or NULL */
+    const int *turns; /* OP_PHASE, OP_CELL: [angles] integer factors, or NULL */
+    /* OP_PHASE in records only: [angles] fractional factors of angles with all their turns, or NULL */
     const double *parts;
 } op;
 
@@ -151,7 +151,7 @@ int op_list_constant(op_list *t, double value);
 int op_list_leaf(op_list *t, op_code code, int which);
 int op_list_noise(op_list *t, uint32_t seed);
 /* Enters a phase: the sum of turn angles times multiple[t->angles] (may be NULL), the offset, and the operation
- * `radians` (-1: none). Whole multiples apply to phases, others to the whole angles. */
+ * `radians` (-1: none). Integer multiples apply to angles modulo a turn, others to angles with all turns. */
 int op_list_phase(op_list *t, const double *multiple, double offset_rad, int radians);
 /* Can a phase be multiplied by this number? It must be a whole number within bounds. */
 bool op_list_is_whole(double multiple);
@@ -200,7 +200,7 @@ void op_list_order(op_list *t);
 /* Estimates the least number of loads and stores in the list's order, with some twenty registers. */
 int op_list_carried(const op_list *t);
 
-/* Does the list use whole angles, turns included, instead of their phases only? A step has no whole angles. */
+/* Does the list use angles with all their turns, instead of modulo a turn? A step does not have them. */
 bool op_list_reads_turns(const op_list *t);
 
 /* A wave: a phase composed of turn angles, which a step can rotate (core/step/stage_turn.h). */

@@ -207,7 +207,7 @@ int op_list_carried(const op_list *t) {
 /* Reorders a finished list so that few values are live. In the order of entry, a whole matrix is computed before its
  * first row is eliminated. A large list then has more live values than a processor has registers, and a third of the
  * instructions move them to memory and back. The new order takes the operation that is the last use of the most values.
- * Ties go to the first in order of entry, or to the operation whose own last use is earliest: two orders. Given values
+ * Ties go to the first in order of entry, or to the operation whose value is used up first: two orders. Given values
  * (the state, the sine-cosine pairs) are read at their first use. The rule looks only one operation ahead, so the best
  * of both orders and the order of entry is taken, by loads and stores. A list whose values fit into registers keeps its
  * order. */

@@ -7,8 +7,7 @@
 enum { HEX_SIZE = 32 };
 
 /* Writes `value` exactly in C's hexadecimal notation without trailing zeros: 0x1.8p+1, -0x1p-3, 0x0p+0; or "inf",
- * "-inf", "nan". Subnormal numbers have the exponent -1022 (0x0.8p-1022), unlike in some C libraries. Returns
- * `text`. */
+ * "-inf", "nan". Subnormal numbers have the exponent -1022 on every host: 0x0.8p-1022. Returns `text`. */
 char *hex_write(double value, char text[static HEX_SIZE]);
 
 /* Returns the double nearest to the decimal number at the start of `text`: an optional sign, digits with at most one

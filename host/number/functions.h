@@ -1,4 +1,4 @@
-/* functions.h: the functions of the language, and a few others. The file depends only on the core.
+/* functions.h: functions of the language, rounding and remainders. The file depends only on the core.
  *
  * The machine's library is not used, so results have the same bits on every host. The functions of core/function.h,
  * such as sines, logarithms and powers, err by less than 0.6 ulp over the whole range. The root is correctly rounded.

@@ -21,7 +21,7 @@ typedef struct exact_motion {
     int nodes;
 } exact_motion;
 
-/* NULL (reported) for contacts, functions with corners, or expressions that are undefined at the start. */
+/* Returns NULL (reported) for contacts, functions with corners, or expressions undefined at the start. */
 exact_motion *exact_motion_make(const instance *inst, diags *errors);
 void exact_motion_free(exact_motion *m);
 
