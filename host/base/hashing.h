@@ -1,5 +1,4 @@
-/* hashing.h: hashes for tables and comparisons in the host. Apart from core/hash.h, only this file has FNV-1a's
- * constants. */
+/* hashing.h: hashes for tables and comparisons. Only this file and core/hash.h have FNV-1a's constants. */
 #ifndef BASE_HASHING_H
 #define BASE_HASHING_H
 

@@ -161,8 +161,7 @@ static int of_poly(maker *k, const poly *p) {
     return node;
 }
 
-/* Is p built only from numbers, symbols, sines and cosines by sums and products? Then it is differentiable
- * everywhere. */
+/* Has p only sums and products of numbers, symbols, sines and cosines? Then it is differentiable everywhere. */
 static bool has_slopes(const poly *p) {
     for (int i = 0; i < p->count; i++) {
         const mono *m = p->terms[i].mono;

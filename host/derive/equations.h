@@ -58,8 +58,7 @@ typedef struct statement_force {
     const poly *power;
 } statement_force;
 
-/* Returns the forces of the active statements in the file's order; *count is 0 for a system. The algebra may
- * overflow. */
+/* The forces of the active statements in the file's order; *count is 0 for a system. The algebra may overflow. */
 statement_force *forces_derive(algebra *a, const instance *inst, int *count);
 
 const poly *forces_on(algebra *a, const statement_force *forces, int count, int i);
@@ -98,8 +97,7 @@ typedef struct equations {
 
 void equations_free(equations *e);
 
-/* Returns expression i of contact k: those of its law, then of its row or the values that it sets; NULL after the
- * last. */
+/* Returns expression i of contact k: its law's, then its row's or those that it sets; NULL after the last. */
 const poly *contact_law_poly(const equations *e, int k, int i);
 
 place equations_kinetic_place(const instance *inst);

@@ -595,8 +595,7 @@ void lower_done(lowering *l) {
     l->wave_count = l->uses_room = 0;
 }
 
-/* Larger whole exponents are not expanded to products, here or in op_list_power(). An int would truncate large
- * exponents. */
+/* Larger whole exponents are not expanded to products, here or in op_list_power(). An int would truncate them. */
 #define EXPONENT_MAX 64.0
 
 void lower_multiply(lowering *l, node_product *p, int node, int exponent) {

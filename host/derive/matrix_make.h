@@ -13,8 +13,7 @@
 int affine_columns(const image *im);
 
 /* Computes rates[states * columns], the coefficients of the states' rates, by rows. The list is evaluated on
- * coefficients, so the round-off is that of the list. If it is not affine, returns false and leaves rates[]
- * unchanged. */
+ * coefficients, so the round-off is that of the list. If it is not affine, returns false, without rates[]. */
 bool affine_rates(const image *im, twofold *rates);
 
 /* Makes the matrix and its list, as the settings of the otherwise complete image require. Returns false (reported) if

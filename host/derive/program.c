@@ -205,8 +205,7 @@ static void make_row(program *p, const contact_law *law, image_contact *row) {
     }
 }
 
-/* Are all numbers finite, with the parameters' values? The original expressions are checked: a `max` may hide
- * infinity. */
+/* Are all numbers finite, with the parameters' values? Checks unsimplified expressions: a `max` may hide infinity. */
 static bool are_finite(const equations *e, const expr *const *each, int count) {
     for (int i = 0; i < count; i++) {
         if (each[i] != NULL &&
@@ -667,8 +666,7 @@ static bool steps_need_no_turns(const image *im, const equations *e, diags *erro
     return true;
 }
 
-/* Makes the ledger that the instance or a stabilized step asks for, or that balances a run with contacts, if
- * possible. */
+/* Makes the ledger that the instance, a stabilized step or, if possible, the balance of a run with contacts needs. */
 static bool make_ledger_asked(program *p, diags *errors) {
     image *im = p->draft.made;
     const equations *e = p->layout.equations;

@@ -1,8 +1,7 @@
 /* solve.c: the solution for the highest derivatives in the arrangement with the least op_list_weight(). Arrangements
  * differ in the scale of the equations, the order of elimination, the first evaluated sine, and the symbolic
  * elimination. The last removes coordinates with a constant diagonal (a carriage's total mass, a body on a hinge). The
- * remaining equations return to normal form and may shrink. The last ones are solved by Cramer's rule, with one
- * division. */
+ * remaining equations return to normal form and may shrink. Cramer's rule solves the last ones with one division. */
 #include "host/derive/solve.h"
 
 #include <math.h>
@@ -395,8 +394,7 @@ static double tally_favourite(const tally *t) {
     return best < 0 ? 1.0 : t->size[best];
 }
 
-/* Chooses scale[i] for row and column i, and returns a common divisor, so that as many coefficients as possible become
- * one. */
+/* Chooses scale[i] for row and column i, and returns a common divisor, so that as many coefficients as can be are 1. */
 static double choose_scales(const linear_system *s, double *scale) {
     const int n = s->n;
     tally all = {.count = 0};

@@ -1,5 +1,4 @@
-/* tables.c: a step's list as sums of products of rates, inputs and reals, whose coefficients depend only on turn
- * angles. */
+/* tables.c: a step's list as sums of products of rates, inputs and reals, with functions of angles as coefficients. */
 #include "host/derive/tables.h"
 
 #include <math.h>

@@ -191,8 +191,7 @@ static void keep(op_list_freedoms *f, const unknowns *u, const double *e) {
     f->count++;
 }
 
-/* Returns conditions on combinations of all->rows: a raw value has a factor only at its chosen uses, and there the
- * same. */
+/* Returns conditions on combinations of all->rows: a raw value has one factor at its chosen uses, none at others. */
 static matrix limits_of(const unknowns *u, const matrix *all, const chosen *c) {
     matrix m = matrix_new(u->columns, all->rows);
     m.rows = 0;

@@ -236,8 +236,7 @@ static enclosure size_of(enclosure a) {
     return (enclosure){across ? 0.0 : enclosure_lesser(low, high), enclosure_larger(low, high)};
 }
 
-/* The angle of the vector (x, y). It lies between those of the rectangle's corners, except across zero or the jump at
- * pi. */
+/* The angle of the vector (x, y), from those of the rectangle's corners if it contains neither zero nor the jump. */
 static enclosure angle_of(enclosure y, enclosure x) {
     if (x.low <= 0.0 && y.low <= 0.0 && y.high >= 0.0) {
         return (enclosure){-enclosure_pi().high, enclosure_pi().high};

@@ -6,8 +6,7 @@
  * 49, 2009). An exact zero stays exact.
  *
  * A failed enclosure is NaN at both ends, for example after an overflow, a division by an interval that contains zero,
- * or a root of a possibly negative number. NaN carries over, so one enclosure_is_finite() of the last result is
- * enough. */
+ * or a root of a possibly negative number. NaN carries over, so one enclosure_is_finite() at the end is enough. */
 #ifndef NUMBER_ENCLOSURE_H
 #define NUMBER_ENCLOSURE_H
 

@@ -5,14 +5,13 @@
  * its lost digits remains. All users of the folded sum have lost the same digits, so no comparison of two runs shows
  * the loss. Two checks address this:
  *   - A sum records its loss: its round-off, relative to its smaller addend and to its result. A residue is a result
- *     that is only round-off, such as cos(90 deg) or 0.1 + 0.2 - 0.3, and so is a product with it. Up to 1e-12 in SI
- *     units it is no loss. A sum in which it is a large part, or a division by it, is a loss.
+ *     that is only round-off, such as cos(90 deg) or 0.1 + 0.2 - 0.3, or a product with a residue. Up to 1e-12 in
+ *     SI units it is no loss. A sum in which a residue is a large part, or a division by one, is a loss.
  *   - A derivation can be repeated in another *way*, in which inexact results are moved by one or two doubles, and
  *     nearly equal numbers are not merged. By chance, round-offs may cancel in one way, so there are several (Vignes,
  *     A stochastic arithmetic for reliable scientific computation, 1993, does this at run time).
  *
- * folding_use() sets the current derivation's `folding`, for the whole program, as a processor's rounding mode is
- * set. */
+ * folding_use() sets the `folding` of the whole program, as a processor's rounding mode is set. */
 #ifndef NUMBER_FOLDING_H
 #define NUMBER_FOLDING_H
 

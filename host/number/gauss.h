@@ -10,8 +10,7 @@
  * `zero` in size are no pivots. Returns the rank. lead[rank]: the pivots' columns, in rising order if not `full`. */
 int gauss_reduce(double *m, int rows, int columns, int pivots, bool full, double zero, int *lead);
 
-/* Eliminates below the diagonal of m[n * n] without exchanging rows. A column with a zero on the diagonal is
- * skipped. */
+/* Eliminates below the diagonal of m[n * n] without exchanging rows. Columns with a zero pivot are skipped. */
 void gauss_pivots(double *m, int n);
 
 #endif

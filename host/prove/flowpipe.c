@@ -437,8 +437,7 @@ static enclosure remainder_of(const flowpipe *t, int i, enclosure tau) {
 }
 
 /* Does every motion from the box stay in `stay` for h_s? If one first left it at t, its Taylor polynomial, with
- * Lagrange's remainder over `stay` up to t, would be inside: a contradiction. *excess: the largest remainder in units
- * of its bound. */
+ * Lagrange's remainder over `stay` up to t, would be inside: a contradiction. *excess: the remainder / its bound. */
 static bool stays(flowpipe *t, double h_s, double *excess) {
     const enclosure span = {0.0, h_s};
     *excess = (double)INFINITY;
@@ -558,8 +557,7 @@ static bool all_finite(const flowpipe *t) {
     return good;
 }
 
-/* Moves the centre by the middle of the displacement, which is small, so that little precision is lost; the rest is
- * left[]. */
+/* Moves the centre by the middle of the displacement, so that little precision is lost. left[]: the rest. */
 static void go_to(flowpipe *t, enclosure tau, enclosure *left) {
     for (int i = 0; i < t->states; i++) {
         const enclosure way = way_at(t, i, tau);

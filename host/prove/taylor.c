@@ -8,8 +8,7 @@
 #include "host/number/enclosure.h"
 
 /* === enclosures with derivatives ============================================================== */
-/* An enclosure (entry 0), then its `width` - 1 derivatives by all states (none for width 1). Zeros cost almost
- * nothing. */
+/* An enclosure (entry 0), then its derivatives by all states, `width` entries together. Zeros cost almost nothing. */
 
 static void dual_zero(enclosure *to, int width) {
     for (int j = 0; j < width; j++) {
