@@ -1,27 +1,24 @@
-/* engine.h: running an image without a compiler: the interpreter of operation lists.
- *
- * There is one interpreter source, built in float (the boards' arithmetic, to the bit) and in double
- * (the reference); both step with core/step.h. The interface has values in double in both cases. */
+/* engine.h: the interpreter of operation lists, which runs an image without a compiler. One source is built in float,
+ * bit for bit the boards' arithmetic, and in double, the reference. Both step with core/step.h. The interface has
+ * doubles in both cases. */
 #ifndef ENGINE_ENGINE_H
 #define ENGINE_ENGINE_H
 
 #include "host/image/image.h"
 
-/* An event of a contact in a step: the contact's number in the image, and its mode before the event (core/state.h). */
 typedef struct engine_event {
-    int contact;
-    int mode;
+    int contact;  /* its index in the image */
+    int mode;     /* the contact's mode before the event (core/state.h) */
     double at_s;  /* time since the beginning of the step, s */
     bool strikes; /* a stop or a hold gave an impulse */
 } engine_event;
 
-/* Impacts with a restitution outside 0 to 1, which is clamped. `count` is their number; the other members are the
- * stop, the restitution, and the beginning of the step of the first such impact. */
+/* Impacts with a restitution outside 0 to 1, which is clamped. All members but `count` are of the first one. */
 typedef struct engine_clamped {
     uint64_t count;
-    int contact;
-    double value;
-    double begin_s;
+    int contact;    /* the stop */
+    double value;   /* the restitution */
+    double begin_s; /* of the step */
 } engine_clamped;
 
 /* The motion between two events of a step, or between an event and an end of the step. */
@@ -34,8 +31,7 @@ typedef struct engine_piece {
 
 typedef struct engine_kind {
     const char *name; /* "float", "double" or "fixed" (host/fixed) */
-    /* a number written with this many significant digits is read back exactly */
-    int digits;
+    int digits;       /* a number with this many significant digits is read back exactly */
     void *(*start)(const image *im); /* the image must outlive the run */
     void (*stop)(void *run);
     wh_status (*step)(void *run);
@@ -51,16 +47,15 @@ typedef struct engine_kind {
     uint64_t (*events)(const void *run, uint64_t *overruns);
     /* The events of the last step in their order, list[WH_EVENT_LOG]; returns their number. */
     int (*happened)(const void *run, engine_event *list);
-    /* The contacts' modes, mode[contacts]; at the start those with which the first step begins. */
+    /* The contacts' modes, mode[contacts]; before the first step those with which it will begin. */
     void (*modes)(const void *run, int *mode);
     /* Evaluations of the accelerations since the start; *most: the declared bound for one step with contacts. */
     uint64_t (*evaluations)(const void *run, uint64_t *most);
-    /* The ledger so far: total[entries], error[accounts] (the numerical drift); SI. NULL: this number type has no ledger. */
+    /* The ledger so far: total[entries], error[accounts] (the residuals); SI. NULL: this number type has no ledger. */
     void (*ledger)(const void *run, double *total, double *error);
-    /* The increments of component i, angles first, are rounded to whole units. Returns the largest size since the start of
-     * the sum of these round-offs. *span: the range that the component would have covered without round-off. Both are SI.
-     * If unit() is NULL, only turn angles are rounded, in float to 2^-32 turn. The result is 0 in double, and with
-     * compensated sums. */
+    /* The round-off of component i, angles first, whose increments are rounded to whole units: the largest magnitude of
+     * its sum since the start. *span: the component's range without round-off. Both SI. If unit() is NULL, only turn
+     * angles are rounded, in float to 2^-32 turn. 0 in double, and with compensated sums. */
     double (*component_off)(const void *run, int i, double *span);
     /* The number of values that were clamped to their range since the start; NULL: this number type has no ranges. */
     uint64_t (*saturated)(const void *run);
@@ -71,8 +66,8 @@ typedef struct engine_kind {
     const engine_piece *(*pieces)(const void *run, int *count);
 } engine_kind;
 
-/* Number of list operations that this process has evaluated so far. It is the same on every machine. Other work counts as the
- * number of operations that would take as long, accurate to a third. */
+/* Number of list operations that this process has evaluated; the same on every machine. Other work counts as the
+ * operations that would take as long, within a third. */
 extern uint64_t engine_operations;
 /* Number of operations of one evaluation of the accelerations, with its share of the method and the contacts. */
 uint64_t engine_evaluation(const image *im);
@@ -84,18 +79,18 @@ extern const engine_kind engine_double;
 typedef struct evaluator evaluator;
 evaluator *evaluator_new(const op_list *t);
 void evaluator_free(evaluator *ev);
-/* Makes evaluator_run() wrap angles to one turn before it takes their sines. A float run's turn angles may exceed the
+/* Makes evaluator_run() wrap angles to one turn before it takes their sines: a float run's turn angles may exceed the
  * range of the double build's sine. */
 void evaluator_wrap(evaluator *ev);
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result);
-/* Returns the value of this operation of the list in the last evaluator_run(). */
+/* The value of this operation of the list in the last evaluator_run(). */
 double evaluator_value(const evaluator *ev, int operation);
-/* Computes bounds on the round-off of the results of the last evaluator_run(), with the same angles: error[results], in
- * units of the number type's unit round-off (rounding.h). */
+/* Bounds on the round-off of the last evaluator_run(), with the same angles: error[results], in unit round-offs.
+ * `least`: as in rounding.h. */
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);
 
-/* A list of an image, evaluated in double at states of its runs. The inputs keep their start values. */
+/* A list of an image, evaluated in double at any state. The inputs keep their start values. */
 typedef struct state_list {
     const image *image;
     evaluator *evaluator;
@@ -104,7 +99,7 @@ typedef struct state_list {
 } state_list;
 state_list state_list_open(const image *im, image_role role);
 void state_list_close(const state_list *l);
-/* The state is given as engine_kind's state() does. Returns the results. */
+/* The results at a state as from engine_kind's state(). */
 const double *state_list_at(const state_list *l, double time_s, const double *angle_rad,
                             const double *real);
 

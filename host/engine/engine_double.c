@@ -33,7 +33,7 @@ void evaluator_free(evaluator *ev) {
 
 void evaluator_wrap(evaluator *ev) { ev->wraps = true; }
 
-/* Returns the angles for the list's phases, wrapped if evaluator_wrap() was called. */
+/* The angles for the list's phases, wrapped if evaluator_wrap() was called. */
 static const double *phases_of(const evaluator *ev, const double *angle_rad, double *wrapped) {
     for (int i = 0; i < ev->list->angles && ev->wraps; i++) {
         wrapped[i] = number_centred(angle_rad[i], 6.283185307179586477);

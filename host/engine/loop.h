@@ -5,10 +5,9 @@
 
 #include "engine.h"
 
-/* All checks of a run draw on one budget, counted in operations (engine_operations). It is the larger of the run's own
- * operations and a fixed number, which takes about a second. A check ends when the budget is empty. In order of
- * importance they are: the balance and the monitors, at each step; the finer run; poles and missed contacts; the third
- * run for aliasing; remedies; the rows of accuracy and cost. */
+/* All checks of a run share one budget of operations: the larger of BUDGET_LEAST and the run's own operations. A check
+ * ends when the budget is exhausted. In order of importance: the balance and the monitors, at each step; the finer run;
+ * poles and missed contacts; the third run for aliasing; remedies; the rows of accuracy and cost. */
 typedef struct budget {
     uint64_t own;   /* operations of the run's steps so far */
     uint64_t spent; /* operations of completed checks */
@@ -20,7 +19,7 @@ typedef struct budget {
 
 void budget_begin(budget *b);
 void budget_end(budget *b);
-/* Returns the remaining operations; below 0, the budget is exhausted. */
+/* The remaining operations; below 0, the budget is exhausted. */
 double budget_left(const budget *b);
 
 typedef struct loop {
@@ -29,7 +28,7 @@ typedef struct loop {
     uint64_t steps;
     budget *own;        /* counts the operations of the steps; NULL: unused */
     const budget *pays; /* the steps must stay within this budget; NULL: no limit */
-    /* Called at the start and after each step. If it returns false, the loop ends. NULL: no call. */
+    /* Called at the start and after each step; false ends the loop. NULL: no call. */
     bool (*see)(void *of, uint64_t step);
     void *of;
 } loop;

@@ -5,10 +5,8 @@
 
 #include "host/base/alloc.h"
 
-/* FLOAT_MOST: larger values are infinite in float. ALL_LOST: relative error of a quotient by infinity, in units of
- * the unit round-off. */
-#define FLOAT_MOST 0x1.fffffep127
-#define ALL_LOST 0x1p24
+#define FLOAT_MOST 0x1.fffffep127 /* larger values are infinite in float */
+#define ALL_LOST 0x1p24           /* relative error of a quotient by infinity, in unit round-offs */
 
 static bool is_beyond(const rounding_values *at, double value) {
     return at->least > 0.0 && fabs(value) > FLOAT_MOST;
@@ -19,8 +17,8 @@ static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
 }
 
-/* Returns the round-off of an OP_PHASE, a sum of multiples of angles. It is the sum of the terms' sizes, because each
- * term is rounded. `more` is the error of operand b. */
+/* The round-off of an OP_PHASE, a sum of multiples of angles: the sum of the terms' magnitudes. `more`: error of
+ * operand b. */
 static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
     double size = fabs(o->value);
     for (int i = 0; i < t->angles; i++) {
@@ -34,14 +32,14 @@ static double of_phase(const op_list *t, const op *o, const rounding_values *at,
     return size + (o->b >= 0 ? fabs(at->value[o->b]) + more : 0.0);
 }
 
-/* Returns the bound for a function of (x, y), by its slopes, if x and y have the errors `a` and `b`. */
+/* The error of a function of (x, y), by its slopes, if x and y have the errors `a` and `b`. */
 static double of_call(function_id function, double x, double y, double a, double b) {
     const double by_x = fabs(number_slope(function, 0, x, y)) * a;
     return function_arguments(function) == 1 ? by_x
                                              : by_x + fabs(number_slope(function, 1, x, y)) * b;
 }
 
-/* Returns the error that the operands' errors cause. *rounds: true if the result is rounded, too. */
+/* The error that the operands' errors cause. *rounds: the result is rounded, too. */
 static double carried(const op_list *t, const op *o, const rounding_values *at, const double *error,
                       double v, bool *rounds) {
     const int values = op_rows[o->code].values;
@@ -61,7 +59,7 @@ static double carried(const op_list *t, const op *o, const rounding_values *at, 
     case OP_NOISE: return 0.0;
     case OP_PHASE: return of_phase(t, o, at, o->b >= 0 ? error[o->b] : 0.0);
     case OP_CELL: return 0.0;
-    /* the bound contains the round-off of the position in the table, but not the interpolation error */
+    /* the round-off of the position in the table; without the interpolation error */
     case OP_LINE:
     case OP_CUBIC: *rounds = true; return fabs(v);
     case OP_SIN: return 1.0 + a * fabs(at->cosine[o->a]);

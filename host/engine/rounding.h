@@ -11,19 +11,18 @@ typedef struct rounding_values {
     const double *cosine;    /* [t->count] */
     const double *phase_rad; /* [t->angles] */
     const double *angle_rad; /* [t->angles] */
-    double
-        /* float's smallest normal number, or 0. If it is not 0, smaller results have this absolute error, and results
-         * above float's largest number an infinite one. */
-        least;
+    /* Float's smallest normal number: smaller results have its round-off, and results beyond float's range an infinite
+     * error. 0: no such limits. */
+    double least;
 } rounding_values;
 
-/* Computes bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in
- * double, 2^-24 in float). Products of errors are neglected.
+/* Computes bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in double,
+ * 2^-24 in float). Products of errors are neglected.
  *
- * This is a running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 3.3).
- * Each operation's result is rounded once, and the errors of its operands enter by its slopes. So a small difference
- * of large terms gets an error in proportion to the terms. The state itself counts as exact. The bound is infinite or
- * NaN if an operation has no slope. */
+ * * This is a running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 3.3).
+ * Each operation's result is rounded once, and the errors of its operands enter by its slopes. So a small difference of
+ * large terms has an error in proportion to the terms. The state counts as exact. The bound is infinite or NaN if an
+ * operation has no slope. */
 void rounding_of(const op_list *t, const rounding_values *at, double *error);
 
 #endif

@@ -58,8 +58,7 @@ const char *methods_in_help(char text[METHODS_TEXT_SIZE]) {
 
 /* === checks of the start ====================================================================== */
 
-/* If a start lies beyond a stop by less than this, in m or rad, that is only round-off of the conversion of units. */
-#define ROUNDING 1e-9
+#define ROUNDING 1e-9 /* a start this far beyond a stop is round-off of converted units; m or rad */
 
 static bool is_apart(const image_contact *stop, double gap, diags *errors) {
     static const char hint[] = "start on the stop or on its free side, or leave the stop out";
@@ -106,7 +105,7 @@ bool start_is_possible(const image *im, const engine_kind *kind, diags *errors) 
     return good;
 }
 
-/* Returns an unknown whose rate the accelerations contain, or -1. */
+/* An unknown whose rate the accelerations contain, or -1. */
 static int rate_taken(const image *im) {
     const op_list *t = im->list[IMAGE_STEP];
     for (int k = 0; k < t->count; k++) {
@@ -119,8 +118,8 @@ static int rate_taken(const image *im) {
     return -1;
 }
 
-/* Returns false, and reports the reason, if accelerations, contacts or the balance depend on rates. The stages of a
- * composition have no rates. */
+/* Returns false, and reports the reason, if the accelerations contain rates, or if there are contacts or a ledger. The
+ * stages of a composition have no rates. */
 static bool is_free_of_rates(const image *im, const char *title, diags *errors) {
     char others[METHODS_TEXT_SIZE];
     char hint[METHODS_TEXT_SIZE + 160];

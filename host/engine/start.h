@@ -7,8 +7,7 @@
 
 /* === methods in words ========================================================================= */
 
-/* Size of a text with the words of all methods in a sentence. */
-enum { METHODS_TEXT_SIZE = 96 + 40 * WH_METHODS };
+enum { METHODS_TEXT_SIZE = 96 + 40 * WH_METHODS }; /* room for all methods in a sentence */
 
 /* Writes the methods that support all systems of this form, such as "euler, heun or rk4". Returns `text`. */
 const char *methods_of_form(wh_form form, char text[METHODS_TEXT_SIZE]);
