@@ -17,8 +17,7 @@ static double of_constant(double value) {
     return (double)(float)value == value ? 0.0 : fabs(value);
 }
 
-/* The round-off of an OP_PHASE, a sum of multiples of angles: the sum of the terms' magnitudes. `more`: error of
- * operand b. */
+/* The round-off of an OP_PHASE: the sum of its terms' magnitudes, as each is rounded. `more`: error of operand b. */
 static double of_phase(const op_list *t, const op *o, const rounding_values *at, double more) {
     double size = fabs(o->value);
     for (int i = 0; i < t->angles; i++) {

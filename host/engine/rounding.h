@@ -19,7 +19,7 @@ typedef struct rounding_values {
 /* Computes bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in double,
  * 2^-24 in float). Products of errors are neglected.
  *
- * * This is a running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 3.3).
+ * This is a running error analysis (Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., section 3.3).
  * Each operation's result is rounded once, and the errors of its operands enter by its slopes. So a small difference of
  * large terms has an error in proportion to the terms. The state counts as exact. The bound is infinite or NaN if an
  * operation has no slope. */

@@ -20,8 +20,7 @@ static const cost_figure *worst_of(const cost *c) {
     return is_known(&c->cycles_worst) ? &c->cycles_worst : &c->instructions_worst;
 }
 
-/* The value that is compared with a limit. `hopeful`: the figure is a prediction that will be counted, so its lower bound
- * decides. Otherwise its upper bound does. */
+/* The bound compared with a limit: the lower one if the figure is a prediction that will be counted (`hopeful`). */
 static double bound_of(const cost_figure *f, bool hopeful) { return hopeful ? f->least : f->most; }
 
 static choice_row judged(const trials *t, const choice_request *w, const table *made, int i) {
@@ -41,7 +40,7 @@ static choice_row judged(const trials *t, const choice_request *w, const table *
     judge_limit(&row, CHOICE_LOAD, w->clock_Hz > 0.0 ? 1.0 : 0.0, cycles, row.load_most);
     judge_limit(&row, CHOICE_FLASH, w->flash_bytes, is_known(&c->flash_bytes),
                 bound_of(&c->flash_bytes, hopeful));
-    /* a program that does not fit even without its stack never fits */
+    /* the stack is not needed if the RAM without it exceeds the limit */
     const double ram = bound_of(&c->ram_bytes, hopeful);
     const bool known = is_known(&c->ram_bytes) && (is_known(&c->stack_bytes) || ram > w->ram_bytes);
     judge_limit(&row, CHOICE_RAM, w->ram_bytes, known, ram + bound_of(&c->stack_bytes, hopeful));
@@ -50,7 +49,7 @@ static choice_row judged(const trials *t, const choice_request *w, const table *
 
 #define MEMORY (CHOICE_BIT(CHOICE_FLASH) | CHOICE_BIT(CHOICE_RAM))
 
-/* The limits that a choice need not keep, and the figure that it has the least of. */
+/* ignores: limits that a choice may exceed. least: the figure that it minimizes. */
 static const struct {
     unsigned ignores;
     enum { OF_CYCLES, OF_FLASH, OF_ERROR } least;
@@ -68,7 +67,7 @@ static double figure_of(const table *made, const choice_row *row, int kind) {
                                            : of->result.error;
 }
 
-/* Rows come in order of rising price, so of equal rows the cheapest is kept. */
+/* Rows are entered by rising price, so the cheapest of equal rows is chosen. */
 static void enter(choice *c, const table *made, const choice_row *row) {
     for (int i = 0; i < CHOICES; i++) {
         const double figure = figure_of(made, row, i);
@@ -94,13 +93,11 @@ choice choice_make(const trials *t, const table *made, const choice_request *w) 
 
 /* --- counting --------------------------------------------------------------------------------------*/
 
-/* Most instructions of a run on an emulator: about ten seconds. */
-#define RUN_INSTRUCTIONS 1e9
-/* Price of an evaluation for a number type without any counted run. It is low, so that such rows are tried first and
- * one of them is counted. */
+#define RUN_INSTRUCTIONS 1e9 /* most instructions of a run on an emulator: about ten seconds */
+/* Assumed price of an evaluation for a number type without a counted run: low, so that one such run is counted. */
 #define UNTRIED 1e-3
 
-/* With contacts: sets the expected cost of each run that was not counted, from the cost of an evaluation with its number type. */
+/* With contacts: predicts each uncounted run from the counted cost of an evaluation with its number type. */
 static void expect(const trials *t, table *made, const table_row *last,
                    double each[SETTING_NUMBERS]) {
     if (last != NULL && last->result.evaluations_most > 0.0) {
@@ -180,8 +177,7 @@ measured_end choice_counted(trials *t, table *made, const choice_request *w, cho
 
 /* --- for people ------------------------------------------------------------------------------------*/
 
-/* Room for an error in words: "0.1 m", or "0.001 of the largest value". */
-enum { AMOUNT = 64 };
+enum { AMOUNT = 64 }; /* room for an error in words: "0.001 of the largest value" */
 static const char *amount(const trials *t, double error, char text[AMOUNT]) {
     const bool part = t->what.column < 0;
     snprintf(text, AMOUNT, "%.3g %s", error, part ? "of the largest value" : trial_unit(t));
@@ -207,7 +203,7 @@ static void print_figure(FILE *out, const char *name, const cost_figure *f, cons
     }
 }
 
-/* The largest number of cycles or instructions that a step may take, by the scene's declarations; 0: unknown. */
+/* The declared bound on the cycles or instructions of a step; 0: unknown. */
 static double declared_of(const table_row *row) {
     return cost_has_cycles(&row->cost) ? row->run.cycles_bound : row->run.instructions_bound;
 }
@@ -248,7 +244,6 @@ static void print_load(FILE *out, const choice_request *w, const table_row *row,
     fputc('\n', out);
 }
 
-/* With contacts: prints the number of steps that were counted, and the most cycles that a step can take. */
 static void print_run(FILE *out, const table_row *row) {
     if (!(row->run.steps > 0.0)) {
         return;
@@ -331,7 +326,7 @@ static double no_less(double value) {
     return number_ceiling(value / unit * (1.0 - 1e-12)) * unit;
 }
 
-/* Prints the limits that this row does not keep, as it would keep them. */
+/* Prints the limits that this row exceeds, raised to its figures. */
 static void print_remedy(FILE *out, const trials *t, const table *made, const choice_request *w,
                          const choice_row *by) {
     char text[AMOUNT];

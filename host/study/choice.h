@@ -1,4 +1,4 @@
-/* choice.h: the rows of a table (price_table.h) with the fewest cycles and with the least flash, within an error and limits. */
+/* choice.h: the rows of a table (price_table.h) with the fewest cycles and with the least flash, within limits. */
 #ifndef STUDY_CHOICE_H
 #define STUDY_CHOICE_H
 
@@ -6,7 +6,6 @@
 
 #include "host/study/price_table.h"
 
-/* The limits that a row must keep. */
 typedef enum choice_limit {
     CHOICE_ERROR,
     CHOICE_LOAD,
@@ -25,22 +24,20 @@ typedef struct choice_request {
     const char *prices; /* the source of the prices, in words */
 } choice_request;
 
-/* A row compared with the limits. The load is the part of a period that its steps take if each takes as long as the longest
- * step. Without a rate the period is a second. */
+/* A row compared with the limits. load: the part of real time that steps take if all are as long as the longest. */
 typedef struct choice_row {
-    int row; /* index of the row in the table, or -1 */
-    /* upper bound on cycles (or instructions) per simulated second, if every step is as long as the longest */
-    double worst;
-    double load; /* 0: unknown */
+    int row;      /* index of the row in the table, or -1 */
+    double worst; /* bound on cycles or instructions per simulated second, by the longest step */
+    double load;  /* 0: unknown */
     double load_most;
-    unsigned fails;   /* bits: limits that it does not keep */
+    unsigned fails;   /* bits: limits that the row exceeds */
     unsigned unknown; /* bits: limits without a figure to compare */
 } choice_row;
 
 typedef enum choice_kind {
     CHOICE_FASTEST,  /* the fewest cycles within all limits */
     CHOICE_SMALLEST, /* the least flash within all limits */
-    /* If no row fits, the candidates for relaxing a limit: */
+    /* If no row keeps all limits, the candidates for raising one: */
     CHOICE_WEAKER, /* the least error within the other limits */
     CHOICE_DEARER, /* the fewest cycles within error, flash and RAM */
     CHOICE_LARGER, /* the least flash within error and load */
@@ -54,15 +51,14 @@ typedef struct choice {
 
 choice choice_make(const trials *t, const table *made, const choice_request *w);
 
-/* Does the same as choice_make(), but counts rows until no row of the choice is a prediction. With contacts, a row that was not counted
- * is expected to take as many cycles per evaluation as the last counted row with the same number type. */
+/* Like choice_make(), but counts rows until every chosen row is counted. With contacts, uncounted rows are assumed to
+ * take as many cycles per evaluation as the last counted row with the same number type. */
 measured_end choice_counted(trials *t, table *made, const choice_request *w, choice *c);
 
-/* Prints the fastest and the smallest row. If no row is within the limits, prints limits that a row would keep. */
+/* Prints the fastest and the smallest row. If no row keeps the limits, prints higher limits that rows would keep. */
 void choice_print(FILE *out, const trials *t, const table *made, const choice_request *w,
                   const choice *c);
-/* Prints the rows as one JSON object (docs/warnings.md has the schema), without limits that a row would keep; `status`:
- * exit status. */
+/* Prints the two rows as one JSON object (schema: docs/warnings.md), without higher limits. `status`: exit status. */
 void choice_json(FILE *out, const trials *t, const table *made, const choice_request *w,
                  const choice *c, int status);
 

@@ -19,8 +19,8 @@
 const char *const cost_basis_words[COST_BASES] = {COST_BASIS_ROWS(COST_BASIS_WORD)};
 const char *const cost_number_words[COST_NUMBERS] = {"float", "double", "fixed"};
 
-/* Boards without counted cycles have a range of cycles per instruction. Least: the core always issues as many instructions
- * at once as it can. Most: two to three times the value on a Cortex-M4, 1.2 to 1.7 by Arm's timing. */
+/* Boards without counted cycles have a range of cycles per instruction. The least is that of the largest issue width.
+ * The most is two to three times that of a Cortex-M4, 1.2 to 1.7 by Arm's timing. */
 const cost_board cost_boards[] = {
     {"atmega328p", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 32768, 2048},
     {"atmega2560", "AVR", false, COST_SIMULATED, 0, 0, 16e6, 262144, 8192},
@@ -48,10 +48,8 @@ const cost_board *cost_board_named(const char *name) {
 
 /* Lists with more operations become functions of their own (host/emit/c_list.c, host/fixed/c_fixed.c). */
 enum { INLINED_MOST = 150, INLINED_FIXED = 80 };
-/* If the state and its stages have more values than this, the rest lies in memory, not in registers of the FPU. */
-enum { REGISTERS = 16 };
-/* With a matrix, compensated sums take this many additions for each real of the state. */
-enum { SUMS_CARRIED = 9 };
+enum { REGISTERS = 16 }; /* values of the state and its stages that registers of the FPU contain */
+enum { SUMS_CARRIED = 9 }; /* additions of compensated sums for each real, with a matrix */
 
 static void add(cost_counts *c, cost_class class, double run, double code) {
     c->run[class] += run;
@@ -60,7 +58,7 @@ static void add(cost_counts *c, cost_class class, double run, double code) {
 
 /* --- the lists ---------------------------------------------------------------------------------------*/
 
-/* The classes of the operations. An operation that is not listed has the class COST_CLASS_MOVE. */
+/* The class of each operation; 0: COST_CLASS_MOVE. */
 static const cost_class classes[OPS] = {
     [OP_ADD] = COST_CLASS_SUM,       [OP_SUB] = COST_CLASS_SUM,
     [OP_MUL] = COST_CLASS_PRODUCT,   [OP_DIV] = COST_CLASS_QUOTIENT,
@@ -77,16 +75,15 @@ static cost_class class_of(const op *o) {
 static bool is_part_of_pair(const op *o) { return o->code == OP_SIN || o->code == OP_COS; }
 static bool is_turned(const op *o) { return o->code == OP_PHASE && o->b < 0; }
 
-/* Executions of an inlined list's operations per step. Compilers compute operations only once if they are the same at
- * every stage, or at several stages with equal positions. */
+/* Executions of a list's operations per step, by depth_of(). In an inlined list, compilers evaluate an operation only
+ * once if it is the same at every stage, or at stages with equal positions. */
 typedef struct times {
-    double stages;
-    double places;
-    double once;
+    double stages; /* of depth 2 */
+    double places; /* of depth 1 */
+    double once;   /* of depth 0 */
 } times;
 
-/* 0: operation i has the same value at every stage; 1: it depends on positions; 2: on rates. depth[]: these numbers of
- * earlier operations. */
+/* 0: operation i is the same at every stage; 1: it depends on positions; 2: on rates. depth[]: of earlier ones. */
 static int depth_of(const op_list *t, int i, const int *depth) {
     const op *o = &t->ops[i];
     int operand[2];
@@ -101,7 +98,7 @@ static int depth_of(const op_list *t, int i, const int *depth) {
     return most;
 }
 
-/* `turned`: pairs are rotated, which is counted elsewhere. */
+/* `turned`: sine-cosine pairs are rotated; add_stages() counts them. */
 static void add_list(cost_counts *c, const op_list *t, bool turned, times run, double code) {
     int *depth = t != NULL ? alloc(t->count, sizeof *depth) : NULL;
     for (int i = 0; t != NULL && i < t->count; i++) {
@@ -164,7 +161,7 @@ typedef struct work {
     int turns;  /* rotations of a sine-cosine pair in a step */
 } work;
 
-/* Is stage s at the same place as an earlier stage? */
+/* Has an earlier stage the same positions as stage s? */
 static bool stands_again(const wh_tableau *by, unsigned s) {
     const wh_places *at = by->places;
     for (unsigned e = 0; e < s; e++) {
@@ -333,7 +330,7 @@ bool cost_has_cycles(const cost *c) {
     return c->cycles.basis != COST_RANGE && c->cycles.basis != COST_NOT_KNOWN;
 }
 
-/* On a board without counted cycles (COST_RANGE), fills in the ranges of cycles, and returns true. */
+/* On a board without counted cycles (COST_RANGE), sets the ranges of cycles and returns true. */
 static bool take_ranges(const cost_board *board, cost *c) {
     if (board->cycles == COST_RANGE) {
         c->cycles = ranged(board, &c->instructions);

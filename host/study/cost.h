@@ -2,16 +2,16 @@
  *
  *     cost c = cost_of(image, cost_board_named("mps2-an386"), COST_FLOAT);
  *
- * An image contains its settings (method, compensated sums, angles). A prediction is a sum over the classes of operations
- * (below) times the figures of the board and number (cost_rows.inc, written by `make price-table`). It needs neither
- * a source tree nor a compiler. docs/price.md gives its error.
+ * A prediction is a sum over the classes of operations (below): their counts times the figures of the board and number
+ * type (cost_rows.inc, written by `make price-table`). It needs neither a source tree nor a compiler. docs/price.md
+ * gives its error.
  *
  * With the source tree and the board's compiler and emulator, this command counts the price instead:
  *
  *     sh mk/price/measure_one.sh BOARD NUMBER FILE[:SCENE] [OPTIONS OF whirl derive...]
  *
- * It prints COST_HEADER and one row, which cost_enter() reads. Exit status 2: wrong words, or a tool is missing. 1:
- * the scene cannot be derived, does not fit or does not run.
+ * It prints COST_HEADER and one row, which cost_enter() reads. Exit status 2: wrong arguments, or a tool is missing;
+ * 1: the scene cannot be derived, does not fit or does not run.
  *
  * Neither price includes wait states of flash, caches or interrupts. Other compilers and flags have other prices. */
 #ifndef STUDY_COST_H
@@ -22,7 +22,6 @@
 #include "host/image/image.h"
 
 /* === boards and number types ================================================================== */
-/* The boards with prices, their number types, and the sources of a figure. */
 
 /* X(id, word, description of the figure's source) */
 #define COST_BASIS_ROWS(X) \
@@ -48,13 +47,11 @@ typedef enum cost_number { COST_FLOAT, COST_DOUBLE, COST_FIXED, COST_NUMBERS } c
 extern const char *const cost_number_words[COST_NUMBERS]; /* "float", "double", "fixed" */
 
 typedef struct cost_board {
-    /* name of its folder in boards/, or "host" for this kind of machine (x86-64) */
-    const char *name;
-    const char *core; /* "Cortex-M4F" */
-    bool fpu;         /* the core computes float in hardware */
-    /* the source of its cycles; with COST_RANGE an instruction takes cycles_least to cycles_most */
-    cost_basis cycles;
-    double cycles_least; /* COST_RANGE only, else 0 */
+    const char *name;    /* folder in boards/, or "host" (x86-64) */
+    const char *core;    /* "Cortex-M4F" */
+    bool fpu;            /* the core computes float in hardware */
+    cost_basis cycles;   /* source of cycles */
+    double cycles_least; /* per instruction, with COST_RANGE; else 0 */
     double cycles_most;
     double clock_Hz;  /* the chip's clock as the board sets it, or 0 */
     long flash_bytes; /* flash of the chip, or 0 if the board is no single chip */
@@ -68,8 +65,7 @@ extern const int cost_board_count;
 const cost_board *cost_board_named(const char *name); /* NULL: unknown */
 
 /* === the operations of a step, by class ======================================================= */
-/* The operations of a step, counted by class. A prediction is the sum of these counts times the figures of
- * cost_rows.inc. Sums over stages come from the method's tableau (core/method.h), so every method has counts. */
+/* Counts of the operations of a step. Those of the stages come from the method's tableau (core/method.h). */
 
 /* X(id, meaning): a class of operations. */
 #define COST_CLASS_ROWS(X) \
@@ -110,7 +106,7 @@ typedef struct cost_counts {
 /* For COST_FIXED the image must contain its step in fixed point (image.h, `fixed`). */
 cost_counts cost_count(const image *im, const cost_board *board, cost_number number);
 
-/* What a row of the table of figures (cost_rows.inc) predicts. */
+/* The quantity that a row of cost_rows.inc predicts. */
 typedef enum cost_quantity {
     COST_OF_INSTRUCTIONS,
     COST_OF_CYCLES,
@@ -131,12 +127,11 @@ typedef struct cost_row {
 
 #define COST_UNSEEN (-1.0)
 
-/* The weight of an operation of each class: executions for time, copies in the firmware for bytes. */
+/* The counts for a quantity: executions for time, copies in the firmware for bytes. */
 const double *cost_counted(const cost_counts *c, cost_quantity quantity);
 
 /* === the price of a step ====================================================================== */
-/* A figure: the value is between `least` and `most`; for a prediction this holds in nine of ten cases. COST_RANGE has no value.
- * COST_NOT_KNOWN: all are 0. */
+/* least <= value <= most, in nine of ten cases if predicted. COST_RANGE: the value is 0. COST_NOT_KNOWN: all are 0. */
 typedef struct cost_figure {
     cost_basis basis;
     double value;
@@ -145,8 +140,8 @@ typedef struct cost_figure {
 } cost_figure;
 
 typedef struct cost {
-    const char *why;          /* why figures are not known, a sentence for people; "" if all are */
-    cost_figure instructions; /* of a step, mean of a run */
+    const char *why;                /* reason for unknown figures, in words, or "" */
+    cost_figure instructions;       /* of a step, mean of a run */
     cost_figure instructions_worst; /* the longest step: with contacts far above the mean */
     cost_figure cycles;             /* of a step, mean of a run */
     cost_figure cycles_worst;
@@ -157,13 +152,13 @@ typedef struct cost {
     cost_figure state_bytes; /* part of the RAM that the scene's memory takes: WH_MEMORY_BYTES */
 } cost;
 
-/* For COST_FIXED the image must contain its step in fixed point. A scene with contacts has no prediction, because its price
- * depends on the motion. */
+/* For COST_FIXED the image must contain its step in fixed point. With contacts there is no prediction, because the
+ * price depends on the motion. */
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
 /* Does a cost have cycles, and not only a range of them? */
 bool cost_has_cycles(const cost *c);
-/* Can the scene take the steps of the image's method? */
+/* Does the image's method support the scene? */
 bool cost_takes_method(const image *im);
 cost_figure cost_known(double value, cost_basis basis);
 
@@ -180,8 +175,8 @@ typedef struct cost_layout {
     int columns, board, instructions, instructions_most, cycles, cycles_most;
 } cost_layout;
 extern const cost_layout cost_step_layout; /* of COST_HEADER */
-/* Cuts a row into column[at->columns], and raises the figures in `c` to its counts, if these are larger. state_bytes do not
- * change. Returns false if the text is no row, or a row of another board. */
+/* Cuts a row into column[at->columns], and raises smaller figures in `c`, except state_bytes, to its counts. Returns
+ * false if the text is no row of this board. */
 bool cost_enter(char *row, const cost_layout *at, char **column, const cost_board *board, cost *c);
 
 #endif

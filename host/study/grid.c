@@ -208,7 +208,7 @@ static const expr *read_end(const mechanism *of, const range_text *r, const char
     return change.value;
 }
 
-/* Sets both ends of the axis. Returns false, and reports the reason, unless both are finite numbers of the same kind. */
+/* Sets both ends of the axis. Returns false, and reports why, unless both are finite numbers of the same kind. */
 static bool take_ends(const grid *g, const char *over, const expr *from, const expr *to,
                       axis *made) {
     const char *problem = NULL;
@@ -235,7 +235,7 @@ static bool take_ends(const grid *g, const char *over, const expr *from, const e
 static bool read_axis(const grid *g, const mechanism *of, const char *over, const range_text *r,
                       diags *errors, axis *made) {
     struct arena *arena = arena_new();
-    /* TO first: if both have no unit, FROM shares the unit that the hint gives TO */
+    /* TO first: if both lack a unit, the hint adds it to TO, and FROM then has the unit of TO */
     const expr *to = read_end(of, r, r->to, arena, errors, made);
     const expr *from = to == NULL ? NULL : read_end(of, r, r->from, arena, errors, made);
     diags_flush(errors, stderr);
@@ -293,7 +293,7 @@ void grid_free(grid *g) {
     *g = (grid){0};
 }
 
-/* The value at this share of the way between the logarithms of the ends. Avoids the ends' ratio, which may overflow. */
+/* The value at this share between the logarithms of the ends, also if the ends' ratio overflows. */
 static double log_value(const axis *a, double share) {
     const double ratio = a->to / a->from;
     if (isfinite(ratio) && ratio != 0.0) {

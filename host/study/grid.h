@@ -43,22 +43,19 @@ int grid_step_axis(const grid *g);
 /* Does an axis vary a parameter? Then each point has equations of its own. */
 bool grid_varies_parameters(const grid *g);
 
-/* The points of shard k of n (1 <= k <= n): first <= point < end. Shards follow each other without
- * a gap, so that their rows in the order of k are all the rows. */
+/* The points of shard k of n (1 <= k <= n): first <= point < end. The shards' rows, in the order of k, are all rows. */
 void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t *end);
 
 /* === values of a point as changes ============================================================= */
-/* The swept values of one point as changes of the command line. */
 
-/* The changes of `base`, followed by the point's values, which take precedence. Numbers have 17 digits, so they are exact.
- * Free with changes_forget(). */
+/* The changes of `base`, followed by the point's values, which take precedence. Numbers are exact. Free with
+ * changes_forget(). */
 overrides changes_at(const grid *g, const overrides *base, uint64_t point);
 void changes_forget(const overrides *base, overrides *changes);
 
-/* False, reported on standard error, if an axis varies a value that takes no part in `base`: all runs would be the same. */
+/* False, reported on standard error, if an axis varies a value that has no effect in `base`. */
 bool changes_take_part(const grid *g, const instance *base);
-/* Returns false, and reports the reason, if `base` sets a value that an axis varies, because one would override the
- * other. */
+/* False, reported on standard error, if `base` sets a value that an axis varies. */
 bool changes_are_apart(const grid *g, const overrides *base);
 
 #endif

@@ -192,8 +192,8 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
-/* The expression with each noisy output replaced by its record, which includes the noise. As in the records, other outputs
- * are computed without that noise. */
+/* The expression with each noisy output replaced by its record, which includes the noise. Other outputs are computed
+ * without that noise, as in the records. */
 static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
     if (tree == NULL) {
         return NULL;
@@ -346,14 +346,13 @@ typedef struct meter {
     const image *image;
     void *run;
     run_checks *verdict;
-    gauge *gauges; /* [measures] */
-    int *
-        component; /* [measures] component of the image; -1: the output with the index of the measure */
+    gauge *gauges;  /* [measures] */
+    int *component; /* [measures] of the image; -1: the output with the measure's index */
     double *output;
     bool series;            /* a measure takes a sample each step */
     bool series_of_outputs; /* a measure takes a sample of an output each step */
     bool periods;           /* a measure keeps all samples */
-    uint64_t from;          /* the step from which series count */
+    uint64_t from;          /* first step of the series */
     diags *errors;
     FILE *reason;
     bool good;
@@ -407,7 +406,7 @@ static void meter_enter(meter *m, bool final) {
     }
 }
 
-/* Enters a step into the energy balance and the series. Returns false, with a message, if an energy is not a finite number. */
+/* Enters a step into the checks and the series. Returns false, with a message, if an energy is not a finite number. */
 static bool see(void *of, uint64_t step) {
     meter *m = of;
     const books *b = m->verdict->books;
@@ -423,7 +422,7 @@ static bool see(void *of, uint64_t step) {
     return m->good;
 }
 
-/* Steps to the end. Returns false if the run failed, with a message on m->reason or reported. */
+/* Steps to the end. Returns false if the run failed, with a message on m->reason or in m->errors. */
 static bool run_through(meter *m) {
     const engine_kind *kind = m->sweep->kind;
     const image *im = m->image;
@@ -457,7 +456,7 @@ static bool run_through(meter *m) {
     return true;
 }
 
-/* The measures, followed by the balance; NAN if that is unknown. */
+/* value[]: the measures, then the energy residual or NAN. Returns false, with a message, if a measure is not finite. */
 static bool read_measures(const meter *m, double *value, point_notes *notes) {
     const measures *all = m->sweep->measures;
     const double epsilon = m->sweep->kind == &engine_float ? (double)FLT_EPSILON : DBL_EPSILON;
@@ -501,8 +500,7 @@ bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors
 
 /* === a point ================================================================================== */
 
-/* Ends that differ by less than this part of the time count as equal. */
-#define ENDS_ALIKE 1e-9
+#define ENDS_ALIKE 1e-9 /* ends that differ by less than this part of the time count as equal */
 
 static bool has_balance(const sweep *s) { return !s->mechanism->is_system; }
 
@@ -585,7 +583,7 @@ image *sweep_image(const sweep *s, uint64_t point, diags *errors) {
     overrides changes = changes_at(s->grid, s->changes, point);
     instance *inst = instance_make(s->mechanism, s->scene, &changes, errors);
     image *im = inst != NULL ? image_at(s, inst, errors) : NULL;
-    instance_free(inst); /* only the image is needed from here on */
+    instance_free(inst);
     changes_forget(s->changes, &changes);
     if (im != NULL && !(start_has_method(im, s->engine.method, errors) &&
                         start_is_possible(im, s->kind, errors))) {

@@ -18,11 +18,10 @@
  * parameters, lets and outputs. It has its value at the end of the run, or a function of its series
  * (one value a step, from a given time on):
  *   - max(x), min(x): largest and smallest sample.
- *   - amplitude(x): half the difference of the two.
+ *   - amplitude(x): half the difference of max and min.
  *   - mean(x): over time, by the trapezoidal rule.
- *   - period(x): mean spacing of the upward crossings of the mean, each found by linear
- *     interpolation between two samples. It is nan with fewer than two crossings, or if x does not
- *     vary beyond round-off. */
+ *   - period(x): mean interval between upward crossings of the mean, by linear interpolation of
+ *     samples; nan with fewer than two crossings, or if x varies only by round-off. */
 
 /* === a measure, sample by sample ============================================================== */
 
@@ -49,13 +48,12 @@ typedef struct gauge {
     size_t kept_room;
 } gauge;
 
-/* Most samples of period(), which stores all of them. */
-#define PERIOD_SAMPLES_MAX UINT64_C(100000000)
+#define PERIOD_SAMPLES_MAX UINT64_C(100000000) /* of period(), which stores all samples */
 
 gauge gauge_start(measure_kind kind);
 void gauge_enter(gauge *g, double value);
-/* `epsilon`: relative round-off of a sample. The result is nan if there is no value, as for the period of a constant. If
- * large samples overflow in the computation, the result is infinite or nan, and a period is infinite. */
+/* `epsilon`: relative round-off of a sample. NaN: no value, as for the period of a constant. After an overflow the
+ * result is infinite or NaN, and a period infinite. */
 double gauge_result(const gauge *g, double step_s, double epsilon);
 void gauge_end(gauge *g);
 
@@ -72,8 +70,7 @@ typedef struct measures {
     struct arena *arena;
     measure *list; /* [count] */
     int count;
-    /* The mechanism with the measured expressions as its only outputs: measures are derived and computed as outputs. */
-    mechanism mechanism;
+    mechanism mechanism; /* its only outputs are the measured expressions */
 } measures;
 
 /* Reads `count` texts, or without texts takes the final state and the outputs. NULL if one is
@@ -92,7 +89,7 @@ typedef struct point_notes {
     double end_s;      /* end of the run */
 } point_notes;
 
-/* A sweep in numbers. Everything in it outlives the runs and is not changed by them. */
+/* Everything in a sweep must outlive the runs, which do not change it. */
 typedef struct sweep {
     const grid *grid;
     const mechanism *mechanism; /* if there are measures, they are its outputs */
@@ -103,27 +100,25 @@ typedef struct sweep {
     image_settings engine;
     double from_s; /* measure from this time on */
     double strict; /* run_checks_fails() */
-    /* The image with the lists of all points, or NULL. Lists contain the parameters and the momentum
-     * of a conserved coordinate, so a sweep of these derives each point. A point's rows do not depend
-     * on earlier points. */
+    /* The image whose lists all points share; NULL: parameters or conserved momenta, which lists contain, differ. */
     const image *shared;
 } sweep;
 
-/* Columns after the swept values: the measures. For a mechanism with energies, the energy residual
- * (host/check/energy_residual.h; empty if unknown). For a swept step, the end of each run, `end_s`. */
+/* The number of columns after the swept values: the measures; for a mechanism with energies the energy residual
+ * (host/check/energy_residual.h; empty if unknown); for a swept step the end of the run, `end_s`. */
 int sweep_columns(const sweep *s);
 
-/* Returns false, and reports the reason, if a measure uses the end of the runs and a swept step does not divide `until_s`. */
+/* False, reported, if a measure uses the end of the runs, and a swept step does not divide `until_s`. */
 bool sweep_ends_are_alike(const sweep *s, double until_s);
 
 /* May the grid's points share the lists of this image, which also serves the finer runs? */
 bool sweep_can_share(const grid *g, const image *im);
 
-/* The text after a column's name: the declared unit, as " [deg]"; "" for SI, or if `of` is NULL. The caller frees the
- * result. */
+/* The declared unit after a column's name, such as " [deg]"; "" for SI, or if `of` is NULL. The caller frees it. */
 char *sweep_unit(const symbol *of, int primes);
 
-/* The CSV fields of the swept values, as header and for one point, without a line's end. */
+/* sweep_header(): writes the CSV header, with its line's end. sweep_swept_value(): a swept value as in the rows.
+ * sweep_swept_fields(): writes the swept values of one point, without a line's end. */
 void sweep_header(const sweep *s, FILE *out);
 char *sweep_swept_value(const axis *a, double si, char text[NUMBER_SIZE]);
 void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
@@ -131,14 +126,14 @@ void sweep_swept_fields(const sweep *s, uint64_t point, FILE *out);
 /* The image of a point. Returns NULL, and reports the reason, if the point has no image that can start. */
 image *sweep_image(const sweep *s, uint64_t point, diags *errors);
 
-/* Runs the image of a point; value[measures + 1] gets the measures and the energy residual (NAN if unknown). Returns false
- * if the run failed or something was not a finite number, with a message on `reason` or reported. */
+/* Runs the image of a point; value[measures + 1] gets the measures and the energy residual (NAN: unknown). Returns
+ * false if the run failed or a value was not finite, with a message on `reason` or in `errors`. */
 bool sweep_measure(const sweep *s, const image *im, double *value, diags *errors, FILE *reason,
                    point_notes *notes);
 
-/* Runs the point and writes its row, including the line's end. The columns stay empty if the run fails, or
- * if a measure, an energy or a contact's expression is not finite. Then the result is false and one line
- * on `reason` gives the cause. After an interrupt the row is invalid. */
+/* Runs the point and writes its row, with the line's end. If the run fails, or a measure, an energy or a contact's
+ * expression is not finite, the columns stay empty. Then the result is false and one line on `reason` gives the cause.
+ * After an interrupt the row is invalid. */
 bool sweep_point(const sweep *s, uint64_t point, FILE *row, FILE *reason, point_notes *notes);
 
 #endif

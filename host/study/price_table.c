@@ -17,7 +17,7 @@
 
 /* === the table ================================================================================ */
 
-/* No finer step is tried if twice in succession the error exceeds this part of the least error so far. */
+/* Finer steps are not tried after PATIENCE errors in succession that exceed this part of the least error so far. */
 #define FALLS 0.7
 enum { PATIENCE = 2, COARSEST = 5, LADDER = COARSEST + 3 * 8, SUBSTEPS = 10 + 9 * 5 };
 
@@ -71,7 +71,7 @@ typedef struct climbed {
     table_row row[SUBSTEPS];
 } climbed;
 
-/* If the scene has contacts, the rows are sorted by the evaluations of their runs. */
+/* With contacts, the price is the number of evaluations in the run. */
 static void price_by_evaluations(table_row *row) {
     const double each = row->result.evaluations;
     row->price = (table_price){PRICE_EVALUATIONS, COST_MEASURED, each, each, each};
@@ -234,7 +234,6 @@ void table_free(table *made) {
 
 enum { FIGURE_TEXT = 64 };
 
-/* A letter for each basis. */
 static const char letters[] = "-xpmesr";
 static_assert(sizeof letters == COST_BASES + 1, "one each");
 
@@ -391,7 +390,7 @@ const char *const table_heads[] = {[PRICE_CYCLES] = "cycles/s",
                                    [PRICE_INSTRUCTIONS] = "instr./s",
                                    [PRICE_EVALUATIONS] = "eval./s"};
 
-/* Marks rows of the front, each with an error at least `factor` times smaller than the marked row before. Returns their number. */
+/* Marks rows of the front, with errors that fall at least by `factor` from one to the next. Returns their number. */
 static int shown(const table *made, double factor, bool *show) {
     double before = 0.0;
     int count = 0;
@@ -446,7 +445,7 @@ void table_print_left(FILE *out, const table *made) {
     fputc('\n', out);
 }
 
-/* Explains the letters above the table, so that nobody takes "m" for metre. */
+/* Explains the letters before the table: "m" could be read as metre. */
 static void print_letters(FILE *out, const table_row *first) {
     fputs("\nletters after figures: the source of each figure\n", out);
     figure_legend(out, &first->cost);
@@ -459,7 +458,7 @@ static void print_letters(FILE *out, const table_row *first) {
     }
 }
 
-/* Prints the command that fills the empty columns. */
+/* Prints the command that counts the missing figures. */
 static void say_contacts(FILE *out, const trials *t) {
     const char *board = t->request.board->name;
     if (strcmp(board, "host") != 0) {
@@ -650,10 +649,9 @@ void table_json(FILE *out, const trials *t, const table *made, int status) {
 /* === counted prices =========================================================================== */
 
 #define COUNTS "mk/price/measure_one.sh"
-/* Exit status of measure_one.sh for wrong words or a missing tool. */
-#define STATUS_MISSING 2
+#define STATUS_MISSING 2 /* exit status of measure_one.sh: wrong arguments or a missing tool */
 
-/* The last line that a command prints, or the first one that contains `with`. Returns the command's exit status, or -1. */
+/* line[]: the last line that a command prints, or the first that contains `with`. Returns the exit status, or -1. */
 static int line_from(const char *command, const char *with, char *line, int size) {
     FILE *from = system_read_from(command);
     if (from == NULL) {
@@ -711,7 +709,7 @@ static int count_line(char *line, char *row, int size) {
     return status;
 }
 
-/* Enters a row of count_run.sh: the whole run at one point, the first one or another. */
+/* Enters a row of count_run.sh, a whole run at one point. `first`: the first point. */
 static void enter_run(char *const *column, bool first, counted_run *run) {
     const double instructions = decimal_read(column[RUN_BOUND], NULL);
     const double cycles = decimal_read(column[RUN_CYCLES_BOUND], NULL);
@@ -742,7 +740,7 @@ static int count(const trials *t, table_row *row) {
     return status;
 }
 
-/* Do the counted figures of one row also apply to the other? `by_pace`: only if their steps have the same length. */
+/* Do the counted figures of `a` also apply to `b`? `by_pace`: only if their steps have the same length. */
 static bool is_alike(const table_row *a, const table_row *b, bool by_pace) {
     return setting_order(&a->setting) == setting_order(&b->setting) &&
            (!by_pace || a->pace.steps * b->pace.records == b->pace.steps * a->pace.records);

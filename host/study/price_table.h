@@ -47,13 +47,11 @@ typedef struct table {
     int settings;    /* number of settings that the scene allows */
     int unpriced;    /* number of settings without a price, which are left out */
     const char *why; /* the reason for one unpriced setting, or "" */
-    /* number of settings whose finer steps were not tried, because the allowed operations were used up */
-    int broken_off;
-    double operations; /* the allowed operations */
+    int broken_off;  /* number of settings whose finer steps would exceed the allowed operations */
+    double operations; /* the allowed operations of all trials */
 } table;
 
-/* A chosen row's error may be at most the requested error divided by this. */
-#define TABLE_MARGIN 2.0
+#define TABLE_MARGIN 2.0 /* a chosen row's error is at most the requested error divided by this */
 
 typedef struct table_request {
     double operations;  /* limit on the operations of all trials */
@@ -67,10 +65,10 @@ typedef struct table_request {
 
 /* 1, 2, 5, 10, 20, 50, ... for i = 0, 1, 2, ... */
 uint64_t table_decade(int i);
-/* *pace: the pace of trial number `rung`, from 0 on. Without a rate, each trial's step is 2 to 2.5 times shorter than the
- * step before. With a rate, the trials have 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
+/* *pace: that of trial number `rung`, from 0 on. Without a rate, each trial's step is 2 to 2.5 times shorter than the
+ * one before. With a rate, the trials have 1, 2, 3, ... steps a period. Returns false if there is no such trial. */
 bool table_pace(const table_request *w, int rung, deviation_pace *pace);
-/* Returns the number of steps in a period of the calls; 0 if no rate of calls is given. */
+/* The number of steps in a period of the calls; 0 without a rate of calls. */
 uint64_t table_substeps(const table_request *w, const table_row *row);
 
 /* Tries the settings in several worker processes. Each setting has its own share of the allowed operations, so the rows
@@ -80,7 +78,7 @@ void table_free(table *made);
 /* Sorts the rows by price, and marks the front. */
 void table_sort(table *made);
 
-/* The price of steps of this length; its basis is COST_NOT_KNOWN if the cost is not known. */
+/* The price of steps of this length. */
 table_price table_price_of(const cost *c, double step_s);
 
 /* "predicted: in nine of ten counted cases within 8 %". Returns text. */
@@ -93,7 +91,7 @@ void figure_reference(FILE *out, const trials *t);
 /* "cycles/s", ...: heads of a column of prices, by table_unit. */
 extern const char *const table_heads[];
 
-/* Prints how many settings were tried, and why others were left out or ended early. */
+/* Prints how many settings were tried, how many have no price, and for how many --effort was too small. */
 void table_print_left(FILE *out, const table *made);
 /* Prints at most TABLE_ROWS rows of the front, or every row. */
 enum { TABLE_ROWS = 12 };
@@ -105,30 +103,29 @@ void table_json(FILE *out, const trials *t, const table *made, int status);
 void table_json_begin(json *j, const char *command, const trials *t);
 void table_json_row(json *j, const trials *t, const table_row *row);
 
-/* Command lines that repeat a row: `whirl run ...` at a point of the ranges, and `whirl derive ... --as c` with the scene's own
- * values, as in a product. Free them. */
+/* Command lines that repeat a row: `whirl run ...` at a point of the ranges, and `whirl derive ... --as c` with the
+ * scene's own values. The caller frees them. */
 char *table_run_line(const trials *t, const setting *s, deviation_pace pace, int point);
 char *table_derive_line(const trials *t, const setting *s, deviation_pace pace);
-/* The command that counts this row's step in a source tree with the board's compiler: `sh mk/price/measure_one.sh ...`. */
+/* The command that counts this row's step, in Whirl's source tree: `sh mk/price/measure_one.sh ...`. */
 char *table_measure_line(const trials *t, const setting *s, deviation_pace pace, int point);
 
 /* === counted prices =========================================================================== */
-/* Counted prices, in Whirl's source tree, with the board's compiler and emulator. They use the same command
- * line that is shown to users (table_measure_line()). */
+/* Prices counted in Whirl's source tree by table_measure_line(), with the board's compiler and emulator. */
 
 typedef enum measured_end {
     MEASURED_COUNTED,
     MEASURED_MISSING /* a tool is missing */
 } measured_end;
 
-/* The reason why counting is impossible on a board. NULL: it is possible, and the files that all counts share are
- * compiled. `text` has room for the answer. */
+/* The reason why counting is impossible on a board, perhaps in `text`. NULL: it is possible, and the files that all
+ * counts share are compiled. */
 enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
-/* Counts the steps of a row for all rows of its setting; with contacts, the row's whole run. Takes seconds. The table is sorted
- * again. Rows that cannot be built, linked or run lose their price and leave the table. */
+/* Counts the steps of a row for all rows of its setting; with contacts, the row's whole run. Takes seconds. Removes
+ * rows that cannot be built, linked or run, and sorts the table again. */
 measured_end measured_count(const trials *t, table *made, int row);
-/* Counts the rows of the front until all of them are counted. `shows`: progress on standard error. */
+/* Counts until all rows of the front are counted; nothing with contacts. `shows`: progress on standard error. */
 measured_end measured_front(const trials *t, table *made, bool shows);
 
 #endif

@@ -32,8 +32,7 @@ static bool enter(const reference *r, const records *now, int record, deviation_
     return d->error <= what.give_up;
 }
 
-/* Makes one step and counts its evaluations; reading a record with contacts is also one, which does not count. With contacts
- * their number varies; a step by a matrix is one evaluation. */
+/* Makes one step and counts its evaluations, whose number varies with contacts. A step by a matrix counts as one. */
 static bool take_step(const engine_kind *kind, void *run, const image *im, deviation *d) {
     uint64_t declared;
     const uint64_t before = kind->evaluations(run, &declared);
@@ -72,30 +71,28 @@ deviation deviation_measure(const reference *r, const image *im, const engine_ki
 
 /* === the reference ============================================================================ */
 
-/* The method of a reference, if `by` requests no other. Its steps are at first FINER times shorter than the scene's. They are
- * halved until both runs agree within ENOUGH of each column's largest value, or until they are FINEST times shorter. If the
- * last halving at least doubled a short horizon, the limit is LAST. */
+/* METHOD: of a reference, if `by` requests no other. Its steps are at first FINER times shorter than the scene's. They
+ * are halved until both runs agree within ENOUGH of each column's largest value, or until they are FINEST times
+ * shorter. If the last halving at least doubled a horizon that is too short, the limit is LAST. */
 #define METHOD WH_NYSTROEM5
 #define FINER 4.0
 #define FINEST 16.0
 #define LAST 256.0
 #define ENOUGH 1e-11
-/* A record is trusted while the two runs differ by less than this part of a column's largest value. When the difference reaches
- * the limit, the motion has amplified the round-off. */
+/* Records are trusted while the two runs differ by less than this part of each column's largest value. A larger
+ * difference is round-off that the motion has amplified. */
 #define LIMIT 1e-9
-/* A column is known if the two runs agree up to a record at which its value has reached this part of its largest value. */
+/* A column is known if the two runs agree until its value has reached this part of its largest value. */
 #define KNOWN_BY 1e-6
-/* An unknown column is only round-off if a run in float makes it this many times larger: float's round-off is 2^29 times that
- * of double. Motion has nearly the same size in both. */
+/* An unknown column is only round-off if it is this many times larger in float, whose round-off is 2^29 times that of
+ * double. A motion has nearly the same magnitude in both. */
 #define ROUGHER 0x1p15
 /* Round-off that both runs share, as a part of the largest value: that of constants and of the start. */
 #define SHARED (16.0 * DBL_EPSILON)
-/* The search for events takes about this many times the evaluations of a step. */
-#define EVENTS 3.0
+#define EVENTS 3.0 /* factor on a step's evaluations for the search for events, about */
 
 /* --- two runs and their agreement ------------------------------------------------------------------*/
 
-/* The records of a run. */
 typedef struct computed {
     double *row; /* [wanted + 1][columns] */
     int records; /* number of records after the start */
@@ -130,7 +127,7 @@ static double value_at(const reference *r, const double *rows, int record, int c
     return rows[(size_t)record * (size_t)r->columns + (size_t)column];
 }
 
-/* A column's largest value in the rows of a run. */
+/* A column's largest magnitude in rows 0 to `until`. */
 static double largest_of(const reference *r, const double *rows, int until, int column) {
     double largest = 0.0;
     for (int i = 0; i <= until; i++) {
@@ -145,8 +142,7 @@ static double row_off(const reference *r, const computed *other, int record, int
     return isfinite(off) ? off : (double)INFINITY;
 }
 
-/* Finds a column's largest value and largest difference over the records up to `until`. Returns true if it is known
- * (KNOWN_BY). */
+/* Sets a column's largest value and difference in the records up to `until`. Is the column known (KNOWN_BY)? */
 static bool measure(reference *r, const computed *other, int until, int column) {
     const double enough = KNOWN_BY * largest_of(r, r->row, until, column);
     reference_column *c = &r->column[column];
@@ -162,8 +158,8 @@ static bool measure(reference *r, const computed *other, int until, int column) 
     return known;
 }
 
-/* Measures all columns up to record r->records, and decides which ones count. *rough: a run in float with the steps of `other`,
- * computed when an unknown column needs it. */
+/* Measures all columns up to record r->records, and decides which ones count. *rough: a run in float with the steps of
+ * `other`, made if a column is unknown. */
 static void weigh(reference *r, const reference_request *w, uint64_t steps, const computed *other,
                   computed *rough) {
     const int until = r->records < 0 ? 0 : r->records;
@@ -213,8 +209,7 @@ static bool moves(const reference *r) {
 
 /* --- the steps ---------------------------------------------------------------------------------------*/
 
-/* An even number of steps in a record's spacing that are at least `finer` times shorter than the scene's, if the limit of
- * operations allows it. */
+/* An even number of steps in a record's spacing, `finer` times shorter than the scene's if w->operations allow. */
 static uint64_t steps_of(const reference_request *w, double finer) {
     const image *im = w->image;
     const double each =
@@ -275,8 +270,8 @@ reference *reference_new(const reference_request *w) {
         }
         other = best;
     }
-    for (int k = 1; k < r->columns && fixed;
-         k++) { /* `off` was the difference of two runs, and becomes the error of the finer run */
+    /* the difference of two runs becomes the error of the finer run */
+    for (int k = 1; k < r->columns && fixed; k++) {
         r->column[k].off /= number_scaled(1.0, w->by.order) - 1.0;
     }
     r->stopped = interrupted != 0;

@@ -1,6 +1,6 @@
-/* reference_run.h: the reference of priced runs: the motion at evenly spaced records, by a run in double with compensated
- * sums and short steps, and by a second one of twice that step. The difference of the two is its error estimate, and limits
- * the time until which it is trusted. It shares the operation list, the sines and the events with the compared runs. */
+/* reference_run.h: the reference of priced runs: the motion at evenly spaced records, in double with compensated sums
+ * and short steps. A second run has twice the step. The difference of the two runs estimates the reference's error, and
+ * limits the time until which it is trusted. It shares operation list, sines and events with the compared runs. */
 #ifndef STUDY_REFERENCE_RUN_H
 #define STUDY_REFERENCE_RUN_H
 
@@ -8,10 +8,9 @@
 #include "host/io/records.h"
 
 /* === the reference ============================================================================ */
-/* A reference with a method and steps of its own, for the three rows of a run. */
+/* The method and steps of a reference. */
 typedef struct reference_steps {
-    /* even number of steps in a record's spacing; 0: nystroem5, with steps so short that two runs agree */
-    uint64_t steps;
+    uint64_t steps; /* even number in a record's spacing; 0: nystroem5, and steps by agreement */
     wh_method method;
     int order;    /* order of the method's error */
     double limit; /* trusted while both runs differ by less than this part of the largest value */
@@ -25,11 +24,9 @@ typedef struct reference_request {
     reference_steps by;
 } reference_request;
 
-/* The size of a column's values. */
 typedef struct reference_column {
-    /* a coordinate or rate that is more than round-off up to the last trusted record, so that its error counts */
-    bool counts;
-    double largest; /* largest size over the records */
+    bool counts;    /* its error counts: a coordinate or rate that is more than round-off */
+    double largest; /* largest magnitude in the trusted records */
     double off;     /* largest difference of the two runs */
 } reference_column;
 
@@ -43,42 +40,41 @@ typedef struct reference {
     reference_column *column; /* [columns] */
     double limit; /* trusted while columns differ by less than this part of the largest value */
     char *how;    /* the two runs, in words */
-    char *why;    /* why the trust ends early, or why there is no reference; NULL: neither */
+    char *why;    /* why trust ends early, or why there is no reference; or NULL */
     bool still;   /* no quantity moves, so there is no reference */
     bool stopped; /* interrupted: the result must not be used */
 } reference;
 
-/* Always succeeds; check `reliable` and `stopped`. The image must outlive it. */
+/* Never NULL; check `reliable` and `stopped`. The image must outlive the result. */
 reference *reference_new(const reference_request *w);
-/* From now on use at most this many records after the start. */
+/* Limits r->records, the trusted records after the start, to `until`. */
 void reference_cut(reference *r, int until);
-/* The largest difference of the two runs in a column, or, with -1, in those that count, as a part of the column's largest value. */
+/* The largest difference of the two runs, as a part of the column's largest value; -1: of all columns that count. */
 double reference_agreement(const reference *r, int column);
 void reference_free(reference *r); /* NULL is fine */
 
-/* The column of a name, "X", "X'" or an output's, or -1. *noisy: it is an output with its own noise, which has no reference. */
+/* The column of a name, "X", "X'" or an output's, or -1. *noisy: the output has noise, so it has no reference. */
 int reference_find(const reference *r, const char *name, bool *noisy);
 
 /* === the deviation of a run =================================================================== */
 
-/* The length of a run's step: `steps` steps take as long as `records` spacings of the records. If a step is longer than a
- * spacing, only the records at its ends are compared. */
+/* The length of a run's step: `steps` steps take `records` spacings of the records. If a step is longer than a spacing,
+ * only the records at its ends are compared. */
 typedef struct deviation_pace {
     uint64_t steps;
     uint64_t records;
 } deviation_pace;
 
 typedef struct deviation_of_what {
-    int column; /* a column of the reference, compared in its unit; or -1: all that count, each as a part of its largest value */
+    int column;     /* compared in its unit; -1: all that count, relative to their largest values */
     double give_up; /* a run with a larger error is stopped as useless */
 } deviation_of_what;
 
 typedef struct deviation {
-    /* the run reached the end with errors below give_up and without clamped values */
-    bool usable;
+    bool usable;  /* the run reached its end, with errors up to give_up, without saturation */
     double error; /* largest error of all records; if unusable, of the records before the stop */
     int column;   /* the column with the largest error */
-    double known; /* the reference's error in that column; a deviation near it is only a bound */
+    double known; /* the reference's error in that column, in the unit of `error` */
     double evaluations; /* evaluations of the accelerations or the matrix, per simulated second */
     double evaluations_most; /* most evaluations in one step */
 } deviation;

@@ -121,7 +121,7 @@ static char *swept_text(const resumable_csv_settings *s, uint64_t row) {
     return text;
 }
 
-/* Does the line consist of the row's swept fields, followed by s->measures numbers or empty fields? */
+/* Has the line the row's swept fields, followed by s->measures numbers or empty fields? */
 static bool is_row(const resumable_csv_settings *s, const char *line, size_t length, uint64_t row,
                    bool *failed) {
     char *swept = swept_text(s, row);
@@ -443,8 +443,7 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
 
 /* === the session ============================================================================== */
 
-/* A progress line is drawn at most this often. */
-#define SHOW_EVERY_S 0.2
+#define SHOW_EVERY_S 0.2 /* least time between two progress lines */
 
 void sweep_progress(FILE *out, uint64_t from, uint64_t done, uint64_t end, double elapsed_s) {
     const double part = end > 0 ? (double)done / (double)end : 1.0;
@@ -521,7 +520,7 @@ static bool count_notes(sitting *s, uint64_t point, const point_notes *notes) {
     return good;
 }
 
-/* Findings of the file's earlier rows. With them the exit status of a continued sweep is that of an uninterrupted one. */
+/* Findings of the file's earlier rows, so that a continued sweep has the exit status of an uninterrupted one. */
 static unsigned fails_before(const sitting *s) {
     unsigned fails = 0;
     for (int id = 0; id < FINDINGS && s->sweep->strict >= 0.0; id++) {
@@ -547,7 +546,6 @@ static void name_point(const sweep *s, uint64_t point) {
     free(value);
 }
 
-/* Erases the progress line, so that other text can be written. */
 static void clear_progress(sitting *s) {
     if (s->shown_s > 0.0) {
         fprintf(stderr, "\r%70s\r", "");
@@ -594,7 +592,7 @@ static void swept(const void *context, uint64_t row, FILE *out) {
     sweep_swept_fields(s->sweep, s->first + row, out);
 }
 
-/* Prints the findings of the points that ran in this session. Findings of earlier points are not in the file's rows. */
+/* Prints the findings of the points of this session. The file does not say which earlier points have findings. */
 static void say_found(const sitting *s) {
     for (int id = 0; id < FINDINGS; id++) {
         if (s->found[id] > 0) {

@@ -12,10 +12,9 @@
 /* === a CSV file that is continued ============================================================= */
 /* The CSV file of a sweep, which a later run of the same sweep can continue.
  *
- * FILE.sweep, next to FILE, has the sweep's settings, a line each, that determine every byte of FILE. FILE
- * itself stays plain. A run continues a FILE with the same settings, header and swept values, and drops an
- * incomplete last line. It refuses any other FILE. While a sweep writes FILE it holds a lock on it. Lines
- * "noted: WORD" at the end of FILE.sweep have the findings of existing rows. */
+ * FILE.sweep, next to FILE, has the settings that determine every byte of FILE, a line each. Lines "noted: WORD" at its
+ * end have the findings of existing rows. A run continues a FILE with the same settings, header and swept values, and
+ * drops an incomplete last line. It refuses any other FILE. A sweep locks FILE while it writes. */
 
 typedef struct resumable_csv {
     FILE *out;
@@ -39,8 +38,8 @@ typedef struct resumable_csv_settings {
     bool fresh; /* start again, even if the file has rows */
 } resumable_csv_settings;
 
-/* Opens and checks the file; writes a missing header. Returns an exit status: 0 good, 1 the file
- * could not be written, 2 the file belongs to another sweep or is in use (reported on standard error). */
+/* Opens and checks the file; writes a missing header. Returns an exit status: 0; or, reported on standard error, 1 the
+ * file could not be written, 2 it belongs to another sweep, is in use, or cannot be opened. */
 int resumable_csv_open(resumable_csv *sh, const resumable_csv_settings *s);
 /* Returns false if something was not written (reported). */
 bool resumable_csv_close(resumable_csv *sh);
@@ -65,8 +64,8 @@ char *fingerprint_make(const sweep *s, const char *model_text, const instance *b
 
 /* === running the points ======================================================================= */
 
-/* Draws a line over the last one: the share of `done` points in `end`, the rate, and the remaining time at that rate.
- * `from` points were done before these seconds began. */
+/* Draws a line over the last one: the share of `done` points in `end`, the rate, and the remaining time. `from`: points
+ * that were done `elapsed_s` ago. */
 void sweep_progress(FILE *out, uint64_t from, uint64_t done, uint64_t end, double elapsed_s);
 
 typedef struct session_settings {
@@ -81,8 +80,8 @@ typedef struct session_settings {
     bool json; /* JSON goes to standard output; `csv` is then /dev/null */
 } session_settings;
 
-/* Returns an exit code (host/base/exit.h). EXIT_RUN_FAILED: points failed or rows could not be written.
- * EXIT_BAD_INPUT: the file belongs to another sweep. Errors have been reported on standard error. */
+/* Returns an exit status (host/base/exit.h), reported on standard error. EXIT_RUN_FAILED: points failed, findings fail
+ * the sweep, or rows could not be written. EXIT_BAD_INPUT: the file belongs to another sweep. */
 int session_run(const sweep *s, const session_settings *settings);
 
 #endif

@@ -43,8 +43,8 @@ double map_row(const stability_map *m, uint64_t row) {
 
 /* --- a row ---------------------------------------------------------------------------------------------*/
 
-/* The runs of a row of the map. Their errors are compared with the range of each column in the first run, which has the
- * shortest step. A coarse run has few samples, and its finer run may diverge, too, so neither has a useful range. */
+/* The runs of a row of the map. Their errors are compared with each column's range in the first run, which has the
+ * shortest step: a coarse run has few samples, and may diverge like its finer run. */
 typedef struct row_runs {
     const map_request *request;
     stability_map *map;
@@ -108,8 +108,7 @@ static void show_share(double share, void *context) {
     p->request->progress((double)p->map->done + share, p->request->context);
 }
 
-/* Sets the verdict of a point. A refused image is a verdict, too; `whirl run` gives the reason. After an interrupt the
- * verdict is unknown. */
+/* Sets the verdict of a point, unless interrupted. A refused image is MAP_NONE; `whirl run` prints the reason. */
 static void try_point(row_runs *p, uint64_t point) {
     const map_request *w = p->request;
     diags *unsaid = diags_new();
@@ -316,7 +315,7 @@ static void set_axis(FILE *to, const axis *a, char letter) {
     fprintf(to, "set %crange [%.17g:%.17g]\n", letter, edge(a, least, false), edge(a, most, true));
 }
 
-/* Writes x, y and the edges of each run of adjacent cells of a row with this verdict. */
+/* Writes x, y and the edges of each block of adjacent cells of a row with this verdict. */
 static void write_cells(FILE *to, const stability_map *m, map_verdict verdict) {
     const axis *along = along_of(m);
     const axis *rows = rows_of(m);

@@ -1,15 +1,16 @@
-/* stability_map.h: the verdict on a scene's run for each pair of two swept values: bounded, energy conserved, accurate to a
- * tolerance.
+/* stability_map.h: the verdict on a scene's run for each pair of two swept values: bounded, energy conserved, accurate
+ * to a tolerance.
  *
- * Each run has a finer run (host/check/step_doubling.h), which limits the time of its accuracy, and an energy balance with its
- * residual (host/check/energy_residual.h). A map's rows are the values of the axis other than the step. */
+ * * A finer run (host/check/step_doubling.h) shows until when a run is accurate. The energy residual
+ * (host/check/energy_residual.h) shows if it conserves energy. A map's rows are the values of the axis other than the
+ * step. */
 #ifndef STUDY_STABILITY_MAP_H
 #define STUDY_STABILITY_MAP_H
 
 #include "host/study/point.h"
 
-/* A run is out of bounds if the error of a rate exceeds this many times its range in the finest run of the row. A growing
- * error exceeds this bound long before overflow. */
+/* A run is out of bounds if the error of a rate exceeds this many times its range in the finest run of the row. A
+ * growing error exceeds this bound long before overflow. */
 #define MAP_BOUND 100.0
 
 /* The verdicts, from good to bad. X(id, mark, word, words) */
@@ -43,8 +44,7 @@ typedef struct map_cell {
 typedef struct map_request {
     sweep of; /* the sweep with two axes, in float or double */
     double tolerance;
-    void (*progress)(double runs,
-                     void *context); /* `runs`: number of completed runs; may be NULL */
+    void (*progress)(double runs, void *context); /* `runs`: completed runs; may be NULL */
     void *context;
 } map_request;
 
@@ -61,19 +61,19 @@ stability_map map_make(const map_request *w);
 void map_free(stability_map *m);
 
 uint64_t map_count(const stability_map *m, map_verdict verdict);
-/* The grid's point for value number `at` of the axis m->along, in rising order, and for value number `row` of the other axis. */
+/* The grid's point for value `at` of the axis m->along, in rising order, and value `row` of the other axis. */
 uint64_t map_point(const stability_map *m, uint64_t row, uint64_t at);
-/* The values of the axes with these numbers, SI. */
+/* These values of the two axes, SI. */
 double map_along(const stability_map *m, uint64_t at);
 double map_row(const stability_map *m, uint64_t row);
 
-/* A line for each row, with a mark for each value along it, in rising order. `words` describe the run. */
+/* Prints a line for each row, with a mark for each value along it, in rising order. `words` describe the run. */
 void map_print(FILE *out, const stability_map *m, const char *words);
-/* A row for each completed pair: both values, verdict, times, energy residual. */
+/* Writes a row for each completed pair: both values, verdict, times, energy residual. */
 void map_csv(FILE *out, const stability_map *m);
 /* Writes the map as one JSON object (docs/warnings.md has the schema). `status`: exit status. */
 void map_json(FILE *out, const stability_map *m, const image *of, const map_request *w, int status);
-/* A rectangle for each pair, to .svg or .png, drawn by gnuplot, with `words` as the title. False: reported on standard error. */
+/* Draws the map with gnuplot to .svg or .png, with `words` as the title. False: reported on standard error. */
 bool map_plot(const char *file, const stability_map *m, const char *words);
 
 #endif

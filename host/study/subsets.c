@@ -99,7 +99,7 @@ void subsets_close(subsets *s) {
 
 /* --- runs side by side -------------------------------------------------------------------------------*/
 
-/* One of the runs that are made side by side. Lane 0 is the run of the full scene. */
+/* One of the runs that step side by side. Lane 0 is the full scene. */
 typedef struct lane {
     subset *subset;
     image *image;
@@ -135,7 +135,7 @@ static void lane_close(lane *l, int columns) {
     image_free(l->image);
 }
 
-/* Updates each column's largest difference from the full run. A difference from NAN is infinite. */
+/* Updates each column's largest difference from the full run; infinite if one of the two values is NAN. */
 static void lane_compare(lane *l, const records *full) {
     records_read(l->records, l->run, full->row[0]);
     for (int i = 1; i < full->columns; i++) {
@@ -150,8 +150,8 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Do the missing terms change a slope by more than round-off, at the state of the full run? The images of `all` and `less`
- * may have different orders of components. */
+/* Do the missing terms change a slope by more than round-off, at the state of the full run? The components of `all` and
+ * `less` may differ in their order. */
 static bool terms_act(const lane *all, vector_field *less) {
     enum { MOST = 3 * IMAGE_COMPONENTS_MAX };
     vector_field *full = all->field;
@@ -177,7 +177,7 @@ static bool terms_act(const lane *all, vector_field *less) {
     return act;
 }
 
-/* Records that the effect of this contact acts. The effect is found by the statement's place in the source. */
+/* Marks the effect of this contact as acting. The statement's place in the source identifies the effect. */
 static void contact_acts(subsets *s, int contact) {
     for (int i = 0; i < s->of->contact_count; i++) {
         const contact_statement *c = &s->of->contacts[i];
@@ -204,7 +204,7 @@ static void contacts_act(subsets *s, void *run) {
     }
 }
 
-/* Notes the effects that act at this step of the full run: lane k + 1 is without effect k. */
+/* Marks the effects that act at this step of the full run. Lane k + 1 is without effect k. */
 static void note_acting(subsets *s, const lane *lanes) {
     if (s->image->contacts > 0) {
         contacts_act(s, lanes[0].run);
@@ -319,8 +319,7 @@ static bool is_better(const subset *a, const subset *b) {
                          : a->figure[SUBSET_STEP] < b->figure[SUBSET_STEP];
 }
 
-/* The best subset within the limits. Effects that did not act are never left out: that would change the run by
- * round-off alone. */
+/* The best subset within the limits. Effects that did not act stay: their removal only changes round-off. */
 static const subset *best_of(const subsets *s, uint64_t acting) {
     const subset *best = s->list[0];
     for (int i = 1; i < s->count; i++) {

@@ -12,8 +12,8 @@
 /* The most effects of a scene. With up to SUBSETS_ALL_MOST acting effects, all of their subsets are run. */
 enum { SUBSETS_EFFECTS_MAX = 64, SUBSETS_ALL_MOST = 6 };
 
-/* Figures of a price, in float; NAN: unknown. With contacts only SUBSET_WORST is known: the limit that the scene
- * declares. */
+/* Figures of a price, in float: cycles (or instructions) of a step, most evaluations in a step, bytes of flash, bytes
+ * of RAM. NAN: unknown. */
 enum { SUBSET_STEP, SUBSET_WORST, SUBSET_FLASH, SUBSET_RAM, SUBSET_FIGURES };
 
 /* The scene without the effects of the bits in `out`. */
@@ -23,8 +23,7 @@ typedef struct subset {
     bool same;          /* its records have the same bits as those of the full run */
     int contacts;
     double *moved; /* [columns] largest difference over the run, in the column's unit */
-    /* cycles (or instructions) of a step, most evaluations in a step, bytes of flash, bytes of RAM */
-    double figure[SUBSET_FIGURES];
+    double figure[SUBSET_FIGURES]; /* with contacts only SUBSET_WORST has a meaning */
 } subset;
 
 typedef struct subsets {
@@ -51,8 +50,8 @@ void subsets_close(subsets *s);
  * diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
-/* Runs scenes without some of the effects that acted, in all combinations; *greedy: there are too many, so effects are left
- * out one after another. Returns the subset that keeps the limits with the fewest effects; of several, the cheapest. */
+/* Runs scenes without some of the acting effects, in all combinations; *greedy: too many, so effects are left out one
+ * after another. Returns the subset that keeps the limits with the fewest effects, and among these the cheapest. */
 const subset *subsets_smallest(subsets *s, bool *greedy);
 
 #endif

@@ -15,8 +15,8 @@
 
 /* === settings ================================================================================= */
 
-/* The number types: the arithmetic, and whether sums are compensated. Generated C gets its number type when it is compiled, except
- * in fixed point. */
+/* The number types, with and without compensated sums. Generated C gets its number type when it is compiled, except in
+ * fixed point. */
 static const struct {
     const char *word;
     const char *run;    /* additional options of `whirl run` */
@@ -39,7 +39,7 @@ int setting_number(const setting *s) {
     return i;
 }
 
-/* Tables of each form with the default number of cells, with a quarter or half of it, and with four times as many. */
+/* Tables of each form, with the default number of cells, fewer and more. */
 static const struct {
     const char *word;
     const char *options;
@@ -72,7 +72,7 @@ static const int words[AXES] = {[AXIS_METHOD] = WH_METHODS,
                                 [AXIS_MATRIX] = IMAGE_MATRICES,
                                 [AXIS_TABLES] = TABLES};
 
-/* The number of a setting's word. */
+/* The index of a setting's word. */
 static int word_of(const setting *s, setting_axis axis) {
     switch (axis) {
     case AXIS_METHOD: return (int)s->image.method;
@@ -132,7 +132,7 @@ static setting combination(int i) {
 
 bool setting_is_fixed(const setting *s) { return s->number == &engine_fixed; }
 
-/* Does each word of the combination have an effect? Fixed point has one method, and one way to compute sines (host/fixed). */
+/* Has each word of the combination an effect? Fixed point has one method, and one way to compute sines (host/fixed). */
 static bool makes_sense(const setting *s) {
     const bool plain = s->image.angles == ANGLES_TURNED;
     if (setting_is_fixed(s)) {
@@ -214,12 +214,9 @@ const char *setting_options(const setting *s, bool with_number, char text[SETTIN
 
 /* === trials =================================================================================== */
 
-/* Limit on the operations of a reference's finest run, for all points together: some seconds. */
-#define REFERENCE_OPERATIONS 6e8
-/* An error below this many times the reference's own is only a bound. */
-#define SURELY 10.0
-/* A run with a larger error, as a part of the largest value, is useless. */
-#define USABLE 1.0
+#define REFERENCE_OPERATIONS 6e8 /* limit for the finest runs of all references: some seconds */
+#define SURELY 10.0 /* an error below this many times the reference's own error is only a bound */
+#define USABLE 1.0  /* a run with a larger error, as a part of the largest value, is useless */
 
 whole_ratio trial_step(const trials *t, deviation_pace pace) {
     whole_ratio s = t->request.spacing;
@@ -329,8 +326,7 @@ static void cut(trials *t) {
     }
 }
 
-/* Drops the points without motion, for which there is no largest value to compare an error with. If no point has
- * motion, all stay, and the report says so. */
+/* Drops the points without motion: they have no largest value to compare an error with. If no point moves, all stay. */
 static void drop_still(trials *t) {
     int kept = 0;
     for (int p = 0; p < t->points; p++) {
@@ -405,8 +401,8 @@ static void drop(image *im) {
     }
 }
 
-/* Adds the step in fixed point to an image; NULL, with the image freed, if there is no such step. Undeclared ranges come from a
- * run in double to the end. */
+/* Adds the step in fixed point to an image. Frees the image and returns NULL if there is none. Undeclared ranges come
+ * from a run in double to the end. */
 static image *in_fixed_point(image *im) {
     diags *unsaid = diags_new();
     im->fixed = fixed_plan_make(im, false, unsaid);
@@ -490,8 +486,7 @@ trial_result trial_run(trials *t, const setting *s, deviation_pace pace) {
 double trial_operations(const trials *t, const setting *s, deviation_pace pace) {
     const double steps = (double)t->records * (double)pace.steps / (double)pace.records;
     const double each = (double)t->image[0]->list[IMAGE_STEP]->count + 1.0;
-    const double runs =
-        setting_is_fixed(s) ? 2.0 : 1.0; /* in fixed point a first run finds the ranges */
+    const double runs = setting_is_fixed(s) ? 2.0 : 1.0; /* a first run finds the ranges */
     return runs * steps * each * wh_methods[s->image.method].stages * t->points;
 }
 

@@ -30,15 +30,15 @@ typedef enum setting_axis { SETTING_AXES(SETTING_AXIS) AXES } setting_axis;
 const char *setting_heading(setting_axis axis);
 const char *setting_word(const setting *s, setting_axis axis);
 
-/* All combinations that make sense for some scene. With a matrix there is no choice of method or angles, and with tables no angle
- * is turned. Fixed point has one method and no other setting. */
+/* All combinations that make sense for some scene. With a matrix there is no choice of method or angles, and with
+ * tables none of angles. Fixed point has one method and no other setting. */
 int setting_count(void);
 setting setting_at(int i); /* 0 <= i < setting_count() */
 
 /* Is the method of this setting requested? `method` NULL requests rk4 and nystroem3 to 5: over the points of
  * docs/figures/price.csv the others save nothing in the median. A matrix replaces the default method. */
 bool setting_is_asked(const setting *s, const bool method[WH_METHODS]);
-/* The index of the setting among all settings, and that of its number type: float, float compensated, double, fixed. */
+/* A sort key of settings; the index of the number type: float, float compensated, double, fixed. */
 int setting_order(const setting *s);
 enum { SETTING_NUMBERS = 4 };
 int setting_number(const setting *s);
@@ -47,17 +47,16 @@ cost_number setting_cost_number(const setting *s);
 /* May a scene refuse this form without an error? A matrix requires a linear scene, tables one turn angle. */
 bool setting_may_be_refused(const image_settings *s);
 
-/* Does this setting give a step that no earlier setting gives? `im` was made with it. False: the method does not take the
- * system, or sines are looked up in any case because they cannot be rotated. */
+/* Does this setting, with which `im` was made, give another step than all others? False: the method does not support
+ * the system, or sines are looked up in any case because they cannot be rotated. */
 bool setting_is_own(const setting *s, const image *im);
 /* Is the number type fixed point? Then a scene may have no step, or no step of this length (host/fixed). */
 bool setting_is_fixed(const setting *s);
 /* Does the cost of a step depend on its length? The entries of a matrix do, and so do shifts in fixed point. */
 bool setting_price_varies(const setting *s);
 
-/* Room for setting_options(). */
-enum { SETTING_TEXT = 160 };
-/* " --method rk4 --angles lookup": options of `whirl derive`, or with the number type those of `whirl run`. Returns text. */
+enum { SETTING_TEXT = 160 }; /* room for setting_options() */
+/* " --method rk4 --angles lookup": options of `whirl derive`; with the number type, of `whirl run`. Returns text. */
 const char *setting_options(const setting *s, bool with_number, char text[SETTING_TEXT]);
 /* Additional option of `whirl derive --as c`: " --number fixed", or "". */
 const char *setting_form(const setting *s);
@@ -66,10 +65,9 @@ const char *setting_form(const setting *s);
 /* Makes images of the scene at each point of its varied values. */
 typedef struct trial_source {
     void *context;
-    /* number of points: 1 for the scene itself; or points of its ranges and the scene's own values */
-    int points;
-    /* The image of a point, with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller frees it.
-     * NULL without an image: reported, unless the scene refuses the setting (setting_may_be_refused()). */
+    int points; /* 1: the scene itself; else also the points of its ranges */
+    /* The image of a point, with this setting, step and end ("0.001", seconds; NULL: the scene's own). The caller frees
+     * it. NULL without an image: reported, unless the scene refuses the setting (setting_may_be_refused()). */
     image *(*make)(void *context, int point, const setting *s, const char *step, const char *until);
     /* A point as options: " --set duty=0.2"; "" is the scene itself. Valid until the next call. */
     const char *(*name)(void *context, int point);
@@ -97,36 +95,33 @@ typedef struct trials {
     int worst;             /* the point whose reference ends first, or is least accurate */
     int records;           /* records after the start for which all references are trusted */
     deviation_of_what what;
-    double
-        tolerated; /* with --of: an error up to this limit is usable even if the values are smaller */
-    bool reliable;       /* false: the reference of some point is not reliable */
+    double tolerated; /* with --of: an error up to this is usable, even if the values are smaller */
+    bool reliable;    /* all references are reliable */
     bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
 } trials;
 
 /* The results of one setting at one step. */
 typedef struct trial_result {
-    bool ran;    /* false: stopped, or there is no image */
-    bool usable; /* at all points the run reached its end, with an error below the largest value */
-    double
-        error; /* the worst error of all points, in trial_unit(); a bound includes the reference's own error */
-    bool bound; /* `error` is only a bound, because the reference's own error is about as large */
-    int point;  /* the point with the worst error */
-    int column; /* the component with the worst error */
-    double
-        evaluations; /* evaluations of the accelerations per simulated second, the most of all points */
+    bool ran;     /* false: stopped, or there is no image */
+    bool usable;  /* at all points the run reached its end, with an error below the largest value */
+    double error; /* the largest of all points, in trial_unit() */
+    bool bound;   /* `error` includes the reference's error, which is about as large */
+    int point;    /* the point with the worst error */
+    int column;   /* the component with the worst error */
+    double evaluations;      /* of the accelerations per simulated second, the most of all points */
     double evaluations_most; /* most evaluations in one step */
 } trial_result;
 
-/* Computes the references. False, reported on standard error, if `of` is unknown to the scene, or an image is missing. */
+/* Computes the references. False, reported on standard error, if the scene has no `of`, or an image is missing. */
 bool trial_begin(trials *t, const trial_request *w);
 void trial_end(trials *t);
 
 trial_result trial_run(trials *t, const setting *s, deviation_pace pace);
 /* Estimated operations, without those of events. */
 double trial_operations(const trials *t, const setting *s, deviation_pace pace);
-/* The setting's cost at the most expensive point. *own: false if the setting equals another (setting_is_own()), or the scene
- * refuses it, perhaps only with this step (setting_price_varies()). In fixed point this takes as long as a run. */
+/* The setting's cost at the most expensive point. *own: false if setting_is_own() is, or if the scene refuses the
+ * setting, perhaps only with this step (setting_price_varies()). In fixed point this takes as long as a run. */
 cost trial_cost(const trials *t, const setting *s, deviation_pace pace, bool *own);
 
 const char *trial_place(const trials *t, int point);
@@ -140,7 +135,7 @@ double trial_error_si(const trials *t, double error);
 enum { TRIAL_NAME = 96 };
 const char *trial_column(const trials *t, int column, char text[TRIAL_NAME]);
 
-/* The step as --step takes it, in as few digits as bring back the same number. Returns text. */
+/* The step as --step takes it, with the fewest digits that are read back exactly. Returns text. */
 const char *trial_step_text(const trials *t, deviation_pace pace, char text[NUMBER_SIZE]);
 /* The end of the compared motion, as --until takes it; ranges in fixed point extend to it. Returns text. */
 const char *trial_until(const trials *t, char text[NUMBER_SIZE]);
