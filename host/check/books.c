@@ -318,8 +318,7 @@ enum { FRAME_MOST = 24 };  /* most momenta among which conserved sums are search
 #define FRAME_ASIDE_S 1e-5 /* half the duration of the motion in momenta_change(), s */
 #define FRAME_LEAST 1e-6   /* a smaller part of the largest change of a momentum is round-off */
 
-/* change[]: by how much each momentum falls in a motion of 2 FRAME_ASIDE_S through a random state, number `draw`.
- * Returns false if a change is not finite. */
+/* change[]: by how much each momentum falls in 2 FRAME_ASIDE_S around random state number `draw`. False: not finite. */
 static bool momenta_change(books *b, int draw, double *change) {
     const image *im = b->image;
     double angle_rad[2][IMAGE_COMPONENTS_MAX];

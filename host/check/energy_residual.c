@@ -7,8 +7,7 @@
 #include "host/base/diag.h"
 #include "host/number/functions.h"
 
-/* The allowance for the round-off of N steps is ROUNDINGS sqrt(N) times that of one step, because the signs vary. Up to
- * N = 1000 it covers N errors of one sign. */
+/* N steps may have ROUNDINGS sqrt(N) times the round-off of one step; up to N = 1000, N errors may have one sign. */
 #define ROUNDINGS 32.0
 
 static double larger(double a, double b) { return fabs(b) > a ? fabs(b) : a; }

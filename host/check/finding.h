@@ -56,9 +56,8 @@ extern const finding_row finding_rows[FINDINGS];
 #define RUN_CHECKS_SUDDEN_STEPS 8.0
 /* FINDING_ENERGY: limit of the residual before the end, as a part of the largest entry; invisible in a plot. */
 #define RUN_CHECKS_ON_THE_WAY 3e-3
-/* FINDING_EVENTS ignores steps with too many events in the last bounces before a rest. They are at most one plus
- * RUN_CHECKS_RESTS_STEPS of all steps, and together change the energy by at most RUN_CHECKS_RESTS of the largest
- * entry. */
+/* FINDING_EVENTS ignores the last bounces before a rest. Their steps are at most 1 plus RUN_CHECKS_RESTS_STEPS of all
+ * steps, and change the energy by at most RUN_CHECKS_RESTS of the largest entry. */
 #define RUN_CHECKS_RESTS 1e-3
 #define RUN_CHECKS_RESTS_STEPS 0.01
 

@@ -7,11 +7,9 @@
 #include "host/base/diag.h"
 #include "run_checks.h"
 
-/* Prints a line for each finding, "whirl run: warning: ... [word]", then hints with tried remedies. `fails`: the energy
- * finding is printed as an error. */
+/* Prints the findings, "whirl run: warning: ... [word]", then tried remedies. `fails`: calls the energy's an error. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
-/* findings_message(): the text of a reported finding, without its word. findings_where(): its coordinate or contact;
- * false: the finding is about the whole run. */
+/* The text of a reported finding, and its coordinate or contact; findings_where() false: it is about the whole run. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };
 void findings_message(FILE *out, const run_checks *v, finding_id id);
 bool findings_where(const run_checks *v, finding_id id, char name[FINDINGS_NAME]);

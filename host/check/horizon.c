@@ -50,8 +50,7 @@ static double least_size(const step_doubling_column *c) {
     return fabs(c->start) > least ? size_of(c) : number_most(size_of(c), c->one);
 }
 
-/* May both runs have the same round-off in this column? `least`: the error to be detected. In a constant column the
- * bound must exceed least_size(), too. */
+/* May both runs have the same round-off, as large as `least`? In a constant column, least_size() is a limit, too. */
 static bool has_few_digits(const step_doubling *t, int k, double least) {
     const step_doubling_column *c = &t->column[k];
     return c->rounding > BOUND_OVER * least && (!stays(t, k) || c->rounding > least_size(c));

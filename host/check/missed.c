@@ -345,8 +345,7 @@ static void cut(jet *part, const jet *middle, double half) {
 
 /* --- the path -----------------------------------------------------------------------------------------------*/
 
-/* Sets the path: the cubic with these positions and rates at its ends, `span_s` apart. from, to: [angles + reals];
- * rad. */
+/* Sets the path: the cubic with these positions and rates at its ends, `span_s` apart. from, to: [angles + reals]. */
 static void taylor_bounds_way(taylor_bounds *a, const double *from, const double *to,
                               double span_s) {
     const int n = a->image->coordinates;
@@ -698,8 +697,7 @@ static met met_by(missed *m, int k) {
     return of;
 }
 
-/* Is a sliding friction's limit far larger between the ends of the path, or a sticking friction's limit too small
- * there? */
+/* Between the ends of the path, is a sliding friction's limit far larger, or a sticking friction's too small? */
 static int limit_passes(missed *m, int k) {
     const bool sticks = m->piece->mode[k] == WH_STUCK;
     const int i = law_of(m->image, k, sticks ? WH_LAW_FIRST : WH_LAW_SECOND);

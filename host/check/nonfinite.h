@@ -27,8 +27,7 @@ int blamed_operands(const diagnostics_node *n, int of[static 2]);
 /* [node + 1]: true for this node and all nodes that it depends on. The caller frees it. */
 bool *blamed_parts(const image *im, int node);
 
-/* Largest angle with a sine, rad: in double, and in float (core/angle.h). Turn angles of float runs have no such
- * limit. */
+/* Largest angle with a sine, rad: in double, and in float (core/angle.h). Float's turn angles have no limit. */
 #define ANGLE_SINE_MOST_RAD 5e8
 #define ANGLE_SINE_MOST_FLOAT_RAD 1e9
 
@@ -42,8 +41,7 @@ typedef struct nonfinite_at {
     const char *when;        /* begins the message: "in the step after t = 1.2 s" */
 } nonfinite_at;
 
-/* Each function reports the first undefined expression, with its place and statement. Returns false if there is
- * none. */
+/* Each function reports the first undefined expression, with its place and statement; false: there is none. */
 
 /* Searches the energies, losses, forces and equations, and their slopes. */
 bool nonfinite_term(const nonfinite_at *at, diags *errors);

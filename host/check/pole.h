@@ -33,7 +33,7 @@ const diagnostics_question *pole_crossing_over(const pole_crossing *j, double *b
  *
  * Divisors change their sign at a pole, expressions grow there. Halving locates a sign change. Each expression is
  * sampled towards that place from both sides, down to the smallest distances at which it changes smoothly; below them
- * is only round-off. The place is a pole if an expression grows about as fast as one over the distance. A limit, an *
+ * is only round-off. The place is a pole if an expression grows about as fast as one over the distance. A limit, an
  * integrable singularity (one over a root), growth in jumps and growth that ends are no poles. After a rejected place
  * the path on both sides is tested: 1 + k/s changes its sign at its zero s = -k, and at its pole s = 0.
  *

@@ -40,8 +40,7 @@ typedef struct run_checks {
     unsigned warned; /* the warnings, as bits */
 } run_checks;
 
-/* `of`: the budget; NULL: run_checks.own, to which the run's loop adds the run's operations. All arguments must outlive
- * the result. */
+/* `of`: the budget; NULL: run_checks.own, which the run's loop fills. All arguments must outlive the result. */
 run_checks *run_checks_open(const image *im, const engine_kind *kind, void *run, budget *of);
 /* Makes a run to its end, or to an interrupt (host/os/system.h), with all checks at any cost. `progress` may be NULL;
  * it is called with the share of completed steps. run_checks_close() ends the run. */

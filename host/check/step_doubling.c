@@ -382,8 +382,7 @@ static void end_passages(step_doubling *t, double time_s) {
     t->cut_s = t->cut_s < 0.0 ? time_s : t->cut_s;
 }
 
-/* Has either run had a step with too many events? Such a step lets stops rest that would not rest. As both runs may do
- * so, their agreement proves nothing. */
+/* Has either run had a step with too many events? Such steps let stops rest too early, perhaps in both runs. */
 static bool has_overrun(const step_doubling *t) {
     uint64_t ours = 0;
     uint64_t finers = 0;

@@ -92,8 +92,7 @@ typedef struct step_doubling {
 wh_method step_doubling_method(const image *im);
 int step_doubling_order(const image *im);
 
-/* Starts the finer run of a run that the caller steps. `jumped`: the run's search for poles, or NULL. All must outlive
- * the result. */
+/* Starts the finer run of a run that the caller steps. `jumped`: pole search, or NULL. All must outlive the result. */
 step_doubling *step_doubling_open(const image *im, const engine_kind *kind, void *run,
                                   const pole_crossing *jumped);
 /* Call it at the start of the run and after each step. */

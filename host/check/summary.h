@@ -27,8 +27,7 @@ char *about_facts(const image *im, const engine_kind *kind, const void *run);
 char *about_tables(const image *im);
 
 /* === the opening sentence ===================================================================== */
-/* The first sentence of a run's summary. It names the constant outputs, or a conserved momentum, and the
- * ranges of moving outputs and coordinates. */
+/* A summary's first sentence: constant outputs or a conserved momentum, and ranges of moving quantities. */
 
 typedef struct opening {
     uint64_t each; /* steps between sampled rows */
@@ -48,8 +47,7 @@ void opening_print(FILE *out, const opening *o, const records *r, const books *b
 /* Prints the scene, its effects, and the method. */
 void summary_head(FILE *out, const image *im, const engine_kind *kind, const void *run);
 
-/* Prints the numbers, without timings, so that equal runs have equal summaries. `b` may be NULL; `balance`: its
- * residual. */
+/* Prints the numbers, without timings, so that equal runs have equal summaries. `b` may be NULL. */
 void summary_print(FILE *out, const image *im, const engine_kind *kind, void *run, const books *b,
                    const energy_residual *balance);
 

@@ -79,15 +79,14 @@ extern const engine_kind engine_double;
 typedef struct evaluator evaluator;
 evaluator *evaluator_new(const op_list *t);
 void evaluator_free(evaluator *ev);
-/* Makes evaluator_run() wrap angles to one turn before it takes their sines: a float run's turn angles may exceed the
- * range of the double build's sine. */
+/* Wraps angles to one turn before their sines: a float run's angles may exceed the range of the double sine. */
 void evaluator_wrap(evaluator *ev);
 void evaluator_run(evaluator *ev, double time_s, const double *angle_rad, const double *linear,
                    const double *rate, const double *input, double *result);
 /* The value of this operation of the list in the last evaluator_run(). */
 double evaluator_value(const evaluator *ev, int operation);
-/* Bounds on the round-off of the last evaluator_run(), with the same angles: error[results], in unit round-offs.
- * `least`: as in rounding.h. */
+/* Bounds on the round-off of the last evaluator_run(), with its angles: error[results], unit round-offs
+ * (rounding.h). */
 void evaluator_rounding(const evaluator *ev, const double *angle_rad, double least, double *error);
 
 /* A list of an image, evaluated in double at any state. The inputs keep their start values. */

@@ -11,9 +11,8 @@ typedef struct rounding_values {
     const double *cosine;    /* [t->count] */
     const double *phase_rad; /* [t->angles] */
     const double *angle_rad; /* [t->angles] */
-    /* Float's smallest normal number: smaller results have its round-off, and results beyond float's range an infinite
-     * error. 0: no such limits. */
-    double least;
+    double
+        least; /* float's smallest normal number, to include underflow and overflow; 0: neither */
 } rounding_values;
 
 /* Computes bounds on the round-off of the results: error[t->results], in units of the unit round-off (2^-53 in double,

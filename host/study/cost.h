@@ -152,8 +152,7 @@ typedef struct cost {
     cost_figure state_bytes; /* part of the RAM that the scene's memory takes: WH_MEMORY_BYTES */
 } cost;
 
-/* For COST_FIXED the image must contain its step in fixed point. With contacts there is no prediction, because the
- * price depends on the motion. */
+/* For COST_FIXED the image must contain its step in fixed point. With contacts, the cost is unknown without a run. */
 cost cost_of(const image *im, const cost_board *board, cost_number number);
 
 /* Does a cost have cycles, and not only a range of them? */
@@ -175,8 +174,7 @@ typedef struct cost_layout {
     int columns, board, instructions, instructions_most, cycles, cycles_most;
 } cost_layout;
 extern const cost_layout cost_step_layout; /* of COST_HEADER */
-/* Cuts a row into column[at->columns], and raises smaller figures in `c`, except state_bytes, to its counts. Returns
- * false if the text is no row of this board. */
+/* Cuts a row into column[at->columns], and raises smaller figures in `c` to its counts. False: no row of this board. */
 bool cost_enter(char *row, const cost_layout *at, char **column, const cost_board *board, cost *c);
 
 #endif

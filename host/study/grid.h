@@ -30,8 +30,7 @@ typedef struct grid {
 
 #define GRID_POINTS_MAX UINT64_C(1000000000000)
 
-/* "NAME=FROM..TO:COUNT[,log]"; a unit after TO also applies to a bare FROM. Returns false if it is wrong (reported on
- * standard error). */
+/* Adds "NAME=FROM..TO:COUNT[,log]"; a bare FROM has the unit of TO. False: wrong, reported on standard error. */
 bool grid_add(grid *g, const mechanism *of, const char *text, diags *errors);
 void grid_free(grid *g);
 
@@ -48,8 +47,7 @@ void grid_shard(const grid *g, uint64_t k, uint64_t n, uint64_t *first, uint64_t
 
 /* === values of a point as changes ============================================================= */
 
-/* The changes of `base`, followed by the point's values, which take precedence. Numbers are exact. Free with
- * changes_forget(). */
+/* The changes of `base`, then the point's exact values, which take precedence. Free with changes_forget(). */
 overrides changes_at(const grid *g, const overrides *base, uint64_t point);
 void changes_forget(const overrides *base, overrides *changes);
 

@@ -169,8 +169,7 @@ static bool check_orders(parser *in, const expr *tree, bool *let_seen) {
     return check_orders(in, tree->left, let_seen) && check_orders(in, tree->right, let_seen);
 }
 
-/* Reports a measure inside a larger expression, "amplitude(x)/2", and returns true: measures are not functions of the
- * language. */
+/* Reports a measure inside a larger expression, "amplitude(x)/2", and returns true: measures are no functions. */
 static bool has_measure_inside(const source *typed, diags *errors) {
     for (measure_kind kind = MEASURE_AMPLITUDE; kind <= MEASURE_PERIOD; kind++) {
         const size_t length = strlen(kind_names[kind]);
@@ -192,8 +191,7 @@ static bool has_measure_inside(const source *typed, diags *errors) {
     return false;
 }
 
-/* The expression with each noisy output replaced by its record, which includes the noise. Other outputs are computed
- * without that noise, as in the records. */
+/* The expression with each noisy output replaced by its record, with noise. Other outputs use it without noise. */
 static const expr *as_recorded(measures *m, const mechanism *of, const expr *tree) {
     if (tree == NULL) {
         return NULL;

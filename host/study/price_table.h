@@ -118,8 +118,7 @@ typedef enum measured_end {
     MEASURED_MISSING /* a tool is missing */
 } measured_end;
 
-/* The reason why counting is impossible on a board, perhaps in `text`. NULL: it is possible, and the files that all
- * counts share are compiled. */
+/* Why counting is impossible on a board, perhaps in `text`. NULL: it is possible, and shared files are compiled. */
 enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
 /* Counts the steps of a row for all rows of its setting; with contacts, the row's whole run. Takes seconds. Removes

@@ -158,8 +158,7 @@ static bool measure(reference *r, const computed *other, int until, int column) 
     return known;
 }
 
-/* Measures all columns up to record r->records, and decides which ones count. *rough: a run in float with the steps of
- * `other`, made if a column is unknown. */
+/* Measures all columns, and decides which ones count. *rough: a float run with the steps of `other`, made if needed. */
 static void weigh(reference *r, const reference_request *w, uint64_t steps, const computed *other,
                   computed *rough) {
     const int until = r->records < 0 ? 0 : r->records;

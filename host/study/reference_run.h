@@ -58,8 +58,7 @@ int reference_find(const reference *r, const char *name, bool *noisy);
 
 /* === the deviation of a run =================================================================== */
 
-/* The length of a run's step: `steps` steps take `records` spacings of the records. If a step is longer than a spacing,
- * only the records at its ends are compared. */
+/* The length of a run's step: `steps` steps take `records` spacings. Only records at ends of steps are compared. */
 typedef struct deviation_pace {
     uint64_t steps;
     uint64_t records;

@@ -57,15 +57,14 @@ typedef struct shard {
     uint64_t of;     /* number of shards */
 } shard;
 
-/* `model_text`: the whole .whirl text; `base` and `im`: the instance without the swept values, and its image. The
- * caller frees the result. */
+/* `model_text`: the .whirl file; `base`, `im`: the instance without the swept values, and its image. Free the
+ * result. */
 char *fingerprint_make(const sweep *s, const char *model_text, const instance *base,
                        const image *im, shard part);
 
 /* === running the points ======================================================================= */
 
-/* Draws a line over the last one: the share of `done` points in `end`, the rate, and the remaining time. `from`: points
- * that were done `elapsed_s` ago. */
+/* Draws a progress line over the last one: share, rate, remaining time. `from`: points done `elapsed_s` ago. */
 void sweep_progress(FILE *out, uint64_t from, uint64_t done, uint64_t end, double elapsed_s);
 
 typedef struct session_settings {

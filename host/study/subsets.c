@@ -150,8 +150,7 @@ static void lane_compare(lane *l, const records *full) {
     }
 }
 
-/* Do the missing terms change a slope by more than round-off, at the state of the full run? The components of `all` and
- * `less` may differ in their order. */
+/* Do the missing terms change a slope of the full run's state beyond round-off? The order of components may differ. */
 static bool terms_act(const lane *all, vector_field *less) {
     enum { MOST = 3 * IMAGE_COMPONENTS_MAX };
     vector_field *full = all->field;
@@ -238,8 +237,7 @@ static void lane_stop(lane *l, const char *why) {
     l->run = NULL;
 }
 
-/* Steps the full run, side by side with the subsets from list[first] on. If first > 1, a subset stops when its error
- * exceeds a limit. */
+/* Steps the full run and the subsets from list[first] on. If first > 1, a subset stops if its error exceeds a limit. */
 static bool run_from(subsets *s, int first, diags *errors) {
     const int count = 1 + s->count - first;
     const int columns = s->columns->columns;

@@ -42,12 +42,10 @@ typedef struct subsets {
     int count;
 } subsets;
 
-/* Makes the image of the full scene. Returns false, and reports the reason, if there is no image, or too many effects.
- * Call subsets_close() in any case. */
+/* Makes the image of the full scene. False, reported: no image, or too many effects. Always call subsets_close(). */
 bool subsets_open(subsets *s, diags *errors);
 void subsets_close(subsets *s);
-/* Runs the full scene, together with those without one effect. Returns false, and reports the reason, if the full run
- * diverges. */
+/* Runs the full scene and those without one effect. False, reported: the full run diverges. */
 bool subsets_run(subsets *s, diags *errors);
 bool subsets_keeps(const subsets *s, const subset *of);
 /* Runs scenes without some of the acting effects, in all combinations; *greedy: too many, so effects are left out one

@@ -15,8 +15,7 @@
 
 /* === settings ================================================================================= */
 
-/* The number types, with and without compensated sums. Generated C gets its number type when it is compiled, except in
- * fixed point. */
+/* Number types, with or without compensated sums. Generated C gets its own when it is compiled, except fixed point. */
 static const struct {
     const char *word;
     const char *run;    /* additional options of `whirl run` */
@@ -401,8 +400,7 @@ static void drop(image *im) {
     }
 }
 
-/* Adds the step in fixed point to an image. Frees the image and returns NULL if there is none. Undeclared ranges come
- * from a run in double to the end. */
+/* Adds the step in fixed point to an image; if there is none, frees the image. A full run gives undeclared ranges. */
 static image *in_fixed_point(image *im) {
     diags *unsaid = diags_new();
     im->fixed = fixed_plan_make(im, false, unsaid);
