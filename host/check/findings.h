@@ -7,7 +7,7 @@
 #include "host/base/diag.h"
 #include "run_checks.h"
 
-/* Prints the findings, "whirl run: warning: ... [word]", then tried remedies. `fails`: calls the energy's an error. */
+/* Prints findings, "whirl run: warning: ... [word]", and tried remedies. `fails`: the energy finding is an error. */
 void findings_say(FILE *out, const run_checks *v, bool fails);
 /* The text of a reported finding, and its coordinate or contact; findings_where() false: it is about the whole run. */
 enum { FINDINGS_NAME = STATEMENT_SIZE };

@@ -201,7 +201,7 @@ typedef struct spot {
     bool touches; /* the value has no sign change */
 } spot;
 
-/* NEAREST: number of tested points nearest to the place. NINE_TIMES: index of a point about nine times as far. */
+/* NEAREST: number of tested points nearest to the place. NINE_TIMES: the point about 9 times as far as the nearest. */
 enum { NEAREST = 3, NINE_TIMES = GROWTH_POINTS - 5 };
 #define LEFT 0.05 /* relative tolerance of the value extrapolated to the place */
 
