@@ -4,7 +4,7 @@
 set -eu
 export LC_ALL=C
 tree=$1
-parts="Makefile README.md mk core hal boards host tests docs"
+parts="Makefile README.md CITATION.cff mk core hal boards host tests docs"
 if [ ! -d "$tree" ]; then
     rm -rf "$tree.new"
     mkdir -p "$tree.new/build"
