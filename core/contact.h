@@ -93,7 +93,7 @@ typedef enum wh_contact_kind {
 typedef struct wh_contact {
     uint8_t kind; /* wh_contact_kind */
     /* Crossing: +1 rising, -1 falling, 0 both. Stop: 1 if an input moves the stop between steps, 2 if an input with a
-     * rate does. Hold: 1 if its expression is straight (J_k constant), -1 if it follows an input with a rate. Or 0. */
+     * rate does. Hold: 1 if its expression is straight (J_k constant), -1 if an input with a rate moves it. Else 0. */
     int8_t direction;
     /* Index of the only coordinate in the expression if J_k is constant, so that J_k' is exactly zero; otherwise -1. */
     int16_t pin;

@@ -66,7 +66,7 @@ typedef struct wh_orders {
     uint32_t acted_timer;    /* timer counts from the readings' arrival to the outputs */
     uint32_t busy_timer;     /* timer counts from the readings' arrival to these orders */
     uint32_t step_timer;     /* longest control step since the last orders; 0: unknown */
-    uint32_t watchdog_ticks; /* outputs become 0 after this time without ALIVE; 0: never */
+    uint32_t watchdog_ticks; /* outputs become 0 after this time without WH_ORDER_ALIVE; 0: never */
     uint8_t flags;
     unsigned outputs;             /* number of outputs and notes together */
     float output[WH_SIGNALS_MAX]; /* by channel: the outputs, then the notes */

@@ -130,7 +130,7 @@ WH_INLINE int32_t wh_fixed_mul(int32_t a, int32_t b, int by) {
     return wh_fixed_round(wh_fixed_high(a, b), by);
 }
 
-/* Returns (x >> 14) * number * 2^-by, rounded, for |x| <= 2^28 and a 15-bit number, as a small term of a sum. */
+/* Returns (x >> 14) * number * 2^-by, rounded, for |x| <= 2^28 and a 15-bit number: a short product for small terms. */
 WH_INLINE int32_t wh_fixed_mul_short(int32_t x, int16_t number, int by) {
     return wh_fixed_round(wh_fixed_ss((int16_t)(x >> 14), number), by);
 }

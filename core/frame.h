@@ -14,7 +14,8 @@
 
 WH_C_BEGIN
 
-/* Raised whenever the meaning of a frame changes. wh_frame_take() returns all versions: the caller must check them. */
+/* Raised whenever the meaning of a frame changes. wh_frame_take() returns frames of all versions, for the caller to
+ * check. */
 #define WH_FRAME_VERSION 1U
 
 /* Bytes other than payload, before coding. */

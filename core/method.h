@@ -132,7 +132,7 @@ union wh_method_stages {
 /* The largest number of stages of an available row. */
 #define WH_STAGES_MAX sizeof(union wh_method_stages)
 
-/* Stage j has the weight share[j] / parts. Higher orders have weights that are no ratios of small integers. */
+/* Stage j has the weight share[j] / parts. Shares are reals: high-order weights are no ratios of small integers. */
 typedef struct wh_shares {
     wh_real parts;
     wh_real share[WH_STAGES_MAX];
