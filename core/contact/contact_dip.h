@@ -12,9 +12,8 @@ typedef struct wh_contact_attempt {
     wh_margins margins; /* at `next` */
     /* bits: free stops that open at `next` and, from their gap and its rate there, may have been closed before */
     unsigned leaving;
-    unsigned
-        dips;  /* bits: those of `leaving` that are open at both ends, perhaps closed in between */
-    int fault; /* if !sound: the component that left its bounds */
+    unsigned dips; /* bits: those open at both ends, perhaps closed in between */
+    int fault;     /* if !sound: the component that left its bounds */
     bool made;
     bool sound; /* `next` is within bounds */
 } wh_contact_attempt;

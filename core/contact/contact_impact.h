@@ -274,8 +274,7 @@ static inline unsigned wh_contact_push_out(const wh_contact_system *of, wh_conta
         wh_real way[WH_COORDS] = {WH_R(0.0)};
         unsigned mover = WH_CONTACTS_MAX;
         unsigned count = 0;
-        unsigned over =
-            0; /* bits: stops off which the body was moved too far, because the gap is curved */
+        unsigned over = 0; /* bits: stops that pushed too far, because the gap is curved */
         wh_contact_look(of, w, s, input, accel, signal);
         for (unsigned k = 0; k < of->forced; k++) {
             const bool stop = wh_contact_of(of, k, WH_STOP);
@@ -380,8 +379,8 @@ WH_APART wh_real wh_contact_own(const wh_contact_system *of, const wh_contact_wo
     return signal[2 * k] - now;
 }
 
-/* If the condition of hold k, whose value is `now`, is zero within round-off, returns this round-off, with a negative
- * sign if the condition falls when the expression rises. Otherwise returns 0. */
+/* Returns the round-off of the condition of hold k if the condition's value `now` is zero within it, otherwise 0. The
+ * result is negative if the condition falls when the expression rises. */
 WH_APART wh_real wh_contact_at_limit(const wh_contact_system *of, const wh_contact_work *w,
                                      unsigned k, const wh_real *input, const wh_contact_state *s,
                                      wh_real now) {

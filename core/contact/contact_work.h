@@ -47,8 +47,8 @@ typedef struct wh_contact_work {
     unsigned mover; /* the crossing whose assignments set `moved` */
     /* bits: crossings of this moment whose values are zero or next to zero */
     unsigned stands;
-    /* True if the present moment was located in time, and no contact has been moved since: the value of its crossing is
-     * then zero within the error of location. */
+    /* True if the present moment was located in time, and no contact has been moved since. A crossing's value past zero
+     * is then an error of location. */
     bool located;
     bool capped;   /* the pivoting reached its limit of rounds */
     int fault;     /* component that was assigned a value beyond its range, or -1 */

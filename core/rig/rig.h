@@ -84,12 +84,12 @@ typedef struct wh_rig_config {
     wh_real armed_max_s;
     wh_real tripped_max_s; /* longest time to rest after a trip */
     wh_real rest_max_s;    /* longest time to rest with the motor off */
-    /* The motor brakes at a run's end and after `stop`; otherwise, and after a trip or the stop input, it coasts. */
+    /* If true, the motor brakes at a run's end and after `stop`. After a trip or the stop input it always coasts. */
     bool stop_brakes;
     /* A completed run coasts, and the free swing gives the sensors' positions; `stop` may brake. */
     bool swings;
     bool host_loss_stops; /* a run ends if the host that gives the orders is lost */
-    uint32_t host_max_s;  /* time without an order after which the host is lost; 0: none */
+    uint32_t host_max_s;  /* the host is lost after this time without an order; 0: never */
     uint32_t settings;    /* hash of the settings (core/station/conf.h), or 0 */
 } wh_rig_config;
 
@@ -116,7 +116,7 @@ typedef struct wh_rig {
     bool has_result; /* the last run has a result */
     wh_rig_end ended;
     wh_rig_event asked; /* the last processed order */
-    wh_refusal answer;  /* its answer */
+    wh_refusal answer;  /* answer to the last processed order */
     wh_run run;
     wh_guard guard;
     uint32_t answers;     /* processed orders */
@@ -125,7 +125,7 @@ typedef struct wh_rig {
     uint32_t pulses_ever;
     uint32_t pulses_before; /* pulses before `arm` */
     uint32_t runs;          /* starts since the reset */
-    uint32_t settings;      /* config->settings at the result */
+    uint32_t settings;      /* config->settings when the result was measured */
     uint32_t result_s;      /* age of the result at result_ticks, whole seconds */
     uint32_t result_ticks;
     /* Times of each sensor's last two pulses, the newest first, accepted or not. */
