@@ -32,7 +32,7 @@ static inline uint8_t atmega_hold(void) {
 }
 static inline void atmega_go_on(uint8_t before) { SREG = before; }
 
-/* Timers 4 and 5 always have the same count (time_base.c). */
+/* Timers 4 and 5 always have the same count, two per tick (time_base.c). */
 #define ATMEGA_COUNTS_PER_TICK 2U
 void atmega_time_base_start(void);
 

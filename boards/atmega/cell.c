@@ -36,7 +36,7 @@ _Static_assert(F_CPU / 32U == 1000000U / TIMER_COUNT_TICKS, "the prescaler's 32n
 /* clock divided by 128: 125 kHz */
 #define CONVERTER (_BV(ADEN) | _BV(ADPS2) | _BV(ADPS1) | _BV(ADPS0))
 
-/* Marks a sum of supply conversions that contains one at the converter's end. */
+/* A sum of supply conversions gets the bit SUPPLY_BEYOND if one of them is above SUPPLY_END, the converter's end. */
 #define SUPPLY_END (FULL - RAIL)
 #define SUPPLY_BEYOND 0x8000U
 #define SUPPLY_V_PER_COUNT ((float)ATMEGA_SUPPLY_FULL_mV / 1000.0f / 1024.0f)

@@ -14,7 +14,7 @@ static uint16_t address_of(unsigned slot, unsigned at) {
     return (uint16_t)(FIRST + slot * HAL_SETTINGS_BYTES + at);
 }
 
-/* Returns false if the EEPROM stays busy: a byte takes less than 20 ms, at any speed of this loop. */
+/* Returns false if the EEPROM stays busy. Programming a byte takes less than 20 ms, this loop more. */
 static bool rests(void) {
     for (uint16_t i = 0; i < 60000U; i++) {
         if ((EECR & _BV(EEPE)) == 0) {

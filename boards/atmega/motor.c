@@ -65,7 +65,7 @@ unsigned hal_motor_start(void) {
 
 void hal_motor_set_voltage(float volts) {
     if (!driving) {
-        return; /* the first voltage after a start is 0 */
+        return; /* no effect: a start begins at 0 */
     }
     const uint16_t parts = parts_of(volts);
     const uint16_t owed = parts + carried;

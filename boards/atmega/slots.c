@@ -57,7 +57,7 @@ static void keep(uint8_t of, uint16_t count) {
     head++;
 }
 
-/* True if the edge for which the timer waits has passed uncaptured: the pin has the level after it. */
+/* True if the edge that the timer waits for has passed without a capture: the pin has the level after the edge. */
 static inline bool waits_in_vain(uint8_t sensor, const volatile uint8_t *control,
                                  const volatile uint8_t *flags) {
     const bool high = (PINL & _BV(sensor)) != 0;

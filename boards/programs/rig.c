@@ -229,7 +229,7 @@ static operator_step run(const wh_rig_config *config) {
             put_state(started);
         }
     } while (!operate(&operator_at, hal_clock_ticks() - started));
-    /* repeated with a wait after each, because the line to the motor may lose orders */
+    /* the off command is repeated, with a wait after each, because the line to the motor may lose orders */
     for (unsigned i = 0; i < LAST_ORDERS; i++) {
         hal_motor_off(HAL_MOTOR_COAST);
         hal_clock_wait_until(hal_clock_ticks() + CONTROL_TICKS);

@@ -1,5 +1,5 @@
 /* guard.c: the guard strip below the stack, by physical memory protection (RISC-V Privileged Architecture, 3.7). A
- * locked entry without rights also restricts machine mode, until the next reset. Chips without it ignore the writes. */
+ * locked entry without rights also restricts machine mode, until the next reset. Chips without PMP ignore writes. */
 #include "riscv.h"
 
 void board_guard_stack(void) {

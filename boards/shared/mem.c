@@ -2,7 +2,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Otherwise gcc turns the loops below into calls of the functions themselves. */
+/* Without this option gcc turns the loops below into calls of the functions themselves. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("no-tree-loop-distribute-patterns")
 #endif
@@ -12,7 +12,7 @@ void *memmove(void *to, const void *from, size_t bytes);
 void *memset(void *to, int value, size_t bytes);
 int memcmp(const void *left, const void *right, size_t bytes);
 
-/* Copying by words takes a quarter of the instructions; structures are word-aligned. */
+/* Copying by words takes a quarter of the instructions of copying by bytes; structures are word-aligned. */
 typedef uint32_t __attribute__((may_alias)) word;
 
 static int word_aligned(const void *pointer) { return ((uintptr_t)pointer & 3U) == 0; }

@@ -26,10 +26,11 @@ extern uint32_t board_fault_stack_top[];
 /* Size of the guard strip, and its alignment, because memory protection units require it. */
 #define BOARD_STRIP_BYTES 256U
 
-/* Makes accesses to the guard strip fault, if the chip can (guard.c). The start-up code calls this once. */
+/* Protects the guard strip, if the chip can: accesses to it then fault (guard.c). The start-up code calls this once. */
 void board_guard_stack(void);
 
-/* Returns the number of words between two symbols of the linker script. C does not allow to subtract their pointers. */
+/* Returns the number of words between two symbols of the linker script: C does not define their pointers'
+ * difference. */
 static inline uint32_t board_words(const uint32_t *low, const uint32_t *high) {
     return (uint32_t)(((uintptr_t)high - (uintptr_t)low) / sizeof *low);
 }

@@ -3,7 +3,7 @@
  * Timer 3 starts 32,000 pairs of conversions per second: load, supply. DMA stores them, and interrupts after each half
  * of its memory: 64 pairs, 2 ms. A sample is the mean of 64 conversions, with the time stamp of their middle, so it has
  * no delay. It waits for the next mean, because the correction of a mean needs both neighbours (hal/averaged.h). One
- * count of the converter is 109 mN, of a sample 6.8 mN. Noise of half a converter's count gives a mean an error of 1.7
+ * count of the converter is 109 mN. With noise of half a count the mean resolves 1.7 mN; the unit of a sample is 6.8
  * mN.
  *
  * Without force, the amplifier's output is half of the reference; near either end the amplifier is saturated. If all

@@ -9,7 +9,7 @@
 #include "registers.h"
 #include "rm0090.h"
 
-/* Clocks after board_clock_start() (RM0090, 7.2, figure 21). Timers run at twice the clock of a bus that is divided. */
+/* Clocks after board_clock_start() (RM0090, 7.2, figure 21). Timers run at twice their bus clock if it is divided. */
 typedef struct stm32f4_clocks {
     uint32_t timer1_Hz; /* clock of TIM1, on APB2 */
     uint32_t timers_Hz; /* clock of TIM2 and TIM3, on APB1 */
@@ -68,7 +68,7 @@ static inline void stm32f4_go_on(uint32_t before) {
 #endif
 }
 
-/* Returns false if the flash stays busy: an erase takes less than two seconds, at any speed of this loop. */
+/* Returns false if the flash stays busy. An erase takes less than two seconds, these polls more. */
 static inline bool stm32f4_flash_rests(void) {
     return stm32f4_comes(FLASH_SR, FLASH_SR_BSY, 0, 100000000U);
 }

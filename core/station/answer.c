@@ -84,7 +84,7 @@ const char *wh_list_item(const char *list, unsigned number) {
 
 /* === reasons for refusing a console line ===================================================== */
 
-/* index of each reason's words */
+/* the index of each reason in the list of words */
 #define WH_STATION_ROW(name, number, words) ROW_##name,
 enum { WH_STATION_ERROR_ROWS(WH_STATION_ROW) ROWS };
 #undef WH_STATION_ROW

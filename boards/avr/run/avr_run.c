@@ -142,8 +142,9 @@ static bool step(avr_t *avr) {
         went_wrong(avr, "crashed");
     }
     const uint32_t pointer = stack_pointer(avr);
-    low = pointer < end_of_variables && pointer != 0 ? low + 1U
-                                                     : 0U; /* 0: not set by the start-up code yet */
+    low = pointer < end_of_variables && pointer != 0
+              ? low + 1U
+              : 0U; /* pointer is 0 until the start-up code sets it */
     if (low > TORN_INSTRUCTIONS) {
         went_wrong(avr, "the stack ran into the variables");
     }
