@@ -81,7 +81,7 @@ typedef struct pricing {
     grid grid;
     pricing_scene *scene;
     const cost_board *board;
-    const char *quantity; /* of --of or --error X=0.1mm; NULL: the worst component */
+    const char *quantity; /* name in --of or --error X=0.1mm; NULL: the worst component */
     char *named;          /* the name in --error, owned */
     double error_si;
     double until_s; /* the horizon, or the scene's end */

@@ -25,7 +25,7 @@ typedef struct pricing_scene {
     pricing_made *made;    /* [made_count] */
     int made_count;
     bool has_own; /* the last point is the scene's own values, outside the grid */
-    char *name;   /* of the last requested point */
+    char *name;   /* text of the last requested point */
     trial_source source;
 } pricing_scene;
 

@@ -77,8 +77,7 @@ bool gnuplot_can_draw_for(const char *command, const char *option, const char *f
 bool gnuplot_is_there(void);
 
 /* Begins a picture of 900 by `height` pixels. An SVG gets `title` and the alternative `text`, which must live until
- * gnuplot_close(). Returns false (reported) if the file cannot be written. gnuplot_close() reports a missing
- * gnuplot. */
+ * gnuplot_close(). Returns false (reported) if the file cannot be written. If gnuplot is missing, the close fails. */
 bool gnuplot_open(gnuplot *g, const char *file, int height, const char *title, const char *text);
 /* Finishes the picture. Returns false after a failure (reported). */
 bool gnuplot_close(gnuplot *g);

@@ -11,7 +11,7 @@
 
 typedef struct record_column {
     const char *name; /* unknown or output; NULL: the time */
-    int unknown;      /* index; -1 for an output */
+    int unknown;      /* index of the unknown; -1 for an output */
     int primes;
     const image_unit *unit;
     const char *text; /* the quantity in words, or "" */

@@ -60,8 +60,7 @@ bool check_named(parser *in, place at, const expr *value, dimension wanted, cons
 bool check_unit(parser *in, place at, const expr *value, const symbol *of, int primes);
 /* As check_unit() and check_dimension(), for a value of the symbol `of` or of its derivative (primes of `name`). */
 bool check_value(parser *in, place at, const expr *value, const symbol *of, const token *name);
-/* As check_unit(), for the limit `value` of a stop or crossing of `of`. Accepts any value if `of` is no single
- * symbol. */
+/* As check_unit(), for the limit `value` of a stop or crossing of `of`. True if `of` is no single symbol. */
 bool check_limit(parser *in, place at, const expr *value, const expr *of);
 
 #endif

@@ -70,7 +70,7 @@ typedef struct recording {
     recording_channel channel[SCHEMA_CHANNELS];
     bool timed;
     uint32_t ticks;  /* of the last frame */
-    int64_t time_us; /* of the last frame since the first one */
+    int64_t time_us; /* from the first frame to the last one */
     bool expects;    /* the next sample is expected at expected_us */
     int64_t expected_us;
     int signal[2 * SCHEMA_FIELDS]; /* signals of the run's fields */

@@ -28,7 +28,7 @@ typedef struct wire {
     char line[WIRE_LINE + 1]; /* received text; complete after WIRE_TEXT */
     unsigned columns;
     bool line_done;
-    bool torn; /* may begin with a frame's bytes: had a zero, or is first after wire_forget() */
+    bool torn; /* line may begin with bytes of a frame: it had a zero, or follows wire_forget() */
     wire_frame frame; /* valid after WIRE_FRAME, until the next byte */
     uint64_t damaged; /* chunks between zeros that are no frame */
 } wire;

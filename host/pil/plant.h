@@ -89,11 +89,11 @@ typedef struct plant_queue {
 /* Resets of the controller's processor, during which the plant's inputs are 0. */
 typedef struct plant_resets {
     double at_ticks;       /* the next reset, at the end of a step */
-    double takes_ticks;    /* its length */
+    double takes_ticks;    /* length of the next reset */
     bool by_watchdog;      /* a starved watchdog resets the processor; false: cuts the outputs */
     double watchdog_ticks; /* length of the watchdog's reset */
     bool now;              /* the processor is reset: the caller must call plant_restart() */
-    bool starved;          /* the watchdog caused it */
+    bool starved;          /* the watchdog caused the reset */
     unsigned count;
     double last_ticks; /* of the last reset */
 } plant_resets;
@@ -102,7 +102,7 @@ typedef struct plant {
     const image *image;
     const binding *binding;
     plant_request request;
-    void *run; /* of engine_double */
+    void *run; /* a run of engine_double */
     wh_status status;
     uint64_t steps;
     double step_ticks;
@@ -123,7 +123,7 @@ typedef struct plant {
     double cut_ticks;
     plant_resets reset;
     double in_effect[WH_SIGNALS_MAX];   /* the plant's inputs, by channel */
-    double since_ticks[WH_SIGNALS_MAX]; /* when that value was set */
+    double since_ticks[WH_SIGNALS_MAX]; /* when each of these inputs was set */
     plant_queue edges;
     plant_queue samples;
     uint64_t edges_made;
