@@ -89,13 +89,11 @@ bool energy_residual_lost(const energy_residual *b, double limit) {
 
 void energy_residual_print(FILE *out, const energy_residual *b) {
     if (b->known) {
-        fprintf(
-            out, "energy residual    %.2e of %s, %.3g J\n", b->ratio,
-            b->rounded && b->exact
-                ? "1000 times the balance's round-off and integration error (every entry is smaller)"
-            : b->rounded ? "1000 times the balance's round-off (every entry is smaller)"
-                         : "the largest entry of the energy balance",
-            b->largest_J);
+        fprintf(out, "energy residual    %.2e of %s, %.3g J%s\n", b->ratio,
+                b->rounded && b->exact ? "1000 times the balance's round-off and integration error"
+                : b->rounded           ? "1000 times the balance's round-off"
+                                       : "the largest entry of the energy balance",
+                b->largest_J, b->rounded ? ": every entry is smaller" : "");
     }
 }
 
@@ -167,7 +165,7 @@ static void print_levels(FILE *out, const books *b) {
     account_print_level(out, "kinetic", b->kinetic_J);
     account_print_level(out, "stored", b->stored_J);
     if (b->image->has_integral) {
-        account_print_level(out, "balanced: h = sum q' dL/dq' - L, not T + V", b->energy_J);
+        account_print_level(out, "h = sum q' dL/dq' - L, in place of T + V", b->energy_J);
     }
 }
 
@@ -189,7 +187,7 @@ static void print_momenta(FILE *out, const books *b) {
     if (!any) {
         fprintf(
             out,
-            "no single coordinate's momentum is conserved; whirl examine finds momenta of sums and rotations\n");
+            "no single coordinate's momentum is conserved; whirl examine finds other conserved momenta\n");
     }
 }
 
@@ -209,7 +207,7 @@ void books_print(FILE *out, const books *b, const energy_residual *balance) {
     } else { /* without a ledger the work of contacts is unknown */
         account_print_entry(out, "work of inputs", b->input_J, "");
         account_print_entry(out, "losses", -b->loss_J, "");
-        account_print_entry(out, contacts, a.left, ", with numerical errors of unknown size");
+        account_print_entry(out, contacts, a.left, ", including numerical errors of unknown size");
     }
     print_momenta(out, b);
 }

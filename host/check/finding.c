@@ -10,18 +10,19 @@ const finding_row finding_rows[FINDINGS] = {
         {"mass", FINDING_WARNING, 1e-4, "of an acceleration",
          "an upper bound on the error from rounding the matrix; the real error is smaller",
          "have a mass matrix that is nearly singular"},
-    [FINDING_CONSTANTS] = {"constants", FINDING_WARNING, 0.0, "numbers",
-                           "a value is not finite if the file's numbers are rounded differently",
-                           "have constants in which a small number is lost beside a large one"},
+    [FINDING_CONSTANTS] =
+        {"constants", FINDING_WARNING, 0.0, "numbers",
+         "a value is not finite if the file's numbers are rounded differently",
+         "have constants in which rounding loses a small number that is added to a large one"},
     [FINDING_ENERGY] =
         {"energy", FINDING_WARNING, ENERGY_RESIDUAL_LIMIT, "of the largest entry",
          "an energy error of this size changes an amplitude by half of it: too small to see in a plot",
-         "fail the energy balance: the residual is too large compared with the balance's largest entry (" ENERGY_RESIDUAL_COLUMN
-         "), at the end or at a time before"},
+         "fail the energy balance: the residual exceeds its limit at the end or before (column " ENERGY_RESIDUAL_COLUMN
+         ")"},
     [FINDING_ACCURACY] =
         {"accuracy", FINDING_WARNING, 0.5, "of the run",
          "an error that grows steadily to 2 % at the end passes 1 % at half of the run",
-         "are accurate to 0.01 of a range for less than half of the run, or have a sudden error"},
+         "have a coordinate or rate with an error above 1 % of its range in the first half of the run, or with a sudden error"},
     [FINDING_POLE] = {"pole", FINDING_WARNING, 0.0, "steps", "no motion continues through a pole",
                       "jumped over a pole of an expression"},
     [FINDING_MISSED] = {"missed", FINDING_WARNING, 0.0, "steps",
@@ -31,16 +32,17 @@ const finding_row finding_rows[FINDINGS] = {
                          "the tolerance of a trusted run, plus the error of the steps",
                          "alias a force or motion that is faster than the step"},
     [FINDING_EVENTS] = {"events", FINDING_WARNING, 0.0, "steps",
-                        "the remainder of such a step is computed as rest or sticking",
-                        "had steps with more events than the limit of a step"},
+                        "Whirl completes such a step with all loaded contacts at rest or sticking",
+                        "had steps with more than eight moments with events"},
     [FINDING_APART] = {"apart", FINDING_WARNING, APART_LEAST, "of the terms of the held expression",
                        "a start in decimal digits satisfies a hold better than this",
                        "have holds that the start violates"},
-    [FINDING_DIGITS] = {"digits", FINDING_NOTE, SLOW_SHARE,
-                        "of the distance that the component "
-                        "should cover",
-                        "the round-off of all steps together may reach this part of the distance",
-                        "have a component that moves too slowly for its resolution"},
+    [FINDING_DIGITS] =
+        {"digits", FINDING_NOTE, SLOW_SHARE,
+         "of the distance that the component "
+         "should cover",
+         "the round-off of all steps together may reach this part of the distance",
+         "have a coordinate or rate that changes in a step by less than its resolution"},
 };
 
 void finding_say_names(FILE *out, unsigned ids) {

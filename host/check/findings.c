@@ -31,7 +31,7 @@ static const char *column_name(const run_checks *v, int k, char text[NAME_TEXT])
 static void say_mass(FILE *out, const run_checks *v) {
     fprintf(
         out,
-        "%s of '%s' is nearly singular: even in double, round-off may cause an error of %.2g %% in its solution",
+        "%s of '%s' is nearly singular: even in double, round-off may cause an error of %.2g %% in its solution (limit 0.01 %%)",
         v->image->has_energies ? "the mass matrix" : "the matrix of the highest derivatives",
         v->image->mechanism, 100.0 * number_least(v->image->mass_blur, 1.0));
 }
@@ -39,7 +39,7 @@ static void say_mass(FILE *out, const run_checks *v) {
 static void say_constants(FILE *out, const run_checks *v) {
     fprintf(
         out,
-        "constants of '%s' are sums in which a small number is lost beside a large one: even in double, their round-off can be of any size",
+        "a constant of '%s' adds a small number to a large one, and rounding loses the small one: even in double, the error has no bound",
         v->image->mechanism);
 }
 
@@ -52,6 +52,10 @@ static void say_energy(FILE *out, const run_checks *v) {
         "the energy balance fails: its residual %s %.3g J, %.2e of the largest entry of the energy balance",
         before ? "reached" : "is", before ? part * b->largest_J : b->left_J,
         before ? part : b->ratio);
+    if (v->found[FINDING_ENERGY].reported) { /* else --strict has a smaller limit */
+        fprintf(out, " (limit %g)",
+                before ? RUN_CHECKS_ON_THE_WAY : finding_rows[FINDING_ENERGY].limit);
+    }
     if (b->jump_s >= 0.0) {
         fprintf(out, ", most of it lost at about t = %.6g s", b->jump_s);
     }
@@ -164,7 +168,7 @@ static void say_events(FILE *out, const run_checks *v) {
         statement_text(v->image->contact[i == 0 ? first : second].at, statement, sizeof statement);
         fprintf(out, "%s'%s'", i == 0 ? ", most of them from " : " and ", statement);
     }
-    fprintf(out, ": the remainder of %s was computed as rest or sticking",
+    fprintf(out, ": Whirl completed %s with all loaded contacts at rest or sticking",
             v->overruns == 1 ? "that step" : "those steps");
 }
 
@@ -460,7 +464,8 @@ static void say_remedy(FILE *out, const run_checks *v) {
               out);
         break;
     case REMEDY_NONE:
-        fputs("hint: no step, number or method that was tried removes the warning\n", out);
+        fputs("hint: Whirl tried other steps, number types and methods; none removes the warning\n",
+              out);
         break;
     }
     if (v->books != NULL && v->books->negative) {
@@ -473,9 +478,9 @@ static void say_remedy(FILE *out, const run_checks *v) {
         const double passed_s = v->doubling != NULL ? v->doubling->jumped_s : -1.0;
         const double until_s = passed_s >= 0.0 ? number_least(passed_s, began_s) : began_s;
         if (v->found[FINDING_MISSED].value < 1.0) {
-            fputs("hint: write the expression without poles and jumps, such as 1/x or sign(x): "
-                  "Whirl cannot bound their values\n",
-                  out);
+            fputs(
+                "hint: replace poles and jumps, such as 1/x and sign(x), by smooth terms, which Whirl can bound\n",
+                out);
         }
         if (until_s > 0.0) {
             fprintf(out, "hint: --until %.12gs ends the run before this step\n", until_s);
@@ -596,10 +601,10 @@ void failure_say(FILE *out, wh_status status, const run_checks *v) {
     if (k >= 0) {
         char statement[STATEMENT_SIZE];
         statement_text(im->contact[k].at, statement, sizeof statement);
-        fprintf(out,
-                "hint: '%s' pushes every coordinate that it names: if one of them is a clock, give "
-                "the clock far more inertia, or write it as an input with a rate\n",
-                statement);
+        fprintf(
+            out,
+            "hint: '%s' exerts a force on every coordinate in it: if one of them only measures time, give it far more inertia, or write it as an input with a rate\n",
+            statement);
     }
     fputs("hint: try a smaller --step; if the run still fails at this time, check whether the mass "
           "matrix is singular there\n",

@@ -350,8 +350,7 @@ static const char *cut_by(const step_doubling *t) {
         return "after that the run with half the step fails";
     }
     if (t->jumped_s < 0.0 || (t->overrun_s >= 0.0 && t->overrun_s < t->jumped_s)) {
-        return "after that a step of this run or of the finer run had more events than the limit "
-               "of a step";
+        return "after that a step of this run or of the finer run had more than eight moments with events";
     }
     return t->missed
                ? "after that a step of this run or of the finer run passed through a contact or "
@@ -410,7 +409,7 @@ void horizon_print_line(FILE *out, const horizon *h, bool doubted) {
     fputs("trusted            ", out);
     if (h->to_the_end && doubted) {
         fputs(
-            "unknown: the finer run agrees to the end, but may have the same error, which the warning names",
+            "unknown: the finer run agrees to the end, but may share the error that the warning names",
             out);
     } else if (h->to_the_end) {
         fprintf(out, "to the end: every coordinate to %.3g of its range", h->tolerance);

@@ -288,7 +288,7 @@ static void print_events(FILE *out, const image *im, const engine_kind *kind, co
         fprintf(
             out,
             "  %" PRIu64
-            " steps had more than %d moments with events: the remainder of them was computed as rest or sticking; check with a smaller --step\n",
+            " steps had more than %d moments with events: Whirl completed them with all loaded contacts at rest or sticking; check with a smaller --step\n",
             overruns, WH_EVENTS_MAX);
     }
 }

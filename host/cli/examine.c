@@ -17,7 +17,7 @@ static const command_usage usage = {
         "\n"
         "Finds every symmetry q -> q + e*(A q + b) of the kinetic energy, with constant A and b: the\n"
         "directions and rotations of the mechanism. Prints the momentum of each as a formula, and the forces\n"
-        "that change it, with their lines. If no force changes a momentum, it is conserved: nothing inside\n"
+        "that change it, with line numbers. If no force changes a momentum, it is conserved: nothing inside\n"
         "the mechanism can push the mechanism that way.\n"
         "\n"
         "Whirl reports other symmetries as not decided. The answer holds for the current values of the\n"
@@ -137,7 +137,7 @@ static void print_uncommon(const show *s, const equations *e, const symmetry *of
     if (moved[1] != NULL) {
         fprintf(
             s->out,
-            "%s%s and %s change by different amounts here, so this momentum is not the total momentum if both coordinates are absolute and point in the same direction\n",
+            "%s%s and %s change by different amounts in this symmetry: if both are absolute and point in the same direction, this is not the total momentum\n",
             prefix, moved[0]->name, moved[1]->name);
     }
 }
@@ -226,10 +226,10 @@ static void print_broken(const show *s, const equations *e, const char *prefix) 
         const poly *change =
             poly_expanded(e->algebra, poly_derivative(e->algebra, e->kinetic, q, 0));
         if (!poly_is_zero(change)) {
-            fprintf(s->out,
-                    "%s%s alone is no symmetry: T depends on this coordinate, with the "
-                    "derivative ",
-                    prefix, q->name);
+            fprintf(
+                s->out,
+                "%sa shift of %s alone is no symmetry: T depends on this coordinate, with the derivative ",
+                prefix, q->name);
             print_formula(s, change);
             fputc('\n', s->out);
         }
@@ -272,9 +272,9 @@ static void print_all(const equations *e, const symmetries *found, bool latex) {
         printf("%srotations that T permits but V does not: %d\n", prefix, found->broken);
     }
     if (!found->complete) {
-        printf("%snot decided: at random states there is a symmetry that Whirl cannot derive from "
-               "the formulas\n",
-               prefix);
+        printf(
+            "%snot decided: a symmetry that holds at random states, but that Whirl cannot derive from the formulas\n",
+            prefix);
     }
     if (!found->flat) {
         printf("%snot decided: a direction or rotation that is not affine in these coordinates\n",

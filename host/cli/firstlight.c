@@ -213,13 +213,13 @@ static const command_usage firstlight_usage = {
     .head =
         "usage: whirl firstlight FILE|PORT [options]\n"
         "\n"
-        "Reads the record of the image firstlight from a file or a serial line (docs/firstlight.md), and\n"
-        "compares each field with runs of the interpreter in float. The line `none:` lists the fields\n"
-        "for which the board has no value, such as cycles without a cycle counter.\n"
+        "Reads the record that the program firstlight printed, from a file or a serial line\n"
+        "(docs/firstlight.md), and compares each field with Whirl's own runs in float. The line `none:`\n"
+        "lists the fields for which the board has no value, such as cycles without a cycle counter.\n"
         "\n",
     .tail =
         "  --board B            fail if the record is of another board\n"
-        "  --emulated FILE      the emulator's record of the same image: board and compiler must be equal\n"
+        "  --emulated FILE      the emulator's record of the same program: board and compiler must be equal\n"
         "  --page FILE          the page whose table gets a row, if the record has cycles (default:\n"
         "                       " LIGHT_PAGE ")\n"
         "  --keep FILE          keep the record, as it was read\n"
@@ -240,8 +240,7 @@ static int listen(port *line, const firstlight_options *o, const char *from_name
     const double began_s = system_now_s();
     double asked_s = began_s - ASK_S;
     const char *hint =
-        "check that this line is the board's console, that --baud is its speed, and that the "
-        "image firstlight runs";
+        "check that this line is the board's console, that --baud is its speed, and that the program firstlight runs";
     const char *why = "no record came; --wait S waits longer";
     int code = EXIT_RUN_FAILED;
     bool ended = false;

@@ -17,7 +17,7 @@ static const command_usage usage = {
         "Writes NAME.whirl: a pendulum on a cart, with a comment on every line. Change it into your own\n"
         "mechanism. Whirl never overwrites an existing file.\n",
     .tail = "",
-    .why = {"", "the file cannot be written whole",
+    .why = {"", "the file was not written completely",
             "NAME is not a valid name, or NAME.whirl exists"}};
 
 /* A printf() format with the name of the mechanism, and the name of the scene in two parts. */

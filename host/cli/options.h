@@ -18,7 +18,7 @@
       "a start value: --start \"theta'=330 [rpm]\" (repeatable)") \
     X(OPTION_WITH, "--with", "E,...", OPTIONS_CHANGE, \
       "effects to add; ledger: the balance of energy and momentum; all: every effect but " \
-      "the ledger. Whirl applies all first: `--without all --with drag` leaves drag alone.") \
+      "the ledger, applied first: `--without all --with drag` selects only drag.") \
     X(OPTION_WITHOUT, "--without", "E,...", OPTIONS_CHANGE, \
       "effects to leave out; all: every effect; conserve: integrate the coordinates in the " \
       "scene's `conserve`, too") \
@@ -41,7 +41,7 @@
     X(OPTION_MATRIX, "--matrix", "M", OPTIONS_ENGINE, \
       "compute a whole step as one product with a constant matrix, for a linear mechanism " \
       "without events. exact: the exact motion, with inputs constant over the step; rk4: " \
-      "the step of RK4; none (default): stages") \
+      "the step of RK4; none (default): --method") \
     X(OPTION_TABLES, "--tables", "T", OPTIONS_ENGINE, \
       "look up functions of one turn angle in tables in flash, instead of sines and " \
       "divisions. linear: the cheapest without an FPU; cubic: nearly exact; none (default)") \

@@ -35,8 +35,8 @@ static const command_usage usage = {
         "for this\nmachine. The scene is the plant, and runs in double with the scene's step. "
         "Firmware and plant wait\nfor each other."
         " The firmware declares by name which inputs of the scene it sets, and which outputs,\n"
-        "coordinates and rates it reads. The firmware's computing time passes in the plant, "
-        "too:\ncounted instructions times --cycles, divided by --clock."
+        "coordinates and rates it reads. The plant's time includes the firmware's computing time:\n"
+        "counted instructions times --cycles, divided by --clock."
         "\n"
         "\n",
     .groups = OPTIONS_CHANGE | OPTIONS_STEP | OPTIONS_ENGINE,

@@ -335,7 +335,7 @@ static const char price_head[] =
     "usage: whirl price SCENE|MECHANISM[:SCENE]|FILE[:SCENE] [options]\n"
     "\n"
     "Tries methods, number types, forms, matrices, tables and many step sizes on a scene\n"
-    "(docs/price.md). Prints the error of each setting, compared with a reference by shorter steps,\n"
+    "(docs/price.md). Prints the error of each setting, compared with a run of shorter steps,\n"
     "and its cost on a board: cycles per simulated second, flash, RAM and stack. If the board has no\n"
     "cycle counts, the cost is in instructions. The table has at most 12 rows of the Pareto front. A\n"
     "letter after each figure shows its source.\n"
@@ -460,12 +460,12 @@ int command_price(int count, char **words) {
 static const char choose_head[] =
     "usage: whirl choose SCENE|MECHANISM[:SCENE]|FILE[:SCENE] --error E [options]\n"
     "\n"
-    "Finds two settings of method, number type, form and step that keep an error on a board with a\n"
-    "margin of 2. One has the fewest cycles, the other the least flash. Prints their costs, and the\n"
+    "Finds two settings (method, number type, form and step) whose error is at most half of --error.\n"
+    "One needs the fewest cycles on a board, the other the least flash. Prints their costs, and the\n"
     "commands that run, generate and count them.\n"
     "\n"
-    "Whirl counts the steps in its source tree, with the board's compiler and emulator. Elsewhere it\n"
-    "predicts them, and cannot answer for a scene with contacts.\n"
+    "In its source tree, Whirl counts instructions with the board's compiler and emulator. Elsewhere\n"
+    "it predicts them, and cannot answer for a scene with contacts.\n"
     "\n";
 static bool fits(const pricing *p) {
     if (p->value[PRICING_MEASURE] != NULL && p->value[PRICING_PREDICT] != NULL) {

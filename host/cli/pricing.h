@@ -32,7 +32,7 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_METHOD, BOTH, "--method", "M,...", \
       "try these methods instead of rk4,nystroem3,nystroem4,nystroem5; all: every method") \
     X(PRICING_EFFORT, BOTH, "--effort", "1e9", \
-      "operations that all trials together may evaluate: 1e9 take about 5 s. The table leaves " \
+      "operations that all trials may evaluate: 1e9 take about 5 s. The table leaves " \
       "out steps that need more, and says how many.") \
     X(PRICING_ALL, PRICE, "--all", NULL, "every row") \
     X(PRICING_CSV, PRICE, "--csv", "FILE", \
@@ -43,7 +43,7 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_RATE, CHOOSE, "--rate", "500Hz", \
       "the firmware's control rate: a whole number of steps per period (default: any step)") \
     X(PRICING_CLOCK, CHOOSE, "--clock", "16MHz", \
-      "the processor's clock: the longest possible steps of a period must fit into it " \
+      "the processor's clock, with which the longest steps of a period must fit into it " \
       "(default: the board's own, if it is one chip)") \
     X(PRICING_FLASH, CHOOSE, "--flash", "32KB", \
       "the available flash; K, KB and KiB are 1024 bytes (default: the board's, if it is " \
@@ -51,10 +51,10 @@ enum { PRICING_PRICE = 1, PRICING_CHOOSE = 2, PRICING_BOTH = 3 };
     X(PRICING_RAM, CHOOSE, "--ram", "2KB", \
       "the available RAM for data and stack, in the same units") \
     X(PRICING_PREDICT, CHOOSE, "--predict", NULL, \
-      "predict costs instead of counting steps, which saves a few seconds; not for scenes with " \
+      "predict costs instead of counting, which saves a few seconds; not for scenes with " \
       "contacts") \
     X(PRICING_MEASURE, BOTH, "--measure", NULL, \
-      "count the steps, or fail with exit status 2. Needs Whirl's source tree and the board's " \
+      "count instructions, or fail with exit status 2. Needs Whirl's source tree and the board's " \
       "compiler and emulator. `whirl price` counts the rows of the front, which takes minutes.") \
     X(PRICING_QUIET, BOTH, "--quiet", NULL, "no progress; `whirl price` prints no table")
 #define PRICING_OPTION_ID(id, who, word, value, text) id,

@@ -128,9 +128,9 @@ static bool count_every(const run_options *o, const mechanism *of, const image *
         return false;
     }
     if (!ratio_count_each(spacing_s, im->step, steps)) {
-        return options_fail("run",
-                            "--every %s is not a multiple of the step\nhint: the step is %.9g s",
-                            o->every, im->step_s);
+        return options_fail(
+            "run", "--every %s is not a multiple of the step\nhint: use a multiple of %.9g s",
+            o->every, im->step_s);
     }
     if (o->settings.csv == NULL && o->settings.columns == NULL && o->settings.vcd == NULL) {
         return options_fail("run", "--every needs records\nhint: --csv FILE");

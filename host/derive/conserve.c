@@ -137,9 +137,10 @@ static bool check_wanted(const equations *e, int i, diags *errors) {
     }
     const poly *lagrangian = poly_sub(a, e->kinetic, e->stored);
     if (!poly_is_zero(poly_derivative(a, lagrangian, q, 0))) {
-        diag_error(errors, at, "only a coordinate that appears in no energy keeps its momentum",
-                   "the momentum of '%s' is not conserved: the energies depend on %s", q->name,
-                   q->name);
+        diag_error(
+            errors, at,
+            "leave this statement out: only a coordinate that no energy contains has a conserved momentum",
+            "the momentum of '%s' is not conserved: the energies depend on %s", q->name, q->name);
         return false;
     }
     char hint[160];

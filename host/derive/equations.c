@@ -267,11 +267,11 @@ double equations_generic(uint64_t seed, const symbol *s, int primes) {
 void equations_report_growth(const equations *e, diags *errors) {
     const mechanism *m = e->instance->mechanism;
     char *limit = algebra_limit(e->algebra);
-    char hint[200] = "use smaller powers of sums, or coordinates nearer to the joints";
+    char hint[200] = "use smaller powers of sums, or coordinates relative to the joints";
     if (m->parameter_count > 0) {
         snprintf(
             hint, sizeof hint,
-            "write let instead of parameter, so that %d parameters become numbers; or use smaller powers of sums, or coordinates nearer to the joints",
+            "write let instead of parameter, so that %d parameters become numbers; or use smaller powers of sums, or coordinates relative to the joints",
             m->parameter_count);
     }
     diag_error(errors, m->at, hint, "the equations of '%s' grow too large: %s", m->name, limit);

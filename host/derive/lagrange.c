@@ -194,7 +194,7 @@ static void report_singular_system(const equations *e, diags *errors) {
     } else {
         diag_error(
             errors, row < 0 ? e->instance->mechanism->at : place_of_equation(e, row),
-            "two equations may say the same, or one may lack its highest derivative",
+            "look for two equivalent equations, or for one without its highest derivative",
             "the equations of '%s' cannot be solved for the highest derivatives: "
             "this equation has the same combination of highest derivatives as the equations above it",
             e->instance->mechanism->name);
@@ -281,8 +281,9 @@ static void report_singular(const equations *e, diags *errors) {
     }
     diag_error(
         errors, e->instance->mechanism->at,
-        giver != NULL ? hint
-                      : "two coordinates may describe the same motion, or a mass may be zero",
+        giver != NULL
+            ? hint
+            : "look for two coordinates that describe the same motion, or for a mass of zero",
         "singular mass matrix: '%s' cannot be solved for its accelerations at any state tried",
         e->instance->mechanism->name);
 }
@@ -362,7 +363,7 @@ static bool equations_check_solvable(equations *e, diags *errors) {
         taken = negative_part(e, &negative);
         diag_error(
             errors, taken != NULL ? taken->at : equations_kinetic_place(e->instance),
-            "look for a negative mass or a product of two rates, as x'*y'; or give the equations themselves",
+            "look for a negative mass or a product of two rates, such as x'*y'; or write the equations themselves, with state and equation",
             "the kinetic energy of '%s' is negative for some motion at every state tried",
             of->name);
         break;
@@ -393,7 +394,7 @@ static bool momentum_free_of_inputs(const equations *e, const poly *momentum, di
         if (poly_contains(momentum, m->inputs[i], 0)) {
             diag_error(errors, equations_kinetic_place(e->instance),
                        input_rate_hint(m->inputs[i], hint),
-                       "the kinetic energy depends on input '%s', whose rate is not known",
+                       "the kinetic energy depends on input '%s', which has no declared rate",
                        m->inputs[i]->name);
             return false;
         }
@@ -499,7 +500,7 @@ static bool derive_system(equations *e, diags *errors) {
         }
         if (e->unknowns[s].order == 0) {
             diag_error(
-                errors, e->unknowns[s].symbol->at, "every state needs an equation with its rate",
+                errors, e->unknowns[s].symbol->at, "write an equation that contains its rate",
                 "no equation contains a derivative of state '%s'", e->unknowns[s].symbol->name);
             good = false;
         }
@@ -513,10 +514,10 @@ static bool derive_system(equations *e, diags *errors) {
                 good = !poly_contains(coefficient, e->unknowns[k].symbol, e->unknowns[k].order);
             }
             if (!good) {
-                diag_error(errors, term_at[r]->at,
-                           "solve the equation for it first, or add a state for the inner part",
-                           "this equation is not linear in the highest derivatives: %s",
-                           u->symbol->name);
+                diag_error(
+                    errors, term_at[r]->at,
+                    "solve the equation for it by hand, or declare a state for the nonlinear part",
+                    "this equation is not linear in the highest derivatives: %s", u->symbol->name);
             }
         }
         e->potential[r] = poly_substitute(a, left[r], drop_highest, e);

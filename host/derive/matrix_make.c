@@ -169,7 +169,7 @@ static bool is_nonlinear(const equations *e, const term *t) {
 }
 
 static void report_nonlinear(const image *im, const equations *e, diags *errors) {
-    static const char hint[] = "leave out --matrix: it needs linear statements, with linear lets";
+    static const char hint[] = "leave out --matrix, or make every statement and let linear";
     const mechanism *m = e->instance->mechanism;
     int k = 0;
     while (k < m->term_count && !is_nonlinear(e, &m->terms[k])) {
@@ -177,14 +177,16 @@ static void report_nonlinear(const image *im, const equations *e, diags *errors)
     }
     if (k == m->term_count) {
         diag_error(errors, m->at, hint,
-                   "the equations of '%s' are not linear, so their step is not a matrix", m->name);
+                   "the equations of '%s' are nonlinear, so --matrix cannot compute their step",
+                   m->name);
         return;
     }
     const place at = m->terms[k].at;
     char line[STATEMENT_SIZE];
     statement_text(at, line, sizeof line);
-    diag_error(errors, at, hint, "line %d makes '%s' not linear, so its step is not a matrix: %s",
-               at.line, im->name, line);
+    diag_error(errors, at, hint,
+               "line %d makes '%s' nonlinear, so --matrix cannot compute its step: %s", at.line,
+               im->name, line);
 }
 
 /* === the change in one step of x' = A x + B u + c, with constant u ============================= */
@@ -362,7 +364,7 @@ static bool is_possible(const image *im, diags *errors) {
             "--matrix %s and --method %s exclude each other: the matrix takes the place of the method's stages",
             image_matrix_words[im->settings.matrix], wh_methods[im->settings.method].word);
     } else if (affine_states(im) == 0) {
-        diag_error(errors, im->at, hint, "'%s' has no state to step", im->name);
+        diag_error(errors, im->at, hint, "'%s' has no coordinate or state to integrate", im->name);
     } else {
         return true;
     }

@@ -372,7 +372,7 @@ static op_list *make_levels(const image_ledger *l, const poly *integral, layout 
 static bool can_keep(const layout *map, diags *errors) {
     const mechanism *m = map->equations->instance->mechanism;
     if (m->is_system) {
-        diag_error(errors, m->at, "leave out the ledger",
+        diag_error(errors, m->at, "leave the ledger out: --without ledger",
                    "'%s' is given by equations: without energies it has no ledger", m->name);
         return false;
     }
@@ -412,7 +412,7 @@ static bool make_ledger(program *p, diags *errors) {
         /* an angle that is only inside sines in the equations may occur elsewhere in an entry's rate */
         l->turned = op_list_reads_turns(im->list[IMAGE_POWERS]);
     } else {
-        diag_error(errors, e->instance->mechanism->at, "leave out the ledger",
+        diag_error(errors, e->instance->mechanism->at, "leave the ledger out: --without ledger",
                    "the ledger of '%s' has too many entries", e->instance->mechanism->name);
         *l = (image_ledger){.asked = l->asked};
     }
@@ -731,8 +731,8 @@ program *program_make(const equations *e, const bool *conserve, const image_sett
     const bool fits = layout_arrange(&p->layout, e, p->conserved, dynamics, polys + more);
     bool good = fits && make_lists(p, &s, errors);
     if (!fits) {
-        diag_error(errors, m->at, NULL, "'%s' has more than %d components of state", m->name,
-                   IMAGE_COMPONENTS_MAX);
+        diag_error(errors, m->at, NULL, "'%s' has more than %d coordinates, rates and states",
+                   m->name, IMAGE_COMPONENTS_MAX);
     } else if (algebra_overflow(e->algebra)) {
         equations_report_growth(e, errors);
         good = false;
@@ -770,7 +770,7 @@ bool program_look_up(program *p, diags *errors) {
         const symbol *angle =
             why.angle >= 0 ? e->unknowns[p->layout.angle[why.angle].unknown].symbol : NULL;
         diag_error(errors, angle != NULL ? angle->at : e->instance->mechanism->at, why.hint,
-                   angle != NULL ? "--tables: the %s of '%s' %s: '%s' is one of them"
+                   angle != NULL ? "--tables: the %s of '%s' %s, such as '%s'"
                                  : "--tables: the %s of '%s' %s",
                    p->layout.form == WH_SECOND_ORDER ? "accelerations" : "slopes",
                    e->instance->mechanism->name, why.reason, angle != NULL ? angle->name : "");

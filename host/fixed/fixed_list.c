@@ -379,12 +379,11 @@ bool fixed_bits(fixed_list *l, const image *im, diags *errors) {
         good = !l->op[i].used || finish(l, &l->op[i]);
     }
     if (!good) {
-        diag_error(
-            errors, im->at,
-            "declare ranges close to the run's values: range NAME = A .. B; or choose "
-            "--number float",
-            "the equations of '%s' have values within the ranges that do not fit into 32 bits",
-            im->name);
+        diag_error(errors, im->at,
+                   "declare ranges close to the run's values: range NAME = A .. B; or choose "
+                   "--number float",
+                   "within the ranges, values in the equations of '%s' do not fit into 32 bits",
+                   im->name);
     }
     return good;
 }

@@ -46,7 +46,7 @@ static bool fixed_has_step(const image *im, diags *errors) {
         diag_error(errors, im->at, "leave out --tables, or choose --number float",
                    "there are no --tables %s in fixed point", image_tables_words[s->tables]);
     } else if (im->angles + im->reals == 0) {
-        diag_error(errors, im->at, NULL, "'%s' has no state to step", im->name);
+        diag_error(errors, im->at, NULL, "'%s' has no coordinate or state to integrate", im->name);
     } else {
         return true;
     }

@@ -285,7 +285,7 @@ static bool parse_output_unit(parser *in, symbol_kind kind, unit_scale *unit, co
         return true;
     }
     if (kind != SYM_OUTPUT) {
-        return parser_fail(in, "the unit belongs to the number: parameter m = 2 [kg]",
+        return parser_fail(in, "write the unit after the number: parameter m = 2 [kg]",
                            "a unit in the wrong place");
     }
     parse_unit(in, unit, text);

@@ -153,8 +153,8 @@ static bool derive(parser *in, const expr *of, const token *name, const expr **d
     if (of->op == EXPR_SYMBOL && of->symbol->kind == SYM_INPUT && of->symbol->rate == NULL) {
         char hint[RATE_HINT_SIZE];
         diag_error(in->diags, name->at, input_rate_hint(of->symbol, hint),
-                   "%.*s has no derivative: the rate of the input '%s' is not known",
-                   (int)name->length, name->text, of->symbol->name);
+                   "%.*s has no derivative: the input '%s' has no declared rate", (int)name->length,
+                   name->text, of->symbol->name);
         return false;
     }
     if (of->op == EXPR_SYMBOL) {
@@ -343,7 +343,7 @@ static void check_contact(parser *in, const mechanism *made, const contact_state
         each->kind == CONTACT_HOLD ? find_input(made, each->value, false, mark - 1) : NULL;
     if (input != NULL) {
         diag_error(in->diags, each->value->at, input_rate_hint(input, hint),
-                   "the expression of the hold contains the input '%s', whose rate is not known",
+                   "the expression of the hold contains the input '%s', which has no declared rate",
                    input->name);
     }
 }

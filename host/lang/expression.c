@@ -414,7 +414,7 @@ bool parse_close(parser *in, place open) {
                            words);
     }
     if (in->token.kind == TOKEN_UNIT) {
-        return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");
+        return parser_fail(in, "write a number before the unit: 2 [kg]", "a unit without a number");
     }
     return parser_fail(in, NULL, "')' is missing before %s", words);
 }
@@ -521,7 +521,7 @@ static const expr *parse_primary(parser *in) {
         parser_fail(in, "to continue on the next line, keep a parenthesis or brace open",
                     "a value is missing before the end of the line");
     } else if (in->token.kind == TOKEN_UNIT) {
-        parser_fail(in, "a unit belongs to a number: 2 [kg]; there are no matrices",
+        parser_fail(in, "write a number before the unit: 2 [kg]; there are no matrices",
                     "a unit without a number");
     } else {
         parser_fail(in, NULL, "a value is missing before %s", words);

@@ -63,7 +63,8 @@ static void check_friction(const contact_statement *friction, valuation *known) 
                    "a coefficient of friction must not be negative, and this is %g",
                    first ? most : kinetic);
     } else if (kinetic > most * (1.0 + LAST_DIGITS) + LAST_DIGITS) {
-        diag_error(known->diags, slides->at, "kinetic friction must not exceed static friction",
+        diag_error(known->diags, slides->at,
+                   "lower the kinetic coefficient, or raise the static one",
                    "kinetic friction %g is above static friction %g", kinetic, most);
     }
 }

@@ -57,7 +57,7 @@ static void check_line_ends(const lexer *in) {
         if (at + 1 < end && at[1] != '\n') {
             const size_t bytes = (size_t)(at - text->text) - in->at.offset;
             diag_error(in->diags, place_after(in->at, bytes),
-                       "a line ends with a line feed, or with a carriage return and a line feed",
+                       "end each line with a line feed, or with a carriage return and a line feed",
                        "a carriage return within a line");
             return;
         }
@@ -81,7 +81,7 @@ static bool skip_foreign_comment(lexer *in) {
     if (c != '%' && (c != '/' || (next != '/' && next != '*'))) {
         return false;
     }
-    diag_error(in->diags, in->at, "a comment begins with #", "unexpected '%.*s'", c == '%' ? 1 : 2,
+    diag_error(in->diags, in->at, "begin a comment with #", "unexpected '%.*s'", c == '%' ? 1 : 2,
                in->at.source->text + in->at.offset);
     const bool block = next == '*';
     advance(in, block ? 2 : 1);
@@ -201,7 +201,7 @@ static void read_string(lexer *in, token *made) {
     made->text++;
     made->length = length - 1;
     if (c != '"') {
-        diag_error(in->diags, made->at, "a text ends on the line it begins on, with \"",
+        diag_error(in->diags, made->at, "end the text with \" on the line on which it begins",
                    "this text is not closed");
         made->kind = TOKEN_BAD;
         length--; /* without the closing character */

@@ -243,7 +243,7 @@ static void power_dimension(parser *in, place at, const expr *base, const expr *
             dim->unknown = true;
         }
     } else if (!dim_is_none(base->dim)) {
-        diag_error(in->diags, at, "only a dimensionless base takes any exponent: (x/L)^n",
+        diag_error(in->diags, at, "make the base dimensionless: (x/L)^n",
                    "%s needs a constant number as its exponent", dimension_words(in, base->dim));
         dim->unknown = true;
     }
@@ -353,7 +353,7 @@ const expr *expr_call(parser *in, function_id function, place at, const expr *le
         break;
     case TAKES_ANGLE:
         if (!dim_is_none(left->dim)) {
-            diag_error(in->diags, at, "an angle in radians is dimensionless, such as arc/radius",
+            diag_error(in->diags, at, "write an angle in radians, such as arc/radius",
                        "%s takes an angle, but this is %s", name, dimension_words(in, left->dim));
         }
         break;

@@ -271,7 +271,7 @@ bool parser_end_statement(parser *in, const char *what) {
     const char *first = first_word_hint(in->token.text, in->token.length);
     switch (in->token.kind) {
     case TOKEN_UNIT:
-        return parser_fail(in, "a unit belongs to a number: 2 [kg]", "a unit without a number");
+        return parser_fail(in, "write a number before the unit: 2 [kg]", "a unit without a number");
     case TOKEN_NAME:
     case TOKEN_NUMBER:
         return parser_fail(in, first != NULL ? first : parser_operator_hint(in),
@@ -335,7 +335,7 @@ bool statement_unknown(parser *in, unsigned where) {
     const statement_word *elsewhere = token_statement(&word);
     if (elsewhere != NULL && elsewhere->stands == IN_SCENE && !parser_is_sign(in, '=')) {
         hint = arena_words(in->arena, "in a scene: %s", elsewhere->form);
-        diag_error(in->diags, word.at, hint, "'%s' belongs into a scene", elsewhere->text);
+        diag_error(in->diags, word.at, hint, "'%s' belongs in a scene", elsewhere->text);
         return false;
     }
     nearest search = nearest_start(word.text, word.length);

@@ -354,14 +354,14 @@ static bool parse_scene_statement(parser *in) {
     if (!uses && into->of == NULL) {
         into->has_content = true;
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",
-                   "scene '%s' stands in no mechanism", into->made->name);
+                   "scene '%s' belongs to no mechanism", into->made->name);
         return false;
     }
     into->has_content |= !uses;
     if (word != NULL && (word->rules & INTO_EFFECT) != 0) {
         return parser_fail(in,
                            "put the statement into an effect, and select that effect: with NAME",
-                           "'%s' belongs into a mechanism or an effect", word->text);
+                           "'%s' belongs in a mechanism or an effect", word->text);
     }
     if (word == NULL || (word->stands & IN_SCENE) == 0) {
         return statement_unknown(in, IN_SCENE);
@@ -428,7 +428,7 @@ static void read_scene(parser *in, const pending_scene *pending, draft *into) {
     const bool good = parse_body(in);
     if (good && into->of == NULL) {
         diag_error(in->diags, into->made->at, "name its mechanism with: use NAME",
-                   "scene '%s' stands in no mechanism", into->made->name);
+                   "scene '%s' belongs to no mechanism", into->made->name);
     }
     if (good && into->of != NULL) {
         scene_check_sets(in, into);

@@ -193,7 +193,7 @@ static void finish_system(parser *in, builder *done) {
     for (int i = 0; i < made->coordinate_count; i++) {
         const symbol *state = made->coordinates[i];
         if (state->order == 0) {
-            diag_error(in->diags, state->at, "at least one equation must contain it with a prime",
+            diag_error(in->diags, state->at, "write an equation that contains it with a prime",
                        "no equation has a derivative of '%s'", state->name);
             return;
         }

@@ -292,7 +292,7 @@ static bool read_factor(reader *in, unit_scale *result) {
         in->at++;
     } else if (is_digit(c) || c == '.') {
         return fail(in, start, "a unit contains no number except 1",
-                    "numbers stand before the bracket: 2.5 [m/s]");
+                    "write numbers before the bracket: 2.5 [m/s]");
     } else if (is_letter(c)) {
         while (in->at < in->length && (is_letter(in->text[in->at]) || is_digit(in->text[in->at]))) {
             in->at++;
@@ -373,7 +373,7 @@ bool unit_parse(const char *text, size_t length, unit_scale *result, unit_error 
         if ((unsigned char)in.text[in.at] >= 0x80) {
             return fail_ascii(&in);
         }
-        return fail(&in, in.at, "this does not belong into a unit", "write it like N*s/m");
+        return fail(&in, in.at, "this cannot stand in a unit", "write it like N*s/m");
     }
     if (!(result->scale > 1e-200 && result->scale < 1e200 && result->divisor > 1e-200 &&
           result->divisor < 1e200 && result->scale / result->divisor > 1e-200 &&

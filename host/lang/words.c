@@ -26,22 +26,22 @@ COLUMN(contact_undefined, contact_kind, CONTACT_KIND_ROWS, CONTACT_UNDEFINED)
 
 #define CLOCK \
     "the language has no name for the time; in Q and in the condition of a hold use a coordinate as a clock (docs/language.md, \"What is given over time\")"
-#define CHOICE "choose with max(a, b), min(a, b) or sign(x); at a moment, with when or hold"
+#define CHOICE "write max(a, b), min(a, b) or sign(x); for a change at a moment, write when or hold"
 #define JUMP "for a step function write (1 + sign(x))/2; for a contact use stop, hold or when"
 #define COUNT \
-    "a run has no step counter; an event sets a value: when x crosses 1 [m] rising { set x = 0 [m] }"
+    "set a value at an event, because a run has no step counter: when x crosses 1 [m] rising { set x = 0 [m] }"
 #define PARAMETER "write: parameter m = 2 [kg]"
-#define RATE "a derivative in time is a prime: x', x''"
-#define NOISE "an output has noise: noise y deviation 0.01 [m] seed 7"
+#define RATE "write a derivative in time as a prime: x', x''"
+#define NOISE "add noise to an output: noise y deviation 0.01 [m] seed 7"
 #define BLOW \
     "write an impact as a change of a rate: when x crosses 1 [m] rising { set x' = 2 [m/s] }"
 #define TABLE "write a formula, or an input that firmware changes: input u = 0 [N]"
 
 const char *energy_hint(const char *text, size_t length) {
     static const char *const rows[][2] = {
-        {" t k K Ek Ekin kinetic ", "the kinetic energy is T = ..."},
-        {" v u U Ep Epot potential ", "the potential energy is V = ..."},
-        {" f D dissipation ", "the dissipation function is F = ..."},
+        {" t k K Ek Ekin kinetic ", "write the kinetic energy as T = ..."},
+        {" v u U Ep Epot potential ", "write the potential energy as V = ..."},
+        {" f D dissipation ", "write the dissipation function as F = ..."},
         {" L lagrangian Lagrangian ", "write the parts of L = T - V: T = ... and V = ..."}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         for (const char *at = rows[i][0]; at[1] != '\0'; at = strchr(at + 1, ' ')) {
@@ -80,8 +80,8 @@ const char *first_word_hint(const char *text, size_t length) {
         {"|", "join two comparisons with or: x < a or x > b; for the size of x, write abs(x)"},
         {"sgn", "write sign(x)"},
         {"pow", "write powers with ^: a^b"},
-        {"ln", "the natural logarithm is log(x)"},
-        {"log10", "log(x) is the natural logarithm: log(x)/log(10)"},
+        {"ln", "write log(x), the natural logarithm"},
+        {"log10", "write log(x)/log(10): log(x) is the natural logarithm"},
         {"const", PARAMETER},
         {"constant", PARAMETER},
         {"param", PARAMETER},

@@ -197,7 +197,7 @@ bool word_is_reserved(const char *text, size_t length);
 
 /* Returns the hint for a word of other languages that has no meaning here, such as "if"; or NULL. */
 const char *first_word_hint(const char *text, size_t length);
-/* Returns the hint for an energy under another name, such as "the kinetic energy is T = ..."; or NULL. */
+/* Returns the hint for an energy under another name, such as "write the kinetic energy as T = ..."; or NULL. */
 const char *energy_hint(const char *text, size_t length);
 
 const char *contact_word(contact_kind kind);

@@ -81,7 +81,7 @@ const char *light_read(light *l, const char *bytes, size_t count, const char **h
     const char *from = find(bytes, end, WH_LIGHT_BEGIN, BEGIN);
     *hint = again;
     if (from == NULL) {
-        *hint = "a record is printed by the image firstlight: make firstlight BOARD=...";
+        *hint = "run the program firstlight, which prints a record: make firstlight BOARD=...";
         return "there is no record: no line '" WH_LIGHT_BEGIN "'";
     }
     if (light_begin(bytes, count) != from) {

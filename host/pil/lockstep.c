@@ -122,7 +122,7 @@ static bool hear_past_remembered(talk *t, wh_frame *frame) {
             return true;
         }
         if (frame->length > WH_REMEMBER_MAX) {
-            return fail(t, "more bytes to remember than the limit");
+            return fail(t, "too many bytes to keep over a reset");
         }
         keep_heard(t, frame);
         t->report->hash = talk_hash_bytes(t->report->hash, frame->payload, frame->length);
@@ -588,9 +588,9 @@ static void print_computing(FILE *out, const lockstep_request *request, const lo
               out);
         return;
     }
-    fprintf(out, "reading to outputs %.0f instructions at most, %.4g ms, at t = %.6g s\n",
+    fprintf(out, "reading -> outputs %.0f instructions at most, %.4g ms, at t = %.6g s\n",
             r->acted.value, 1e3 * r->acted.value * request->instruction_s, r->acted.at_s);
-    fprintf(out, "reading to wait    %.0f instructions at most, %.4g ms, at t = %.6g s\n",
+    fprintf(out, "reading -> wait    %.0f instructions at most, %.4g ms, at t = %.6g s\n",
             r->busy.value, 1e3 * r->busy.value * request->instruction_s, r->busy.at_s);
     fprintf(out, "overruns           %" PRIu64, r->overruns);
     if (r->overruns > 0) {

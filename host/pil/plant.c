@@ -214,7 +214,7 @@ bool recorded_open(recorded *r, const char *name, const image *im, double every_
         every_s >= 0.0) {
         fprintf(
             stderr,
-            "whirl pil: error: --every %.9g s is not a multiple of the step\nhint: the plant's --step is %.9g s\n",
+            "whirl pil: error: --every %.9g s is not a multiple of the step\nhint: use a multiple of the plant's step, %.9g s\n",
             every_s, im->step_s);
         return false;
     }

@@ -237,7 +237,7 @@ static void print_load(FILE *out, const choice_request *w, const table_row *row,
         fputs(" step", out);
     }
     if (declared_of(row) > 0.0) {
-        fprintf(out, "; %.3g %% from the declared bound",
+        fprintf(out, "; %.3g %% with the bound",
                 100.0 * by->load_most * declared_of(row) /
                     (cost_has_cycles(&row->cost) ? f->most : row->cost.instructions_worst.most));
     }
@@ -251,12 +251,12 @@ static void print_run(FILE *out, const table_row *row) {
     fprintf(out, "  counted     %.0f steps: all steps of the run to the horizon, with events\n",
             row->run.steps);
     if (declared_of(row) > 0.0) {
-        fprintf(out,
-                "  declared    at most %.0f %s in a step, from the declared bounds "
-                "(docs/dev/events.md)\n",
-                declared_of(row), cost_has_cycles(&row->cost) ? "cycles" : "instructions");
+        fprintf(
+            out,
+            "  bound       at most %.0f %s in a step with eight of the most expensive events (docs/dev/events.md)\n",
+            declared_of(row), cost_has_cycles(&row->cost) ? "cycles" : "instructions");
     } else {
-        fputs("  declared    not known: this board does not count the parts of a step separately\n",
+        fputs("  bound       not known: this board does not count the parts of a step separately\n",
               out);
     }
 }

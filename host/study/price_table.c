@@ -252,7 +252,7 @@ static const char *figure_text(const cost_figure *f, char text[FIGURE_TEXT]) {
 const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]) {
     const char *word = cost_basis_words[f->basis];
     if (f->basis == COST_PREDICTED && f->least > 0.0) {
-        snprintf(text, FIGURE_WORDS, "%s: in nine of ten counted cases within %.0f %%", word,
+        snprintf(text, FIGURE_WORDS, "%s: within %.0f %% in nine of ten counted cases", word,
                  100.0 * (number_root(f->most / f->least) - 1.0));
     } else {
         snprintf(text, FIGURE_WORDS, "%s", word);
@@ -317,7 +317,7 @@ void figure_reference(FILE *out, const trials *t) {
     const int of = t->what.column;
     fprintf(out, "              both references agree within %.1e of %s%s\n",
             reference_agreement(r, of),
-            of < 0 ? "each component's largest value" : "the largest value of ",
+            of < 0 ? "the largest value of each coordinate and rate" : "the largest value of ",
             of < 0 ? "" : trial_column(t, of, name));
     fprintf(out, "  horizon     %.9g s", trial_horizon_s(t));
     if (t->records < t->request.records) {

@@ -81,7 +81,7 @@ void table_sort(table *made);
 /* The price of steps of this length. */
 table_price table_price_of(const cost *c, double step_s);
 
-/* "predicted: in nine of ten counted cases within 8 %". Returns text. */
+/* "predicted: within 8 % in nine of ten counted cases". Returns text. */
 enum { FIGURE_WORDS = 120 };
 const char *figure_words(const cost_figure *f, char text[FIGURE_WORDS]);
 

@@ -18,9 +18,9 @@
     X(MAP_KEEPS, '.', "keeps", "accurate to the tolerance until its end") \
     X(MAP_OFF, 'o', "off", "bounded, but its error exceeds the tolerance before its end") \
     X(MAP_LOSES, 'x', "loses", \
-      "bounded, but more than a thousandth of its energy is unaccounted for") \
+      "bounded, but its energy residual exceeds a thousandth of the largest entry") \
     X(MAP_DIVERGES, '#', "diverges", \
-      "out of all bounds, or the error of a rate exceeds a hundred times its range") \
+      "grew without bound, or the error of a rate exceeds a hundred times its range") \
     X(MAP_NONE, '-', "none", "not run: Whirl refuses these values") \
     X(MAP_UNTRIED, '?', "untried", "interrupted before it was run")
 #define MAP_VERDICT_ID(id, mark, word, words) id,

@@ -210,7 +210,7 @@ exits 2 'hint: --strict=off or --strict=1e-6' run epicyclic_from_rest --strict 1
 exits 2 'hint: whirl run --help lists the options' run epicyclic_from_rest --
 exits 2 "--over sweeps 'm', but --set sets it, too" sweep epicyclic_from_rest --over m=1..2:2 --measure theta --set m=3
 exits 2 '--every 1.5ms is not a multiple of the step' run epicyclic_from_rest --every 1.5ms
-exits 2 'hint: the step is 0.001 s' run epicyclic_from_rest --every 1.5ms
+exits 2 'hint: use a multiple of 0.001 s' run epicyclic_from_rest --every 1.5ms
 exits 2 '--every 0 is not a multiple' run thomson_a --every 0
 exits 2 "--every '-1ms' is not a time" run thomson_a --every -1ms
 exits 2 "--every 'often' is not a time" run thomson_a --every often
@@ -238,7 +238,7 @@ for cells in 100 4 131072 0 -8 64.5 6x4 "" 99999999999999999999; do
 done
 for command in run describe "derive --as c"; do
     exits 2 'error: --cells sets the size of tables' $command epicyclic_from_rest --cells 64
-    exits 2 "thomson.whirl:22:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle: 'theta1' is one of them" $command thomson_a --tables cubic
+    exits 2 "thomson.whirl:22:12: error: --tables: the accelerations of 'thomson' depend on the sines of more than one turn angle, such as 'theta1'" $command thomson_a --tables cubic
 done
 exits 2 'contacts.whirl:24:3: error: --tables: a scene with events cannot use tables' run ball_bounces --tables linear
 prints 'theta' derive epicyclic --as latex --tables cubic # its equations are the same
@@ -368,7 +368,7 @@ prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json
 prints '^  "sines": "lookup",$' describe "$scratch/wheel.whirl" --json --angles lookup
 prints '^  "sines": "turned",$' describe "$scratch/wheel.whirl" --json --start "a'=3000"
 exits 2 "there is no matrix 'exactly'" run two_mass_relative --matrix exactly
-exits 2 "5:1: error: line 5 makes 'spin' not linear" describe "$scratch/wheel.whirl" --matrix exact
+exits 2 "5:1: error: line 5 makes 'spin' nonlinear" describe "$scratch/wheel.whirl" --matrix exact
 prints '^  "matrix": "none",$' describe two_mass_relative --json
 prints '^  "matrix": "rk4",$' describe two_mass_relative --json --matrix rk4
 prints '^  Phi  *X  *Y  *X. *Y.$' derive two_mass_relative --matrix exact

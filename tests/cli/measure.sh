@@ -77,7 +77,7 @@ contacts() { # SCENE HORIZON RATE
             d = $1 - $7; exit !(NF == 12 && d <= 0.5 && d >= -0.5 && $2 == $8 && $3 == $9 && $4 == $10 && $5 == $11 && $6 == $12 &&
                 $7 > 50 && $8 >= $7 && $9 > 3 * $8) }'
     verdict $? "$1: mean, longest and declared step, flash, RAM and stack are those that the line counts" "$scratch/row"
-    sed -n 's/^  load  *\([0-9.e+-]*\) %.* from the longest of \([0-9]*\) counted steps; \([0-9.e+-]*\) % from the declared bound/\1 \2 \3/p' \
+    sed -n 's/^  load  *\([0-9.e+-]*\) %.* from the longest of \([0-9]*\) counted steps; \([0-9.e+-]*\) % with the bound/\1 \2 \3/p' \
         "$scratch/out" >"$scratch/load"
     echo "$(cat "$scratch/load") $(figure 'the longest') $(figure declared) $(step) $steps" | awk '
         function near(a, b) { return a > 0.99 * b && a < 1.01 * b }

@@ -89,7 +89,7 @@ if [ -n "$boards" ]; then
     done
     [ "$(number overruns "$scratch/out.0")" -eq 0 ] && [ "$(number overruns "$scratch/out.1.5")" -eq 0 ] &&
         [ "$(number overruns "$scratch/out.15")" -ge 1 ] &&
-        [ "$(number 'reading to outputs' "$scratch/out.0")" = "$(number 'reading to outputs' "$scratch/out.1.5")" ] &&
+        [ "$(number 'reading -> outputs' "$scratch/out.0")" = "$(number 'reading -> outputs' "$scratch/out.1.5")" ] &&
         [ "$(line 'command stream' "$scratch/out.1.5")" != "$(line 'command stream' "$scratch/out.15")" ]
     verdict $? "what is slower overruns, with as many instructions" "$scratch/out.1.5"
 fi

@@ -164,7 +164,7 @@ check "the balance of each point" sh -c "'$whirl' sweep epicyclic_from_rest --un
 check "points that fail the balance: exit status 1, with --quiet as well" status 1 \
     "$whirl" sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --quiet
 check "points that fail the balance: how many, and the first" \
-    grep -qF 'warning: 1 of 2 points fail the energy balance: the residual is too large compared with the balance'"'"'s largest entry (energy_residual), at the end or at a time before [energy]; first: point 2 (step=0.2)' "$scratch/said"
+    grep -qF 'warning: 1 of 2 points fail the energy balance: the residual exceeds its limit at the end or before (column energy_residual) [energy]; first: point 2 (step=0.2)' "$scratch/said"
 again() { "$whirl" sweep epicyclic_from_rest --until 2s --over 'step=1..200 [ms]:2' --measure X --csv "$scratch/balance.csv" "$@"; }
 again >"$scratch/rows" 2>&1
 check "rows found in the file count too" status 1 again

@@ -501,7 +501,8 @@ static void take_cure(const slope_case *c, const char *text, const char *number,
 /* Is the only report that the constant (D/l)^2 + 1 may have lost its 1? The run can still be right, by luck. */
 static bool is_luck(const slope_case *c, bool is_float, const char *err) {
     const char *warning = strstr(err, "whirl run: warning: ");
-    return !is_float && warning != NULL && strstr(warning, "constants of 'far' are sums") != NULL &&
+    return !is_float && warning != NULL &&
+           strstr(warning, "a constant of 'far' adds a small number") != NULL &&
            strstr(warning + 1, "whirl run: ") == NULL && c->far * c->far * DBL_EPSILON > 1e-4;
 }
 

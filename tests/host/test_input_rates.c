@@ -345,10 +345,10 @@ TEST(input_rates, what_a_rate_may_be) {
         const char *lines;
         const char *said;
     } cases[] = {
-        {"input L = 2 [m]\nhold x - L while 1 > 0", "whose rate is not known"},
+        {"input L = 2 [m]\nhold x - L while 1 > 0", "which has no declared rate"},
         {"input L = 2 [cm]  # long\nhold x - L while 1 > 0",
          "hint: input L rate L_rate = 2 [cm]  ; input L_rate = 0 [m/s]"},
-        {"input L = 2 [m]\nlet r = 2*L\nhold x - r while 1 > 0", "the input 'L', whose rate"},
+        {"input L = 2 [m]\nlet r = 2*L\nhold x - r while 1 > 0", "the input 'L', which has no"},
         {"input L = 2 [m]\nstop x <= L restitution 0", ""},
         {"input L = 2 [m]\nhold x while L > 0", ""},
         {"input L rate Lv = 2 [m]", "no input is called 'Lv', the rate of 'L'"},

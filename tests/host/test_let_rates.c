@@ -165,7 +165,7 @@ TEST(let_rates, derivatives_of_lets_keep_the_rules) {
         {"stop z' >= 0 [m/s] restitution 0", "not rates: \"z'\" has a rate"},
         {"output p = z'''", "at most two primes"},
         {"V = 1 [N]*(x + l'*1 [s])", ""},
-        {"let w = n'", "the rate of the input 'f' is not known"},
+        {"let w = n'", "the input 'f' has no declared rate"},
         {"when z' crosses 0 [m/s] { set x' = 0 }", ""},
         {"friction x static 0.3 kinetic 0.2 normal abs(z')*1 [kg/s]", ""},
         {"friction x static 0.3 kinetic 0.2 normal 1 [kg]*z''",

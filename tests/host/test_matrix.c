@@ -716,9 +716,10 @@ static void expect_not_linear(const char *line, const char *part) {
              "T = 1 [kg]*x'^2/2 + 1 [kg*m^2]*th'^2/2\n%s\nscene s { step 1 [ms]; until 1 [s] }\n",
              line);
     const char *at = strstr(line, part);
-    snprintf(wanted, sizeof wanted,
-             ":6:%d: error: line 6 makes 's' not linear, so its step is not a matrix: %.*s\n",
-             (int)(at - line) + 1, (int)strcspn(at, ";"), at);
+    snprintf(
+        wanted, sizeof wanted,
+        ":6:%d: error: line 6 makes 's' nonlinear, so --matrix cannot compute its step: %.*s\n",
+        (int)(at - line) + 1, (int)strcspn(at, ";"), at);
     expect_refused(text, none, wanted);
 }
 

@@ -474,7 +474,7 @@ TEST(underivable, singular_and_other_impossible_mechanisms) {
                    "equation 2*x' + 2*y' = 3 [1/s]\n",
                    "the equations of 'm' cannot be solved for the highest derivatives");
     expect_refused("mechanism m\ncoordinate x [m]\ninput M = 1 [kg]\nT = M*x'^2/2\n",
-                   "the kinetic energy depends on input 'M', whose rate is not known");
+                   "the kinetic energy depends on input 'M', which has no declared rate");
     expect_refused(
         "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2\nV = 1 [J]*log(0*x/1 [m] - 1)*x/1 [m]\n",
         "have no finite value at any state tried");
@@ -540,7 +540,7 @@ TEST(underivable, constants_that_are_not_finite) {
 TEST(underivable, too_many_components) {
     char *states = repeated("mechanism m\nstate z\n", "state x#\n", 40, "");
     char *text = repeated(states, "equation 1 [s^2]*x#'' = z\n", 40, "equation 1 [s]*z' = x1\n");
-    expect_refused(text, "t.whirl:1:11: error: 'm' has more than 64 components of state");
+    expect_refused(text, "t.whirl:1:11: error: 'm' has more than 64 coordinates, rates and states");
     free(text);
     free(states);
 }

@@ -361,7 +361,7 @@ static const struct {
 } refused[] = {
     {"mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\nT = 1 [kg*m^2]*(a'^2 + b'^2)/2\n"
      "V = 1 [J]*(cos(a) + cos(b))\n",
-     "depend on the sines of more than one turn angle: 'b'", "3:12"},
+     "depend on the sines of more than one turn angle, such as 'b'", "3:12"},
     {"mechanism m\ncoordinate a [rad]\ncoordinate b [rad]\nT = 1 [kg*m^2]*(a'^2 + b'^2)/2\n"
      "V = 1 [J]*(cos(a - b) + cos(a + b))\n",
      "more than one turn angle", "2:12"},

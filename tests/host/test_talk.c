@@ -132,7 +132,7 @@ TEST(talk, wrong_words) {
         {LOCKSTEP_FAILED, "a message that is not an answer in exchange 1\n"},
         {LOCKSTEP_FAILED, "invalid orders in exchange 1\n"},
         {LOCKSTEP_FAILED, "invalid orders in exchange 1\n"},
-        {LOCKSTEP_FAILED, "more bytes to remember than the limit in exchange 1\n"},
+        {LOCKSTEP_FAILED, "too many bytes to keep over a reset in exchange 1\n"},
         {LOCKSTEP_FAILED, "an invalid end message in exchange 1\n"},
         {LOCKSTEP_FAILED, "whirl pil: error: the serial line is disconnected\n"},
         {LOCKSTEP_BAD, "the firmware uses version 2 of the protocol, but whirl uses version 1\n"},

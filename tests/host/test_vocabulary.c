@@ -216,10 +216,10 @@ TEST(vocabulary, other_notations_are_mended) {
         {"parameter a = K [-]", "leave the brackets out", "parameter a = K"},
         {"parameter a = K [ ]", "leave the brackets out", "parameter a = K"},
         {"parameter a = K [N*m/s2]", "write s^2", "parameter a = K [N*m/s^2]"},
-        {"parameter a = K // U", "a comment begins with #", "parameter a = K # U"},
-        {"parameter a = K /* U */", "a comment begins with #", "parameter a = K # U"},
-        {"/* U\n $ */ parameter a = K", "a comment begins with #", "parameter a = K"},
-        {"% U\nparameter a = K", "a comment begins with #", "# U\nparameter a = K"},
+        {"parameter a = K // U", "begin a comment with #", "parameter a = K # U"},
+        {"parameter a = K /* U */", "begin a comment with #", "parameter a = K # U"},
+        {"/* U\n $ */ parameter a = K", "begin a comment with #", "parameter a = K"},
+        {"% U\nparameter a = K", "begin a comment with #", "# U\nparameter a = K"},
         {"paramter a = K [U]\nlet b = 2*a\nV = b*a*mass", "did you mean 'parameter'?", "let b = $"},
         {"coordiante b [m]\nV = 1 [N/m]*b^2\nQ(b) = 1 [N]", "mean 'coordinate'?", "let b = $"}};
     uint64_t seed = 7;

@@ -110,9 +110,9 @@ TEST(words, a_word_stands_only_where_its_row_says) {
             char quoted[60];
             snprintf(quoted, sizeof quoted, "'%s'", word->text);
             const bool refused = strstr(report, "unknown statement") != NULL ||
-                                 strstr(report, "belongs into a scene") != NULL ||
+                                 strstr(report, "belongs in a scene") != NULL ||
                                  strstr(report, "is not possible inside") != NULL ||
-                                 strstr(report, "belongs into a mechanism or an effect") != NULL ||
+                                 strstr(report, "belongs in a mechanism or an effect") != NULL ||
                                  strstr(report, "is not closed with '}'") != NULL;
             TEST_ASSERT_TRUE_MESSAGE(report[0] != '\0', text); /* no bare word is valid */
             TEST_ASSERT_TRUE_MESSAGE(stands != refused || (word->rules & ENDS_SCENE) != 0, text);
