@@ -227,7 +227,7 @@ TEST(chip_cell, clipped_for_a_moment) {
 }
 
 /* At least four samples are stored; if more come, the newest are lost. */
-TEST(chip_cell, kept) {
+TEST(chip_cell, four_samples_are_stored) {
     begin(62);
     run_take();
     got_count = 0;

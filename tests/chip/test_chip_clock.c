@@ -102,7 +102,7 @@ static void loader(void) {
     reg_store(RCC_AT(0x30U), 0x00100007U);
     (void)reg_load(RCC_AT(0x30U));
 }
-TEST(chip_clock, behind_a_loader) {
+TEST(chip_clock, clock_after_a_boot_loader) {
     scattered_state = chip_seed(8);
     for (unsigned i = 0; i < 14; i++) {
         chip_wired(30 + i);

@@ -219,7 +219,7 @@ static void lost(bool held) {
         TEST_ASSERT_EQUAL_MESSAGE(251U, seen[got - 1U], "what comes behind is lost, too");
     }
 }
-TEST(chip_console, nobody_reads) {
+TEST(chip_console, output_without_a_reader) {
     scattered_state = chip_seed(7);
     lost(false);
 }

@@ -227,7 +227,7 @@ TEST(chip_constants, interrupts) {
     TEST_ASSERT_EQUAL(sizeof theirs / sizeof *theirs, at);
 }
 
-TEST(chip_constants, every_one_has_a_row) {
+TEST(chip_constants, every_constant_has_a_row) {
     FILE *file = fopen("boards/stm32f4/rm0090.h", "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, "to be run from the project's root");
     char line[256];

@@ -117,7 +117,7 @@ TEST(chip_motor, duty) {
     }
 }
 
-TEST(chip_motor, what_is_out_of_range) {
+TEST(chip_motor, voltages_out_of_range) {
     static const struct {
         float volts;
         unsigned high;
@@ -146,7 +146,7 @@ static void first_store(void) {
         is_low_for(PERIOD_UNITS);
     }
 }
-TEST(chip_motor, off_at_once) {
+TEST(chip_motor, off_lowers_the_pin_immediately) {
     scattered_state = chip_seed(5);
     chip_on(5);
     chip_pass_us(10000);
@@ -233,7 +233,7 @@ TEST(chip_motor, break) {
 
 /* A voltage that is set while stop is pressed has no effect, even after stop is released. The motor must be switched
  * off and started again. */
-TEST(chip_motor, ordered_while_pressed) {
+TEST(chip_motor, voltage_while_stop_is_pressed) {
     chip_on(7);
     chip_pass_us(10000);
     chip_pin_drive('A', 6, CHIP_LOW);
@@ -280,7 +280,7 @@ TEST(chip_motor, pressed_before_a_start) {
 }
 
 /* A voltage has no effect before a start or after the motor was switched off. */
-TEST(chip_motor, voltage_alone) {
+TEST(chip_motor, voltage_without_start_has_no_effect) {
     scattered_state = chip_seed(12);
     chip_on(12);
     chip_pass_us(10000);
@@ -303,7 +303,7 @@ static void off_behind(void) {
     chip_stored = NULL;
     hal_motor_off(way);
 }
-TEST(chip_motor, off_from_an_interrupt) {
+TEST(chip_motor, off_in_an_interrupt) {
     scattered_state = chip_seed(13);
     chip_on(13);
     chip_pass_us(10000);

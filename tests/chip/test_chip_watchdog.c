@@ -63,7 +63,7 @@ TEST(chip_watchdog, any_time_and_speed) {
 }
 
 /* The timeout is lengthened for an erase, then shortened again, at any instant and in quick succession. */
-TEST(chip_watchdog, other_times) {
+TEST(chip_watchdog, timeouts_are_changed) {
     scattered_state = chip_seed(2);
     for (unsigned i = 0; i < 8; i++) {
         begin();
@@ -91,7 +91,7 @@ TEST(chip_watchdog, other_times) {
 }
 
 /* A new timeout set at the last moment counts as a kick. */
-TEST(chip_watchdog, told_late) {
+TEST(chip_watchdog, late_timeout_counts_as_kick) {
     scattered_state = chip_seed(4);
     for (unsigned i = 0; i < 40; i++) {
         begin();

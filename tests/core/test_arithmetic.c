@@ -42,7 +42,7 @@ TEST(arithmetic, this_build_is_sound) {
     TEST_ASSERT_TRUE(start() == WH_OK);
 }
 
-TEST(arithmetic, a_scene_of_other_arithmetic_is_refused) {
+TEST(arithmetic, unsound_arithmetic_is_refused) {
     /* The probes' results under contraction, reordering, truncation, flushing, reciprocals and lost signs. */
 #if WH_DOUBLE
     static const wh_real made[WH_PROBED_COUNT] = {0x1p-54,

@@ -5,7 +5,7 @@
 #include "tests/suites.h"
 
 /* A ball falls from 1 m with restitution 1/2. Its bounces end at 3 sqrt(2 h / g). Then it rests for a minute. */
-TEST(contact, ball_comes_to_rest_and_stays) {
+TEST(contact, ball_stays_at_rest) {
     const wh_real rest_s = WH_R(3.0) * WH_SQRT(WH_R(2.0) / HAND_G);
     hand_build_ball(WH_R(0.5));
     hand_start(false);
@@ -23,7 +23,7 @@ TEST(contact, ball_comes_to_rest_and_stays) {
 
 /* A body bounces between two walls 1 m apart, n times in each step of 1 ms. All events are counted, and the first eight
  * are logged. */
-TEST(contact, a_step_has_room_for_so_many_moments) {
+TEST(contact, all_events_of_a_step_count) {
     for (unsigned each = 0; each <= 2U * WH_EVENTS_MAX + 4U; each++) {
         const unsigned n = each / 2U;
         hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
@@ -52,7 +52,7 @@ TEST(contact, a_step_has_room_for_so_many_moments) {
 
 /* A step has at most eight moments with events. At the eighth, a body that would bounce from a wall comes to rest
  * instead, which counts as an overrun. */
-TEST(contact, a_rest_at_the_last_moment_is_counted) {
+TEST(contact, rest_at_the_eighth_moment_counts) {
     for (unsigned n = WH_EVENTS_MAX - 1U; n <= WH_EVENTS_MAX; n++) {
         hand_build(1, WH_R(1.0), WH_R(0.0), WH_R(1.0));
         hand_now.load[0] = WH_R(-10.0);
@@ -84,7 +84,7 @@ TEST(contact, a_refused_step_changes_nothing) {
 
 /* A load drives a component out of bounds: at a run's first step, after an event within a step, and later. The fault
  * names this component. */
-TEST(contact, the_component_that_diverged_is_told) {
+TEST(contact, diverged_component_is_named) {
     for (unsigned where = 0; where < 3; where++) {
         for (unsigned c = 0; c < 2; c++) {
             hand_build(2, WH_R(2.0), WH_R(0.0), WH_R(3.0));

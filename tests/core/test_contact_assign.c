@@ -78,7 +78,7 @@ TEST(contact_assign, each_component_can_be_assigned) {
 }
 
 /* A turn angle must be below 1e9 rad, any other component below 1e15; NaN is invalid. The fault names the component. */
-TEST(contact_assign, what_cannot_be_held_is_blamed) {
+TEST(contact_assign, invalid_values_are_refused_by_name) {
     uint64_t seed = 1123;
     for (unsigned round = 0; round < 200; round++) {
         wh_contact_work w;

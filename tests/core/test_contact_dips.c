@@ -35,7 +35,7 @@ static bool is_plain(const drawn_stop *s) {
            WH_ABS(s->gap[0]) > WH_R(1e-6) && WH_ABS(s->rate[0]) > WH_R(1e-4);
 }
 
-TEST(contact_dips, what_dips_and_comes_back) {
+TEST(contact_dips, dips_are_found) {
     uint64_t seed = 2322;
     unsigned dips = 0;
     unsigned leaves = 0;

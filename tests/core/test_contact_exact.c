@@ -188,12 +188,12 @@ static void run(uint64_t seed, unsigned touched, bool crosses, int heavy) {
     TEST_ASSERT_TRUE_MESSAGE(t.events >= MECHANISMS / 2U, "too little happens");
 }
 
-TEST(contact_exact, what_touches_nothing_at_first) { run(11, 64, false, 1); }
-TEST(contact_exact, what_starts_touching) { run(12, 2, false, 1); }
-TEST(contact_exact, crossings_among_them) { run(13, 3, true, 1); }
-TEST(contact_exact, what_is_pressed_hard) { run(14, 2, false, 128); }
-TEST(contact_exact, what_nothing_presses) { run(15, 2, false, 0); }
-TEST(contact_exact, crossings_beside_what_touches) { run(16, 1, true, 1); }
+TEST(contact_exact, start_without_contact) { run(11, 64, false, 1); }
+TEST(contact_exact, start_in_contact) { run(12, 2, false, 1); }
+TEST(contact_exact, stops_with_crossings) { run(13, 3, true, 1); }
+TEST(contact_exact, large_loads) { run(14, 2, false, 128); }
+TEST(contact_exact, no_loads) { run(15, 2, false, 0); }
+TEST(contact_exact, start_in_contact_with_crossings) { run(16, 1, true, 1); }
 
 enum { CORRECTED = __STDC_HOSTED__ ? 500 : 25, AFTER = 40 };
 
@@ -274,7 +274,7 @@ static unsigned stops_that(bool rest, wh_real by) {
 }
 
 /* A corrected run has the same bits as a run that starts from the corrected state. No body stays beyond a stop. */
-TEST(contact_exact, a_corrected_run_is_one_that_starts_there) {
+TEST(contact_exact, corrected_run_equals_a_new_start) {
     uint64_t seed = 4600;
     unsigned beyond = 0;
     unsigned resting = 0;
@@ -312,7 +312,7 @@ TEST(contact_exact, a_corrected_run_is_one_that_starts_there) {
 }
 
 /* A refused correction changes nothing. */
-TEST(contact_exact, no_number_is_no_correction) {
+TEST(contact_exact, corrections_to_nan_are_refused) {
     static const wh_real bad[] = {WH_R(1e16), WH_R(-1e16), WH_R(0.0), WH_R(0.0)};
     volatile wh_real zero = WH_R(0.0);
     hand_build_ball(WH_R(0.5));

@@ -29,7 +29,7 @@ static bool holds(const wh_contact_work *w, unsigned k) {
 /* The rows change with the position of the first coordinate. The core tests the state that the rates alone would
  * reach, then the step's end, if the step was made. It reports the first state in which rank is lost. If no curved
  * hold can slip, it tests nothing. */
-TEST(contact_flat, a_say_is_lost_at_either_place) {
+TEST(contact_flat, rank_loss_at_either_state) {
     uint64_t seed = 242;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -70,7 +70,7 @@ TEST(contact_flat, a_say_is_lost_at_either_place) {
 }
 
 /* The state that the rates alone reach: angles and positions move by rate times time. */
-TEST(contact_flat, rates_lead_ahead) {
+TEST(contact_flat, state_that_rates_alone_reach) {
     uint64_t seed = 243;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_work w;

@@ -20,7 +20,7 @@ static void rest_on_a_stop(bool books) {
 
 /* The stop is raised, or lowered by at most the ball's fall in a step, and the ball stays on it. The stop's ledger
  * entry gets the energy m g s. */
-TEST(contact_follow, a_stop_takes_along_what_rests_on_it) {
+TEST(contact_follow, moved_stop_carries_a_resting_ball) {
     const wh_real moves[] = {WH_R(1e-3), WH_R(3e-5), WH_R(0.25), WH_R(-0.5) * REACH_M,
                              WH_R(-0.9) * REACH_M};
     for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {
@@ -38,7 +38,7 @@ TEST(contact_follow, a_stop_takes_along_what_rests_on_it) {
 }
 
 /* If the stop is lowered by more than the ball's fall in a step, the ball falls freely. */
-TEST(contact_follow, a_stop_that_drops_away_leaves_the_ball) {
+TEST(contact_follow, ball_falls_from_a_lowered_stop) {
     const wh_real moves[] = {WH_R(-1.2) * REACH_M, WH_R(-2.0) * REACH_M, WH_R(-1e-3), WH_R(-2.0)};
     for (unsigned i = 0; i < sizeof moves / sizeof moves[0]; i++) {
         rest_on_a_stop(true);
@@ -57,7 +57,7 @@ TEST(contact_follow, a_stop_that_drops_away_leaves_the_ball) {
 
 /* A stop that no input moves (direction 0) stays where it is. Two bodies rest on two stops: only the body on the moved
  * stop follows. */
-TEST(contact_follow, others_stay_where_they_are) {
+TEST(contact_follow, unmoved_stops_carry_no_body) {
     for (unsigned moved = 0; moved < 2; moved++) {
         hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(2.0));
         hand_now.load[0] = -HAND_G;
@@ -81,7 +81,7 @@ TEST(contact_follow, others_stay_where_they_are) {
 
 /* Two bodies of 1 and 3 kg are held at a distance that is an input with a rate, and a load pulls them. When the input
  * jumps, both bodies move at once, in inverse ratio of their masses; then they move on as one body of 4 kg. */
-TEST(contact_follow, a_hold_takes_along_what_it_holds) {
+TEST(contact_follow, moved_hold_moves_both_bodies) {
     hand_build(2, WH_R(1.0), WH_R(0.0), WH_R(3.0));
     hand_add(WH_HOLD, -1, WH_R(1.0), WH_R(-1.0), WH_R(0.0), WH_R(0.0), WH_R(0.0));
     hand_now.contact[0].direction = -1;

@@ -54,7 +54,7 @@ static bool agrees(const uint8_t *member, unsigned count, unsigned repeats, cons
 /* Redundant contacts get no force if they agree with the others and no limit is exceeded. Otherwise they share the
  * load, and a contact that cannot take its share reports a force beyond its limit. The motion changes only if contacts
  * contradict each other. */
-TEST(contact_forces, what_repeats_others_shares_their_load) {
+TEST(contact_forces, redundant_contacts_share_the_load) {
     uint64_t seed = 222;
     unsigned seen[2][2] = {{0}};
     for (unsigned round = 0; round < 4U * ROUNDS; round++) {
@@ -153,7 +153,7 @@ TEST(contact_forces, what_repeats_others_shares_their_load) {
 }
 
 /* If a coordinate is pinned and held, its acceleration is zero, unless its unconstrained acceleration is NaN. */
-TEST(contact_forces, no_number_stays_none_where_it_is_pinned) {
+TEST(contact_forces, pinned_accelerations_are_zero_or_nan) {
     uint64_t seed = 223;
     for (unsigned round = 0; round < ROUNDS / 8; round++) {
         wh_contact_work w;

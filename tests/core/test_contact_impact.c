@@ -25,7 +25,7 @@ static bool is_stop(unsigned k) { return bench_now.contact[k].kind == WH_STOP; }
 
 /* An acceleration onto the stop within the round-off of its terms counts as zero. If the stop is the only contact, any
  * acceleration counts. */
-TEST(contact_impact, who_is_pressed) {
+TEST(contact_impact, pressed_stops) {
     uint64_t seed = 301;
     unsigned pressed = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -56,7 +56,7 @@ TEST(contact_impact, who_is_pressed) {
 
 /* A flight shorter than WH_REST_SHARE of the step counts as rest. If nothing presses the body onto the stop, the body
  * rests only if its rate counts as zero. */
-TEST(contact_impact, who_rests) {
+TEST(contact_impact, resting_stops) {
     uint64_t seed = 302;
     unsigned resting = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -93,7 +93,7 @@ TEST(contact_impact, who_rests) {
 
 /* Stops that merely touch: they are at rest, have a restitution, and their force is zero relative to the accelerations
  * and the other forces. */
-TEST(contact_impact, who_merely_touches) {
+TEST(contact_impact, stops_that_touch_without_force) {
     uint64_t seed = 303;
     unsigned loose = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -126,7 +126,7 @@ TEST(contact_impact, who_merely_touches) {
 }
 
 /* A free stop is hit in the same moment if the body approaches, and the gap is smaller than the error of location. */
-TEST(contact_impact, who_is_hit_in_the_same_moment) {
+TEST(contact_impact, stops_hit_at_the_same_time) {
     uint64_t seed = 304;
     unsigned tied = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -164,7 +164,7 @@ TEST(contact_impact, who_is_hit_in_the_same_moment) {
 
 /* An impact is passed on to a free stop that touches, if it makes the body approach, or approach more than twice as
  * fast. */
-TEST(contact_impact, to_whom_an_impact_is_passed_on) {
+TEST(contact_impact, impacts_are_passed_on) {
     uint64_t seed = 305;
     unsigned passed = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -198,7 +198,7 @@ TEST(contact_impact, to_whom_an_impact_is_passed_on) {
 
 /* Stops that take part in an impact although they are not hit: they are free, have no restitution, touch, and are at
  * rest relative to the rate that the hit causes. */
-TEST(contact_impact, who_is_beside_an_impact) {
+TEST(contact_impact, touching_stops_join_an_impact) {
     uint64_t seed = 306;
     unsigned beside = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -298,7 +298,7 @@ TEST(contact_impact, a_squeeze_ends) {
 
 /* A body is beyond a surface that curves away from it. The first projection moves it too far, and the next ones bring
  * it back to the surface. */
-TEST(contact_impact, what_is_pushed_too_far_comes_back) {
+TEST(contact_impact, projection_beyond_the_surface_is_corrected) {
     uint64_t seed = 309;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;

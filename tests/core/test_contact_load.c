@@ -40,7 +40,7 @@ static wh_real size_of(const wh_contact_work *w, const uint8_t *member, unsigned
     return most;
 }
 
-TEST(contact_load, sizes_beside_which_is_rounding) {
+TEST(contact_load, magnitudes_for_round_off) {
     uint64_t seed = 103;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -85,7 +85,7 @@ static int8_t pushed(wh_real missing, wh_real made, wh_real size, wh_real bend, 
 }
 
 /* wh_contact_contradicts(): each term in turn is at its threshold, below it and above it; the other terms are zero. */
-TEST(contact_load, what_contradicts_is_told_from_rounding) {
+TEST(contact_load, contradictions_exceed_round_off) {
     uint64_t seed = 104;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -168,7 +168,7 @@ TEST(contact_load, what_contradicts_is_told_from_rounding) {
 
 /* Two contacts with the same row and nearly equal curvature. The difference is compared with both curvatures and with
  * the terms of one contact. */
-TEST(contact_load, a_small_difference_of_bends_is_none) {
+TEST(contact_load, small_differences_of_curvature_are_zero) {
     uint64_t seed = 107;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         static const uint8_t member[2] = {0, 1};

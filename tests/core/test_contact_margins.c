@@ -35,7 +35,7 @@ static wh_real others_of(const wh_contact_work *w, unsigned k) {
     return others;
 }
 
-TEST(contact_margins, a_force_is_beyond_its_limit_by_more_than_rounding) {
+TEST(contact_margins, forces_exceed_limits_beyond_round_off) {
     uint64_t seed = 181;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;
@@ -91,7 +91,7 @@ static wh_real sum_of(const wh_contact_work *w) {
     return all;
 }
 
-TEST(contact_margins, margins_are_those_of_their_kinds) {
+TEST(contact_margins, margins_of_each_kind) {
     uint64_t seed = 182;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
         wh_contact_work w;
@@ -151,7 +151,7 @@ static bool law_is_number(const wh_contact_work *w, unsigned k) {
 
 /* If several contacts have NaN, signals are checked first, then laws (if a contact acts), then margins. The first NaN
  * that is found is reported, and an earlier report stays. */
-TEST(contact_margins, the_first_that_is_no_number_is_told) {
+TEST(contact_margins, first_nan_is_reported) {
     uint64_t seed = 183;
     unsigned told[BENCH_FORCED] = {0};
     for (unsigned round = 0; round < 4U * ROUNDS; round++) {
@@ -213,7 +213,7 @@ static double cubic(double s, double from, double slope0, double to, double slop
     return point[0];
 }
 
-TEST(contact_margins, the_way_is_a_cubic_through_both_ends) {
+TEST(contact_margins, path_is_a_cubic) {
     uint64_t seed = 185;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;

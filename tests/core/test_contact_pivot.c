@@ -28,7 +28,7 @@ static wh_real draw_rough(uint64_t *seed) {
 }
 
 /* The wanted force of a single contact is random, or differs from its limit by 0 to 1000 times the round-off. */
-TEST(contact_pivot, one_contact_takes_what_it_can) {
+TEST(contact_pivot, force_of_one_contact_is_limited) {
     uint64_t seed = 121;
     unsigned gave = 0;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -70,7 +70,7 @@ TEST(contact_pivot, one_contact_takes_what_it_can) {
 
 /* Some contacts are beyond a limit, others at a limit that they should leave. The one with the lowest number is chosen,
  * whatever its index. */
-TEST(contact_pivot, the_least_number_that_is_wrong_is_told) {
+TEST(contact_pivot, lowest_numbered_violation_is_chosen) {
     uint64_t seed = 123;
     unsigned none = 0;
     for (unsigned round = 0; round < 2U * ROUNDS; round++) {
@@ -175,7 +175,7 @@ static bool solves(unsigned number, const uint8_t *member, unsigned count, const
 
 /* The accelerations equal those of every combination that solves the problem. So do the forces, if no rows are
  * dependent. */
-TEST(contact_pivot, no_case_solves_it_otherwise) {
+TEST(contact_pivot, solution_equals_every_valid_combination) {
     uint64_t seed = 124;
     unsigned solved = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -221,7 +221,7 @@ TEST(contact_pivot, no_case_solves_it_otherwise) {
 
 /* A problem that would cycle, because no residual counts as small here. The pivoting ends after 4 n + 1 rounds,
  * including the last round's release. */
-TEST(contact_pivot, what_does_not_end_is_ended) {
+TEST(contact_pivot, cycling_ends_after_limited_rounds) {
     uint64_t seed = 125;
     for (unsigned count = 2; count <= BENCH_COORDS; count++) {
         wh_contact_work w;

@@ -22,7 +22,7 @@ static void draw(uint64_t *seed, bool some, wh_contact_work *w) {
     }
 }
 
-TEST(contact_places, a_coordinate_moves_and_no_other) {
+TEST(contact_places, only_one_coordinate_moves) {
     uint64_t seed = 141;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_work w;
@@ -65,7 +65,7 @@ TEST(contact_places, no_bit_of_a_product_is_lost) {
 }
 
 /* wh_contact_moved() returns J times the motion of positions and angles, at any distance from zero. */
-TEST(contact_places, a_straight_way_is_summed_without_rounding) {
+TEST(contact_places, straight_motion_has_no_round_off) {
     uint64_t seed = 143;
     const uint64_t most = WH_DOUBLE ? 0x3fffffff : 0x7ffff;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -133,7 +133,7 @@ static wh_real drift_of(const wh_contact_work *w, unsigned k, const wh_contact_s
     return c->direction > 0 ? moved : bench_now.first[k] - w->held[c->first_set];
 }
 
-TEST(contact_places, who_is_off_who_slips_and_who_breaks_loose) {
+TEST(contact_places, contacts_off_slipping_or_breaking_loose) {
     uint64_t seed = 144;
     unsigned seen[3] = {0};
     for (unsigned round = 0; round < ROUNDS; round++) {

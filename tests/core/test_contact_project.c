@@ -75,7 +75,7 @@ static void go_back(const uint8_t *member, unsigned count, const wh_real *off, w
 /* Pinned contacts move their coordinate directly. Then the pinned coordinates stay, and the other contacts are
  * projected together by the smallest move in the mass metric. A second projection is requested if the error exceeds its
  * share of the motion. */
-TEST(contact_project, places_are_put_right_by_the_least_way) {
+TEST(contact_project, projection_is_the_shortest) {
     uint64_t seed = 161;
     unsigned coarse = 0;
     unsigned moves = 0;
@@ -155,7 +155,7 @@ TEST(contact_project, places_are_put_right_by_the_least_way) {
 }
 
 /* The first contact whose error is NaN is reported, and the others are corrected without it. */
-TEST(contact_project, a_place_that_is_no_number_is_told) {
+TEST(contact_project, first_nan_error_is_reported) {
     uint64_t seed = 162;
     unsigned told = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -211,7 +211,7 @@ TEST(contact_project, a_place_that_is_no_number_is_told) {
 
 /* A stop and a friction act on two coupled bodies. One body is slightly or far beyond the stop. If it is far beyond,
  * the friction does not hold its body. A corrected position is tested again, at most twice. */
-TEST(contact_project, what_slipped_is_put_back) {
+TEST(contact_project, slipped_bodies_are_projected) {
     uint64_t seed = 164;
     unsigned far = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -288,7 +288,7 @@ TEST(contact_project, what_slipped_is_put_back) {
 
 /* A body is projected onto a stop with a curved surface. If the distance was large, it is projected a second time, but
  * never a third time. */
-TEST(contact_project, what_is_bent_is_put_back_twice) {
+TEST(contact_project, curved_stops_are_projected_twice) {
     uint64_t seed = 165;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w;

@@ -193,7 +193,7 @@ static bool run(wh_real *end, uint64_t *overruns) {
     return good;
 }
 
-TEST(contact_random, what_must_hold_does) {
+TEST(contact_random, random_runs_satisfy_the_contact_laws) {
     uint64_t seed = 2;
     unsigned wrong = 0;
     uint64_t events = 0;
@@ -209,7 +209,7 @@ TEST(contact_random, what_must_hold_does) {
     TEST_ASSERT_TRUE_MESSAGE(events >= MECHANISMS / 2, "too little happens");
 }
 
-TEST(contact_random, the_other_way_round_is_the_same) {
+TEST(contact_random, mirrored_runs_are_equal) {
     uint64_t seed = 3;
     unsigned wrong = 0;
     for (unsigned i = 0; i < MECHANISMS; i++) {
@@ -249,7 +249,7 @@ static uint64_t trace(uint64_t *hashes) {
     return hand_state.contacts->events;
 }
 
-TEST(contact_random, a_calm_steps_short_way_ends_where_the_long_one_does) {
+TEST(contact_random, eventless_shortcut_changes_no_bit) {
     uint64_t seed = 5;
     unsigned wrong = 0;
     uint64_t events = 0;

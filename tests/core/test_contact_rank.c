@@ -67,7 +67,7 @@ static bool repeats(const wh_contact_work *w, unsigned k) {
 
 /* The remainder of a row is orthogonal to the other remainders. Its length is the row's distance from the span of the
  * others. */
-TEST(contact_rank, rows_are_made_independent) {
+TEST(contact_rank, remainders_of_rows_are_orthogonal) {
     uint64_t seed = 31;
     for (unsigned round = 0; round < ROUNDS; round++) {
         wh_contact_work w = {.capped = false};
@@ -102,7 +102,7 @@ TEST(contact_rank, rows_are_made_independent) {
 
 /* The rows of the holds change from one state to the next. Without a change, or with a small one, no hold loses rank.
  * The first hold whose row becomes dependent or reverses is reported. A redundant hold is never reported. */
-TEST(contact_rank, the_first_that_is_lost_is_told) {
+TEST(contact_rank, first_dependent_hold_is_reported) {
     uint64_t seed = 37;
     unsigned lost = 0;
     for (unsigned round = 0; round < ROUNDS; round++) {

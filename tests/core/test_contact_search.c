@@ -194,7 +194,7 @@ TEST(contact_search, sliding_ends_where_the_rate_does) {
 
 /* A contact slides from rest, and a force reverses it. Its rate is zero at the begin, which is no event, and zero again
  * at the end, which is one. */
-TEST(contact_search, who_slides_from_rest_comes_back_to_it) {
+TEST(contact_search, slide_starts_and_ends_at_rest) {
     uint64_t seed = 204;
     tally sum = {0, 0, 0, 0};
     for (unsigned round = 0; round < ROUNDS; round++) {

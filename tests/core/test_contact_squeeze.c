@@ -69,7 +69,7 @@ static bool near(double value, double wanted) {
     return off <= CLOSE && -off <= CLOSE;
 }
 
-TEST(contact_squeeze, the_least_that_lets_nobody_pass) {
+TEST(contact_squeeze, projection_is_the_least_that_suffices) {
     EXACT_NEEDS_DOUBLE();
     uint64_t seed = 21;
     unsigned wrong = 0;
@@ -106,7 +106,7 @@ TEST(contact_squeeze, the_least_that_lets_nobody_pass) {
 
 /* A body is beyond two stops. The projection onto the first moves it away from the second. The second stop is hit
  * nevertheless, because the body slides along the first. */
-TEST(contact_squeeze, who_is_met_without_a_push_is_hit) {
+TEST(contact_squeeze, second_stop_is_hit_while_sliding) {
     for (int slope = -3; slope <= 3; slope++) {
         for (int beyond = 1; beyond <= 3; beyond++) {
             wh_contact_work w;

@@ -5,7 +5,7 @@
 
 #include "tests/suites.h"
 
-TEST(ledger, books_do_not_touch_the_run) {
+TEST(ledger, ledger_changes_no_bit) {
     uint64_t hash[2];
     for (unsigned k = 0; k < 2; k++) {
         hand_build_ball(WH_R(0.5));
@@ -54,7 +54,7 @@ static wh_status spring_advance(const wh_scene *scene, wh_state *state) {
 
 /* The spring becomes stiffer, then softer. Each change adds the energy (k2 - k1) x^2/2, which the next step enters;
  * until then the residual stays 0. */
-TEST(ledger, books_of_a_spring_that_is_changed) {
+TEST(ledger, changed_spring_enters_its_energy) {
     static uint64_t memory[WH_STATE_WORDS(0, 2, 1) + WH_LEDGER_WORDS(2, 3)];
     static const wh_real start[2] = {WH_R(0.5), WH_R(1.0)};
     static const wh_real rates[4] = {WH_R(4.0), WH_R(25.0), WH_R(1.0), WH_R(9.0)}; /* N/m */
@@ -141,7 +141,7 @@ static wh_status shaft_advance(const wh_scene *scene, wh_state *state) {
 
 /* Entry 1 is the integral of the angle, 1/12 t^3 + r t^2/2 + th t. It must use the shaft's unwrapped angle, not its
  * phase. Each input has its own entry. */
-TEST(ledger, books_name_angles_with_their_turns) {
+TEST(ledger, entries_use_unwrapped_angles) {
     static uint64_t memory[WH_STATE_WORDS(1, 1, 2) + WH_LEDGER_WORDS(4, 6)];
     static const wh_real start_real[1] = {WH_R(3.0)};
     static const wh_real start_input[2] = {WH_R(0.0), WH_R(0.0)};

@@ -190,7 +190,7 @@ TEST(lockin, angle_of_the_pulse_counts) {
     check_all(&made, 6);
 }
 
-TEST(lockin, other_orders_are_rejected) {
+TEST(lockin, harmonics_do_not_affect_the_result) {
     settings();
     for (unsigned order = 0; order <= 5; order++) {
         if (order == 1) {
@@ -212,7 +212,7 @@ TEST(lockin, other_orders_are_rejected) {
 
 /* After a lost pulse of sensor 1, the two turns between the neighbouring pulses are skipped. After a lost pulse of
  * sensor 2, only the load at sensor 2 is wrong. */
-TEST(lockin, lost_pulses_spoil_no_other_turn) {
+TEST(lockin, lost_pulses_affect_neighbouring_turns_only) {
     settings();
     for (unsigned sensor = 0; sensor < 2; sensor++) {
         made_up made = plain;
@@ -269,7 +269,7 @@ TEST(lockin, missing_samples) {
 
 /* Outliers are counted but not used. A turn has 91 samples. Eight successive outliers leave a gap; nine, a tenth of
  * the samples, are too many. */
-TEST(lockin, outliers_are_left_out) {
+TEST(lockin, outliers_are_not_used) {
     static const unsigned counts[] = {1, 8, 9, 14};
     settings();
     for (unsigned k = 0; k < sizeof counts / sizeof counts[0]; k++) {
@@ -296,7 +296,7 @@ TEST(lockin, outliers_are_left_out) {
 
 /* From turn 5 on, the load has a bump in each turn. The first of these turns does not count, because the bump's
  * samples are outliers and leave a gap. The next turn is the first one of a new prediction. */
-TEST(lockin, what_stays_is_expected) {
+TEST(lockin, lasting_bumps_are_predicted) {
     settings();
     made_up made = plain;
     made.bumpy_turn = 5;

@@ -121,7 +121,7 @@ static void begin(uint64_t from) {
 }
 
 /* Samples come late, one by one, in groups, or after the turn. Each turn has the same bits. */
-TEST(lockin_late, late_samples_change_nothing) {
+TEST(lockin_late, late_samples_give_equal_bits) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
     begin(1);
@@ -145,7 +145,7 @@ TEST(lockin_late, late_samples_change_nothing) {
 
 /* After a reset at any point the results are those from the start. Only the first turn differs: its duration has no
  * previous one for comparison. */
-TEST(lockin_late, what_was_forgotten_changes_nothing) {
+TEST(lockin_late, results_after_a_reset_are_equal) {
     static wh_lockin_turn wanted[TURNS];
     static wh_lockin_turn found[TURNS];
     begin(2);

@@ -155,9 +155,9 @@ static void the_last_byte(const wh_scene *scene, size_t need) {
     must_refuse(scene, NULL, need, WH_E_MEMORY);
 }
 
-TEST(memory, one_byte_less_than_the_macro_says_is_refused) { every_shape(the_last_byte); }
+TEST(memory, one_byte_too_few_is_refused) { every_shape(the_last_byte); }
 
-TEST(memory, memory_is_taken_where_it_is_aligned_and_nowhere_else) { every_shape(every_place); }
+TEST(memory, misaligned_memory_is_refused) { every_shape(every_place); }
 
 static void the_words(const wh_scene *scene, size_t need) {
     const size_t books = scene->ledger == NULL
@@ -170,7 +170,7 @@ static void the_words(const wh_scene *scene, size_t need) {
 
 TEST(memory, the_words_counted_by_hand_are_enough) { every_shape(the_words); }
 
-TEST(memory, nothing_and_too_much_are_refused) {
+TEST(memory, null_and_too_many_are_refused) {
     const wh_scene scene = shape(1, 2, 1, WH_CONTACTS_LIMIT);
     wh_scene many = scene;
     many.contacts = WH_CONTACTS_LIMIT + 1;

@@ -213,7 +213,7 @@ static void spoil(const void *model, const wh_phase *phase, const wh_real *real,
     wh_copy(spoilt, 6, given);
 }
 
-TEST(multi_step, what_a_matrix_spoils_is_refused) {
+TEST(multi_step, diverging_steps_are_refused) {
     const wh_real bad[] = {WH_R(2e15), WH_R(-1e30), (wh_real)__builtin_nan(""),
                            (wh_real)__builtin_inf()};
     for (unsigned k = 0; k < 4 * 3 * 3; k++) {

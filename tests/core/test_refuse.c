@@ -62,7 +62,7 @@ static wh_status by_registers(const wh_real *v, unsigned n, unsigned first, wh_s
                            n > 6 ? v[6] : last, last);
 }
 
-TEST(refuse, the_first_absurd_one_is_blamed) {
+TEST(refuse, first_invalid_value_is_named) {
     uint64_t seed = 26;
     unsigned refused = 0;
     for (unsigned i = 0; i < (WH_TEST_SMALL ? 2000U : 200000U); i++) {
@@ -89,7 +89,7 @@ TEST(refuse, the_first_absurd_one_is_blamed) {
     TEST_ASSERT_TRUE(refused > 500);
 }
 
-TEST(refuse, nothing_is_believable) {
+TEST(refuse, empty_arrays_are_accepted) {
     TEST_ASSERT_TRUE(wh_all_believable(NULL, 0));
     TEST_ASSERT_TRUE(wh_matrix_believable(NULL, 0));
 }

@@ -20,7 +20,7 @@ static void spin(wh_speed *speed, uint32_t *ticks, unsigned turns) {
 }
 
 /* After a whole turn without pulses the interval would show a fifth of the speed. It must not count as a speed. */
-TEST(rig, a_gap_keeps_the_speed_and_counts) {
+TEST(rig, gap_does_not_change_the_speed) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
     uint32_t ticks = 0;

@@ -65,7 +65,7 @@ static int halves_since(const wh_lockin *before) {
 /* The controller is up to three steps late and then gets all samples of that time. A step without a sample adds four
  * half nodes to the turn's sums. A step with one sample adds three, or two while a pulse is unconfirmed and gravity is
  * compensated. A step with more samples, or with two observer steps, adds one. A step with a pulse may add none. */
-TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
+TEST(rig_bounds, work_of_a_step_is_limited) {
     static wh_lockin before;
     unsigned times[5] = {0};
     for (unsigned compensated = 0; compensated < 2U; compensated++) {
@@ -116,7 +116,7 @@ TEST(rig_bounds, a_step_works_on_as_much_of_a_turn_as_there_is_time_for) {
 
 /* The set-point needs gravity compensation, but the observer never becomes valid. The rig trips when the ramp's longest
  * time is over. */
-TEST(rig_bounds, a_ramp_takes_no_longer_than_it_may) {
+TEST(rig_bounds, ramp_timeout_trips) {
     for (unsigned i = 0; i < 3U; i++) {
         arm(false);
         even.config.run.ramp_max_s = WH_R(6.0) + WH_R(2.0) * (wh_real)i;
@@ -132,7 +132,7 @@ TEST(rig_bounds, a_ramp_takes_no_longer_than_it_may) {
 }
 
 /* The rotor hangs at sensor 1 and gives pulses by jitter during the tare. These pulses begin no turn. */
-TEST(rig_bounds, what_was_seen_at_rest_begins_no_turn) {
+TEST(rig_bounds, pulses_at_rest_begin_no_turn) {
     seed = 4;
     for (unsigned i = 0; i < 60U; i++) {
         even_begin(&even, WH_RIG_NOMINAL_RPM, &(even_failure){.in = EVEN_NEVER});

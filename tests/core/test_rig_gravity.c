@@ -25,7 +25,7 @@ static wh_real sine_of(wh_real rad) { return wh_wave_of(rad).sine; }
 
 /* The voltage is the torque of gravity, S g sin(theta - gamma), divided by the stall torque. theta is the angle after
  * the lead. The voltage is limited, and fades in linearly. */
-TEST(rig_gravity, it_says_gravitys_voltage) {
+TEST(rig_gravity, voltage_follows_the_torque_of_gravity) {
     static const wh_real gravity_rad[] = {WH_R(0.0), WH_R(1.2), WH_R(-2.8)};
     for (unsigned i = 0; i < 6; i++) {
         compensated_rotor_standard(&compensated, 1);
@@ -52,7 +52,7 @@ TEST(rig_gravity, it_says_gravitys_voltage) {
 }
 
 /* If the observer is invalid, the voltage is zero at once; afterwards it fades in again. It is never NaN. */
-TEST(rig_gravity, it_says_nothing_without_an_angle) {
+TEST(rig_gravity, voltage_is_zero_without_an_angle) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     compensated_rotor_standard(&compensated, 1);
     TEST_ASSERT_TRUE(compensated_rotor_start(&compensated, WH_R(330.0)) == WH_OK);
@@ -138,7 +138,7 @@ TEST(rig_gravity, the_lead_is_right) {
     }
 }
 
-TEST(rig_gravity, another_weight_leaves_its_part) {
+TEST(rig_gravity, wrong_weight_gives_a_remaining_ripple) {
     for (unsigned i = 0; i < 4; i++) {
         begin(FED_BY_OBSERVER);
         compensated.kind.weight_Nm *= i % 2U == 0 ? WH_R(1.3) : WH_R(0.7);
@@ -184,7 +184,7 @@ TEST(rig_gravity, the_wrong_sign_is_survived) {
 
 /* If pulses are missing, the voltage is zero at once and the ripple returns. When the pulses come again, the ripple
  * disappears again. */
-TEST(rig_gravity, lost_pulses_take_it_away) {
+TEST(rig_gravity, lost_pulses_end_the_compensation) {
     begin(FED_BY_OBSERVER);
     run_at(WH_R(330.0));
     compensated.lose_pulses = 4;
@@ -200,7 +200,7 @@ TEST(rig_gravity, lost_pulses_take_it_away) {
 
 /* If the inertia is given, the remaining part of gravity, of either sign, follows from the quadrature ratio alone. When
  * the compensation ends, the estimate restarts. */
-TEST(rig_gravity, what_is_left_is_found_from_the_split) {
+TEST(rig_gravity, remaining_gravity_from_the_quadrature_ratio) {
     static const wh_real parts[] = {WH_R(0.0), WH_R(0.3), WH_R(-0.3), WH_R(0.05)};
     static const wh_real rpm[] = {WH_R(130.0), WH_R(170.0), WH_R(330.0)};
     wh_rotor_config rotor = wh_rig_standard.measure.rotor;
@@ -245,7 +245,7 @@ TEST(rig_gravity, what_is_left_is_found_from_the_split) {
 
 /* The turn in which the compensation changes does not count. If the motor cannot brake, the drive's own voltage limits
  * the compensation; `cut` is the missing part. */
-TEST(rig_gravity, the_lockin_is_told) {
+TEST(rig_gravity, lock_in_skips_a_changed_turn) {
     static wh_lockin lockin;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     wh_lockin_forget(rotor, &lockin);

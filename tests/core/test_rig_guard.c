@@ -64,7 +64,7 @@ TEST(rig_guard, over_speed_trips) {
 
 /* Over-speed trips for a turn that is too fast, unless a later pulse may still contradict it, or after two short
  * intervals in succession. */
-TEST(rig_guard, over_speed_trips_when_it_is_sure) {
+TEST(rig_guard, over_speed_trips_when_confirmed) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     for (unsigned i = 0; i < 96U; i++) {
         const bool known = i % 2U == 1U;
@@ -90,7 +90,7 @@ TEST(rig_guard, over_speed_trips_when_it_is_sure) {
 
 /* Over-speed trips if the speed rises at two successive pulses, and one interval is beyond the bound. One of these
  * alone does not trip. */
-TEST(rig_guard, what_climbs_and_is_fast_trips) {
+TEST(rig_guard, rising_over_speed_trips) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const wh_real turn = WH_R(345.0) * RPM;
     for (unsigned fast = 0; fast < 2U; fast++) {
@@ -124,7 +124,7 @@ TEST(rig_guard, what_climbs_and_is_fast_trips) {
 
 /* A rotor without drive passes the top at 1.03 times the set-point. At the bottom it has the speed that follows from
  * its energy. */
-TEST(rig_guard, the_bound_is_what_gravity_makes_of_a_speed) {
+TEST(rig_guard, speed_bound_includes_gravity) {
     const wh_guard_config *config = &wh_rig_standard.guard;
     const double falls2 =
         4.0 * (double)(WH_RIG_UNBALANCE_KGM * WH_RIG_GRAVITY_MPS2) / (double)WH_RIG_INERTIA_KGM2;

@@ -50,7 +50,7 @@ static double limited(double value, double most) {
     return value < 0.0 ? 0.0 : value > most ? most : value;
 }
 
-TEST(rig_law, the_drive_keeps_its_law) {
+TEST(rig_law, drive_follows_its_control_law) {
     scattered_state = UINT64_C(0x5eed0011);
     const wh_drive_config *law = &wh_rig_standard.run.drive;
     unsigned held = 0;

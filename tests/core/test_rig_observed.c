@@ -26,7 +26,7 @@ static void arm(void) {
 
 /* While the loop is closed, the observer gets each accepted pulse once, with its time, within two steps. It gets no
  * other pulse. */
-TEST(rig_observed, each_pulse_is_told_once) {
+TEST(rig_observed, observer_gets_each_pulse_once) {
     for (unsigned k = 0; k < 3U; k++) {
         static const wh_real targets_rpm[] = {WH_R(330.0), WH_R(200.0), WH_R(270.0)};
         arm();
@@ -51,7 +51,7 @@ TEST(rig_observed, each_pulse_is_told_once) {
     }
 }
 
-TEST(rig_observed, each_run_begins_with_an_observer_that_knows_nothing) {
+TEST(rig_observed, runs_begin_with_a_reset_observer) {
     seed = 1;
     for (unsigned i = 0; i < 8U; i++) {
         arm();
@@ -67,7 +67,7 @@ TEST(rig_observed, each_run_begins_with_an_observer_that_knows_nothing) {
     }
 }
 
-TEST(rig_observed, a_result_says_the_voltage) {
+TEST(rig_observed, result_has_the_voltage) {
     for (unsigned i = 0; i < 4U; i++) {
         even_arm(&even);
         const wh_real target_rpm = WH_R(200.0) + WH_R(45.0) * (wh_real)i;
@@ -105,7 +105,7 @@ TEST(rig_observed, a_step_with_a_pulse_works_on_no_turn) {
     TEST_ASSERT_TRUE(pulses > 40U && works > 400U);
 }
 
-TEST(rig_observed, unfed_nothing_is_observed) {
+TEST(rig_observed, observer_is_idle_without_compensation) {
     arm();
     even.config.feeds = WH_COMPENSATION_NEVER;
     even_obeys(&even, WH_EVENT_START, WH_R(330.0) * EVEN_RPM);
@@ -118,7 +118,7 @@ TEST(rig_observed, unfed_nothing_is_observed) {
 
 /* When a new set-point ends or begins gravity compensation, the measurement's model of the angle changes in the same
  * step. */
-TEST(rig_observed, the_reference_knows_who_is_fed) {
+TEST(rig_observed, angle_model_follows_the_compensation) {
     arm();
     even.config.feeds = WH_COMPENSATION_SLOW;
     even_obeys(&even, WH_EVENT_START, WH_R(120.0) * EVEN_RPM);
@@ -142,7 +142,7 @@ TEST(rig_observed, the_reference_knows_who_is_fed) {
 }
 
 /* Pulses of nonexistent sensors, in any phase, are counted only. */
-TEST(rig_observed, a_sensor_that_is_none) {
+TEST(rig_observed, nonexistent_sensors_are_only_counted) {
     static even_rig twin;
     seed = 77;
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
@@ -168,7 +168,7 @@ TEST(rig_observed, a_sensor_that_is_none) {
 }
 
 /* Confirmed pulses wait in order of time, up to the buffer's size. */
-TEST(rig_observed, pulses_come_in_their_order) {
+TEST(rig_observed, pulses_wait_in_order) {
     wh_pulses pulses;
     wh_index_pulse index;
     seed = 4;

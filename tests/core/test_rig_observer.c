@@ -48,7 +48,7 @@ TEST(rig_observer, the_rotor_is_the_scenes) {
 
 /* The error of the angle is below 0.02 degrees at any speed, with gravity's ripple (up to 18 %) or with compensation.
  * Speed and friction torque are accurate, too. */
-TEST(rig_observer, the_rotor_it_knows_is_followed) {
+TEST(rig_observer, known_rotor_is_followed) {
     static const wh_real rpm[] = {WH_R(170.0), WH_R(250.0), WH_R(330.0), WH_R(400.0)};
     for (unsigned i = 0; i < 8; i++) {
         compensated_rotor_standard(&compensated, 7);
@@ -83,7 +83,7 @@ TEST(rig_observer, jitter_is_not_amplified) {
     }
 }
 
-TEST(rig_observer, without_corrections_it_is_lost) {
+TEST(rig_observer, uncorrected_observer_deviates) {
     compensated_rotor_standard(&compensated, 7);
     compensated.kind.friction_Nm = WH_R(0.02);
     for (unsigned i = 0; i < 2; i++) {
@@ -142,7 +142,7 @@ TEST(rig_observer, drawn_rotors_are_followed) {
 
 /* The observer starts at the second pulse and is valid three pulses later. It stays valid if one pulse of either sensor
  * is lost. After more than a turn without pulses it is invalid, and two turns later valid again. */
-TEST(rig_observer, pulses_make_it_valid) {
+TEST(rig_observer, observer_becomes_valid) {
     begin(3, WH_R(330.0));
     unsigned pulses = 0;
     while (!compensated.observer.valid && pulses < 20U) {
@@ -189,7 +189,7 @@ TEST(rig_observer, a_false_pulse_is_noticed) {
 
 /* The second pulse starts the observer, with the mean speed since the first. Both may come at any time within a
  * step. */
-TEST(rig_observer, two_pulses_set_it_out) {
+TEST(rig_observer, observer_starts_at_second_pulse) {
     static const wh_real turned[2][2] = {{WH_R(1.0), WH_R(0.25)}, {WH_R(0.75), WH_R(1.0)}};
     for (unsigned i = 0; i < 8; i++) {
         const unsigned first = i % 2U;
@@ -267,7 +267,7 @@ TEST(rig_observer, uneven_steps_lose_no_time) {
 }
 
 /* A late call, a long silence, or a drive that is NaN restarts the observer, and it converges again. */
-TEST(rig_observer, it_begins_anew) {
+TEST(rig_observer, observer_restarts) {
     const wh_real nan = (wh_real)__builtin_nanf("");
     for (unsigned i = 0; i < 4; i++) {
         compensated_rotor_standard(&compensated, 5);
@@ -302,7 +302,7 @@ TEST(rig_observer, it_begins_anew) {
 
 /* The observer starts neither for a rotor that hangs at a sensor and gives pulses by jitter, nor for one that hardly
  * moves. */
-TEST(rig_observer, shivers_set_nothing_going) {
+TEST(rig_observer, jitter_does_not_start_the_observer) {
     static const uint32_t apart[] = {1, 500, 5000, 60000, 1000000, 1490000, 1600000};
     for (unsigned i = 0; i < 7; i++) {
         begin(5, WH_R(100.0));
@@ -318,7 +318,7 @@ TEST(rig_observer, shivers_set_nothing_going) {
     }
 }
 
-TEST(rig_observer, the_wrap_changes_nothing) {
+TEST(rig_observer, timer_wrap_changes_no_result) {
     wh_real speed[2];
     wh_phase phase[2];
     for (unsigned i = 0; i < 2; i++) {
@@ -334,7 +334,7 @@ TEST(rig_observer, the_wrap_changes_nothing) {
 }
 
 /* The observer refuses scenes of another kind. Without a scene it is never valid. */
-TEST(rig_observer, other_scenes_are_refused) {
+TEST(rig_observer, unsuitable_scenes_are_refused) {
     compensated_rotor_standard(&compensated, 1);
     wh_scene other = rig_fixed;
     wh_scene without = rig_fixed;

@@ -60,7 +60,7 @@ TEST(rig_parts, polar_of_every_size) {
 
 /* wh_turn_angle_by_ratio() returns the error that the angle at sensor 2's pulse had before the correction, whichever
  * parameter it corrects. */
-TEST(rig_parts, a_split_says_how_far_the_pulse_was_off) {
+TEST(rig_parts, angle_error_at_pulse_2) {
     seed = 3;
     for (unsigned i = 0; i < 300U; i++) {
         wh_rotor_config rotor = wh_rig_standard.measure.rotor;
@@ -154,7 +154,7 @@ TEST(rig_parts, a_deviation_is_the_inverses_diagonal) {
 
 /* With the motor off, a rotor is at most as fast as its mean over the last interval without drive. Such an interval
  * must have begun after the switch-off. */
-TEST(rig_parts, the_last_interval_bounds_what_coasts) {
+TEST(rig_parts, last_interval_bounds_coasting_speed) {
     seed = 5;
     for (unsigned i = 0; i < 600U; i++) {
         const wh_real speed = draw_between(&seed, WH_R(5.0), WH_R(40.0));
@@ -211,7 +211,7 @@ TEST(rig_parts, doubt_grows_by_two_and_shrinks_by_one) {
 }
 
 /* Before a speed is known, a pulse that comes too early is a suspect. Any other pulse is accepted. */
-TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
+TEST(rig_parts, early_second_pulse_is_suspected) {
     seed = 9;
     for (unsigned i = 0; i < 500U; i++) {
         const unsigned sensor = draw_one_of(&seed, 2);
@@ -234,7 +234,7 @@ TEST(rig_parts, the_second_pulse_is_suspected_where_it_is_fast) {
 
 /* The drift of a record is measured from the first turn that counts to the last one, whichever turns between them are
  * not used. */
-TEST(rig_parts, first_and_last_turn_of_those_that_count) {
+TEST(rig_parts, first_and_last_counted_turn) {
     const wh_result_config *config = &wh_rig_standard.measure.result;
     const wh_rotor_config *rotor = &wh_rig_standard.measure.rotor;
     wh_turn_angle angle;

@@ -181,7 +181,7 @@ static void check_pulses(const outcome *out, uint32_t off_ticks) {
     TEST_ASSERT_EQUAL_UINT32(0, rig.pulses.speed.lost);
 }
 
-TEST(rig_pulses, a_train_is_its_pulses) {
+TEST(rig_pulses, pulse_train_without_faults) {
     seed = 1;
     for (unsigned i = 0; i < SPEEDS; i++) {
         for (wh_rig_phase phase = WH_PHASE_RAMP; phase <= WH_PHASE_RECORD; phase++) {
@@ -264,14 +264,14 @@ static void check_places(wh_rig_phase phase) {
     }
 }
 
-TEST(rig_pulses, a_pulse_too_many_in_the_record) { check_places(WH_PHASE_RECORD); }
+TEST(rig_pulses, extra_pulse_in_the_record) { check_places(WH_PHASE_RECORD); }
 
-TEST(rig_pulses, a_pulse_too_many_while_it_settles) { check_places(WH_PHASE_SETTLE); }
+TEST(rig_pulses, extra_pulse_while_settling) { check_places(WH_PHASE_SETTLE); }
 
-TEST(rig_pulses, a_pulse_too_many_on_the_ramp) { check_places(WH_PHASE_RAMP); }
+TEST(rig_pulses, extra_pulse_on_the_ramp) { check_places(WH_PHASE_RAMP); }
 
 /* Two false pulses come, with a given number of true pulses between them. Both are rejected. */
-TEST(rig_pulses, two_pulses_too_many) {
+TEST(rig_pulses, two_extra_pulses) {
     seed = 7;
     for (unsigned i = 0; i < draw_cases(240); i++) {
         make_train(speeds_rpm[draw_one_of(&seed, SPEEDS)]);

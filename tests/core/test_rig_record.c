@@ -57,7 +57,7 @@ static bool is_trip(unsigned number) {
     return is;
 }
 
-TEST(rig_record, what_is_none) {
+TEST(rig_record, invalid_records_are_refused) {
     const wh_trip_record record = {.trip = WH_TRIP_OVERSPEED, .phase = WH_PHASE_RECORD};
     wh_trip_record read;
     wh_trip_record_put(&record, bytes);

@@ -142,7 +142,7 @@ TEST(rig_result, the_interval_is_students) {
 
 /* If only the calibration uncertainties are not zero, the intervals equal them. The defaults are 0.5 % and 0.5
  * degrees. */
-TEST(rig_result, floors_are_kept) {
+TEST(rig_result, intervals_include_calibration_uncertainties) {
     begin();
     for (unsigned i = 0; i < 10; i++) {
         const wh_lockin_turn turn = turn_of(WH_R(42.0), WH_R(0.0), i);
@@ -279,7 +279,7 @@ TEST(rig_result, reasons_from_the_turns) {
 }
 
 /* If gravity is compensated and the plane is not level, the remaining part of gravity is reported; otherwise 0. */
-TEST(rig_result, what_is_left_of_gravity) {
+TEST(rig_result, remaining_gravity_is_reported) {
     for (unsigned i = 0; i < 4U; i++) {
         begin();
         rotor.gravity_mps2 = i < 2U ? rotor.gravity_mps2 : WH_R(0.0);
@@ -319,7 +319,7 @@ TEST(rig_result, without_scatter_or_load_there_is_no_interval) {
 }
 
 /* If the carriage weighs three times the masses, the force is a quarter smaller. */
-TEST(rig_result, the_mount_decides_what_is_expected) {
+TEST(rig_result, expected_force_depends_on_the_mount) {
     begin();
     wh_result_config config = bench;
     config.mount_factor = WH_R(0.75);
@@ -374,7 +374,7 @@ TEST(rig_result, noise_and_hum_are_no_motion) {
 
 /* Motion is detected through noise and hum: a drift of 0.4 N, or a swing of 0.3 N plus twice the noise. The swing is that of
  * a rotor (from 1 Hz) or a frame (up to 8 Hz). */
-TEST(rig_result, motion_is_seen_through_noise_and_hum) {
+TEST(rig_result, motion_is_detected_in_noise) {
     scattered_state = UINT64_C(0x5eed0034);
     for (unsigned k = 0; k < 2000; k++) {
         const wh_real side = k % 4U < 2U ? WH_R(1.0) : WH_R(-1.0);

@@ -45,7 +45,7 @@ TEST(rig_run, a_faultless_run_finds_the_load) {
 
 /* From the middle of the record on, one or both sensors lose pulses: as many as the guard tolerates, but never two in
  * succession. If the begin or end of a turn is unknown, the turn is not used. */
-TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
+TEST(rig_run, turns_with_lost_pulses_are_skipped) {
     for (unsigned lost = 1; lost <= wh_rig_standard.guard.lost_max; lost++) {
         for (unsigned sensor = 0; sensor < WH_RIG_SENSORS; sensor++) {
             even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U};
@@ -65,7 +65,7 @@ TEST(rig_run, lost_pulses_in_the_record_cost_their_turns) {
 }
 
 /* After two lost pulses in succession the count of turns restarts, and the turns in the gap are not used. */
-TEST(rig_run, a_gap_in_the_record_costs_its_turns) {
+TEST(rig_run, turns_in_a_gap_are_skipped) {
     run(WH_R(330.0), (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .lose = {1, 1}});
     check_measured(8);
     TEST_ASSERT_EQUAL_UINT32(1, even.rig.result.force.left_out);
@@ -80,7 +80,7 @@ TEST(rig_run, a_gap_before_the_record_is_bridged) {
 }
 
 /* A false pulse anywhere in a turn of the record is rejected. */
-TEST(rig_run, a_pulse_too_many_spoils_no_result) {
+TEST(rig_run, extra_pulse_changes_no_result) {
     for (unsigned part = 0; part < 40U; part++) {
         even_failure failing = {.in = WH_PHASE_RECORD, .after_ticks = 700000U + part / 2U * 9000U};
         failing.adds[part % 2U] = true;
@@ -120,7 +120,7 @@ TEST(rig_run, a_dead_sensor_trips) {
 }
 
 /* The load of a jammed rotor is constant, too, but the trip must not blame the cell. */
-TEST(rig_run, a_jammed_rotor_trips_for_its_pulses) {
+TEST(rig_run, jammed_rotor_is_blamed_on_pulses) {
     for (wh_rig_phase in = WH_PHASE_SPIN_UP; in <= WH_PHASE_RECORD; in++) {
         run(WH_R(330.0), (even_failure){.in = in, .after_ticks = 200000U, .jams = true});
         check_trip(WH_TRIP_PULSES);
@@ -216,7 +216,7 @@ TEST(rig_run, samples_missing_in_the_record) {
 }
 
 /* The converter gives each sample a status. "Disconnected" stops the run; late samples do not count. */
-TEST(rig_run, the_converters_word_counts) {
+TEST(rig_run, converter_status_is_used) {
     for (wh_load_status status = WH_LOAD_SATURATED; status < WH_LOAD_STATUSES; status++) {
         run(WH_R(330.0),
             (even_failure){.in = WH_PHASE_RECORD, .after_ticks = 700000U, .status = status});
@@ -284,7 +284,7 @@ TEST(rig_run, a_moving_rig_gets_no_tare) {
 }
 
 /* The rig works but its numbers cannot be right: the run is completed, and the result is not good. */
-TEST(rig_run, what_cannot_be_is_not_called_good) {
+TEST(rig_run, impossible_results_are_not_good) {
     begin(WH_R(330.0), (even_failure){.in = EVEN_NEVER});
     even.config.measure.cell.newton_per_count =
         -even.config.measure.cell.newton_per_count; /* a cell mounted in reverse */

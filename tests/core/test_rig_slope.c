@@ -207,7 +207,7 @@ static wh_real arrow_off(void) {
 /* The rotor's slope is 0.2 to 1.6 times the configured one. The ripple found from the second order is that of the
  * integrated rotor, except for terms of third order, which the model of the angle omits. Good results are right. With
  * the right slope no result is doubtful. */
-TEST(rig_slope, the_load_tells_of_another_slope) {
+TEST(rig_slope, wrong_slope_is_detected) {
     unsigned good = 0;
     unsigned doubted = 0;
     unsigned would_lie = 0;
@@ -258,7 +258,7 @@ TEST(rig_slope, calibration_does_not_matter) {
 }
 
 /* If the arms turn in a level plane, there is no ripple to compare. */
-TEST(rig_slope, a_level_plane_says_nothing) {
+TEST(rig_slope, level_plane_has_no_check) {
     seed = 53;
     for (unsigned run = 0; run < 4U; run++) {
         plant p = draw_plant(drawn_between(WH_R(0.3), WH_R(1.5)));

@@ -143,7 +143,7 @@ static void check_refused(wh_refusal answer, wh_refusal why, wh_rig_state state)
     TEST_ASSERT_TRUE(even.command.way == WH_MOTOR_COASTS);
 }
 
-TEST(rig_states, what_arm_asks_for) {
+TEST(rig_states, conditions_of_arm) {
     stand_in(WH_RIG_IDLE);
     stood = even;
     even.inputs.stop_pressed = true;
@@ -187,7 +187,7 @@ TEST(rig_states, what_arm_asks_for) {
     TEST_ASSERT_TRUE(arm() == WH_ALLOWED && even.rig.state == WH_RIG_ARMED);
 }
 
-TEST(rig_states, what_start_and_set_ask_for) {
+TEST(rig_states, conditions_of_start_and_set) {
     const wh_real wrong_rpm[] = {WH_R(0.0), WH_R(-330.0), WH_R(1.0), WH_R(361.0), STRANGE};
     for (unsigned running = 0; running < 2; running++) {
         const wh_rig_event event = running == 0 ? WH_EVENT_START : WH_EVENT_SET;
@@ -409,7 +409,7 @@ TEST(rig_states_trips, a_reset_without_a_trip_is_idle) {
 }
 
 /* Unreliable pulses cannot show that the rotor rests. After such a trip, `clear` is allowed after tripped_max_s. */
-TEST(rig_states_trips, a_trip_for_its_pulses_waits_longer) {
+TEST(rig_states_trips, pulse_trip_waits_longer) {
     even_failure failing = {.in = WH_PHASE_SETTLE};
     failing.lose[0] = failing.lose[1] = EVEN_ALWAYS;
     even_begin(&even, WH_R(330.0), &failing);
@@ -494,7 +494,7 @@ TEST(rig_states_trips, stop_is_at_once) {
 }
 
 /* If so configured, a run whose host is lost goes on to its end. */
-TEST(rig_states_trips, a_run_may_outlive_its_host) {
+TEST(rig_states_trips, run_goes_on_without_host) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RAMP_DOWN; phase++) {
         even_reach(&even, phase);
         even.config.host_loss_stops = false;
@@ -535,7 +535,7 @@ TEST(rig_states_trips, a_reset_while_the_rotor_turns) {
 
 /* An armed rig tolerates two pulses, because a hanging rotor may give them by jitter. The third shows that a hand turns
  * the rotor. */
-TEST(rig_states_trips, armed_is_no_more_when_somebody_turns_the_rotor) {
+TEST(rig_states_trips, turning_the_rotor_ends_armed) {
     for (unsigned i = 0; i < 8U; i++) { /* pulses of either sensor */
         even_arm(&even);
         for (unsigned pulses = 1; pulses <= 3U; pulses++) {
@@ -583,7 +583,7 @@ static uint32_t result_end_ticks;
 static uint64_t seed;
 
 /* A new set-point in any phase before the result: the rig settles at it, and the record restarts. */
-TEST(rig_states_random, another_set_point_while_it_runs) {
+TEST(rig_states_random, new_set_point_during_a_run) {
     for (wh_rig_phase phase = WH_PHASE_TARE; phase <= WH_PHASE_RECORD; phase++) {
         even_reach(&even, phase);
         even_steps(&even, 100); /* a record of these steps is dropped later */
@@ -621,7 +621,7 @@ TEST(rig_states_random, the_run_before_does_not_count) {
 
 /* If the speed leaves the band during the record, the run trips without a result, even if an earlier run had a
  * result. */
-TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
+TEST(rig_states_random, tripped_record_gives_no_result) {
     for (unsigned before = 0; before < 2U; before++) {
         for (unsigned i = 0; i < 6U; i++) {
             even_start(&even);
@@ -642,7 +642,7 @@ TEST(rig_states_random, a_record_that_is_left_brings_no_result) {
     }
 }
 
-TEST(rig_states_random, rest_leaves_no_speed) {
+TEST(rig_states_random, speed_is_zero_at_rest) {
     even_run(&even, WH_R(330.0), &(even_failure){.in = EVEN_NEVER});
     even_rest(&even);
     CHECK_NEAR(0.0f, 0.0f, even.rig.run.off_radps);
@@ -769,7 +769,7 @@ static void check_result(const wh_rig *before) {
                                              (now - result_end_ticks) / WH_RIG_TICKS_PER_S);
 }
 
-TEST(rig_states_random, what_holds_whatever_is_ordered) {
+TEST(rig_states_random, invariants_hold_for_random_orders) {
     seed = 11;
     even_start(&even);
     even_rest(&even);
@@ -789,7 +789,7 @@ TEST(rig_states_random, what_holds_whatever_is_ordered) {
 }
 
 /* Long random sequences, so that some runs reach their result. */
-TEST(rig_states_random, what_holds_for_hours) {
+TEST(rig_states_random, invariants_hold_in_long_sequences) {
     seed = 12;
     even_start(&even);
     unsigned results = 0;

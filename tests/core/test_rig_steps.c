@@ -107,7 +107,7 @@ static void check_words(words_of *words, int count) {
     }
 }
 
-TEST(rig_steps, every_state_and_reason_has_words_of_its_own) {
+TEST(rig_steps, states_and_reasons_have_unique_words) {
     check_words(life_text, (int)WH_RIG_STATES);
     check_words(phase_text, (int)WH_PHASES);
     check_words(event_text, (int)WH_EVENTS);
@@ -129,7 +129,7 @@ TEST(rig_steps, a_pulse_of_no_sensor_is_only_rejected) {
     TEST_ASSERT_EQUAL_MEMORY(&before, &rig, sizeof rig);
 }
 
-TEST(rig_steps, the_tare_takes_its_samples) {
+TEST(rig_steps, tare_is_the_mean_of_samples) {
     begin();
     TEST_ASSERT_EQUAL_UINT(250, stay(WH_R(0.0), 1000)); /* half a second */
     TEST_ASSERT_TRUE(rig.run.phase == WH_PHASE_SPIN_UP);
@@ -156,7 +156,7 @@ TEST(rig_steps, the_tare_takes_its_samples) {
     }
 }
 
-TEST(rig_steps, the_loop_takes_over_at_its_speed) {
+TEST(rig_steps, loop_closes_at_its_speed) {
     stand_in(WH_PHASE_SPIN_UP);
     rig.pulses.speed.lost = 3;
     TEST_ASSERT_EQUAL_UINT(100, stay(WH_R(149.9), 100));
@@ -178,7 +178,7 @@ TEST(rig_steps, the_loop_takes_over_at_its_speed) {
 }
 
 /* The voltage starts at 9.6 V and rises by 2 V per second, up to the rated voltage and to the supply. */
-TEST(rig_steps, spin_up_asks_for_more_and_more) {
+TEST(rig_steps, spin_up_voltage_rises) {
     static const wh_real supplies_V[] = {WH_R(12.0), WH_R(24.0), WH_R(36.0)};
     for (unsigned i = 0; i < 3; i++) {
         stand_in(WH_PHASE_SPIN_UP);
@@ -193,7 +193,7 @@ TEST(rig_steps, spin_up_asks_for_more_and_more) {
 }
 
 /* The ramp has 60 rpm per second: three seconds from 150 to 330 rpm. */
-TEST(rig_steps, the_ramp_takes_its_time) {
+TEST(rig_steps, ramp_has_its_rate) {
     stand_in(WH_PHASE_RAMP);
     rig.run.drive.setpoint_radps = WH_R(150.0) * RPM;
     const unsigned steps = stay(WH_R(330.0), 10000);
@@ -220,7 +220,7 @@ TEST(rig_steps, the_speed_settles_within_its_band) {
     }
 }
 
-TEST(rig_steps, the_speed_stays_while_it_is_recorded) {
+TEST(rig_steps, speed_outside_the_band_trips) {
     static const wh_real rpm[] = {WH_R(331.99), WH_R(328.01), WH_R(332.01), WH_R(327.99)};
     for (unsigned i = 0; i < 4; i++) {
         stand_in(WH_PHASE_RECORD);
@@ -295,7 +295,7 @@ TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
 }
 
 /* In any phase a late controller or over-speed ends the run. With the motor off, over-speed has another trip. */
-TEST(rig_steps, what_trips_in_which_phase) {
+TEST(rig_steps, trips_in_each_phase) {
     for (wh_rig_phase phase = WH_PHASE_NONE; phase < WH_PHASES; phase++) {
         stand_in(phase);
         rig.rested = true; /* the rotor was at rest before the fault */
@@ -318,7 +318,7 @@ TEST(rig_steps, what_trips_in_which_phase) {
 }
 
 /* The run gets turns with a known load as results of the lock-in. The record ends after its time. */
-TEST(rig_steps, what_a_record_comes_to) {
+TEST(rig_steps, results_of_a_record) {
     stand_in(WH_PHASE_SETTLE);
     rig.measure.tare.mean_N = WH_R(0.4);
     rig.pulses.speed.lost = 5;

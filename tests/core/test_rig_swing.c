@@ -105,7 +105,7 @@ static wh_swung swing_out(const wh_rig_config *config, const drawn *rotor, bool 
     return swing.result;
 }
 
-TEST(rig_swing, places_are_found_of_rotors_that_nobody_knows) {
+TEST(rig_swing, sensor_positions_of_random_rotors) {
     const wh_rig_config config = standard();
     const unsigned runs = 24;
     unsigned covered = 0;
@@ -151,7 +151,7 @@ TEST(rig_swing, rough_pulses_have_wide_intervals) {
 
 /* If enough swings follow, a pass omits swings near the top. There the times depend steeply on the amplitude, so the
  * guess is uncertain. */
-TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
+TEST(rig_swing, swings_near_the_top_are_omitted) {
     const wh_rig_config config = standard();
     unsigned near_top = 0;
     seed = 6;
@@ -178,7 +178,7 @@ TEST(rig_swing, a_pass_begins_behind_swings_near_the_top) {
 }
 
 /* A lost or false pulse is not used, or makes the swing invalid. It never changes a found position. */
-TEST(rig_swing, pulses_that_are_none_move_no_sensor) {
+TEST(rig_swing, false_pulses_change_no_position) {
     const wh_rig_config config = standard();
     unsigned found = 0;
     seed = 2;
@@ -195,7 +195,7 @@ TEST(rig_swing, pulses_that_are_none_move_no_sensor) {
     TEST_ASSERT_TRUE(found > 0);
 }
 
-TEST(rig_swing, what_is_no_free_swing_is_refused_by_name) {
+TEST(rig_swing, unfree_swings_are_refused) {
     wh_rig_config config = standard();
     seed = 3;
     for (unsigned i = 0; i < 5U; i++) {
@@ -212,7 +212,7 @@ TEST(rig_swing, what_is_no_free_swing_is_refused_by_name) {
 }
 
 /* For random pulses no position is found, and the work ends. */
-TEST(rig_swing, pulses_of_no_rotor_find_nothing) {
+TEST(rig_swing, random_pulses_give_no_position) {
     const wh_rig_config config = standard();
     uint32_t works = 0;
     seed = 4;
@@ -262,7 +262,7 @@ TEST(rig_swing, a_run_that_ends_in_a_swing_coasts) {
 }
 
 /* A sensor that is not at its configured position makes a good result doubtful, and changes nothing else. */
-TEST(rig_swing, a_good_result_is_doubtful_where_sensor_1_stands_off) {
+TEST(rig_swing, displaced_sensor_makes_results_doubtful) {
     const wh_rig_config config = standard();
     for (int deg10 = -30; deg10 <= 30; deg10++) {
         swing.result = (wh_swung){.why = WH_SWING_FOUND, .half_rad = {WH_R(0.25) * DEG}};
@@ -296,7 +296,7 @@ static wh_free_rotor go(const wh_real *cause, unsigned steps, wh_real h) {
 
 /* The derivatives with respect to each parameter equal difference quotients, forwards and backwards, through several
  * reversals. */
-TEST(rig_swing, derivatives_are_what_differences_show) {
+TEST(rig_swing, derivatives_equal_difference_quotients) {
     const wh_real little[WH_FREE_CAUSES] = {WH_R(1e-3), WH_R(1e-2), WH_R(3e-2), WH_R(1e-2),
                                             WH_R(3e-3)};
     for (unsigned way = 0; way < 2U; way++) {

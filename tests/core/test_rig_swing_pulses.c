@@ -92,7 +92,7 @@ static void check_kept(const story *of) {
     }
 }
 
-TEST(rig_swing_pulses, what_is_kept_of_a_swing) {
+TEST(rig_swing_pulses, stored_pulses_of_a_swing) {
     static story told;
     seed = 1;
     for (unsigned i = 0; i < 300U; i++) {
@@ -104,7 +104,7 @@ TEST(rig_swing_pulses, what_is_kept_of_a_swing) {
 
 /* If a pulse is lost while the rotor still turns, this looks like the first return. Later turns correct it: the stored
  * swing is the same. */
-TEST(rig_swing_pulses, a_pulse_lost_while_it_turns_changes_nothing) {
+TEST(rig_swing_pulses, early_lost_pulse_changes_no_swing) {
     static story told;
     seed = 2;
     for (unsigned i = 0; i < 300U; i++) {
@@ -142,7 +142,7 @@ static wh_real swing_out(const rotor_kind *kind) {
 
 /* The guess has the rate at the first return, and gravity and friction divided by the inertia. Each error is within the
  * stated uncertainty; the first two errors are within some 10 %. */
-TEST(rig_swing_pulses, a_guess_is_as_near_as_it_says) {
+TEST(rig_swing_pulses, guess_is_within_its_uncertainty) {
     unsigned told = 0;
     unsigned near_it = 0;
     seed = 3;
@@ -191,7 +191,7 @@ static wh_real longer_by(wh_real k2) {
 
 /* The first swing has any amplitude almost up to the top, the others are small. The duration of the first swing alone
  * must give its amplitude. */
-TEST(rig_swing_pulses, the_first_swings_width_is_told_by_its_time) {
+TEST(rig_swing_pulses, first_amplitude_from_its_duration) {
     seed = 6;
     for (unsigned i = 0; i < 300U; i++) {
         const wh_real near_top = draw_between(&seed, WH_R(0.03), WH_R(0.2));

@@ -80,7 +80,7 @@ static void check_near(wh_real found, wh_real wanted, wh_real most) {
 
 /* Derivatives of base_rad with respect to the quadrature ratio and to the lag. The ratio determines the inertia or the
  * uncompensated part of gravity. Gravity is along an axis, or some degrees away from it. */
-TEST(rig_turn_angle, derivatives_are_what_differences_show) {
+TEST(rig_turn_angle, derivatives_equal_difference_quotients) {
     seed = 1;
     for (unsigned i = 0; i < 100U; i++) {
         turn of = {.rotor = wh_rig_standard.measure.rotor, .compensated = i % 2U == 1U};

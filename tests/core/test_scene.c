@@ -146,7 +146,7 @@ TEST(scene, a_method_that_the_form_does_not_have_is_refused) {
 }
 
 /* A number that is no method, for example from corrupted memory, is refused. */
-TEST(scene, what_is_no_method_is_refused) {
+TEST(scene, invalid_methods_are_refused) {
     for (unsigned i = 0; i < 3; i++) {
         wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
         scene.method = (wh_method)(i == 0 ? (unsigned)WH_METHODS : 77U + 99U * i);
@@ -157,7 +157,7 @@ TEST(scene, what_is_no_method_is_refused) {
     }
 }
 
-TEST(scene, start_takes_over_the_start_values_again) {
+TEST(scene, start_restores_the_start_values) {
     const wh_scene scene = shaft(WH_RK4);
     TEST_ASSERT_TRUE(start(&scene));
     const uint64_t fresh = wh_scene_hash(&scene, &state);
@@ -188,7 +188,7 @@ TEST(scene, inputs_act_from_the_next_step_on) {
     TEST_ASSERT_TRUE(state.real[2] == WH_R(0.5) + WH_R(0.001) * WH_R(2.0));
 }
 
-TEST(scene, angle_keeps_its_precision_over_many_turns) {
+TEST(scene, angle_is_precise_after_many_turns) {
     const wh_scene scene = shaft(WH_RK4);
     TEST_ASSERT_TRUE(start(&scene));
     TEST_ASSERT_TRUE(steps(&scene, 10000));
@@ -241,7 +241,7 @@ TEST(scene, hash_sees_every_part_of_the_state) {
     TEST_ASSERT_TRUE(wh_scene_hash(&scene, &state) == before);
 }
 
-TEST(scene, every_status_has_its_own_words) {
+TEST(scene, statuses_have_unique_words) {
 #define NAME(name, value, words) name,
     static const wh_status all[] = {WH_STATUS_ROWS(NAME)};
     for (unsigned i = 0; i < sizeof all / sizeof all[0]; i++) {

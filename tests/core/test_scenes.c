@@ -142,7 +142,7 @@ TEST(scenes, end_states) {
 }
 
 /* m = 2, r = 0.3, M = 2: the centre of mass X + r cos theta stays at 0.3 m, and T = M theta. */
-TEST(scenes, books_of_the_epicyclic_gear) {
+TEST(scenes, ledger_of_the_epicyclic_gear) {
     wh_real off_centre = WH_R(0.0);
     wh_real off_work = WH_R(0.0);
     start(&epicyclic_from_rest);

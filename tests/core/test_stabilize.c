@@ -76,7 +76,7 @@ TEST(stabilize, a_part_of_the_drift_is_given_back) {
 
 /* The correction has an entry in the ledger, and earlier corrections do not change the drift. Without compensated sums,
  * the entry is the change that the rates really had after rounding. */
-TEST(stabilize, it_is_entered) {
+TEST(stabilize, correction_is_in_the_ledger) {
     uint32_t seed = 20261129;
     for (unsigned i = 0; i < DRAWN; i++) {
         flight f;
@@ -138,7 +138,7 @@ TEST(stabilize, there_is_a_bound) {
 }
 
 /* Nothing changes before the first step, at rest, if the ledger is NaN, or if P has the wrong sign. */
-TEST(stabilize, where_nothing_is_to_be_given) {
+TEST(stabilize, cases_without_a_correction) {
     const wh_real none = WH_R(0.0) * (WH_ABSURD * WH_ABSURD * WH_ABSURD);
     const wh_real drift[] = {WH_R(0.1), WH_R(0.0), (none - none) / (none - none), WH_R(1e20),
                              WH_R(-1e20)};

@@ -151,7 +151,7 @@ static bool turns(manner how) {
 
 /* The errors of rotating and of looking up have the same leading term (stage_turn.h). The reference runs look up, with
  * a sixteenth of the step. */
-TEST(stage_turn, turning_has_the_order_of_the_row_and_about_its_error) {
+TEST(stage_turn, rotating_has_the_methods_order) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
         const unsigned order = wh_methods[how.method].order;
@@ -204,7 +204,7 @@ TEST(stage_turn, turns_follow_from_the_shares) {
 }
 
 /* If a method has a single stage, or a scene has no angles, rotating and looking up give the same bits. */
-TEST(stage_turn, what_does_not_turn_has_the_same_bits) {
+TEST(stage_turn, without_rotation_bits_are_equal) {
     for (unsigned k = 0; k < MANNERS; k++) {
         manner how = manner_of(k);
         wh_real turned[VALUES];
@@ -220,7 +220,7 @@ TEST(stage_turn, what_does_not_turn_has_the_same_bits) {
 }
 
 /* If the caller asks for the phases, it gets those of the last stage, and the run does not change. */
-TEST(stage_turn, phases_are_told) {
+TEST(stage_turn, phases_are_returned) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const manner how = {WH_SECOND_ORDER, (wh_method)m, false, true};
         if (!turns(how)) {
@@ -319,7 +319,7 @@ TEST(stage_turn, fast_angles_step_as_looking_up_does) {
 }
 
 /* A motion that a step with lookups refuses (half a turn or more, or NaN) is refused, and the state stays unchanged. */
-TEST(stage_turn, what_is_no_turn_is_refused) {
+TEST(stage_turn, excessive_turns_are_refused) {
     const wh_real nan = (wh_real)__builtin_nan("");
     const wh_real rates[] = {WH_R(3200.0), WH_R(-1e5), WH_R(1e9), WH_R(-1e14), WH_R(1e30), nan};
     for (unsigned k = 0; k < MANNERS * sizeof rates / sizeof rates[0]; k++) {

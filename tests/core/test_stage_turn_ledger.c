@@ -121,7 +121,7 @@ static wh_real allowed(wh_method method) {
                         : rounding;
 }
 
-TEST(stage_turn_ledger, books_beside_turned_sines) {
+TEST(stage_turn_ledger, ledger_with_rotated_sines) {
     for (unsigned m = 0; m < 2 * WH_METHODS; m++) {
         const wh_method method = (wh_method)(m / 2);
         const wh_scene scene = scene_of(method, m % 2 == 1);
@@ -147,7 +147,7 @@ TEST(stage_turn_ledger, books_beside_turned_sines) {
     }
 }
 
-TEST(stage_turn_ledger, a_refused_step_enters_nothing) {
+TEST(stage_turn_ledger, refused_step_has_no_entry) {
     for (unsigned m = 0; m < WH_METHODS; m++) {
         const wh_scene scene = scene_of((wh_method)m, false);
         wh_real before[4];

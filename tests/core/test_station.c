@@ -12,7 +12,7 @@ static void period(void) {
     wh_station_step(&station, &even.rig);
 }
 
-TEST(station, help_knows_every_command) {
+TEST(station, help_lists_every_command) {
     console_begin();
     char list[WH_STATION_OUT_BYTES];
     strcpy(list, ask("help"));
@@ -106,7 +106,7 @@ TEST(station, a_whole_run) {
     TEST_ASSERT_TRUE(even.command.way != WH_MOTOR_DRIVES);
 }
 
-TEST(station, a_trip_is_told_and_cleared) {
+TEST(station, trip_is_reported_and_cleared) {
     console_begin();
     ask("arm");
     ask("start 330");
@@ -148,7 +148,7 @@ TEST(station, escape_stops_at_once) {
     }
 }
 
-TEST(station, lines_wait_for_each_other) {
+TEST(station, lines_are_obeyed_in_order) {
     console_begin();
     type("arm\rstart 330\r\nstatus\nnonsense\n\nset 250\r");
     for (unsigned i = 0; i < 12; i++) {
@@ -169,7 +169,7 @@ TEST(station, lines_wait_for_each_other) {
     TEST_ASSERT_EQUAL_UINT(5, lines); /* an empty line needs no answer */
 }
 
-TEST(station, a_person_sees_what_is_typed) {
+TEST(station, typed_characters_are_echoed) {
     console_begin();
     check_begins("OK", ask("talk on"));
     heard_length = 0;
@@ -190,7 +190,7 @@ TEST(station, a_person_sees_what_is_typed) {
 
 /* Without a reader, whole answers are dropped and counted. So when a reader returns, the buffer has only complete
  * lines. */
-TEST(station, nobody_reads) {
+TEST(station, whole_answers_are_dropped) {
     console_begin();
     for (unsigned i = 0; i < 30; i++) {
         type("status\n");
@@ -214,7 +214,7 @@ TEST(station, nobody_reads) {
 }
 
 /* Lines arrive faster than they are processed. Each line is executed as typed, or refused because bytes were lost. */
-TEST(station, no_line_is_obeyed_that_lost_bytes) {
+TEST(station, incomplete_lines_are_not_obeyed) {
     seed = 12;
     console_begin();
     unsigned obeyed = 0;
@@ -239,7 +239,7 @@ TEST(station, no_line_is_obeyed_that_lost_bytes) {
 
 /* Random input, with or without a reader. The rig acts as if the same orders were posted, and each answer is that of
  * the rig. */
-TEST(station, orders_are_those_that_are_posted) {
+TEST(station, console_orders_equal_posted_orders) {
     static const struct {
         const char *line;
         wh_rig_event event;

@@ -202,7 +202,7 @@ TEST(station_conf, values_have_their_places) {
 static void own_standard(wh_rig_config *config) { *config = wh_rig_standard; }
 
 /* Values that follow from masses, inertia, gravity and mount. */
-TEST(station_conf, what_follows) {
+TEST(station_conf, derived_values) {
     wh_rig_config plain;
     own_standard(&plain);
     wh_conf_start(&conf, own_standard, NULL, &even.config);
@@ -224,7 +224,7 @@ TEST(station_conf, what_follows) {
 
 /* Settings that another program has saved: unknown numbers, values out of range, settings that contradict each
  * other. */
-TEST(station_conf, what_is_stored_of_others) {
+TEST(station_conf, settings_of_another_program) {
     static const struct {
         uint8_t payload[16];
         unsigned count;
@@ -260,7 +260,7 @@ TEST(station_conf, what_is_stored_of_others) {
     TEST_ASSERT_TRUE(wh_conf_save(&conf) == WH_STATION_CONF_FAILED);
 }
 
-TEST(station_conf, list_has_all_and_can_be_typed) {
+TEST(station_conf, list_is_complete_and_valid_input) {
     begin();
     unsigned from = 0;
     unsigned told = 0;

@@ -50,7 +50,7 @@ TEST(station_line, escape_forgets_and_keys_are_no_text) {
     }
 }
 
-TEST(station_line, what_is_no_line_is_refused_whole) {
+TEST(station_line, invalid_lines_are_refused) {
     char bytes[WH_LINE_MOST + 3U];
     for (unsigned length = WH_LINE_MOST - 1U; length <= WH_LINE_MOST + 1U; length++) {
         line = (wh_line){.length = 0};
@@ -134,7 +134,7 @@ TEST(station_line, numbers_drawn) {
     }
 }
 
-TEST(station_line, what_is_no_number) {
+TEST(station_line, invalid_numbers_are_refused) {
     static const char *const none[] = {"",    "-",          "+",   ".",    "-.",  "3-",
                                        "--3", "3..1",       "1e3", "0x10", "nan", "inf",
                                        "3,5", "1234567890", "33O", "3 "};

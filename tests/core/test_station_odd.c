@@ -72,7 +72,7 @@ TEST(station_odd, lost_while_the_queue_is_full) {
 }
 
 /* If telemetry is on as text, a trip is reported with its cause. `fault` prints only the record of the present trip. */
-TEST(station_odd, trips_are_told) {
+TEST(station_odd, trips_are_reported) {
 #define NAME(name, number, words) name,
     static const wh_trip trips[] = {WH_TRIP_ROWS(NAME)};
 #undef NAME

@@ -206,7 +206,7 @@ TEST(station_result, answers_belong_to_the_last_start) {
 }
 
 /* Each setting changes the hash. The hash depends only on the values: if these are restored, so is the hash. */
-TEST(station_result, any_other_setting_has_another_hash) {
+TEST(station_result, each_setting_changes_the_hash) {
     seed = 72;
     begin();
     const uint32_t plain = even.config.settings;
@@ -249,7 +249,7 @@ TEST(station_result, an_age_beyond_the_timer) {
 
 /* The console prints all reasons of a result, with the largest numbers of a rig. If numbers are even larger, the line
  * is cut but still has its end. */
-TEST(station_result, every_verdict_is_said) {
+TEST(station_result, every_reason_is_printed) {
     static const char other[] = "conf set settle_time 2";
     wh_measured *force = &even.rig.result.force;
     begin();

@@ -122,7 +122,7 @@ static void put_by_hand(unsigned slot, const payload *p, uint32_t sequence) {
     }
 }
 
-TEST(store, what_is_saved_is_loaded) {
+TEST(store, saved_settings_are_loaded) {
     seed = 3;
     start_flash();
     const payload none = {.count = -1};

@@ -46,7 +46,7 @@ TEST(telemetry, coding) {
     }
 }
 
-TEST(telemetry, off_at_first_and_after) {
+TEST(telemetry, telemetry_is_off_unless_enabled) {
     bench.seed = 41;
     tel_begin();
     for (unsigned i = 0; i < 600U; i++) {
@@ -75,7 +75,7 @@ TEST(telemetry, off_at_first_and_after) {
 
 /* Every sample and pulse is received: with any status of the converter, at each rate and delay, for converters of 12 to
  * 24 bits. */
-TEST(telemetry, all_that_was_seen) {
+TEST(telemetry, every_sample_and_pulse_arrives) {
     static const char *const rates[] = {"tel rate 500", "tel rate 250", "tel rate 100",
                                         "tel rate 20"};
     bench.seed = 42;
@@ -139,7 +139,7 @@ TEST(telemetry, losses_are_counted) {
 
 /* Each step has a begin and an end of a pulse, more than 115,200 baud can transmit. Ends are dropped, samples are
  * not. */
-TEST(telemetry, ends_give_way) {
+TEST(telemetry, pulse_ends_are_dropped_first) {
     bench.seed = 47;
     tel_begin();
     bench.got.blind = true;
@@ -222,7 +222,7 @@ TEST(telemetry, control_is_undisturbed) {
     TEST_ASSERT_EQUAL_UINT(0, bench.heard.bad);
 }
 
-TEST(telemetry, states_are_told) {
+TEST(telemetry, states_are_sent) {
     bench.seed = 46;
     tel_begin();
     tel_turn_on("tel rate 500");
@@ -339,7 +339,7 @@ static void check_read(unsigned end, bool by_pulse) {
                                   bench.tel.dropped[WH_TEL_RING]);
 }
 
-TEST(telemetry_ring, the_ring_has_what_was) {
+TEST(telemetry_ring, ring_has_the_recorded_values) {
     bench.seed = 47;
     for (unsigned round = 0; round < 20U; round++) {
         const bool by_pulse = round % 2U == 0;

@@ -139,7 +139,7 @@ TEST(text, fixed_sign) {
     TEST_ASSERT_TRUE(bare > 300 && signs > 300);
 }
 
-TEST(text, full_buffer_keeps_its_bounds) {
+TEST(text, full_buffer_truncates_text) {
     for (unsigned i = 0; i < sizeof buffer; i++) {
         buffer[i] = '#';
     }

@@ -160,7 +160,7 @@ TEST(algebra, equal_expressions_are_one_object) {
     }
 }
 
-TEST(algebra, what_differs_somewhere_stays_apart) {
+TEST(algebra, different_expressions_are_distinct) {
     static const pair different[] = {
         {"sqrt(x^2)", "x"},           {"sqrt(x^2)", "-x"},      {"abs(x)", "x"},
         {"(x^4)^0.25", "x"},          {"sqrt(x^4)", "-x^2"},    {"asin(sin(a))", "a"},
@@ -177,7 +177,7 @@ TEST(algebra, what_differs_somewhere_stays_apart) {
 
 /* The cube of a sum is not expanded. So equal expressions can have two forms, which poly_expanded() shows to be
  * equal. */
-TEST(algebra, kept_powers_are_equal_when_expanded) {
+TEST(algebra, unexpanded_powers_are_equal_when_expanded) {
     static const pair equal[] = {
         {"(x - y)^3", "x^3 - 3*x^2*y + 3*x*y^2 - y^3"},
         {"(x + y)^4", "((x + y)^2)^2"},
@@ -520,7 +520,7 @@ TEST(algebra_limits, powers_of_expressions_and_their_slopes) {
     TEST_ASSERT_GREATER_THAN_INT(200, slopes);
 }
 
-TEST(algebra_limits, a_number_that_is_none_is_seen_wherever_it_is) {
+TEST(algebra_limits, non_finite_numbers_are_found) {
     algebra *a = algebra_new();
     const double none[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     const poly *q = poly_symbol(a, &form_symbols[0], 0);
@@ -549,7 +549,7 @@ TEST(algebra_limits, a_number_that_is_none_is_seen_wherever_it_is) {
 
 static double grown(double number, double by) { return number + by; }
 
-TEST(algebra_limits, each_number_is_changed_and_those_that_vanish_go) {
+TEST(algebra_limits, numbers_change_and_zero_terms_vanish) {
     uint64_t seed = 11;
     for (int i = 0; i < 200; i++) {
         algebra *a = algebra_new();
@@ -637,7 +637,7 @@ TEST(algebra_limits, large_products_stay_products) {
 }
 
 /* An expression with more than 10^6 leaves is reported as an overflow. */
-TEST(algebra_limits, what_grows_without_end_overflows) {
+TEST(algebra_limits, very_large_expressions_overflow) {
     algebra *a = algebra_new();
     const poly *p = poly_symbol(a, &form_symbols[0], 0);
     double last = 0.0;
@@ -682,7 +682,7 @@ TEST(algebra_limits, work_is_counted_alike_on_every_host) {
 
 /* Each `let` of a chain uses the previous one twice and is evaluated once. Otherwise the 2^60 evaluations would
  * never end. */
-TEST(algebra_limits, lets_are_worked_out_once) {
+TEST(algebra_limits, lets_are_evaluated_once) {
     enum { LETS = 60 };
     char text[8192];
     size_t length = (size_t)snprintf(text, sizeof text,
@@ -705,7 +705,7 @@ TEST(algebra_limits, lets_are_worked_out_once) {
 }
 
 /* 0.1 + 0.2 - 0.3 counts as zero; a difference that is ten times larger does not. */
-TEST(algebra_limits, what_cancels_to_a_rounding_error_is_zero) {
+TEST(algebra_limits, cancellation_to_round_off_is_zero) {
     algebra *a = algebra_new();
     const poly *q = poly_symbol(a, &form_symbols[0], 0);
     const double sizes[] = {1e-30, 1.0, 3e20};
@@ -918,7 +918,7 @@ static int forms(void) {
     return wanted != NULL ? (int)strtol(wanted, NULL, 10) : 3000;
 }
 
-TEST(normal_form, every_expression_keeps_the_form) {
+TEST(normal_form, random_expressions_have_normal_form) {
     uint64_t seed = 20061122;
     printf("  %d expressions, seed %" PRIu64 "\n", forms(), seed);
     int seen[4] = {0};
@@ -1006,7 +1006,7 @@ static char *written(const poly *p) {
     return text;
 }
 
-TEST(normal_form, the_form_does_not_hang_on_what_was_made_before) {
+TEST(normal_form, form_is_independent_of_earlier_expressions) {
     for (uint64_t number = 1; number <= 300; number++) {
         algebra *fresh = algebra_new();
         algebra *used = algebra_new();

@@ -100,7 +100,7 @@ static bool told(const said *what) { return strstr(what->err, "[aliased]") != NU
 
 static bool trusted(const said *what) { return strstr(what->out, "to the end: every") != NULL; }
 
-TEST(aliasing, what_is_wrong_is_told) {
+TEST(aliasing, wrong_runs_are_warned_of) {
     static const named_cure none;
     dice d = dice_of("aliasing", 20261127);
     const unsigned cases = dice_cases(few_or_all(usual_or(36, 12), 600));
@@ -150,7 +150,7 @@ TEST(aliasing, what_is_wrong_is_told) {
     TEST_ASSERT_TRUE(wrong > cases / 5 && 3 * by_this >= wrong && right > cases / 10);
 }
 
-TEST(aliasing, sweeps_count_it) {
+TEST(aliasing, sweeps_count_aliased_points) {
     dice d = dice_of("aliasing, swept", 20261201);
     unsigned counted = 0;
     for (unsigned i = 0; i < 12 && counted < 3; i++) {

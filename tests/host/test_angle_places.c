@@ -63,7 +63,7 @@ static void check_place(const derived *d, size_t which, double times, const char
 }
 
 /* A coordinate is stored as a turn angle only if everything that acts on the motion uses integer multiples of it. */
-TEST(angle_places, all_that_acts_takes_part) {
+TEST(angle_places, turn_angles_need_integer_multiples) {
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         for (int i = 0; i < MULTIPLES; i++) {
             char text[512];
@@ -114,7 +114,7 @@ static uint64_t run_to(const char *more, const engine_kind *kind, double *output
     return hash;
 }
 
-TEST(angle_places, outputs_leave_all_else_alone) {
+TEST(angle_places, outputs_do_not_change_the_run) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     static const char *const outputs[] = {
         "output h = cos(th/2)\n", "output h = sin(1.5*th)\n",
@@ -211,7 +211,7 @@ static const char gauge[] =
     "mechanism m\ncoordinate th [rad]\n"
     "T = 0.5 [kg*m^2]*th'^2 + 0.7 [kg*m^2/s]*th'*cos(th/2)\nV = -2 [J]*cos(th)\n";
 
-TEST(angle_places, books_of_a_part) {
+TEST(angle_places, ledger_with_half_an_angle) {
     derived d = derived_text(gauge);
     derived_expect(&d, gauge);
     TEST_ASSERT_EQUAL_INT(1, d.image->angles);
@@ -228,7 +228,7 @@ TEST(angle_places, books_of_a_part) {
 
 /* The momentum depends on th/2, although the equations of motion do not. So the powers of the energy balance need the
  * angle with its turns. */
-TEST(angle_places, ledger_takes_a_part) {
+TEST(angle_places, ledger_needs_the_unwrapped_angle) {
     char text[1024];
     snprintf(text, sizeof text, "%sscene s { start th = 1000, th' = 3 [rad/s]; until 5 [s] }\n",
              gauge);
@@ -381,7 +381,7 @@ static void keep(const sample *s, int number) {
 
 static sample drawn;
 
-TEST(angle_parts, made_up_outputs) {
+TEST(angle_parts, random_outputs) {
     static const engine_kind *const kinds[] = {&engine_double, &engine_float};
     const char *wanted = getenv("WHIRL_RANDOM_OUTPUTS");
     const int total = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 2000;

@@ -171,7 +171,7 @@ static void torques(const arm_arm *a, const state_values *s, double *torque, dou
     }
 }
 
-TEST(arm, arms_of_six_joints_move_as_newton_and_euler_say) {
+TEST(arm, six_joint_arms_match_newton_euler) {
     dice d = dice_of("arm", 4701);
     double worst = 0.0;
     for (unsigned c = 0; c < few_or_all(1, 4); c++) {

@@ -157,7 +157,7 @@ static int try_archive(const char *path, int *failed) {
     return texts;
 }
 
-TEST(bad_input, every_bad_text_has_the_errors_it_announces) {
+TEST(bad_input, bad_texts_have_their_announced_errors) {
     struct dirent **entries = NULL;
     const int count = scandir(FOLDER, &entries, NULL, alphasort);
     TEST_ASSERT_GREATER_THAN_INT_MESSAGE(0, count, "run the tests from the root of the project");
@@ -176,7 +176,7 @@ TEST(bad_input, every_bad_text_has_the_errors_it_announces) {
     TEST_ASSERT_GREATER_OR_EQUAL_INT(TEXTS_MIN, texts);
 }
 
-TEST(bad_input, nothing_and_next_to_nothing) {
+TEST(bad_input, empty_texts) {
     expect_text("", "x.whirl:1:1: error: this text contains no mechanism");
     expect_text("\n\n# only a comment", "x.whirl:1:1: error: this text contains no mechanism");
     expect_text("\xef\xbb\xbf", "x.whirl:1:1: error: this text contains no mechanism");
@@ -234,7 +234,7 @@ TEST(bad_input, lines_end_in_one_way) {
     }
 }
 
-TEST(bad_input, the_caret_stands_under_the_place) {
+TEST(bad_input, caret_marks_the_place) {
     expect_text("mechanism m\ncoordinate \xce\xb1 [m]\n",
                 "  coordinate \xce\xb1 [m]\n             ^\n");
     expect_text("mechanism m\n\tcoordinate X [q]\n", "   coordinate X [q]\n                 ^\n");
@@ -303,7 +303,7 @@ TEST(bad_input, ten_thousand_deep) {
     expect_repeated("1 [", 1, "((((((((((((((((((((((((((((m]\n", "too many parentheses in a unit");
 }
 
-TEST(bad_input, lets_upon_lets_are_bounded) {
+TEST(bad_input, nested_lets_are_bounded) {
     size_t used = 0;
     char *text = malloc(200000);
     TEST_ASSERT_NOT_NULL(text);
@@ -335,7 +335,7 @@ TEST(bad_input, very_long_texts) {
     free(text);
 }
 
-TEST(bad_input, a_thousand_errors_are_told_as_twenty) {
+TEST(bad_input, at_most_twenty_errors_are_shown) {
     size_t length = 0;
     char *text = repeat("mechanism m\n", "what = 3\n", 1000, "", &length);
     int errors = 0;

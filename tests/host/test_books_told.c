@@ -218,7 +218,7 @@ TEST(books_told, ledgers) {
 }
 
 /* The ball never reaches some of the random stops. Such a stop must have no line in any account. */
-TEST(books_told, contacts_that_gave_nothing) {
+TEST(books_told, contacts_without_impulse_have_no_line) {
     dice die = dice_of("books_told", 93);
     enum { STOPS = 4 };
     for (unsigned c = 0; c < dice_cases(4); c++) {
@@ -508,7 +508,7 @@ static void change_the_hoop(const char *text, bool stops) {
     motion_close(&m);
 }
 
-TEST(energy_integral, a_hoop_whose_rate_is_changed) {
+TEST(energy_integral, hoop_with_a_changed_input) {
     static const char run[] = "scene s { start th = 0.1\nuntil 2 [s] }\n";
     char text[1000];
     for (int stops = 0; stops < 2; stops++) {

@@ -72,7 +72,7 @@ static double bounces_of(const rattle *r) {
     return r->kind == BALL ? fabs(r->speed_mps) * r->step_s * r->steps / r->number[0] : 0.0;
 }
 
-TEST(busy, busy_contacts_are_told_and_cured) {
+TEST(busy, busy_contacts_have_a_working_remedy) {
     dice d = dice_of("busy", 15005);
     const unsigned cases = dice_cases(few_or_all(usual_or(30, 10), 120));
     unsigned off = 0;
@@ -117,7 +117,7 @@ TEST(busy, busy_contacts_are_told_and_cured) {
 }
 
 /* The ball would need a million events per step, or more. The scene is changed as the hint proposes. */
-TEST(busy, where_no_step_helps_the_scene_is_changed) {
+TEST(busy, hinted_scene_changes_end_the_warning) {
     dice d = dice_of("busy_scenes", 15002);
     const unsigned cases = dice_cases(few_or_all(usual_or(4, 3), 60));
     for (unsigned i = 0; i < cases; i++) {

@@ -49,7 +49,7 @@ static void sort_out(const char *name) {
 
 static void complain(const char *line) { printf("  not refused: %s\n", line); }
 
-TEST(c_names, compilers_have_nothing_to_say_of_what_is_free) {
+TEST(c_names, accepted_names_compile_without_warnings) {
     char command[LINE];
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     snprintf(for_c, sizeof for_c, "%s/c", folder);
@@ -87,7 +87,7 @@ TEST(c_names, ordinary_names_are_free) {
 }
 
 /* Names of C23, of newer compilers and of other processors. */
-TEST(c_names, names_to_come_are_refused) {
+TEST(c_names, names_of_newer_compilers_are_refused) {
     static const char *const names[] = {
         "sinpi",     "acospif",         "fmaximum_numf64x", "exp10m1l",
         "nullptr",   "typeof_unqual",   "constexpr",        "stdc_bit_ceil",

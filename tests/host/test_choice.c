@@ -167,7 +167,7 @@ static bool is_same(const table_row *a, const table_row *b) {
 
 /* With the same effort, the rows do not depend on the number of processors. With less effort there are fewer rows,
  * and the output says so. */
-TEST(choice, rows_depend_on_the_effort_alone) {
+TEST(choice, rows_depend_only_on_the_effort) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
         open_request(&q, texts[n], boards[n % 3], 50.0);
@@ -199,7 +199,7 @@ TEST(choice, rows_depend_on_the_effort_alone) {
 
 /* If no setting meets the limits, the answer names a faster clock and a larger error limit. With either of the two,
  * a setting must be found; with 2 % less than that, none must be found. */
-TEST(choice, what_would_fit_does) {
+TEST(choice, named_clock_and_error_limit_suffice) {
     request q;
     open_request(&q, texts[1], "atmega328p", 100.0);
     q.asked.table.error = 1e-5;
@@ -225,7 +225,7 @@ TEST(choice, what_would_fit_does) {
 }
 
 /* Each answer must have the least of its figure among the made-up rows that keep the limits it must keep. */
-TEST(choice, answers_are_the_least_of_the_rows_that_may_be) {
+TEST(choice, answers_are_minima_of_allowed_rows) {
     enum { ROWS = 12 };
     static const struct {
         bool error, load, memory; /* limits that must be kept */
@@ -289,7 +289,7 @@ static char *code_of(const request *q, const setting *s, bool *own) {
 }
 
 /* If several settings generate the same code, exactly one of them counts as a setting of the scene. */
-TEST(choice, settings_of_a_scene_are_those_that_differ) {
+TEST(choice, settings_with_equal_code_count_once) {
     for (int n = 0; n < TEXTS; n++) {
         request q;
         open_request(&q, texts[n], "mps2-an386", 20.0);

@@ -148,7 +148,7 @@ static void say(const char *text, const char *step, said *what) {
     TEST_ASSERT_EQUAL_INT_MESSAGE(said_owes(what->err), what->status, text);
 }
 
-TEST(busy_beside, a_cure_is_one_of_all) {
+TEST(busy_beside, proposed_steps_cure_all_warnings) {
     dice d = dice_of("busy beside", 15005);
     const unsigned cases = dice_cases(few_or_all(usual_or(80, 12), 300));
     unsigned energies = 0;
@@ -556,7 +556,7 @@ TEST(contact_friction, block_sticks_up_to_the_slope) {
 }
 
 /* The largest amplitude without slip is mu_s g/w^2. */
-TEST(contact_friction, block_slips_from_the_closed_forms_amplitude_on) {
+TEST(contact_friction, block_slips_at_the_computed_amplitude) {
     const double w = 4.0 * acos(-1.0);
     for (int side = -1; side <= 1; side += 2) {
         motion m;
@@ -613,14 +613,14 @@ static void check_rest(stepping how, double height_most) {
     expect_between("  height after a bounce, off by, m", 0.0, height_most, worst);
 }
 
-TEST(contact_stops, ball_comes_to_rest_and_stays_for_a_minute) {
+TEST(contact_stops, ball_rests_for_a_minute) {
     check_rest(IN_DOUBLE, 1e-6); /* 1e-6 m: the project's bound */
     /* 450 sums in the first fall, each rounded by 2^-24 of 4.4 m/s: 1.2e-4 m/s in v, which gives 5.3e-5 m in
      * height */
     check_rest(IN_FLOAT, 5.3e-5);
 }
 
-TEST(contact_stops, too_many_bounces_are_told_and_end) {
+TEST(contact_stops, too_many_bounces_end) {
     motion m;
     motion_open(&m, "ball_between", IN_DOUBLE);
     const double start = motion_value(&m, "energy");
@@ -644,7 +644,7 @@ TEST(contact_stops, too_many_bounces_are_told_and_end) {
 
 /* The restitution of these balls depends on the impact speed. If it is outside 0 to 1, a warning must appear, else
  * not. */
-TEST(contact_stops, a_restitution_out_of_bounds_is_told) {
+TEST(contact_stops, impossible_restitutions_are_warned_of) {
     dice d = dice_of("contact_stops", 5);
     const unsigned cases = dice_cases(24);
     unsigned told = 0;

@@ -212,7 +212,7 @@ TEST(contact_holds, gears_keep_their_mesh) {
 }
 
 /* A `set` moves a held body. The hold keeps the new value, and the energy balance has no residual. */
-TEST(contact_holds, an_assignment_gives_it_anew) {
+TEST(contact_holds, hold_accepts_an_assigned_value) {
     uint64_t seed = 15;
     for (int i = 0; i < 10; i++) {
         char text[900];
@@ -245,7 +245,7 @@ TEST(contact_holds, an_assignment_gives_it_anew) {
 
 /* An input raises a stop. Bodies that are held to the body on this stop, directly or in a chain, must move by the
  * distance that satisfies the holds, with or without coupling in the mass matrix. */
-TEST(contact_holds, what_is_held_to_a_raised_body_comes_along) {
+TEST(contact_holds, bodies_held_to_a_raised_body) {
     uint64_t seed = 17;
     double worst[2] = {0.0, 0.0};
     for (int i = 0; i < 40; i++) {
@@ -471,7 +471,7 @@ static void run_groove(const char *const slopes[2], const char *restitution,
     motion_close(&m);
 }
 
-TEST(contact_load, a_ball_comes_to_rest_in_a_groove) {
+TEST(contact_load, ball_rests_in_a_groove) {
     for (unsigned i = 0; i < sizeof GROOVES / sizeof GROOVES[0]; i++) {
         run_groove(GROOVES[i], "e=0", &engine_double);
         run_groove(GROOVES[i], "e=0.5", &engine_double);
@@ -501,7 +501,7 @@ static double height_after(const char *set, double at_s, const engine_kind *kind
     return y;
 }
 
-TEST(contact_load, an_assignment_lifts_or_throws_what_rests) {
+TEST(contact_load, assignments_lift_or_throw_resting_bodies) {
     for (int i = 0; each_number(i) != NULL; i++) {
         const engine_kind *kind = each_number(i)->kind;
         const double bound = kind == &engine_float ? 1e-5 : 1e-9;
@@ -519,7 +519,7 @@ TEST(contact_load, an_assignment_lifts_or_throws_what_rests) {
 }
 
 /* An input sets the restitution below 0 or above 1. Whirl must use 0 or 1 instead, so that no energy appears. */
-TEST(contact_load, restitution_has_its_range_while_running) {
+TEST(contact_load, restitution_from_inputs_is_clamped) {
     motion m;
     stepping how = IN_DOUBLE;
     how.start = "y=1";
@@ -537,7 +537,7 @@ TEST(contact_load, restitution_has_its_range_while_running) {
 
 /* A `set` gives a held expression a rate of 2 m/s. The hold captures again; its entries are the momentum m (2 - 0)
  * and the energy m 2^2/2. */
-TEST(contact_load, a_hold_takes_what_an_assignment_gives) {
+TEST(contact_load, hold_absorbs_an_assigned_rate) {
     static const char text[] =
         "mechanism held\ncoordinate x [m]\ncoordinate z [m]\ncoordinate c [rad]\n"
         "parameter m = 1 [kg]\nparameter J = 1 [kg*m^2]\nT = m*(x'^2 + z'^2)/2 + J*c'^2/2\n"
@@ -728,7 +728,7 @@ TEST(contact_rest, rows_of_wagons) {
 
 /* A growing force pulls a light body, while a large force acts on another body. The round-off of the large force
  * must not affect the light body. */
-TEST(contact_rest, a_force_elsewhere_holds_nothing) {
+TEST(contact_rest, distant_forces_hold_no_body) {
     for (int i = 0; i < 8; i++) {
         char text[700];
         const int digits = 2 + i / 2;

@@ -51,7 +51,7 @@ TEST(contact_moments, hops_shorter_than_a_step) {
 
 /* A ball bounces until it rests. Its last gap must be closed and its last energy entered, so that the balance has no
  * residual beyond this energy. */
-TEST(contact_moments, the_last_gap_is_booked) {
+TEST(contact_moments, last_gap_is_in_the_ledger) {
     uint64_t seed = 6;
     for (int i = 0; i < 20; i++) {
         char text[600];
@@ -106,7 +106,7 @@ static int collide(chain *c, double *first_Ns) {
 
 /* The lower body stands on the floor, and the upper one hits it. Then a strong force pulls the lower body up before
  * the step ends. The impact on the floor must still be found. */
-TEST(contact_moments, an_impact_that_is_over_within_the_step) {
+TEST(contact_moments, impact_that_ends_within_a_step) {
     uint64_t seed = 8;
     for (int i = 0; i < 40; i++) {
         const double u = random_between(&seed, 0.2, 1.0);
@@ -368,7 +368,7 @@ static uint64_t run_row(uint64_t seed, double *deepest_m) {
     return watch(&w, text, false, deepest_m) + watch(&w, text, true, deepest_m);
 }
 
-TEST(contact_squeezed, nothing_is_squeezed_through) { watch_many(run_row); }
+TEST(contact_squeezed, rows_of_bodies_stay_ordered) { watch_many(run_row); }
 
 enum { WALLS_MOST = 5, CAGE_STEPS = 60 };
 
@@ -451,7 +451,7 @@ static uint64_t run_cage(uint64_t seed, double *deepest_m) {
     return watch(&w, text, false, deepest_m) + watch(&w, text, true, deepest_m);
 }
 
-TEST(contact_squeezed, nothing_leaves_a_cage) { watch_many(run_cage); }
+TEST(contact_squeezed, bodies_stay_in_a_cage) { watch_many(run_cage); }
 
 /* === suite crossings ========================================================================== */
 /* Several crossings with a `set`. Each must do its own `set`, at its own time. */
@@ -522,7 +522,7 @@ static int go(bounce *b, double end_s, double step_s, double *at) {
     }
 }
 
-TEST(crossings, what_turns_back_crosses_once) {
+TEST(crossings, reversed_motion_crosses_once) {
     static const char *const words[] = {" falling", "", " rising"};
     static const char *const values[] = {"x crosses 2 [m]", "3*x - 4 [m] crosses 2 [m]",
                                          "x*abs(x)/(2 [m]) crosses 2 [m]"};
@@ -578,7 +578,7 @@ TEST(crossings, what_turns_back_crosses_once) {
 
 /* A body comes to rest at a crossing's level, with or without friction, until another crossing moves it on or back.
  * This must count as one crossing. Half a metre further the body crosses a second level, which counts, too. */
-TEST(crossings, what_stands_at_its_crossing) {
+TEST(crossings, rest_at_a_crossings_level) {
     dice d = dice_of("what stands", 5521);
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
         char text[900];
@@ -619,7 +619,7 @@ TEST(crossings, what_stands_at_its_crossing) {
 /* A crossing sets a body exactly onto the level of another crossing, and the body moves on or back. Only a level
  * that the motion passes is crossed. So the second level counts neither when the body is set onto it nor when the
  * body leaves. */
-TEST(crossings, what_is_set_onto_another) {
+TEST(crossings, set_onto_another_crossings_level) {
     dice d = dice_of("set onto", 5522);
     unsigned passed = 0;
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {
@@ -665,7 +665,7 @@ TEST(crossings, what_is_set_onto_another) {
 
 /* Each elastic bounce reverses the rate and so crosses the level upwards. Then gravity lowers the rate through the
  * level again: two crossings per bounce. */
-TEST(crossings, what_impacts_throw_across) {
+TEST(crossings, impacts_across_a_rates_level) {
     dice d = dice_of("thrown across", 5523);
     unsigned bounced = 0;
     for (unsigned i = 0; i < dice_cases(usual_or(300, 60)); i++) {

@@ -14,7 +14,7 @@
 #define ROW "stop y >= 0.3 [m] restitution 0.5\nstop x - y >= 0 [m] restitution 0.5"
 
 /* An impact at t = 0 counts like a later one, in float and double. Contacts at rest do not count. */
-TEST(contact_start, what_happens_at_the_start_is_counted) {
+TEST(contact_start, events_at_the_start_are_counted) {
     static const struct {
         const char *statement;
         const char *start;

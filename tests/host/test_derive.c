@@ -109,7 +109,7 @@ TEST(derive, large_but_tame_expressions_are_derived) {
 
 /* A power of a sum that is not expanded must hide neither a cyclic coordinate nor the function whose rate is its
  * momentum. */
-TEST(derive, kept_powers_do_not_hide_conservation) {
+TEST(derive, unexpanded_powers_hide_no_conservation) {
     derived d = derived_text("mechanism m\ncoordinate X\ncoordinate x\n"
                              "T = 1 [kg*m^2]*((X' + 4*(x - 2)^3*x')^2 + x'^2)/2\n"
                              "V = 1 [J]*((x - 2)^4 + (X + x)^4 - ((X + x)^2)^2)\n");

@@ -83,7 +83,7 @@ static dimension dimension_of(const char *unit) {
 
 /* A momentum is energy times time, divided by its coordinate's unit. Coordinates are lengths, angles, charges, and
  * square roots of masses. */
-TEST(image_rows, momenta_are_energy_by_time_over_their_coordinate) {
+TEST(image_rows, units_of_momenta) {
     static const char *const bases[DIM_BASES][5] = {{"", "*m", "/m", "*m^2", "*m^(1/2)"},
                                                     {"", "*kg", "/kg", "*kg^2", "*kg^(1/2)"},
                                                     {"", "*s", "/s", "*s^2", "/s^2"},

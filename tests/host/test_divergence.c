@@ -95,7 +95,7 @@ TEST(divergence, an_input_that_is_no_number) {
 }
 
 /* A start outside all bounds must be reported, without a smaller step or another number type as the remedy. */
-TEST(divergence, starts_beyond_all_bounds) {
+TEST(divergence, starts_out_of_bounds_are_reported) {
     static const char *const units[] = {"m", "mm", "km"};
     static const double si[] = {1.0, 1e-3, 1e3};
     dice d = dice_of("starts beyond", 4141);
@@ -566,7 +566,7 @@ static double right_until_s(const two_springs *start, const char *csv, double *m
     return first_s;
 }
 
-TEST(trust_kinks, trust_beside_a_kink) {
+TEST(trust_kinks, trust_near_a_kink) {
     static const char *const methods[] = {"rk4", "rk4", "rk38", "nystroem4", "nystroem5"};
     dice d = dice_of("trust beside a kink", 7103);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 15), 400));
@@ -664,7 +664,7 @@ TEST(trust_kinks, exact_steps_are_right_to_the_end) {
 
 /* Two undamped masses on springs. The phases of a run deviate more and more from the exact ones. The estimated time
  * must agree with the time at which the true error becomes too large. */
-TEST(trust_kinks, coarse_steps_until_the_reference_says_so) {
+TEST(trust_kinks, trusted_time_of_coarse_steps) {
     dice d = dice_of("trust matrix", 1409);
     int ended = 0;
     const unsigned cases = dice_cases(few_or_all(8, 24));
@@ -786,7 +786,7 @@ TEST(doubling, plain_settings) {
 
 /* The reported lowest and highest values must be those of the motion. The reported difference at the end must be that
  * of two separate runs. The round-off of a rate must count in its coordinate for the whole time. */
-TEST(doubling, what_is_told) {
+TEST(doubling, reported_ranges_and_differences) {
     static const struct {
         const char *name;
         double per_m;
@@ -875,7 +875,7 @@ TEST(doubling, runs_that_fail) {
 
 /* The predicted work of step doubling must be the counted work, except for the first steps and the samples of the
  * state. */
-TEST(doubling, what_they_take) {
+TEST(doubling, predicted_work) {
     dice d = dice_of("twins", 34);
     for (unsigned i = 0; i < 2U * WH_METHODS; i++) {
         char text[TEXT];

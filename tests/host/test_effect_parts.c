@@ -88,7 +88,7 @@ static int check_symbols(const whirl_model *m, const mechanism *of, const symbol
     return checked;
 }
 
-TEST(effect_parts, changes_of_what_takes_no_part_are_refused) {
+TEST(effect_parts, changes_of_unused_effects_are_refused) {
     int checked = 0;
     for (size_t i = 0; i < builtin_model_count; i++) {
         diags *errors = diags_new();
@@ -108,7 +108,7 @@ TEST(effect_parts, changes_of_what_takes_no_part_are_refused) {
 }
 
 /* A scene may have its `set` before or after its `with`. */
-TEST(effect_parts, a_scene_sets_what_it_names) {
+TEST(effect_parts, set_before_or_after_with) {
     static const struct {
         const char *scene;
         const char *said; /* the error; NULL if accepted */
@@ -136,7 +136,7 @@ TEST(effect_parts, a_scene_sets_what_it_names) {
     }
 }
 
-TEST(effect_parts, a_scene_without_an_effect_that_it_sets) {
+TEST(effect_parts, set_of_a_removed_effect) {
     static const char text[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "effect drag { parameter b = 1 [kg/s]; F += b*x'^2/2 }\n"
                                "scene s { with drag; set b = 3 [kg/s] }\n";

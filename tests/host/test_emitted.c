@@ -189,7 +189,7 @@ static void expect_sizes(const image *im) {
     TEST_ASSERT_EQUAL_MESSAGE(operations > 150, strstr(text, called) != NULL, called);
 }
 
-TEST(emitted, the_head_tells_of_the_scene) {
+TEST(emitted, header_describes_the_scene) {
     for (unsigned c = 0; c < dice_cases(usual_or(400, 200)); c++) {
         drawn_scene_draw(&drawn, &die);
         text = derived_written(emit_c, &drawn.im);
@@ -278,7 +278,7 @@ static void expect_rows(const image *im) {
 }
 
 /* The description must have every item, in any sequence. The JSON text has the same numbers (test_image.c). */
-TEST(emitted, readers_are_told_everything) {
+TEST(emitted, description_has_every_item) {
     for (unsigned c = 0; c < dice_cases(usual_or(200, 50)); c++) {
         drawn_scene_draw(&drawn, &die);
         text = derived_written(describe_text, &drawn.im);

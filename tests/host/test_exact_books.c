@@ -54,7 +54,7 @@ static double try_one(const char *text, const engine_kind *kind, image_matrix_of
     return off;
 }
 
-TEST(exact_books, long_exact_steps_are_believed) {
+TEST(exact_books, long_exact_steps_cause_no_warning) {
     static const double step_s[] = {0.5, 0.2, 0.05, 0.01};
     uint64_t seed = 5;
     int coarse = 0;
@@ -284,7 +284,7 @@ static drifts drifts_of(const char *name) {
     return d;
 }
 
-TEST(force_free, momentum_and_centre_of_mass_stay_at_each_scenes_own_step) {
+TEST(force_free, momentum_and_centre_are_constant) {
     for (unsigned i = 0; i < FREE_COUNT; i++) {
         const double most = FREE[i].drifts ? DRIFT_MOST : ROUNDING;
         const drifts d = drifts_of(FREE[i].name);
@@ -323,12 +323,12 @@ static int check_bits_with_books(const scene *s) {
 }
 
 /* Each scene must give the same bits with and without the energy balance, in float and double. */
-TEST(ledger_scenes, books_leave_every_scene_as_it_is) {
+TEST(ledger_scenes, ledger_changes_no_bit) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_bits_with_books) > 40);
 }
 
 /* A system of equations has no energies. Its energy balance must be refused instead of printed as zero. */
-TEST(ledger_scenes, systems_have_no_books) {
+TEST(ledger_scenes, systems_have_no_ledger) {
     static const char text[] = "mechanism decay\nstate x\nparameter k = 1 [1/s]\n"
                                "equation x' = -k*x\nscene d {\n  with ledger\n  start x = 1\n}\n";
     diags *errors = diags_new();

@@ -200,7 +200,7 @@ TEST(far_origin, fine_steps_are_silent) {
 
 /* With these coarse steps, RK4 loses more than a hundredth of a spring's energy in 60 steps. Up to 1e5 amplitudes in double, or
  * 30 in float, round-off is smaller than this loss. BELT and PUSHED are left out, because their balance has large entries. */
-TEST(far_origin, coarse_steps_are_told) {
+TEST(far_origin, coarse_steps_are_warned_of) {
     static const far_kind kinds[] = {SPRING, APART, PARAMETER, DAMPED};
     enum { KINDS = sizeof kinds / sizeof kinds[0] };
     dice d = dice_of("far and coarse", 4102);

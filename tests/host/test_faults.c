@@ -204,7 +204,7 @@ TEST(faults, no_lies) {
 
 /* In these states the motor must not drive, but the turns show a drive. The judge must report an enable line that
  * stays on, and a missing trip. */
-TEST(faults, off_is_off) {
+TEST(faults, motor_off_must_not_drive) {
     static const int states[] = {0, 1, 4, 9, 15}; /* idle, armed, tripped, tare, coast */
     made_up m = honest;
     m.off_s = 99.0;
@@ -588,7 +588,7 @@ TEST(replay, replayed) {
 }
 
 /* An answer of one turn differs: the replay must end there and name the outputs. Counts may differ. */
-TEST(replay, other_orders) {
+TEST(replay, differing_answers_end_the_replay) {
     unsigned hints = 0;
     for (unsigned c = 0; c < dice_cases(usual_or(50, 24)); c++) {
         char words[120];

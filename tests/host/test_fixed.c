@@ -108,7 +108,7 @@ static void try_even_motion(int kind, double value, double times, int step_us, i
     free(with);
 }
 
-TEST(fixed_loss, lost_steps_are_told) {
+TEST(fixed_loss, lost_steps_are_warned_of) {
     static const int step_us[] = {20, 100, 1000, 10000};
     uint64_t seed = 77;
     int told = 0;
@@ -128,7 +128,7 @@ TEST(fixed_loss, lost_steps_are_told) {
 }
 
 /* Oscillators of all masses and springs, some almost at rest. The balance of an accurate run must be accepted. */
-TEST(fixed_loss, books_believe_what_is_right) {
+TEST(fixed_loss, accurate_balances_are_accepted) {
     int right = 0;
     for (int mass = -6; mass <= 6; mass += 2) {
         for (int spring = -6; spring <= 6; spring += 2) {
@@ -338,7 +338,7 @@ static void try_one(int which, uint64_t seed) {
     derived_free(&plain);
 }
 
-TEST(fixed_runs, made_up_mechanisms) {
+TEST(fixed_runs, random_mechanisms) {
     for (int which = 0; which < KINDS; which++) {
         for (unsigned i = 0; i < CASES / KINDS; i++) {
             try_one(which, 1000U * (unsigned)which + i + 7U);
@@ -461,7 +461,7 @@ static void check_hint(image *im, double size, const char *report) {
     TEST_ASSERT_TRUE_MESSAGE(helped, report);
 }
 
-TEST(fixed_ranges, ranges_and_steps_of_all_sizes) {
+TEST(fixed_ranges, ranges_and_steps_of_any_size) {
     static const double step_s[] = {1e-6, 1e-4, 1e-3, 1e-2, 1.0};
     int made = 0;
     int refused = 0;
@@ -511,7 +511,7 @@ static double range_bound_of(const fixed_plan *p, int at, int rate, double until
     return 0.51 * (double)p->image->steps * unit + until_s * of_rate;
 }
 
-TEST(fixed_ranges, what_has_no_acceleration_moves) {
+TEST(fixed_ranges, motion_without_acceleration) {
     static const struct {
         const char *text;
         int at, rate; /* numbers of position and rate in the reals; -1: the angle, or none */
@@ -807,7 +807,7 @@ TEST(engine_fixed, outputs_and_inputs) {
 
 /* Two equal runs must have the same hash after each step, and the hash must change with a step. There must be no
  * failures and no events. */
-TEST(engine_fixed, asked) {
+TEST(engine_fixed, hashes_failures_and_events) {
     for (unsigned c = 0; c < dice_cases(usual_or(5, 5)); c++) {
         static char text[ENGINE_TEXT_SIZE];
         derived d;

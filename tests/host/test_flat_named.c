@@ -75,7 +75,7 @@ static void flat_is_named(int before, int behind, bool across_first, dice *d) {
     model_drop();
 }
 
-TEST(flat_named, the_hold_that_says_no_more_is_named) {
+TEST(flat_named, redundant_hold_is_named) {
     dice d = dice_of("flat_named", 26);
     for (int before = 0; before <= STOPS; before++) {
         for (int across_first = 0; across_first < 2; across_first++) {

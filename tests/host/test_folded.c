@@ -309,7 +309,7 @@ static held draw(dice *d, double ratio) {
     return h;
 }
 
-TEST(folded, what_is_lost_is_told) {
+TEST(folded, lost_digits_are_warned_of) {
     dice d = dice_of("folded", 1);
     const unsigned cases = dice_cases(usual_or(few_or_all(60, 600), 6));
     unsigned off = 0;
@@ -370,7 +370,7 @@ static void arm_text(dice *d, double k, char *text, size_t size) {
         m_kg, alpha, k_Npm, left, k_Npm, k);
 }
 
-TEST(folded, rounding_alone_is_nothing_lost) {
+TEST(folded, round_off_alone_loses_no_digits) {
     dice d = dice_of("folded", 2);
     const unsigned cases = dice_cases(usual_or(few_or_all(20, 200), 2));
     unsigned asked = 0;
@@ -389,7 +389,7 @@ TEST(folded, rounding_alone_is_nothing_lost) {
 
 /* The cosine of a quarter turn is only round-off. A number that is smaller than this round-off is lost, which must be
  * reported. Round-off that is smaller than the number must not be reported. */
-TEST(folded, numbers_beside_a_rest) {
+TEST(folded, numbers_below_round_off) {
     dice d = dice_of("folded", 3);
     for (unsigned k = 0; k < dice_cases(200); k++) {
         const double angle_rad = 1.5707963267948966 * (1.0 + 2.0 * dice_one_of(&d, 5));
@@ -408,7 +408,7 @@ TEST(folded, numbers_beside_a_rest) {
 
 /* Two stiff springs, one that pulls and one that pushes, differ by 20 to 80 units in the last place. This is as
  * little as the round-off of decimals, but it is the whole force on the mass. */
-TEST(folded, what_is_nearly_the_same) {
+TEST(folded, nearly_equal_springs) {
     dice d = dice_of("folded", 4);
     for (unsigned k = 0; k < dice_cases(usual_or(40, 2)); k++) {
         char text[600];
@@ -512,7 +512,7 @@ static double against_the_grain(const line *l) {
     return most;
 }
 
-TEST(blurred, what_is_off_is_told) {
+TEST(blurred, wrong_runs_are_warned_of) {
     dice d = dice_of("blurred", 11);
     const unsigned cases = dice_cases(usual_or(few_or_all(40, 400), 6));
     unsigned refused = 0;
@@ -556,7 +556,7 @@ static void varying_text(double light_kg, double ratio, double spring_Npm, doubl
 }
 
 /* The two runs of `whirl trust` always agree here. It must not take this for accuracy. */
-TEST(blurred, no_trust_in_what_both_have_wrong) {
+TEST(blurred, agreeing_wrong_runs_are_not_trusted) {
     dice d = dice_of("blurred", 13);
     for (int k = 0; k < 12; k++) {
         char text[2000];
@@ -588,7 +588,7 @@ TEST(blurred, no_trust_in_what_both_have_wrong) {
     }
 }
 
-TEST(blurred, equations_that_say_nearly_the_same) {
+TEST(blurred, nearly_dependent_equations) {
     dice d = dice_of("blurred", 12);
     for (int decade = 2; decade <= 14; decade++) {
         char text[400];
@@ -780,7 +780,7 @@ static double off_of(const drawn *w) {
     return fmax(fabs(x_m - wanted_m) / range_m(w), fabs(v_mps - wanted_mps) / range_mps(w));
 }
 
-TEST(folded_numbers, what_numbers_lose_is_told) {
+TEST(folded_numbers, lost_digits_are_warned_of) {
     dice d = dice_of("folded_numbers", 1);
     const unsigned cases = dice_cases(usual_or(few_or_all(60, 600), 8));
     unsigned off = 0;
@@ -818,7 +818,7 @@ TEST(folded_numbers, what_numbers_lose_is_told) {
 
 /* A force from a small change of a large number. At some lengths no digit of the force remains, and the mass stands
  * still. */
-TEST(folded_numbers, what_stands_for_want_of_digits) {
+TEST(folded_numbers, forces_without_digits) {
     static const char *const force[] = {
         "%s [N]*(1 - exp(x/%s [m]))",          "%s [N]*(1 - sqrt(1 + 2*x/%s [m]))",
         "-%s [N]*log(1 + x/%s [m])",           "%s [N]*(1/(1 + x/%s [m]) - 1)",
@@ -854,7 +854,7 @@ TEST(folded_numbers, what_stands_for_want_of_digits) {
     TEST_ASSERT_TRUE(cases < 40 || stand > 0);
 }
 
-TEST(folded_numbers, what_leaves_all_bounds) {
+TEST(folded_numbers, overflowing_parameters) {
     dice d = dice_of("folded_numbers", 3);
     for (unsigned k = 0; k < dice_cases(usual_or(40, 10)); k++) {
         char text[500];

@@ -70,7 +70,7 @@ static int doubles_from(double from, double to) {
     return 9;
 }
 
-TEST(folding_ways, what_is_not_exact_is_moved) {
+TEST(folding_ways, inexact_results_are_moved) {
     dice d = dice_of("folding ways", 1);
     unsigned times[KINDS][FOLDING_WAYS][5] = {{{0}}}; /* number of moves by -2 to 2 doubles */
     for (unsigned i = 0; i < DRAWN; i++) {
@@ -129,7 +129,7 @@ TEST(folding_ways, ways_are_several) {
 
 /* Exact results: sums, products and quotients of small integers, roots of squares, absolute values, and functions at
  * arguments such as zero. */
-TEST(folding_ways, what_is_exact_stays) {
+TEST(folding_ways, exact_results_stay) {
     static const struct {
         function_id function;
         double x, value;

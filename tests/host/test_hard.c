@@ -85,7 +85,7 @@ static void check_breaking(const char *name, const char *second, double factor, 
 }
 
 /* The beam of mass m turns about its left support with the inertia of 4/3 m: 4/3 m y'' = 2 P - m g. */
-TEST(hard_contacts, a_beam_lifts_off_two_of_three_supports) {
+TEST(hard_contacts, beam_lifts_off_two_supports) {
     check_breaking("beam_lifts", "s", 3.0 / (4.0 * 2.0) * 2.0, 10.0);
 }
 
@@ -248,7 +248,7 @@ static double resonance_off(double step_s, const engine_kind *kind) {
     return off;
 }
 
-TEST(hard_contacts, a_resonance_that_nothing_damps) {
+TEST(hard_contacts, undamped_resonance) {
     const double coarse = resonance_off(2e-3, &engine_double);
     const double fine = resonance_off(1e-3, &engine_double);
     const double in_float = resonance_off(1e-3, &engine_float);

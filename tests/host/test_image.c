@@ -119,7 +119,7 @@ static int check_scene_alone(const scene *s) {
     return 1;
 }
 
-TEST(image, an_image_outlives_what_it_was_made_of) {
+TEST(image, image_outlives_its_derivation) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_scene_alone) > 60);
 }
 
@@ -139,7 +139,7 @@ static const char undefined_everywhere[] =
     "    stop x >= 1 [m]/sqrt(th) - 10 [m] restitution 0.5\n"
     "    friction th static 0.2 kinetic 0.1 normal 1 [N*m]/th\n";
 
-TEST(image, a_file_of_ones_own_is_forgotten_too) {
+TEST(image, image_outlives_its_own_text) {
     derived d = derived_text(undefined_everywhere);
     check_alone(&d, d.errors);
 }
@@ -198,7 +198,7 @@ static int check_again(const scene *s) {
     return compared;
 }
 
-TEST(image, other_starts_need_no_derivation) {
+TEST(image, new_starts_need_no_derivation) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_again) > (int)usual_or(50, 25));
 }
 
@@ -508,7 +508,7 @@ TEST(described_drawn, json_has_every_field) {
 }
 
 /* Characters stay, except that quotes, control characters and invalid UTF-8 become escapes. */
-TEST(described_drawn, any_text_is_told) {
+TEST(described_drawn, texts_are_escaped) {
     static const char *const pieces[][2] = {{"a", "a"},
                                             {" ~", " ~"},
                                             {"\xc3\xa9", "\xc3\xa9"},
@@ -542,7 +542,7 @@ TEST(described_drawn, any_text_is_told) {
 }
 
 /* NaN and infinity become null, because JSON has no word for them. */
-TEST(described_drawn, what_is_no_number_is_null) {
+TEST(described_drawn, nan_and_infinity_become_null) {
     static const double none[] = {(double)NAN, (double)INFINITY, -(double)INFINITY};
     for (int i = 0; i < 3; i++) {
         char why[100];

@@ -285,7 +285,7 @@ static void refused_text(dice *d, unsigned i, char text[static 900]) {
 
 /* After a refused step, the run must go on as if the step had not been requested, whatever inputs caused the
  * refusal. */
-TEST(input_rates, a_refused_step_leaves_no_trace) {
+TEST(input_rates, refused_step_changes_nothing) {
     /* input 6, a force, never becomes 1e20 or 1e30, which holds may bear */
     static const double bad[] = {(double)NAN, (double)INFINITY, -(double)INFINITY, 1e20, 1e30};
     dice d = dice_of("input_rates", 4603);
@@ -340,7 +340,7 @@ TEST(input_rates, a_refused_step_leaves_no_trace) {
     }
 }
 
-TEST(input_rates, what_a_rate_may_be) {
+TEST(input_rates, allowed_rates) {
     static const struct {
         const char *lines;
         const char *said;

@@ -100,7 +100,7 @@ static jobs_result run_rows(log_of_rows *log, uint64_t limit, int workers,
     return result;
 }
 
-TEST(jobs, rows_come_in_order_from_any_number_of_workers) {
+TEST(jobs, rows_are_in_order) {
     static const int workers[] = {1, 2, 3, 5, 16};
     for (size_t i = 0; i < 2 * sizeof workers / sizeof workers[0]; i++) {
         log_of_rows log;
@@ -111,7 +111,7 @@ TEST(jobs, rows_come_in_order_from_any_number_of_workers) {
     }
 }
 
-TEST(jobs, refused_rows_end_it) {
+TEST(jobs, refused_rows_end_the_work) {
     log_of_rows log;
     TEST_ASSERT_EQUAL_INT(JOBS_REFUSED, (int)run_rows(&log, ENOUGH, 3, slow_work));
     TEST_ASSERT_TRUE(log.next == ENOUGH);
@@ -190,7 +190,7 @@ static bool endless_work(void *context, uint64_t point, FILE *row, FILE *reason)
     return quick_work(context, point, row, reason);
 }
 
-TEST(jobs, workers_end_when_they_are_told) {
+TEST(jobs, workers_can_be_stopped) {
     log_of_rows log;
     struct timespec begin;
     struct timespec end;
@@ -205,7 +205,7 @@ TEST(jobs, workers_end_when_they_are_told) {
 
 /* Tests of the progress line of a sweep (host/study/session.h): percentage, pace, and remaining time at that
  * pace. */
-TEST(jobs, what_is_shown) {
+TEST(jobs, progress_line) {
     static const struct {
         double ago_s;
         uint64_t from, done, end;

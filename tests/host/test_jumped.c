@@ -217,7 +217,7 @@ TEST(jumped, angles) {
 }
 
 /* Among other equations in any sequence, the warning must name the equation whose denominator passes zero. */
-TEST(jumped, which_equation_is_told) {
+TEST(jumped, right_equation_is_named) {
     static const char *const others[] = {"equation p'' = -p*9 [1/s^2]\n",
                                          "equation q' = (1 + p*p)*rate\n"};
     static const char *const states[] = {"state s\n", "state p\n", "state q\n"};

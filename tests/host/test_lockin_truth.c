@@ -150,7 +150,7 @@ TEST(lockin_truth, bias_and_scatter) {
 
 /* At 330 rpm, 93 to 97 % of 1,000 runs must have the truth in their interval, so the intervals are not wider than
  * needed. */
-TEST(lockin_truth, intervals_hold_what_they_promise) {
+TEST(lockin_truth, intervals_cover_the_truth) {
     static const double cells_N[] = {0.5, 1.0, 3.0};
     rig_orbit_find(&rig_plant_nominal, 330.0, LEAD_RAD, &orbit);
     for (unsigned i = 0; i < 6; i++) {
@@ -247,7 +247,7 @@ static void print_fed(const fed_kind *kind, double rpm, const rig_noise *noise) 
 /* At speeds at which the motor can brake as much as required, the result must be within 1 % and 1 degree. The
  * compensation may be wrong by up to 30 %, the inertia 50 % too high or 30 % too low. At lower speeds the motor cannot
  * brake enough, so only the right compensation is tested there. */
-TEST(lockin_truth, what_is_fed_does_not_show) {
+TEST(lockin_truth, compensation_does_not_affect_results) {
     static const double rpm[] = {100.0, 107.0, 115.0, 123.0, 130.0, 170.0, 250.0, 330.0};
     static const fed_kind kinds[] = {
         {1.0, 0.0, 1.0, 1.0},   {1.1, 0.0, 1.0, 1.0}, {0.7, 0.0, 1.0, 1.0}, {1.0, 0.02, 1.0, 1.0},

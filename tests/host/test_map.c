@@ -222,7 +222,7 @@ TEST(map, pendulums_from_a_right_angle) {
 
 /* A run that grows 20-fold counts as bounded, a run that grows 1e4-fold does not. If half the step is too long as
  * well, both runs grow alike; then the run with the finest step of the row decides. */
-TEST(map, what_bounds_are) {
+TEST(map, bounded_and_unbounded_runs) {
     dice d = dice_of("map bounds", 1424);
     for (unsigned k = 0; k < dice_cases(12); k++) {
         const double w = pow(10.0, dice_between(&d, -1.0, 2.0));
@@ -300,7 +300,7 @@ static void stop_after_six(double runs, void *told) {
     interrupted = runs >= 6.0;
 }
 
-TEST(map, stopped_maps_keep_what_is_done) {
+TEST(map, stopped_maps_have_their_finished_points) {
     drawn_map m;
     open_map(
         &m, &(map_asked){spring_text, {"step=0.1..4:4", "k=1..4:3"}, WH_RK4, 1e-3, stop_after_six});

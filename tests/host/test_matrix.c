@@ -723,7 +723,7 @@ static void expect_not_linear(const char *line, const char *part) {
     expect_refused(text, none, wanted);
 }
 
-TEST(matrix_runs, what_is_not_linear_is_refused_where_it_stands) {
+TEST(matrix_runs, nonlinear_terms_are_refused_with_place) {
     expect_not_linear("V = 2 [N/m]*x^2 + 3 [J]*sin(th)", "V");
     expect_not_linear("V = 1 [N/m^2]*x^3", "V");
     expect_not_linear("V = u*x^2", "V");
@@ -747,7 +747,7 @@ TEST(matrix_runs, what_is_not_linear_is_refused_where_it_stands) {
     }
 }
 
-TEST(matrix_runs, what_has_no_matrix_is_refused) {
+TEST(matrix_runs, mechanisms_without_a_matrix_are_refused) {
     static const char ball[] = "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\nV = 10 [N]*x\n"
                                "stop x >= 0 restitution 0.5\n"
                                "scene s { start x = 1 [m]; step 1 [ms]; until 1 [s] }\n";

@@ -104,7 +104,7 @@ TEST(first_order, slopes_of_components) {
     }
 }
 
-TEST(first_order, effects_are_told) {
+TEST(first_order, effects_are_listed) {
     enum { EFFECTS = 4 };
     static const char text[] =
         "mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
@@ -201,7 +201,7 @@ TEST(method_rows, runge_kutta_methods_have_the_positions_of_their_rates) {
     }
 }
 
-TEST(method_rows, the_books_weigh_each_stage_as_the_rates_do) {
+TEST(method_rows, ledger_weights_equal_the_rates_weights) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
         for (int i = 0; i < t.stages; i++) {
@@ -210,7 +210,7 @@ TEST(method_rows, the_books_weigh_each_stage_as_the_rates_do) {
     }
 }
 
-TEST(method_rows, words_are_apart_and_fit_command_lines) {
+TEST(method_rows, words_are_unique_and_plain) {
     for (int m = 0; m < WH_METHODS; m++) {
         const wh_method_row *row = &wh_methods[m];
         TEST_ASSERT_TRUE(row->word[0] >= 'a' && row->word[0] <= 'z');
@@ -348,7 +348,7 @@ static int paths_of_a_scene(const scene *s) {
     return 1;
 }
 
-TEST(rk4, all_paths_step_as_the_plain_one) {
+TEST(rk4, all_paths_equal_the_plain_one) {
     each_builtin_scene(paths_of_a_scene);
     TEST_ASSERT_TRUE(compared > (int)usual_or(500, 200));
 }

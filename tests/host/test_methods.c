@@ -147,7 +147,7 @@ TEST(methods, orders_are_those_of_the_names) {
     printf("  %d orders measured\n", measured);
 }
 
-TEST(methods, books_have_the_order_of_the_name) {
+TEST(methods, ledger_has_the_methods_order) {
     int measured = 0;
     for (int i = 0; i < FORMS; i++) {
         for (int m = 0; m < WH_METHODS && forms[i].ledger; m++) {
@@ -215,7 +215,7 @@ TEST(methods, semi_implicit_euler_moves_by_the_new_rates) {
     }
 }
 
-TEST(methods, methods_are_refused_where_their_rows_say) {
+TEST(methods, unsuitable_methods_are_refused) {
     int refused = 0;
     int asked = 0;
     for (int i = 0; i < FORMS; i++) {

@@ -220,7 +220,7 @@ TEST(missed, ways_out) {
 
 /* The body passes near the tip of a weak conical potential, where the direction of the force jumps, and then comes
  * to a barrier of potential energy. It must turn back there, or there must be a warning. */
-TEST(missed, hills_behind_a_tip) {
+TEST(missed, barriers_after_a_tip) {
     dice d = dice_of("missed", 5);
     const unsigned cases = dice_cases(20);
     unsigned met = 0;

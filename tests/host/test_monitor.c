@@ -563,7 +563,7 @@ TEST(schema, channels_are_as_written) {
     }
 }
 
-TEST(schema, what_is_wrong_is_refused) {
+TEST(schema, wrong_schemas_are_refused) {
     static const char *const wrong[PIECES][6] = {
         {"channel=8", "channel=-1", "channel=x", "channel=", "channel=1e9", "channel=nan"},
         {"name=", "name=:", "name=abcdefghijklmnopqrstuvwxyzabcdef", "named=a", "nam=a",

@@ -1057,7 +1057,7 @@ static int compare_scene(const scene *s) {
     return compared > 0;
 }
 
-TEST(latex_runs, scenes_run_as_their_latex_says) {
+TEST(latex_runs, scenes_match_their_latex) {
     begin_cases();
     TEST_ASSERT_TRUE(each_builtin_scene(compare_scene) > 60);
     end_cases();
@@ -1067,7 +1067,7 @@ TEST(latex_runs, scenes_run_as_their_latex_says) {
 static int files;
 static void compare_file(const char *name, derived *d) { files += compare_all(name, d) > 0; }
 
-TEST(latex_runs, files_run_as_their_latex_says) {
+TEST(latex_runs, files_match_their_latex) {
     files = 0;
     begin_cases();
     each_mechanism(compare_file);
@@ -1076,7 +1076,7 @@ TEST(latex_runs, files_run_as_their_latex_says) {
     TEST_ASSERT_EQUAL_INT(0, cases_wide);
 }
 
-TEST(latex_runs, generated_mechanisms_run_as_their_latex_says) {
+TEST(latex_runs, generated_mechanisms_match_their_latex) {
     const char *more = getenv("PRINTED_MECHANISMS");
     const int wanted = more != NULL ? (int)strtol(more, NULL, 10) : (int)usual_or(60, 20);
     int compared = 0;

@@ -173,7 +173,7 @@ TEST(order, random_lists_compute_the_same) {
 
 /* The sum of n squares, with all squares first. The minimum is one load for each leaf. In the entered sequence, the
  * squares that do not fit 20 registers are stored and loaded again. */
-TEST(order, squares_are_summed_as_they_come) {
+TEST(order, squares_are_reordered_for_registers) {
     for (int n = 1; n <= 200; n++) {
         op_list *t = op_list_new(0, 1);
         int *square = alloc(n, sizeof *square);
@@ -228,7 +228,7 @@ static double pieces_value(const piece *pieces, int count, double at[VARIABLES])
 
 /* 0.3 sin(w)^(2p) cos(w)^(2q) with w = 2u - v, its product with v, and its slope. Each must give one piece, or two
  * if the slope is a sum of two products. */
-TEST(pieces, even_powers_come_back) {
+TEST(pieces, even_powers_give_one_piece) {
     for (int p = 0; p <= 8; p++) {
         for (int q = 0; p + q <= 8; q++) {
             if (p + q == 0) {
@@ -263,7 +263,7 @@ TEST(pieces, even_powers_come_back) {
     }
 }
 
-TEST(pieces, other_rows_stay_as_they_are) {
+TEST(pieces, unsuitable_rows_do_not_change) {
     algebra *a = algebra_new();
     const poly *u = poly_symbol(a, &variables[0], 0);
     const poly *one = poly_number(a, 1.0);
@@ -338,7 +338,7 @@ TEST(pieces, pieces_have_the_sums_value) {
 }
 
 /* A sum of up to three even powers of sines and cosines, each times a power of v. */
-TEST(pieces, each_of_several_comes_back) {
+TEST(pieces, several_even_powers_are_found) {
     for (unsigned which = 0; which < 64; which++) { /* each power: none, two or four */
         algebra *a = algebra_new();
         const poly *u = poly_symbol(a, &variables[0], 0);

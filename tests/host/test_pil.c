@@ -130,14 +130,14 @@ static void one_case(dice *d) {
     TEST_ASSERT_FALSE(dialogue_answer(&link, "OK")); /* an answer to another program */
 }
 
-TEST(dialogue, it_comes_to_its_end_whatever_was_in_the_line) {
+TEST(dialogue, dialogue_ends_for_any_line) {
     dice d = dice_of("dialogue", 1);
     for (unsigned i = dice_cases(few_or_all(2000, 100000)); i > 0; i--) {
         one_case(&d);
     }
 }
 
-TEST(dialogue, who_is_no_rig_is_not_met) {
+TEST(dialogue, answers_of_no_rig_are_ignored) {
     dialogue d = {.rate = 500};
     const char *const lines[] = {"OK", "ERR 100 no such command", "hello", "talk off",
                                  "OK rate=0 "};
@@ -321,7 +321,7 @@ TEST(fault, edges) {
     }
 }
 
-TEST(fault, pulses_of_nothing) {
+TEST(fault, invented_pulses) {
     run_with(NULL, &well);
     for (int count = 1; count <= 5; count++) {
         char words[40];

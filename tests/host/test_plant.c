@@ -304,7 +304,7 @@ TEST(plant, notes) {
 }
 
 /* The plant limits outputs to the declared range. A NaN, which ends a run (lockstep.c), counts as the lower limit. */
-TEST(plant, held_orders) {
+TEST(plant, outputs_are_limited_to_their_ranges) {
     const float asked[] = {5.0F, -5.0F, 0.5F, NAN};
     const double taken[] = {2.0, -2.0, 0.5, -2.0};
     for (int i = 0; i < 4; i++) {

@@ -36,7 +36,7 @@ static decimation *entered(const double *data, unsigned steps) {
     return v;
 }
 
-TEST(envelope, short_runs_are_kept_number_by_number) {
+TEST(envelope, short_runs_have_every_number) {
     dice d = dice_of("short signals", 5101);
     for (unsigned i = 0; i < 20; i++) {
         const unsigned steps = i == 0   ? 1
@@ -118,7 +118,7 @@ TEST(envelope, long_runs_keep_least_and_most_of_every_stretch) {
     }
 }
 
-TEST(envelope, at_every_moment_all_is_there) {
+TEST(envelope, unfinished_envelope_is_complete) {
     dice d = dice_of("broken off", 5103);
     const unsigned steps = 5 * DECIMATION_ROOM;
     double *data = signal_of(&d, steps);
@@ -220,7 +220,7 @@ static double distance(const char *a, const char *b, int k) {
     return hypot(hypot(one[0] - other[0], one[1] - other[1]), one[2] - other[2]);
 }
 
-TEST(palette, colours_are_apart_to_every_eye) {
+TEST(palette, colours_differ_for_every_eye) {
     for (int k = 0; k < EYES; k++) {
         double least = 1000.0;
         for (int i = 0; i < PALETTE_LINES; i++) {

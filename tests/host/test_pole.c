@@ -65,7 +65,7 @@ TEST(pole, powers) {
 }
 
 /* A divisor that touches zero must be found as a pole, as accurately as its digits allow. */
-TEST(pole, what_touches) {
+TEST(pole, touching_divisors_are_poles) {
     static const double orders[] = {0.0, 0.3, 0.5, 0.8, 1.0, 2.0, 3.0, 4.0};
     enum { ORDERS = sizeof orders / sizeof orders[0] };
     for (unsigned c = 0; c < dice_cases(600); c++) {
@@ -82,7 +82,7 @@ TEST(pole, what_touches) {
 }
 
 /* Parabolas above zero, and parabolas whose minimum is zero. */
-TEST(pole, what_may_touch) {
+TEST(pole, parabolas_near_or_at_zero) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         const double least = dice_between(&die, 0.01, 3.0) * (c % 3 == 0 ? 1.0 : 0.0);
         const double zero_at = dice_between(&die, -0.5, 1.5);
@@ -175,7 +175,7 @@ static void at_difference(void *of, double share, double *sign, double *value) {
     value[1] = difference_at(d->which, x);
 }
 
-TEST(pole, what_rounding_leaves) {
+TEST(pole, round_off_is_no_pole) {
     for (unsigned c = 0; c < dice_cases(350); c++) {
         const double size = exp(dice_between(&die, -17.0, -0.1));
         difference d = {.which = (difference_kind)(c % DIFFERENCES),
@@ -197,7 +197,7 @@ static void at_touched(void *of, double share, double *sign, double *value) {
     value[1] = d->zeros == 0 ? x * x / square : number_power(fabs(square), -0.4);
 }
 
-TEST(pole, what_has_no_digits) {
+TEST(pole, divisors_without_digits_are_no_pole) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         drawn d = {.place = dice_between(&die, -1.0, 1.0),
                    .order = exp(dice_between(&die, -5.0, 0.0)),
@@ -218,7 +218,7 @@ static void at_standing(void *of, double share, double *sign, double *value) {
     value[1] = d->zeros == 0 ? 1.0 / sign[1] : 1.0 / sign[0];
 }
 
-TEST(pole, what_stands_off) {
+TEST(pole, positive_divisors_are_no_pole) {
     for (unsigned c = 0; c < dice_cases(600); c++) {
         drawn d = {.place = dice_between(&die, 0.1, 0.9),
                    .order = exp(dice_between(&die, -5.0, 0.0)),
@@ -238,7 +238,7 @@ static void at_twice(void *of, double share, double *sign, double *value) {
     value[1] = 1.0 / sign[1];
 }
 
-TEST(pole, what_changes_twice) {
+TEST(pole, double_sign_changes_are_poles) {
     for (unsigned c = 0; c < dice_cases(60); c++) {
         drawn d = {.place = dice_between(&die, 0.3, 0.7),
                    .order = exp(dice_between(&die, -15.0, -1.5))};

@@ -49,7 +49,7 @@ static void expect(price got, int operations, int waves, const char *what) {
 }
 
 /* Horner's scheme needs a product and a sum for each power. */
-TEST(price, polynomials_take_two_operations_a_power) {
+TEST(price, polynomials_use_horners_scheme) {
     for (int degree = 1; degree <= 9; degree++) {
         char sum[400] = "1";
         for (int k = 1; k <= degree; k++) {
@@ -89,7 +89,7 @@ TEST(price, factors_are_taken_out_again) {
     expect(price_of("x0*x1 + x0*x2 + x0*x3"), 3, 0, "no coefficients");
 }
 
-TEST(price, what_is_the_same_is_computed_once) {
+TEST(price, common_subexpressions_are_computed_once) {
     static const char *const of[] = {"exp(x0)",    "sqrt(x0)",    "atan2(x0, x1)", "abs(x0)",
                                      "log(x0*x1)", "max(x0, x1)", "sin(x0*x1)"};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
@@ -120,7 +120,7 @@ TEST(price, sines_of_multiples_follow_from_one) {
 }
 
 /* Powers of sines must stay powers if an expansion into sums would lose digits and cost more. */
-TEST(price, powers_of_sines_are_put_back) {
+TEST(price, powers_of_sines_are_restored) {
     for (int n = 1; n <= 7; n++) {
         char what[60];
         int products = -2;
@@ -247,7 +247,7 @@ static void expect_same(const cost *want, const cost *have, const char *what) {
     TEST_ASSERT_TRUE_MESSAGE(have->state_bytes.value == want->state_bytes.value, what);
 }
 
-TEST(price_dearest, the_dearest_of_all_places) {
+TEST(price_dearest, dearest_place_counts) {
     static const char *const boards[] = {"mps2-an386", "mps2-an385"};
     for (int turn = 0; turn < 3; turn++) {
         const char *texts[3] = {springs[turn], springs[(turn + 1) % 3], springs[(turn + 2) % 3]};
@@ -296,7 +296,7 @@ static bool none_longer(const setting *s, double step_s) {
 
 /* If fixed point or a matrix is not possible with a long step, the table must begin with the longest possible step.
  * Without any possible step the setting must not count. */
-TEST(price_dearest, steps_that_are_refused_are_left_out) {
+TEST(price_dearest, refused_steps_are_omitted) {
     static const double longest[] = {2.0, 0.011, 0.0011, 0.00011, 1e-12};
     int settings = 0;
     for (size_t i = 0; i < sizeof longest / sizeof longest[0]; i++) {
@@ -329,7 +329,7 @@ TEST(price_dearest, steps_that_are_refused_are_left_out) {
     }
 }
 
-TEST(price_dearest, contacts_are_left_out_where_that_is_asked) {
+TEST(price_dearest, contacts_are_omitted_on_request) {
     priced p;
     priced_open(&p, priced_ball, 1);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing_price_dearest, 10, NULL));

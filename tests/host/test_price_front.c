@@ -90,7 +90,7 @@ TEST(price_front, the_ladder_goes_down_by_one_two_five) {
 }
 
 /* With a record rate, the number of steps in 1/rate_Hz must be 1, 2, ..., 10, and then rise by half at most. */
-TEST(price_front, substeps_rise_as_they_are_told) {
+TEST(price_front, substeps_follow_their_series) {
     for (uint64_t periods = 1; periods < 6; periods++) {
         const table_request w = {.rate_Hz = 7.0, .periods = periods};
         table_row row = {.pace = {0, 1}};
@@ -112,7 +112,7 @@ TEST(price_front, substeps_rise_as_they_are_told) {
 /* Counted prices (host/study/price_table.h), and choices that use them (choice.h), in a made-up source tree
  * (made_up_tree.h). */
 
-TEST(price_measured, what_is_missing_is_told) {
+TEST(price_measured, missing_tools_are_reported) {
     static const struct {
         const char *says;
         const char *status;
@@ -189,7 +189,7 @@ static void expect_most(double each_least, double each_most, double most, cost_b
 
 /* The row for all places must have the maximum of each column and the sum of the steps. It must have a bound if
  * every place has a bound. */
-TEST(price_measured, whole_runs_are_the_most_of_all_places) {
+TEST(price_measured, whole_runs_have_the_maxima) {
     static const char *const files[] = {"row0", "row1", "row2"};
     static const char *const boards[] = {"mps2-an386", "mps2-an500", "atmega328p"};
     dice d = dice_of("price_measured runs", 22);
@@ -263,7 +263,7 @@ TEST(price_measured, whole_runs_are_the_most_of_all_places) {
 
 /* The predicted costs are 100, 200, ... When counted, the first setting costs more than all others. Rows that cannot
  * be counted are removed. */
-TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
+TEST(price_measured, counting_ends_with_a_counted_front) {
     priced p;
     priced_open(&p, springs, 1);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, 20, NULL));
@@ -316,7 +316,7 @@ TEST(price_measured, the_front_is_counted_until_all_of_it_is) {
 
 /* Six settings with three steps each have prices. Counting the chosen rows only must give the same choice as
  * counting all, unless a prediction is too high. */
-TEST(price_measured, choices_are_as_if_all_was_counted) {
+TEST(price_measured, choices_equal_those_of_full_counts) {
     dice d = dice_of("price_measured choices", 23);
     priced p;
     priced_open(&p, springs, 1);
@@ -416,7 +416,7 @@ static reference *reference_of(const image *im, int count) {
     return r;
 }
 
-TEST(price_motion, deviations_are_the_largest_of_all_records) {
+TEST(price_motion, deviations_are_maxima_over_records) {
     static const deviation_pace paces[] = {{1, 1}, {3, 1}, {1, 2}, {1, 5}};
     static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4};
     derived of = derived_surely(derived_scene(spring, "s"), spring);
@@ -474,7 +474,7 @@ TEST(price_motion, deviations_are_the_largest_of_all_records) {
     derived_free(&of);
 }
 
-TEST(price_motion, the_step_with_most_evaluations_is_told) {
+TEST(price_motion, step_with_most_evaluations_is_found) {
     derived of = derived_scene("mechanism m\ncoordinate x [m]\nT = 1 [kg]*x'^2/2\n"
                                "V = 1 [kg]*9.81 [m/s^2]*x\nstop x >= 0 [m] restitution 0.5\n"
                                "scene s { start x = 1 [m]; step 10 [ms]; until 1 [s] }\n",

@@ -12,7 +12,7 @@
 
 /* Every method with three number types: sines are rotated, looked up, or in one of six tables, or the step is one of
  * two matrices. In addition fixed point. */
-TEST(price_settings, there_are_all_and_each_once) {
+TEST(price_settings, every_setting_exists_once) {
     const int count = setting_count();
     TEST_ASSERT_EQUAL_INT(3 * (WH_METHODS * (2 + 6) + 2) + 1, count);
     int before = -1;
@@ -64,7 +64,7 @@ static setting read_back(const char *text, int *count) {
     return s;
 }
 
-TEST(price_settings, options_say_the_setting_and_no_more) {
+TEST(price_settings, options_describe_the_setting_exactly) {
     for (int i = 0; i < setting_count(); i++) {
         const setting s = setting_at(i);
         const image_settings *m = &s.image;
@@ -145,7 +145,7 @@ static const kind_row kind_rows[] = {
          "start x = 0.02 [m];"),
      1500.0, false, 0, 20, "the two references differ by more than"}};
 
-TEST(price_states, references_say_how_far_they_are_trusted) {
+TEST(price_states, references_have_their_trusted_time) {
     for (size_t n = 0; n < sizeof kind_rows / sizeof kind_rows[0]; n++) {
         const kind_row *row = &kind_rows[n];
         derived d = derived_surely(derived_scene(row->text, "s"), row->text);
@@ -244,7 +244,7 @@ TEST(price_trials, steps_are_exact) {
 }
 
 /* The text of a step must bring back the same fraction. */
-TEST(price_trials, steps_come_back_from_their_text) {
+TEST(price_trials, steps_are_read_back) {
     dice d = dice_of("price_trials times", 12);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 100000)); n++) {
         const whole_ratio time = ratio_of((double)(1 + dice_one_of(&d, 500)) /
@@ -276,7 +276,7 @@ static const char *const places[] = {
 static const whole_ratio spacing = {1, 50};
 enum { RECORDS = 25 };
 
-TEST(price_trials, operations_are_those_of_all_places) {
+TEST(price_trials, operations_are_summed_over_places) {
     priced p;
     priced_open(&p, places, 3);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
@@ -295,7 +295,7 @@ TEST(price_trials, operations_are_those_of_all_places) {
     priced_close(&p);
 }
 
-TEST(price_trials, errors_have_the_unit_of_what_is_asked) {
+TEST(price_trials, errors_have_their_quantitys_unit) {
     static const struct {
         const char *of;
         const char *unit;
@@ -346,7 +346,7 @@ TEST(price_trials, the_horizon_is_that_of_the_place_that_ends_first) {
     }
 }
 
-TEST(price_trials, of_places_as_long_the_worst_agrees_least) {
+TEST(price_trials, equally_long_places_least_agreement_counts) {
     priced p;
     priced_open(&p, places, 3);
     TEST_ASSERT_TRUE(priced_begin(&p, "mps2-an386", spacing, RECORDS, NULL));
@@ -387,7 +387,7 @@ static trial_result each_by_itself(priced *p, const setting *s, deviation_pace p
     return r;
 }
 
-TEST(price_trials, errors_are_the_worst_of_all_places) {
+TEST(price_trials, errors_are_maxima_over_places) {
     static const wh_method methods[] = {WH_EULER, WH_HEUN, WH_RK4, WH_LEAPFROG};
     static const char *const of[] = {NULL, "x", "a'"};
     dice d = dice_of("price_trials errors", 13);

@@ -197,7 +197,7 @@ TEST(price_words, prices_and_choices_are_printed_as_before) {
 }
 
 /* By RFC 4180, quoted fields must be read as the original text. Quotes may appear only if they are needed. */
-TEST(price_words, fields_come_back) {
+TEST(price_words, fields_are_read_back) {
     static const char pieces[] = "abc \",\r\n\"x";
     dice d = dice_of("price_words fields", 33);
     for (int n = 0; n < 2000; n++) {
@@ -238,7 +238,7 @@ static const char *behind(const char *text, const char *what) {
 }
 
 /* The shown rows must include the cheapest and the most accurate one. */
-TEST(price_words, at_most_twelve_rows_of_a_front_are_shown) {
+TEST(price_words, front_shows_at_most_twelve_rows) {
     dice d = dice_of("price_words fronts", 36);
     priced p;
     begin(&p, places, 1, NULL);
@@ -282,7 +282,7 @@ static char *table_of_nothing(const trials *t, const table *made) {
     return out.text;
 }
 
-TEST(price_words, tables_of_nothing_say_why) {
+TEST(price_words, empty_tables_give_reasons) {
     priced p;
     begin(&p, places, 1, NULL);
     table made = {.unpriced = 3, .why = "a reason"};

@@ -530,7 +530,7 @@ static void close_folder(void) {
 }
 
 /* A file that was cut off at any byte, often near the end of a line, must be resumed. */
-TEST(sheet, gone_on_with) {
+TEST(sheet, interrupted_sweeps_are_continued) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(5, 3)); c++) {
         draw_sheet();
@@ -552,7 +552,7 @@ TEST(sheet, gone_on_with) {
 }
 
 /* If one byte of any row has changed, the file must count as that of another sweep. */
-TEST(sheet, rows_of_others) {
+TEST(sheet, rows_of_another_sweep_are_refused) {
     open_folder();
     for (unsigned c = 0; c < dice_cases(usual_or(40, 20)); c++) {
         char text[TEXT];

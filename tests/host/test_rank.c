@@ -69,7 +69,7 @@ static void errors_of(const double *m, double *error, int n) {
     }
 }
 
-TEST(rank, the_rank_does_not_hang_on_units) {
+TEST(rank, rank_is_independent_of_units) {
     uint64_t seed = 17;
     int seen[MOST + 1] = {0};
     for (int round = 0; round < 3000; round++) {
@@ -110,7 +110,7 @@ TEST(rank, the_rank_does_not_hang_on_units) {
 }
 
 /* In [1 1; 1 1 + x], the pivot of the second row is x. */
-TEST(rank, a_pivot_that_is_rounding_is_none) {
+TEST(rank, pivots_of_round_off_are_zero) {
     for (int k = 0; k < 4; k++) {
         const bool symmetric = k % 2 == 0;
         double m[4] = {1.0, 1.0, 1.0, 1.0 + (k < 2 ? 2e-14 : 1e-13)};
@@ -134,7 +134,7 @@ TEST(rank, a_pivot_that_is_rounding_is_none) {
 
 /* B Bt + I is positive definite. It is not if a diagonal entry becomes -1, or an entry beside the diagonal too
  * large. */
-TEST(rank, what_is_positive_definite) {
+TEST(rank, positive_definite_matrices) {
     uint64_t seed = 23;
     for (int round = 0; round < 1000; round++) {
         const int n = 1 + round % MOST;
@@ -371,7 +371,7 @@ TEST(solving, long_products_keep_their_value) {
 }
 
 /* q can be a turn angle if it occurs only in sines and tangents, with integer factors. */
-TEST(solving, what_can_be_a_turn_angle) {
+TEST(solving, allowed_turn_angles) {
     static const struct {
         const char *text;
         bool turns;
@@ -459,7 +459,7 @@ static void expect_refused(const char *text, const char *wanted) {
     derived_free(&d);
 }
 
-TEST(underivable, singular_and_other_impossible_mechanisms) {
+TEST(underivable, singular_mechanisms_are_refused) {
     expect_refused("mechanism m\ncoordinate x [m]\ncoordinate y [m]\nT = 1 [kg]*(x' + y')^2\n",
                    "t.whirl:1:11: error: singular mass matrix: 'm' cannot be solved");
     expect_refused(
@@ -633,7 +633,7 @@ static const char two[] = "mechanism m\ncoordinate x [m]\ncoordinate y [m]\ncoor
 
 /* An expression that is compared with itself never changes its order, so it must be refused. If one side has another
  * number, it must be accepted. */
-TEST(underivable, nothing_is_compared_with_itself) {
+TEST(underivable, comparisons_with_itself_are_refused) {
     static const char *const statements[] = {
         "stop %s >= %s restitution e\n", "stop %s <= (%s) restitution e\n",
         "hold x while %s > %s\n", "when %s crosses (%s) { set x' = -x' }\n"};

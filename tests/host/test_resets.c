@@ -121,7 +121,7 @@ TEST(resets, instants) {
 }
 
 /* Data on their way to the processor are lost, and the timer restarts. */
-TEST(resets, what_is_lost) {
+TEST(resets, reset_loses_incoming_data) {
     run_with(NULL);
     well = h;
     TEST_ASSERT_EQUAL_INT(4, well.edges);

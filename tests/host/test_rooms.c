@@ -16,7 +16,7 @@ static bool all_are(const unsigned char *bytes, size_t count, unsigned char valu
     return true;
 }
 
-TEST(rooms, rooms_of_drawn_sizes) {
+TEST(rooms, allocations_of_random_sizes) {
     dice d = dice_of("room", 2511);
     for (unsigned i = 0; i < 200; i++) {
         const size_t size = 1U + dice_one_of(&d, 40);
@@ -118,7 +118,7 @@ static int ask(int count, char **words) {
 #define ASKED "abcdefghijklmn"
 #endif
 
-TEST(rooms, what_there_is_no_room_for) {
+TEST(rooms, impossible_sizes_end_the_program) {
     static const char asked[] = ASKED "-";
     for (size_t i = 0; asked[i] != '\0'; i++) {
         const char word[] = {asked[i], '\0'};

@@ -229,7 +229,7 @@ TEST(running_error, drawn_lists) {
 }
 
 /* A sum or a root of operands that are zero is exact, so its bound must be zero, except for underflow. */
-TEST(running_error, nothing_is_off_by_nothing) {
+TEST(running_error, bound_of_exact_zero_is_zero) {
     op_list *t = op_list_new(0, 2);
     const int x = op_list_leaf(t, OP_LINEAR, 0);
     const int y = op_list_leaf(t, OP_LINEAR, 1);
@@ -248,7 +248,7 @@ TEST(running_error, nothing_is_off_by_nothing) {
 }
 
 /* In z/(x*y), the product exceeds float's largest number, so the quotient is lost in float, but not in double. */
-TEST(running_error, what_is_beyond_float) {
+TEST(running_error, float_overflow) {
     dice d = dice_of("running_error", 2316);
     op_list *t = op_list_new(0, 1);
     const int x = op_list_leaf(t, OP_LINEAR, 0);
@@ -277,7 +277,7 @@ TEST(running_error, what_is_beyond_float) {
 }
 
 /* A bound that is infinite must stay infinite after a division: z/(y + sqrt(x*w - y)), in which x*w - y is zero. */
-TEST(running_error, no_bound_stays_none) {
+TEST(running_error, infinite_bound_stays_infinite) {
     dice d = dice_of("running_error", 2317);
     op_list *t = op_list_new(0, 1);
     const int x = op_list_leaf(t, OP_LINEAR, 0);

@@ -364,12 +364,12 @@ static void as_latex(FILE *out, const derived *d) { show_latex(out, d->equations
 
 static void as_octave(FILE *out, const derived *d) { derived_octave(out, d, "block.whirl", false); }
 
-TEST(show_events, events_stand_beside_the_equations) {
+TEST(show_events, events_are_printed_with_equations) {
     expect(as_text, "", true);
     expect(as_octave, "%", true); /* as comments */
 }
 
-TEST(show_events, no_events_no_word_of_them) {
+TEST(show_events, no_text_without_events) {
     expect(as_text, "", false);
     expect(as_latex, "", false);
     expect(as_octave, "%", false);

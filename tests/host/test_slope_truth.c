@@ -52,7 +52,7 @@ static tally measure_many(double cell_N, unsigned runs, uint64_t seed) {
 
 /* With the cell's own noise, every good result must be right. With more noise, a 95 % interval misses some, whatever
  * the motor. The right slope must never cause a doubt. */
-TEST(slope_truth, other_slopes) {
+TEST(slope_truth, wrong_slopes) {
     static const double rpms[] = {170.0, 200.0, 260.0, 330.0};
     static const double slopes[] = {0.0, 0.3, 0.5, 0.8, 1.0, 1.3, 1.5};
     static const double cells_N[] = {0.07, 1.0, 3.0};

@@ -42,7 +42,7 @@ static const char rotor[] = "mechanism m\ncoordinate a [rad]\nT = 1 [kg*m^2]*a'^
 
 /* Whether there is a warning must depend on the angle's error at the end. The limits allow for round-off of rates
  * and constants, and for a larger error before the end. */
-TEST(slow_angles, slow_rates_are_told_and_others_are_not) {
+TEST(slow_angles, only_slow_rates_are_warned_of) {
     const char *wanted = getenv("WH_SLOW");
     const int count = wanted != NULL ? (int)strtol(wanted, NULL, 10) : 300;
     int told = 0;
@@ -125,7 +125,7 @@ static const struct {
      1e-3, 20000, true},
 };
 
-TEST(slow_angles, of_other_motions_those_that_are_false) {
+TEST(slow_angles, only_wrong_motions_are_warned_of) {
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         const outcome plain =
             run(others[i].text, in_float(WH_RK4, false, others[i].step_s), others[i].steps);

@@ -210,7 +210,7 @@ static double way_off(const char *text, const chain *c, stepping how, double end
 
 /* A motion that is driven and damped, and whose energy balance is right. The error with --stabilized must be about
  * that without it. */
-TEST(stabilized, motion_is_left_alone) {
+TEST(stabilized, driven_motion_does_not_change) {
     dice d = dice_of("stabilized motions", 20261129);
     const unsigned cases = usual_or(dice_cases(few_or_all(16, 80)), 4);
     double worst = 0.0;
@@ -271,7 +271,7 @@ static void run_with(const char *text, const char *const *options, said *what) {
 }
 
 /* --stabilized must not hide a coarse step: a loss of a hundredth in a thousand steps must still cause the warning. */
-TEST(stabilized, coarse_steps_are_told) {
+TEST(stabilized, coarse_steps_are_warned_of) {
     dice d = dice_of("stabilized springs", 20261201);
     for (unsigned i = 0; i < usual_or(8, 2); i++) {
         const double swing = dice_between(&d, 0.3, 1.5); /* angle in a step, rad */
@@ -291,7 +291,7 @@ TEST(stabilized, coarse_steps_are_told) {
 
 /* Two masses have a slow common oscillation, and a relative one that is too fast for the step and loses energy.
  * --stabilized gives this energy to both oscillations. The warning must be that of a run without it. */
-TEST(stabilized, what_others_lost_is_told) {
+TEST(stabilized, misplaced_energy_is_warned_of) {
     dice d = dice_of("stabilized pairs", 20261202);
     const unsigned cases = usual_or(16, 3);
     unsigned told = 0;
@@ -337,7 +337,7 @@ static double apart(const char *text, const char *name, stepping plain, double e
 /* Two cases that must not be trusted. First, an oscillation that is too fast even for half the step loses energy, and
  * --stabilized gives it to another oscillation, whose period depends on its energy. Second, a light pendulum beside a
  * heavy one depends on the last digits of the heavy one's energy. */
-TEST(stabilized, what_is_made_wrong_is_not_trusted) {
+TEST(stabilized, wrong_results_are_not_trusted) {
     dice d = dice_of("stabilized wrongly", 20261203);
     const unsigned cases = usual_or(few_or_all(4, 16), 2);
     unsigned wrong = 0;
@@ -435,7 +435,7 @@ static double slow_off(const beside *b, stepping how, uint64_t steps) {
     return most;
 }
 
-TEST(stabilized_beside, what_is_slow_gets_its_part) {
+TEST(stabilized_beside, slow_oscillation_gets_its_share) {
     dice d = dice_of("stabilized beside", 20261204);
     const unsigned cases = usual_or(dice_cases(few_or_all(16, 100)), 4);
     const uint64_t steps = 200000;

@@ -88,7 +88,7 @@ TEST(starts, stops_that_are_passed) {
     TEST_ASSERT_TRUE(refused > 20);
 }
 
-TEST(starts, kicks_know_no_rates) {
+TEST(starts, kick_methods_refuse_damping) {
     for (int count = 1; count <= MOST; count++) {
         for (int lossy = -1; lossy < count; lossy++) {
             char text[TEXT] = "mechanism m\n";

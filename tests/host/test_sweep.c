@@ -92,7 +92,7 @@ TEST(sweep, units_and_exact_ends) {
     }
 }
 
-TEST(sweep, numbers_come_back) {
+TEST(sweep, numbers_are_read_back) {
     char text[NUMBER_SIZE];
     TEST_ASSERT_EQUAL_STRING("0.1", number_shortest(0.1, text));
     TEST_ASSERT_EQUAL_STRING("0.30000000000000004", number_shortest(0.1 + 0.2, text));
@@ -199,7 +199,7 @@ static char *expect_wrong(const char *text, const char *wanted) {
 
 /* A measure inside an expression must be reported with its place. A longer name that begins like a measure is only a
  * name. */
-TEST(sweep, measures_inside_are_told) {
+TEST(sweep, nested_measures_are_reported) {
     static const char *const words[] = {"amplitude", "mean", "period"};
     static const char *const before[] = {"2*", "theta + ", "1/(3*", "sin(2) - ", "theta*mean_2 + "};
     for (unsigned c = 0; c < 15U; c++) {
@@ -220,7 +220,7 @@ TEST(sweep, measures_inside_are_told) {
     }
 }
 
-TEST(sweep, a_list_of_measures_is_told) {
+TEST(sweep, lists_of_measures_are_reported) {
     static const char *const one[] = {"theta",       "max(theta)",        "mean(2*theta)",
                                       "theta*theta", "atan2(theta, 2)",   "max(theta, 1)",
                                       "min(theta)",  "max(max(theta, 1))"};

@@ -64,7 +64,7 @@ static int check_scene(const scene *s) {
     return has;
 }
 
-TEST(tables, tables_are_as_near_as_they_say) {
+TEST(tables, table_errors_are_within_their_bound) {
     TEST_ASSERT_GREATER_OR_EQUAL_INT(9, each_builtin_scene(check_scene));
 }
 
@@ -385,7 +385,7 @@ static const struct {
      "V = 1 [J]*cos(a)\nstop x >= 0 [m] restitution 0.5\n",
      "a scene with events cannot use tables", "6:1"}};
 
-TEST(tables, what_has_not_that_form_is_refused_with_its_place) {
+TEST(tables, unsuitable_expressions_are_refused_with_place) {
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         derived d = derived_surely(derived_text(refused[i].text), refused[i].text);
         char *report = NULL;

@@ -19,7 +19,7 @@ static void expect_same(const stream *wanted, const uint8_t *bytes, size_t lengt
 }
 
 /* The host must first request the hello, store everything on a tape, and answer the end with the same word. */
-TEST(talk, heard_and_kept) {
+TEST(talk, answers_are_stored_on_tape) {
     for (unsigned c = 0; c < dice_cases(usual_or(30, 12)); c++) {
         static talk t;
         static stream heard;

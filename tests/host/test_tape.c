@@ -215,7 +215,7 @@ static void expect_found(void) {
     }
 }
 
-TEST(tape_entered, entered_operations_come_to_what_was_asked) {
+TEST(tape_entered, entered_operations_have_right_values) {
     static double v[EVALUATED_MOST];
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(30, 8), 200)); c++) {
         enter_some();
@@ -266,7 +266,7 @@ static bool is_reciprocal(int i) {
     return is_code(i, OP_DIV) && is_number(list->ops[i].a, &one) && one == 1.0 && uses_of(i) == 1;
 }
 
-TEST(tape_entered, what_no_result_needs_is_dropped) {
+TEST(tape_entered, unused_operations_are_dropped) {
     static double v[EVALUATED_MOST];
     for (unsigned c = 0; c < dice_cases(few_or_all(usual_or(40, 10), 200)); c++) {
         bool needed[EVALUATED_MOST] = {false};
@@ -304,7 +304,7 @@ static int count_of(op_code code) {
 
 /* Powers are computed by squaring: the number of products is the number of binary digits, plus that of ones, minus
  * two. */
-TEST(tape_entered, powers_take_few_products) {
+TEST(tape_entered, powers_use_repeated_squaring) {
     static double v[EVALUATED_MOST];
     for (int half = 1; half <= 160; half++) {
         for (int sign = 0; sign < 2; sign++) {
@@ -332,7 +332,7 @@ TEST(tape_entered, powers_take_few_products) {
 }
 
 /* Phases may be multiplied only by integers in the range of int. */
-TEST(tape_entered, what_turns_a_phase) {
+TEST(tape_entered, phases_have_integer_factors) {
     static const double whole[] = {0.0, 1.0, -3.0, 2147483647.0, -2147483647.0};
     static const double not_whole[] = {0.5, -1e-9, 2147483648.0, -2147483648.0, 1e300, 3.0000001};
     for (int i = 0; i < 5; i++) {
@@ -652,7 +652,7 @@ TEST(tape_gauged, decimals_and_thirds_become_whole) {
 }
 
 /* Lists of up to 250 operations (with constants and leaves) are searched; longer lists must not change. */
-TEST(tape_gauged, long_lists_are_left_alone) {
+TEST(tape_gauged, long_lists_do_not_change) {
     for (int over = 0; over < 2; over++) {
         const double unit = 0.01;
         op_list *longer = op_list_new(0, 2);

@@ -201,7 +201,7 @@ TEST(tape_gauge, decimal_mechanisms_lose_their_bias) {
     }
 }
 
-TEST(tape_gauge, any_mechanism_keeps_its_results) {
+TEST(tape_gauge, random_mechanisms_have_equal_results) {
     const unsigned cases = few_or_all(15, 120);
     tally all = {0};
     for (unsigned k = 0; k < cases; k++) {
@@ -215,7 +215,7 @@ TEST(tape_gauge, any_mechanism_keeps_its_results) {
     TEST_ASSERT_TRUE(all.after <= 0.5 * all.before);
 }
 
-TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
+TEST(tape_gauge, scenes_need_a_price_for_scaling) {
     static const char *const names[] = {"epicyclic_from_rest", "thomson_a_conserved"};
     /* limit of the bias for each scene, relative to that before; op_list_scale() promises 0.5 */
     static const double left[] = {0.1, 0.5};
@@ -235,7 +235,7 @@ TEST(tape_gauge, scenes_have_no_freedom_for_nothing) {
 }
 
 /* Lists without constants, with exact constants only, or with one constant whose scaling would cost a product. */
-TEST(tape_gauge, what_needs_nothing_stays) {
+TEST(tape_gauge, lists_without_inexact_constants_stay) {
     static const double number[] = {1.0, 0.375, 0.3};
     for (int k = 0; k < 3; k++) {
         op_list *t = op_list_new(0, 1);

@@ -99,7 +99,7 @@ static void check_finite(scene_list *l) {
     *number = kept;
 }
 
-TEST(tape_used, what_is_no_number_is_found_in_results) { each_list(200, check_finite); }
+TEST(tape_used, nan_in_results_is_found) { each_list(200, check_finite); }
 
 static const double fits[] = {0.0, -0.0, 0x1p-126, -0x1p-126, 1.0, 0x1.fffffep127, -3e38};
 static const double fits_not[] = {0x1.fffffep-127,   -1e-40,           0x1.ffffffp127, 1e39,
@@ -118,7 +118,7 @@ static void check_fit(scene_list *l) {
     TEST_ASSERT_TRUE(op_list_out_of_float(t) == wanted);
 }
 
-TEST(tape_used, what_float_has_no_room_for) {
+TEST(tape_used, numbers_out_of_floats_range) {
     for (int i = 0; i < 7; i++) {
         TEST_ASSERT_TRUE(fits_float(fits[i]));
         TEST_ASSERT_FALSE(fits_float(fits_not[i]));
@@ -129,7 +129,7 @@ TEST(tape_used, what_float_has_no_room_for) {
 
 /* image_out_of_float() must consider the lists that move the scene, and the inputs, but no list that only serves
  * outputs. */
-TEST(tape_used, images_know_what_float_has_no_room_for) {
+TEST(tape_used, images_out_of_floats_range) {
     for (unsigned c = 0; c < dice_cases(300); c++) {
         drawn_scene_draw(&drawn, &die);
         image *im = &drawn.im;

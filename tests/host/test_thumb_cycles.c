@@ -84,7 +84,7 @@ static thumb_timing decoded(thumb_core core, const char *text) {
     return (thumb_timing){0};
 }
 
-TEST(thumb_cycles, each_instruction_takes_what_arm_publishes) {
+TEST(thumb_cycles, cycles_equal_arms_published_numbers) {
     static const char *const names[] = {"m0", "m3", "m4"};
     for (unsigned i = 0; i < INSTRUCTIONS; i++) {
         const timed *at = &instructions[i];

@@ -416,7 +416,7 @@ static int sort_made(int count) {
     return kept;
 }
 
-TEST(vcd, changes_come_in_order) {
+TEST(vcd, changes_are_in_order) {
     dice d = dice_of("vcd", 51);
     for (unsigned round = 0; round < 20U; round++) {
         char *text = NULL;
@@ -462,7 +462,7 @@ TEST(vcd, changes_come_in_order) {
 }
 
 /* A late change must appear at the last written time. */
-TEST(vcd, what_is_late_is_written) {
+TEST(vcd, late_changes_are_written) {
     dice d = dice_of("vcd", 52);
     for (unsigned round = 0; round < 10U; round++) {
         char *text = NULL;

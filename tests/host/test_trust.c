@@ -117,7 +117,7 @@ static void expect_the_end(const char *file, const char *name, horizons_setting 
     horizons_free(&h);
 }
 
-TEST(trust_scenes, where_nothing_diverges) {
+TEST(trust_scenes, scenes_trusted_to_the_end) {
     expect_the_end("epicyclic.whirl", "epicyclic_from_rest", in_double);
     expect_the_end("epicyclic.whirl", "epicyclic_from_rest", in_float);
     expect_the_end("epicyclic.whirl", "epicyclic_conserved", in_float);

@@ -264,7 +264,7 @@ TEST(undefined, energies_that_are_no_numbers) {
     model_drop();
 }
 
-TEST(undefined, angles_beyond_what_a_run_knows) {
+TEST(undefined, angles_out_of_range) {
     static const struct {
         const char *number, *start;
         int status;

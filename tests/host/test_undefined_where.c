@@ -119,7 +119,7 @@ TEST(undefined_where, the_places_on_the_way) {
     }
 }
 
-TEST(undefined_where, angles_that_it_is_made_of) {
+TEST(undefined_where, angle_components_are_named) {
     static const char *const orders[] = {
         "coordinate a [rad]\ncoordinate b [rad]\ncoordinate x [m]\n",
         "coordinate x [m]\ncoordinate b [rad]\ncoordinate a [rad]\n",

@@ -91,7 +91,7 @@ static unit_scale parsed(const char *text) {
 
 static bool is_about(double a, double b) { return fabs(a - b) <= 1e-15 * fabs(b); }
 
-TEST(units, every_unit_is_what_the_standards_say) {
+TEST(units, units_equal_the_standards) {
     int count = 0;
     for (const char *name = unit_name(0); name != NULL; name = unit_name(++count)) {
         char said[200];
@@ -135,7 +135,7 @@ TEST(units, prefixes_round_as_decimal_numbers_do) {
 }
 
 /* `whirl list --units` must give each unit as a number of an SI unit of the same dimension. */
-TEST(units, every_unit_is_told_in_si) {
+TEST(units, units_are_listed_in_si) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         char si[DIM_TEXT_SIZE];
         double value = 0.0;
@@ -171,7 +171,7 @@ TEST(units, decimal_exponents) {
     TEST_ASSERT_FALSE(unit_parse("m^1.05", 6, &result, &error));
 }
 
-TEST(units, names_are_apart) {
+TEST(units, names_are_unique) {
     for (int i = 0; unit_name(i) != NULL; i++) {
         for (int k = 0; k < i; k++) {
             TEST_ASSERT_TRUE_MESSAGE(strcmp(unit_name(i), unit_name(k)) != 0, unit_name(i));

@@ -42,7 +42,7 @@ static const char *const harmless[] = {
 };
 enum { HARMLESS = sizeof harmless / sizeof harmless[0] };
 
-TEST(unjumped, what_has_limits) {
+TEST(unjumped, expressions_with_limits) {
     for (unsigned c = 0; c < jumps_cases(HARMLESS, 3 * HARMLESS, HARMLESS / 2); c++) {
         char text[JUMPS_TEXT];
         snprintf(text, sizeof text,

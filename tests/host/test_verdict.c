@@ -398,7 +398,7 @@ TEST(verdict, coarse_tables_are_found_in_every_sweep) {
     TEST_ASSERT_TRUE(of[0] > 1 && of[1] > 1);
 }
 
-TEST(verdict, a_point_is_judged_as_its_run) {
+TEST(verdict, sweep_points_equal_runs) {
     static const char *const methods[] = {"rk4", "heun", "leapfrog", "semi-implicit-euler",
                                           "nystroem5"};
     dice d = dice_of("verdict", 15004);
@@ -491,7 +491,7 @@ static void write_chain(dice d, double speed, char text[TEXT]) {
              step_s * (20.0 + dice_one_of(&d, 200)));
 }
 
-TEST(verdict, a_common_speed_changes_nothing) {
+TEST(verdict, common_speed_changes_no_verdict) {
     dice d = dice_of("frames", 4729);
     const unsigned cases = dice_cases(few_or_all(20, 300));
     unsigned told = 0;
@@ -604,7 +604,7 @@ static int of_files(const char *pattern) {
 
 /* The checks may take as many operations as twice the run's steps, plus a fixed number. All scenes, built in or in
  * the catalogue, run for 10 % of their time and, with all cases, for 1 and 100 %. */
-TEST(verdict, looks_take_what_they_may) {
+TEST(verdict, checks_stay_within_their_budget) {
     expect_cost("cuff_equal", 0.004);
     expect_cost("tests/reference/stack.whirl", 0.2);
     expect_cost("tests/reference/stack.whirl", 1.0);
@@ -616,7 +616,7 @@ TEST(verdict, looks_take_what_they_may) {
 
 /* A run of many steps leaves no time for the finer run, or for the third run. Then `run`, `sweep` and `trust` must
  * report that the run was not checked. */
-TEST(verdict, what_was_not_looked_at) {
+TEST(verdict, skipped_checks_are_reported) {
     static const struct {
         const char *until;
         const char *names;

@@ -108,7 +108,7 @@ static void expect_report(const char *statements, const char *wanted) {
     TEST_ASSERT_TRUE_MESSAGE(strstr(report, wanted) != NULL, text);
 }
 
-TEST(vocabulary, symbols_are_called_what_they_are) {
+TEST(vocabulary, symbols_have_their_names) {
     expect_report("V = m'*x", "'m' is a parameter: it has no derivative");
     expect_report("V = u'*x", "'u' is an input: it has no derivative");
     expect_report("output p = o'", "'o' is an output: it has no derivative");
@@ -185,7 +185,7 @@ TEST(vocabulary, first_words_get_a_hint) {
 
 /* Statements of other languages, with random names and numbers. If a statement is changed as the hint asks, it must
  * be accepted. */
-TEST(vocabulary, other_notations_are_mended) {
+TEST(vocabulary, hints_repair_other_notations) {
     static const char names[][6] = {"q", "theta", "x_1", "arm"};
     static const char units[][8] = {"kg", "m/s", "N*s/m", "deg", "kg*m^2"};
     static const char calls[][6] = {"sin", "cos", "exp", "tanh", "sqrt"};

@@ -178,7 +178,7 @@ static int cure(const made_up *m, const said *warned, wh_method method, double s
     return done;
 }
 
-TEST(warnings, energy_that_the_method_takes_is_told) {
+TEST(warnings, energy_loss_is_warned_of) {
     dice d = dice_of("warned", 14001);
     const unsigned cases = dice_cases(few_or_all(usual_or(60, 40), 300));
     unsigned gone = 0;
@@ -250,7 +250,7 @@ static double flight_off(const char *text, const double end[3], double step_s, b
     return went ? sqrt(x * x + y * y + z * z) : (double)INFINITY;
 }
 
-TEST(warnings, passing_a_pole_is_told) {
+TEST(warnings, passing_a_pole_is_warned_of) {
     dice d = dice_of("poles", 14002);
     const unsigned cases = dice_cases(few_or_all(20, 50));
     unsigned off_course = 0;
@@ -327,7 +327,7 @@ static void expect_ball_between(said *what, const char **words) {
 
 /* All built-in scenes run to their ends, in both number types or by turns. Only the one scene that demonstrates a
  * warning may have one. */
-TEST(warnings, built_in_scenes_say_nothing) {
+TEST(warnings, built_in_scenes_have_no_warnings) {
     said list;
     said what;
     const char *none[] = {NULL};

@@ -23,7 +23,7 @@ static void expect_in(const char *report, const char *wanted, const char *text) 
     TEST_ASSERT_TRUE_MESSAGE(strstr(report, wanted) != NULL, message);
 }
 
-TEST(words, reserved_words_name_nothing) {
+TEST(words, reserved_words_are_no_names) {
     int reserved = 0;
     for (int i = 0; i < WORD_COUNT; i++) {
         const statement_word *word = word_row((word_id)i);
@@ -47,7 +47,7 @@ TEST(words, reserved_words_name_nothing) {
 }
 
 /* With two neighbouring letters swapped, the word is one mistake away from the right one, and from no other. */
-TEST(words, a_misspelt_statement_is_offered_its_word) {
+TEST(words, misspelt_statements_get_a_hint) {
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         const statement_word *word = word_row((word_id)i);
         const size_t length = strlen(word->text);
@@ -96,7 +96,7 @@ TEST(words, energies_by_other_names) {
     }
 }
 
-TEST(words, a_word_stands_only_where_its_row_says) {
+TEST(words, words_are_allowed_in_their_places) {
     static const unsigned places[] = {IN_MECHANISM | IN_FILE, IN_EFFECT, IN_SCENE};
     for (int i = 0; i < STATEMENT_WORDS; i++) {
         const statement_word *word = word_row((word_id)i);
