@@ -135,18 +135,18 @@ ASAN_BUILD = $(MAKE) MAIN="CC='$(CC)' OPT='$(OPT)' EXTRA='$(EXTRA)'" B=build/asa
 CLI_NOT_ASAN := $(foreach t,boards conclusions docs enclosures families flags foreign fresh headers help map no_libm runners setup structure,tests/cli/$(t).sh)
 # Scripts and suites left to `make sanitizers-all`: they derive and step as others do, to compare digits, or they try
 # the remedies of many runs.
-CLI_LESS_ASAN := $(foreach t,angle_parts asked_first carriage command_line commands doc_examples \
+CLI_LESS_ASAN := $(foreach t,angle_parts carriage command_line commands doc_examples earlier_requests \
     effects_cost_nothing embed_fixed embed_headers embed_names embed_sketch emitted_c faults figures fixed \
     float_range forms full_output measure memory odd_values pil plot plots price price_pages printed_zeros \
     prove recorded_bits recorded_lists settings_bits sizes suites summary swing trust undefined units \
     worst_step_marks,\
     tests/cli/$(t).sh)
-HOST_LESS_ASAN := aliasing angle_parts apart arm asked_first blurred books_told busy busy_beside c_names choice coarse_tables contact_bound contact_centres contact_curved \
-    contact_holds contact_law contact_load contact_moments contact_rest contact_scenes contact_squeezed contact_start contact_together cost counts crossings cures describe devices \
-    double_functions effect_parts effect_subsets effect_work effects enclosure energy_integral energy_kept exact_books far_origin far_slopes firstlight fixed_loss fixed_ranges \
-    fixed_runs folded folded_numbers force_free forced_swing hard_cases hard_contacts hard_edges hard_origin hybrids image_rows jumped latex_runs leans ledger_scenes limits linkages \
-    lockin_truth map mass_scales matrix_runs methods octave order_told plant price_reference prove_drawn pulse_trains rated reference repeats_truth rounding show show_events \
-    slope_truth slow_angles stabilized stabilized_beside swings symmetry tables tape_gauge trajectory trust trust_drawn trust_scenes turned undefined verdict walled warnings
+HOST_LESS_ASAN := aliasing angle_parts apart arm busy busy_beside c_names choice coarse_tables contact_bound contact_centres contact_curved contact_holds contact_law contact_load contact_moments \
+    contact_rest contact_scenes contact_squeezed contact_start contact_together cost counts crossings cures declaration_order describe devices double_functions earlier_requests effect_parts \
+    effect_subsets effect_work effects enclosure energy_balance_text energy_integral energy_kept exact_books far_origin far_slopes firstlight fixed_loss fixed_ranges fixed_runs folded folded_numbers \
+    force_free forced_swing hard_cases hard_contacts hard_edges hard_origin hybrids ill_conditioned image_rows jumped latex_runs ledger_scenes limits linkages lockin_truth map mass_scales matrix_runs \
+    methods octave plant potential_wells price_reference prove_drawn pulse_trains rated reference repeats_truth residual_invariance rounding show show_events slope_truth slow_angles stabilized \
+    stabilized_beside swings symmetry tables tape_gauge trajectory trust trust_drawn trust_scenes turned undefined verdict warnings
 ASAN_REALS := float
 ASAN_LIST = $(B)/tests/asan_suites.list
 asan_cli = $(call run_cli,$(filter-out $(CLI_NOT_ASAN) $(CLI_LESS_ASAN),$(1)))

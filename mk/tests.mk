@@ -130,10 +130,10 @@ CLI_GATED := $(foreach t,angle_parts carriage embed_headers embed_names emitted_
     tests/cli/$(t).sh)
 # Of these, only `make full` runs suites that compare many runs for a minute or more, and all cases of price.sh.
 CLI_FULL := $(foreach t,map measure price,tests/cli/$(t).sh)
-HOST_FULL := asked_first choice lockin_truth trajectory trust trust_scenes
-HOST_GATED := asked_first busy busy_beside choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start \
-    contact_together exact_books far_slopes fixed_ranges force_free hard_cases hard_edges hybrids ledger_scenes lockin_truth map \
-    methods prove_drawn reference repeats_truth rounding stabilized tables tape_gauge trajectory trust trust_scenes warnings
+HOST_FULL := choice earlier_requests lockin_truth trajectory trust trust_scenes
+HOST_GATED := busy busy_beside choice contact_bound contact_centres contact_holds contact_load contact_rest contact_start contact_together \
+    earlier_requests exact_books far_slopes fixed_ranges force_free hard_cases hard_edges hybrids ledger_scenes lockin_truth map methods \
+    prove_drawn reference repeats_truth rounding stabilized tables tape_gauge trajectory trust trust_scenes warnings
 RUN_HOST = $(call run_host,$(B)/tests/quick_suites.list)
 RUN_CLI = $(call run_cli,$(CLI_LONG) $(filter-out $(CLI_LONG) $(CLI_GATED),$(CLI_TESTS)))
 run_board = "portable suites$(comma) $(1)" "$(call on_board,$(1),run-suites)"

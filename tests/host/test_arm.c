@@ -210,7 +210,7 @@ TEST(arm, six_joint_arms_match_newton_euler) {
     TEST_ASSERT_TRUE(worst < 1e-13);
 }
 
-/* === suite leans ============================================================================== */
+/* === suite residual_invariance ================================================================ */
 /* The energy residual (host/check/energy_residual.h) must not depend on choices that have no effect on the motion:
  * the origin, and the vector potential of a magnetic field, which adds terms linear in the rates to T. */
 
@@ -251,9 +251,9 @@ static double left_over_leans(const charge *c, const char *potential, double x0,
     return strtod(at + strlen("\nenergy residual "), NULL);
 }
 
-TEST(leans, origins_and_potentials) {
+TEST(residual_invariance, origins_and_potentials) {
     static const char *const methods[] = {"nystroem5", "rk4", "heun", "semi-implicit-euler"};
-    dice d = dice_of("leans", 61);
+    dice d = dice_of("residual_invariance", 61);
     unsigned told = 0;
     const unsigned runs = dice_cases(few_or_all(12, 60));
     for (unsigned k = 0; k < runs; k++) {

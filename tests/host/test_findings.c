@@ -107,7 +107,7 @@ static void hold(const char *number) {
 TEST(short_runs, in_float) { hold("float"); }
 TEST(short_runs, in_double) { hold("double"); }
 
-/* === suite small_told ========================================================================= */
+/* === suite small_motions ====================================================================== */
 /* The figures in reports on small numbers: an angle that moves by a few of its units in a step (host/check/slow.h),
  * and a motion of a few of float's smallest numbers. */
 
@@ -116,7 +116,7 @@ static void expect_figure(double wanted, double is, const char *text) {
 }
 
 /* In each step, the run rounds the angle's motion to a whole number of units of 2^-32 turn. */
-TEST(small_told, slow_angles) {
+TEST(small_motions, slow_angles) {
     for (unsigned n = 0; n < dice_cases(usual_or(16, 6)); n++) {
         char text[400];
         double figure[3] = {0.0};
@@ -164,7 +164,7 @@ TEST(small_told, slow_angles) {
 
 /* A spring with a start value of 2e-44 to 1e-36 m, so that products of rates are too small for float. Whirl must report round-off if it is above a twentieth of the start value, and must be silent below
  * 1e-4. */
-TEST(small_told, small_numbers) {
+TEST(small_motions, small_numbers) {
     unsigned told = 0;
     for (unsigned n = 0; n < dice_cases(usual_or(40, 20)); n++) {
         char text[400];
@@ -199,7 +199,7 @@ TEST(small_told, small_numbers) {
 
 /* A damper whose power is too small for float. Because of the stop, the run itself computes the energy balance. The
  * motion is right, so the balance must not be reported. */
-TEST(small_told, lost_powers) {
+TEST(small_motions, lost_powers) {
     for (unsigned n = 0; n < dice_cases(8); n++) {
         char text[300];
         said what;
@@ -214,9 +214,9 @@ TEST(small_told, lost_powers) {
     model_drop();
 }
 
-SUITE(small_told) { die = dice_of("small told", 90); }
+SUITE(small_motions) { die = dice_of("small_motions", 90); }
 
-/* === suite sweeps_told ======================================================================== */
+/* === suite sweep_failures ===================================================================== */
 
 static unsigned times_in(const char *text, const char *words) {
     unsigned times = 0;
@@ -228,7 +228,7 @@ static unsigned times_in(const char *text, const char *words) {
 
 /* A start below the floor fails its point of the sweep. The first twenty failures must be listed in sequence, then
  * that there are more. */
-TEST(sweeps_told, failures) {
+TEST(sweep_failures, failures) {
     for (unsigned below = 19; below <= 21; below++) {
         char over[60];
         char wanted[200];

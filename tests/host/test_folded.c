@@ -432,7 +432,7 @@ TEST(folded, nearly_equal_springs) {
     }
 }
 
-/* === suite blurred ============================================================================ */
+/* === suite ill_conditioned ==================================================================== */
 /* Bodies on a line with relative coordinates and masses that differ by up to 1e13. Round-off leaves few digits of
  * their mass matrix, in double too, so two runs can agree on a wrong result. A wrong run must have a warning.
  * Coordinates relative to the heavier body are accurate and must cause no warning. */
@@ -512,8 +512,8 @@ static double against_the_grain(const line *l) {
     return most;
 }
 
-TEST(blurred, wrong_runs_are_warned_of) {
-    dice d = dice_of("blurred", 11);
+TEST(ill_conditioned, wrong_runs_are_warned_of) {
+    dice d = dice_of("ill_conditioned", 11);
     const unsigned cases = dice_cases(usual_or(few_or_all(40, 400), 6));
     unsigned refused = 0;
     unsigned warned = 0;
@@ -556,8 +556,8 @@ static void varying_text(double light_kg, double ratio, double spring_Npm, doubl
 }
 
 /* The two runs of `whirl trust` always agree here. It must not take this for accuracy. */
-TEST(blurred, agreeing_wrong_runs_are_not_trusted) {
-    dice d = dice_of("blurred", 13);
+TEST(ill_conditioned, agreeing_wrong_runs_are_not_trusted) {
+    dice d = dice_of("ill_conditioned", 13);
     for (int k = 0; k < 12; k++) {
         char text[2000];
         said what;
@@ -588,8 +588,8 @@ TEST(blurred, agreeing_wrong_runs_are_not_trusted) {
     }
 }
 
-TEST(blurred, nearly_dependent_equations) {
-    dice d = dice_of("blurred", 12);
+TEST(ill_conditioned, nearly_dependent_equations) {
+    dice d = dice_of("ill_conditioned", 12);
     for (int decade = 2; decade <= 14; decade++) {
         char text[400];
         said what;

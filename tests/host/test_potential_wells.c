@@ -1,4 +1,4 @@
-/* test_walled.c: a body in a potential well such as -log(1 - (x/l)^2), which the motion never leaves. A coarse step
+/* test_potential_wells.c: a body in a potential well such as -log(1 - (x/l)^2), which the motion never leaves. A coarse step
  * leaves the well and meets the undefined potential. Then the run must fail, and name the expression and a remedy
  * that works. */
 #include "command.h"
@@ -29,8 +29,8 @@ static void draw(dice *d, unsigned i, char *text, size_t size) {
              steps * step_s);
 }
 
-TEST(walled, failed_runs_name_a_cure) {
-    dice d = dice_of("walled", 4451);
+TEST(potential_wells, failed_runs_name_a_cure) {
+    dice d = dice_of("potential_wells", 4451);
     const unsigned cases = dice_cases(few_or_all(usual_or(120, 32), 600));
     unsigned failed = 0;
     for (unsigned i = 0; i < cases; i++) {
@@ -57,7 +57,7 @@ TEST(walled, failed_runs_name_a_cure) {
 
 /* A slider-crank whose crank and rod have the same length. The run must end when both lie flat. Its message must not
  * suggest a step that would pass this position. */
-TEST(walled, flat_linkages_name_no_step) {
+TEST(potential_wells, flat_linkages_name_no_step) {
     dice d = dice_of("flat linkages", 4463);
     const unsigned cases = dice_cases(usual_or(24, 8));
     for (unsigned i = 0; i < cases; i++) {

@@ -1,4 +1,4 @@
-/* test_flat_named.c: when a linkage lies flat, the run must end and name the redundant hold, whatever the sequence
+/* test_flat_linkages.c: when a linkage lies flat, the run must end and name the redundant hold, whatever the sequence
  * of the file's statements. */
 #include "command.h"
 #include "host/cli/commands.h"
@@ -75,8 +75,8 @@ static void flat_is_named(int before, int behind, bool across_first, dice *d) {
     model_drop();
 }
 
-TEST(flat_named, redundant_hold_is_named) {
-    dice d = dice_of("flat_named", 26);
+TEST(flat_linkages, redundant_hold_is_named) {
+    dice d = dice_of("flat_linkages", 26);
     for (int before = 0; before <= STOPS; before++) {
         for (int across_first = 0; across_first < 2; across_first++) {
             flat_is_named(before, (int)dice_one_of(&d, STOPS + 1), across_first != 0, &d);

@@ -1,4 +1,4 @@
-/* test_rooms.c: allocations. The sanitizers, which run the other suites, find leaks. */
+/* test_allocations.c: allocations. The sanitizers, which run the other suites, find leaks. */
 #include "command.h"
 #include "host/base/alloc.h"
 #include "host/base/exit.h"
@@ -16,7 +16,7 @@ static bool all_are(const unsigned char *bytes, size_t count, unsigned char valu
     return true;
 }
 
-TEST(rooms, allocations_of_random_sizes) {
+TEST(allocations, allocations_of_random_sizes) {
     dice d = dice_of("room", 2511);
     for (unsigned i = 0; i < 200; i++) {
         const size_t size = 1U + dice_one_of(&d, 40);
@@ -40,7 +40,7 @@ TEST(rooms, allocations_of_random_sizes) {
     }
 }
 
-TEST(rooms, words_of_any_length) {
+TEST(allocations, words_of_any_length) {
     for (int length = 0; length < BYTES_MOST; length = length * 5 / 4 + 1) {
         char *words = alloc_words("%*s|%d", length, "", length);
         TEST_ASSERT_EQUAL_INT('|', words[length]);
@@ -50,7 +50,7 @@ TEST(rooms, words_of_any_length) {
     }
 }
 
-TEST(rooms, texts_of_any_length) {
+TEST(allocations, texts_of_any_length) {
     for (int length = 0; length < BYTES_MOST; length = length * 5 / 4 + 1) {
         char *text = NULL;
         size_t bytes = 0;
@@ -118,7 +118,7 @@ static int ask(int count, char **words) {
 #define ASKED "abcdefghijklmn"
 #endif
 
-TEST(rooms, impossible_sizes_end_the_program) {
+TEST(allocations, impossible_sizes_end_the_program) {
     static const char asked[] = ASKED "-";
     for (size_t i = 0; asked[i] != '\0'; i++) {
         const char word[] = {asked[i], '\0'};

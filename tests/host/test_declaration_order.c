@@ -1,4 +1,4 @@
-/* test_order_told.c: the output of `whirl run` (summary, warnings, hints) must not depend on the sequence of
+/* test_declaration_order.c: the output of `whirl run` (summary, warnings, hints) must not depend on the sequence of
  * declarations. There are random scenes for every kind of warning, with coordinates of very different size; they run
  * in all sequences. Words must be equal, and numbers, too, except for sums that are rounded in another sequence. */
 #include "command.h"
@@ -241,7 +241,7 @@ static void expect_the_same(char *wanted, char *is, double apart) {
     }
 }
 
-TEST(order_told, orders) {
+TEST(declaration_order, orders) {
     for (int i = 0; i < SCENES; i++) {
         const told_scene *s = &scenes[i];
         (void)dice_one_of(&die, 2);
@@ -264,4 +264,4 @@ TEST(order_told, orders) {
     model_drop();
 }
 
-SUITE(order_told) { die = dice_of("order_told", 91); }
+SUITE(declaration_order) { die = dice_of("declaration_order", 91); }

@@ -1,4 +1,4 @@
-/* test_books_told.c: what `whirl run` reports at the end on energy and momenta. Random mechanisms have uncoupled
+/* test_energy_balance_text.c: what `whirl run` reports at the end on energy and momenta. Random mechanisms have uncoupled
  * coordinates: free, pushed, sprung or damped. Closed forms give the conserved momenta, their values and, with the
  * ledger, the cause of each change. */
 #include "test.h"
@@ -13,7 +13,7 @@
 #include "derived.h"
 #include "motion.h"
 
-/* === suite books_told ========================================================================= */
+/* === suite energy_balance_text ================================================================ */
 
 enum { COORDINATES_MOST = 4 };
 
@@ -139,8 +139,8 @@ static void expect_balance(const own_bodies *m, const char *text) {
     expect_number(strpbrk(strstr(at, "  losses "), "+-"), losses_J, at);
 }
 
-TEST(books_told, conserved_momenta) {
-    dice d = dice_of("books told", 4121);
+TEST(energy_balance_text, conserved_momenta) {
+    dice d = dice_of("energy_balance_text", 4121);
     unsigned none = 0;
     for (unsigned k = 0; k < dice_cases(60); k++) {
         const own_bodies m = drawn(&d);
@@ -178,7 +178,7 @@ TEST(books_told, conserved_momenta) {
 }
 
 /* Checks each momentum balance: the named cause, the change, and the change divided by the run's duration. */
-TEST(books_told, ledgers) {
+TEST(energy_balance_text, ledgers) {
     static const char *const givers[KINDS] = {[FREE] = NULL,
                                               [PUSHED] = "\n  Q(",
                                               [SPRUNG] = "\n  from T and V: dL/d",
@@ -218,8 +218,8 @@ TEST(books_told, ledgers) {
 }
 
 /* The ball never reaches some of the random stops. Such a stop must have no line in any account. */
-TEST(books_told, contacts_without_impulse_have_no_line) {
-    dice die = dice_of("books_told", 93);
+TEST(energy_balance_text, contacts_without_impulse_have_no_line) {
+    dice die = dice_of("energy_balance_text", 93);
     enum { STOPS = 4 };
     for (unsigned c = 0; c < dice_cases(4); c++) {
         char text[1200];

@@ -1,4 +1,4 @@
-/* test_asked_first.c: a scene's program must not depend on what was computed before it with the same equations: other
+/* test_earlier_requests.c: a scene's program must not depend on what was computed before it with the same equations: other
  * expressions in their algebra, printed forms, or another program. Tests every built-in scene and generated mechanisms
  * (WHIRL_CASES). The C code must be identical to the byte; if the core lacks a function, the Octave form is compared
  * instead. */
@@ -163,9 +163,9 @@ static int compare_scene(const scene *in) {
     return 1;
 }
 
-TEST(asked_first, built_in_scenes) { expect_none(each_builtin_scene(compare_scene)); }
+TEST(earlier_requests, built_in_scenes) { expect_none(each_builtin_scene(compare_scene)); }
 
-TEST(asked_first, generated_mechanisms) {
+TEST(earlier_requests, generated_mechanisms) {
     const int wanted = (int)dice_cases(few_or_all(usual_or(4, 2), MECHANISMS));
     int done = 0;
     for (uint64_t number = 0; done < wanted; number++) {
@@ -185,4 +185,4 @@ TEST(asked_first, generated_mechanisms) {
     expect_none(wanted);
 }
 
-SUITE(asked_first) { printf("asked_first: seed %" PRIu64 "\n", seed); }
+SUITE(earlier_requests) { printf("earlier_requests: seed %" PRIu64 "\n", seed); }

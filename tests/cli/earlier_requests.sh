@@ -1,6 +1,6 @@
 #!/bin/sh
-# asked_first.sh: a process that derives all scenes, one after the other, writes the same C as a process for each scene.
-# For every built-in scene, and generated mechanisms in one file. (Within one algebra: tests/host/test_asked_first.c.)
+# earlier_requests.sh: a process that derives all scenes, one after the other, writes the same C as a process for each scene.
+# For every built-in scene, and generated mechanisms in one file. (Within one algebra: tests/host/test_earlier_requests.c.)
 . "$(dirname "$0")/../checks.sh"
 
 mkdir "$scratch/all" "$scratch/of_file"

@@ -1,4 +1,4 @@
-/* test_held_text.c: reads back the text of `whirl prove` for random results (host/prove/containment.h). Numbers must
+/* test_prove_text.c: reads back the text of `whirl prove` for random results (host/prove/containment.h). Numbers must
  * be rounded up, but not by much; the text must end with the right state; rows must be exact to the last bit. */
 #include "drawn_image.h"
 #include "host/base/alloc.h"
@@ -182,7 +182,7 @@ static const char *said_end(const char *at, double end_s) {
     return said_exactly(at, "\n");
 }
 
-TEST(held_text, words) {
+TEST(prove_text, words) {
     for (unsigned c = 0; c < dice_cases(usual_or(300, 100)); c++) {
         char name[40];
         draw();
@@ -222,7 +222,7 @@ static const char *read_exactly(const char *at, double wanted) {
     return at;
 }
 
-TEST(held_text, rows) {
+TEST(prove_text, rows) {
     for (unsigned c = 0; c < dice_cases(usual_or(100, 40)); c++) {
         enclosure exact[DRAWN_STATES] = {{0.0, 0.0}};
         double run[DRAWN_STATES] = {0.0};
@@ -262,4 +262,4 @@ TEST(held_text, rows) {
     }
 }
 
-SUITE(held_text) { die = dice_of("held_text", 45); }
+SUITE(prove_text) { die = dice_of("prove_text", 45); }
