@@ -47,7 +47,7 @@ TEST(contact_places, only_one_coordinate_moves) {
 
 /* wh_contact_add_product() keeps all bits of a product: as many as a 64-bit integer has. A plain sum would lose the
  * last bits. */
-TEST(contact_places, no_bit_of_a_product_is_lost) {
+TEST(contact_places, products_have_all_bits) {
     uint64_t seed = 142;
     const uint64_t size = WH_DOUBLE ? 0x7fffffff : 0xfffff;
     for (unsigned round = 0; round < ROUNDS; round++) {
@@ -230,7 +230,7 @@ TEST(contact_places, how_far_a_stop_is_passed) {
 }
 
 /* The end of a step is copied to the state completely, and nothing beyond it changes. Copied back, it is the same. */
-TEST(contact_places, a_step_is_written_down_and_read_back) {
+TEST(contact_places, step_is_stored_and_restored) {
     uint64_t seed = 146;
     for (unsigned round = 0; round < ROUNDS / 4; round++) {
         wh_contact_work w;

@@ -157,7 +157,7 @@ TEST(contact_search, the_first_of_several_is_found) {
 
 /* A friction that slides against a force comes to rest at the time v/a. It begins with a nonzero rate; or with rate
  * zero, in a mode that ends at once. */
-TEST(contact_search, sliding_ends_where_the_rate_does) {
+TEST(contact_search, sliding_ends_at_zero_rate) {
     uint64_t seed = 203;
     tally sum = {0, 0, 0, 0};
     for (unsigned round = 0; round < ROUNDS; round++) {

@@ -94,7 +94,7 @@ static bool answers(unsigned k, lost_place place, unsigned steps, wh_real nothin
                     : status == WH_OK;
 }
 
-TEST(contact_undefined, nan_in_a_step_is_refused) {
+TEST(contact_undefined, undefined_contacts_refuse_the_step) {
     unsigned wrong = 0;
     unsigned asked = 0;
     for (unsigned number = 0; number < 64 * 16; number++) {

@@ -157,7 +157,7 @@ static void the_last_byte(const wh_scene *scene, size_t need) {
 
 TEST(memory, one_byte_too_few_is_refused) { every_shape(the_last_byte); }
 
-TEST(memory, misaligned_memory_is_refused) { every_shape(every_place); }
+TEST(memory, only_aligned_memory_is_accepted) { every_shape(every_place); }
 
 static void the_words(const wh_scene *scene, size_t need) {
     const size_t books = scene->ledger == NULL
@@ -168,7 +168,7 @@ static void the_words(const wh_scene *scene, size_t need) {
     TEST_ASSERT_TRUE(enough * sizeof(uint64_t) >= need);
 }
 
-TEST(memory, the_words_counted_by_hand_are_enough) { every_shape(the_words); }
+TEST(memory, macros_give_enough_words) { every_shape(the_words); }
 
 TEST(memory, null_and_too_many_are_refused) {
     const wh_scene scene = shape(1, 2, 1, WH_CONTACTS_LIMIT);

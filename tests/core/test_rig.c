@@ -70,7 +70,7 @@ TEST(rig, impossible_pulses_are_rejected) {
 }
 
 /* If no turn is known, no pulse can be overdue, after any time. */
-TEST(rig, only_a_known_turn_can_be_overdue) {
+TEST(rig, only_known_turns_are_overdue) {
     wh_speed speed;
     wh_speed_start(&speed, WH_R(800.0) * RPM);
     TEST_ASSERT_FALSE(wh_speed_is_overdue(&speed, UINT32_MAX));

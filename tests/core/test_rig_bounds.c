@@ -24,7 +24,7 @@ static void arm(bool trusted) {
 
 /* As many confirmed pulses wait as there is room for. Each step processes one; the last waits for a step without a new
  * pulse. */
-TEST(rig_bounds, a_single_pulse_waits_for_a_step_without_a_pulse) {
+TEST(rig_bounds, last_pulse_waits_for_free_step) {
     static even_rig twin;
     even_reach(&even, WH_PHASE_SETTLE);
     while (even.rig.pulses.waits || even.rig.pulses.confirmed_count > 0) {
@@ -175,7 +175,7 @@ TEST(rig_bounds, limits_of_the_tare_are_allowed) {
     }
 }
 
-TEST(rig_bounds, a_stage_is_a_state_or_a_phase) {
+TEST(rig_bounds, stage_is_state_or_phase) {
     for (unsigned stage = 0; stage < 2U * WH_RIG_STAGE_OF_PHASE; stage++) {
         const bool state = stage < WH_RIG_STAGE_OF_PHASE;
         const char *words = state ? wh_rig_state_text((wh_rig_state)stage)

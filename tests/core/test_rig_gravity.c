@@ -105,7 +105,7 @@ static void begin(fed_by by) {
 /* At 330 rpm gravity compensation reduces the ripple from 5 % to a hundredth of that; at 170 rpm, from 18 %. At 100 rpm
  * the rotor would not pass the top without compensation. At that speed the motor brakes at most as much as with shorted
  * leads, so some ripple remains. Friction reduces it. */
-TEST(rig_gravity, the_ripple_goes) {
+TEST(rig_gravity, ripple_disappears) {
     begin(FED_BY_NOBODY);
     run_at(WH_R(330.0));
     check_between(WH_R(0.045), WH_R(0.055), compensated_rotor_ripple(&compensated));
@@ -152,7 +152,7 @@ TEST(rig_gravity, wrong_weight_gives_a_remaining_ripple) {
 
 /* If the sensor positions are wrong by 3 degrees, in equal or opposite directions, at most a twentieth of the ripple
  * remains. */
-TEST(rig_gravity, sensors_may_stand_wrong) {
+TEST(rig_gravity, displaced_sensors) {
     for (unsigned i = 0; i < 8; i++) {
         begin(FED_BY_OBSERVER);
         compensated.kind.pulse_rad[0] += (i % 2U == 0 ? WH_R(3.0) : WH_R(-3.0)) * DEG;

@@ -224,7 +224,7 @@ TEST(rig_guard, a_stuck_load_cell_trips) {
     TEST_ASSERT_TRUE(trip_on_swing(WH_R(2.2), true, 1000) == WH_TRIP_NONE);
 }
 
-TEST(rig_guard, an_overloaded_or_disconnected_load_cell_trips) {
+TEST(rig_guard, overloaded_or_disconnected_cell_trips) {
     const wh_speed speed = {.taken = 7};
     for (wh_load_status status = WH_LOAD_OK; status < WH_LOAD_STATUSES; status++) {
         wh_guard guard;

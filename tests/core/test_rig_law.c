@@ -23,7 +23,7 @@ TEST(rig_law, silence_goes_on_over_the_wrap) {
 }
 
 /* Missing pulses freeze the voltage, and meanwhile the supply sags below it. */
-TEST(rig_law, no_more_volts_than_the_supply_has) {
+TEST(rig_law, voltage_is_limited_by_the_supply) {
     scattered_state = UINT64_C(0x5eed0006);
     for (unsigned i = 0; i < 200U; i++) {
         static wh_rig rig;

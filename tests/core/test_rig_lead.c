@@ -71,7 +71,7 @@ static void leads_to(wh_real target_radps) {
     TEST_ASSERT_TRUE(wh_rig_post(&rig, WH_EVENT_SET, target_radps));
 }
 
-TEST(rig_lead, a_rotor_that_cannot_follow_is_not_too_fast) {
+TEST(rig_lead, slow_rotor_is_no_runaway) {
     uint64_t seed = 11;
     unsigned left_behind = 0;
     for (unsigned trial = 0; trial < 40U; trial++) {
@@ -107,7 +107,7 @@ TEST(rig_lead, fast_spin_up_is_no_runaway) {
 }
 
 /* The bounds of docs/rig.md hold for a rotor whose set-point falls, whether the rotor follows or not. */
-TEST(rig_lead, a_runaway_on_the_way_down_is_seen) {
+TEST(rig_lead, runaway_on_the_way_down_trips) {
     uint64_t seed = 13;
     for (unsigned trial = 0; trial < draw_cases(60); trial++) {
         draw_rotor(&seed);
@@ -128,7 +128,7 @@ TEST(rig_lead, a_runaway_on_the_way_down_is_seen) {
 }
 
 /* The bound does not rise with the rotor's speed: a rotor driven to no more than 390 rpm is detected too. */
-TEST(rig_lead, a_slow_runaway_on_the_way_down_is_seen) {
+TEST(rig_lead, slow_runaway_going_down_trips) {
     uint64_t seed = 14;
     for (unsigned trial = 0; trial < 20U; trial++) {
         draw_rotor(&seed);
@@ -163,7 +163,7 @@ static void run_away(wh_real most_s) {
     TEST_ASSERT_TRUE((wh_real)(rotor.ticks - begins_ticks) <= most_s * (wh_real)WH_RIG_TICKS_PER_S);
 }
 
-TEST(rig_lead, a_runaway_is_seen_at_any_place) {
+TEST(rig_lead, runaway_at_any_angle_trips) {
     uint64_t seed = 7;
     kind = rotor_nominal();
     const wh_real drive =
@@ -199,7 +199,7 @@ TEST(rig_lead, a_runaway_from_rest_is_seen) {
 
 /* A friction of up to 0.1 N m vanishes at some instant, and the rotor becomes faster. With at least 0.7 times the
  * inertia the rig must not trip: the control loop corrects the speed. */
-TEST(rig_lead, a_load_that_goes_away_is_no_runaway) {
+TEST(rig_lead, vanishing_load_is_no_runaway) {
     uint64_t seed = 9;
     for (unsigned trial = 0; trial < 60U; trial++) {
         kind = rotor_nominal();

@@ -85,7 +85,7 @@ TEST(rig_observed, result_has_the_voltage) {
 }
 
 /* A step that processes a pulse does no work for the turn in progress. */
-TEST(rig_observed, a_step_with_a_pulse_works_on_no_turn) {
+TEST(rig_observed, steps_with_pulses_skip_turn_work) {
     unsigned pulses = 0;
     unsigned works = 0;
     even_reach(&even, WH_PHASE_SETTLE);

@@ -177,7 +177,7 @@ TEST(rig_parts, last_interval_bounds_coasting_speed) {
     }
 }
 
-TEST(rig_parts, doubt_grows_by_two_and_shrinks_by_one) {
+TEST(rig_parts, doubt_counter) {
     unsigned grown = 0;
     unsigned shrunk = 0;
     seed = 6;

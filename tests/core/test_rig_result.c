@@ -299,7 +299,7 @@ TEST(rig_result, remaining_gravity_is_reported) {
 
 /* A single turn has no scatter, and a zero load has no phase. Then the result has no interval, and no number in it is
  * NaN. */
-TEST(rig_result, without_scatter_or_load_there_is_no_interval) {
+TEST(rig_result, no_interval_without_scatter_or_load) {
     for (unsigned turns = 0; turns <= 3U; turns++) {
         for (unsigned loads = 0; loads < 2U; loads++) {
             begin();

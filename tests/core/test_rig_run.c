@@ -91,7 +91,7 @@ TEST(rig_run, extra_pulse_changes_no_result) {
 }
 
 /* The rotor hangs with its slot at sensor 1, where jitter makes pulses. */
-TEST(rig_run, a_pulse_during_the_tare_is_forgotten) {
+TEST(rig_run, pulse_during_the_tare_is_ignored) {
     for (uint32_t after = 0; after <= 490000U; after += 490000U) {
         run(WH_R(330.0),
             (even_failure){.in = WH_PHASE_TARE, .after_ticks = after, .adds = {true, false}});
@@ -162,7 +162,7 @@ TEST(rig_run, jitter_settles) {
 
 /* A speed that oscillates by 1 rpm or more with a period of 2 to 8 s, or drifts by 0.6 rpm/s or more, does not settle,
  * with any jitter. */
-TEST(rig_run, a_speed_that_hunts_or_drifts_does_not_settle) {
+TEST(rig_run, unsteady_speed_does_not_settle) {
     unsigned unsettled = 0;
     seed = 62;
     for (unsigned i = 0; i < 40U; i++) {
@@ -185,7 +185,7 @@ TEST(rig_run, a_speed_that_hunts_or_drifts_does_not_settle) {
 }
 
 /* A cell stops giving samples. In every state that needs the cell, the run ends within 10 sample periods and a step. */
-TEST(rig_run, a_load_cell_that_falls_silent_trips) {
+TEST(rig_run, silent_load_cell_trips) {
     for (wh_rig_phase in = WH_PHASE_TARE; in <= WH_PHASE_RAMP_DOWN; in++) {
         begin(WH_R(330.0), (even_failure){.in = in, .lose_samples = EVEN_ALWAYS});
         go_on_until(in);

@@ -118,7 +118,7 @@ TEST(rig_steps, states_and_reasons_have_unique_words) {
     check_words(trip_text, (int)WH_TRIP_UNBRAKED);
 }
 
-TEST(rig_steps, a_pulse_of_no_sensor_is_only_rejected) {
+TEST(rig_steps, pulse_of_no_sensor_is_rejected) {
     stand_in(WH_PHASE_SETTLE);
     const wh_rig before = rig;
     for (unsigned sensor = WH_RIG_SENSORS; sensor < 260U; sensor++) {
@@ -270,7 +270,7 @@ TEST(rig_steps, rest_is_waited_for) {
 }
 
 /* Time differences wrap after 71.6 minutes. A rig at rest after a trip stays at rest through two wraps. */
-TEST(rig_steps, a_rig_at_rest_stays_so_when_the_timer_wraps) {
+TEST(rig_steps, rest_outlasts_a_timer_wrap) {
     const wh_trip trips[] = {WH_TRIP_WATCHDOG,
                              WH_TRIP_PULSES}; /* after this trip, only the time shows rest */
     for (unsigned i = 0; i < 2; i++) {

@@ -239,7 +239,7 @@ static unsigned may_follow(wh_swing_piece piece) {
 }
 
 /* Also checks that a piece integrates the equation of motion over at most EQUATION_STEPS steps. */
-TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
+TEST(rig_swing_pulses, control_steps_share_the_work) {
     const wh_rig_config *config = &wh_rig_standard;
     unsigned times[WH_SWING_ENDS + 1] = {0};
     seed = 5;
@@ -278,7 +278,7 @@ TEST(rig_swing_pulses, a_control_step_does_one_piece_of_the_work) {
 
 /* Steps in which the rotor reverses, or in which friction keeps it at rest. Each step and its derivatives are compared
  * with many small steps, in both directions. */
-TEST(rig_swing_pulses, a_step_that_turns_back_is_many_small_ones) {
+TEST(rig_swing_pulses, reversing_step_equals_small_steps) {
     const unsigned pieces = 64U;
     const wh_real most[WH_FREE_CAUSES] = {WH_R(2e-3), WH_R(5e-3), WH_R(1e-4), WH_R(2e-4),
                                           WH_R(1e-3)};

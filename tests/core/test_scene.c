@@ -124,7 +124,7 @@ static wh_status first_order_advance(const wh_scene *scene, wh_state *of) {
                            of);
 }
 
-TEST(scene, a_method_that_the_form_does_not_have_is_refused) {
+TEST(scene, unavailable_methods_are_refused) {
     for (unsigned i = 0; i < WH_METHODS; i++) {
         wh_scene scene = oscillator(WH_RK4, false, WH_R(0.25));
         scene.form = WH_FIRST_ORDER;

@@ -54,7 +54,7 @@ static wh_real drawn(uint32_t *seed) {
 }
 
 /* With compensated sums, the change has more digits than a rate. */
-TEST(stabilize, a_part_of_the_drift_is_given_back) {
+TEST(stabilize, part_of_the_drift_is_corrected) {
     uint32_t seed = 20261128;
     for (unsigned i = 0; i < DRAWN; i++) {
         flight f;
@@ -99,7 +99,7 @@ TEST(stabilize, correction_is_in_the_ledger) {
 
 /* When the motion reverses, the relative change of the rates is no larger than at the highest speed. A faster motion
  * gives a new maximum of P. */
-TEST(stabilize, the_fastest_so_far_is_the_measure) {
+TEST(stabilize, largest_speed_is_the_scale) {
     uint32_t seed = 20261130;
     for (unsigned i = 0; i < DRAWN; i++) {
         flight f;
@@ -126,7 +126,7 @@ TEST(stabilize, the_fastest_so_far_is_the_measure) {
 }
 
 /* The rates change by at most 2^-20 of their values, in either direction. */
-TEST(stabilize, there_is_a_bound) {
+TEST(stabilize, correction_is_bounded) {
     for (unsigned i = 0; i < 4; i++) {
         flight f;
         const wh_real way = i % 2 == 0 ? WH_R(1.0) : WH_R(-1.0);

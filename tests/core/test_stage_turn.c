@@ -287,7 +287,7 @@ static void step_both(manner how, wh_real h, wh_real u, const wh_real *rate, wh_
 
 /* If the angle moves by less than half a turn per step, the shear angle is small, so both steps agree to round-off. The
  * waves turn up to three times as fast. */
-TEST(stage_turn, fast_angles_step_as_looking_up_does) {
+TEST(stage_turn, fast_angles_equal_lookups) {
     const wh_real h = WH_R(0.0009765625);
     const wh_real most = WH_R(3.14) / h;
     const wh_real within = sizeof(wh_real) == 8 ? WH_R(4e-14) : WH_R(1e-6);

@@ -16,7 +16,7 @@ static wh_line_event take(const char *bytes) {
     return last;
 }
 
-TEST(station_line, lines_end_in_each_of_three_ways) {
+TEST(station_line, three_line_endings) {
     static const char *const ends[] = {"\r", "\n", "\r\n"};
     for (unsigned i = 0; i < 9; i++) {
         line = (wh_line){.length = 0};
@@ -39,7 +39,7 @@ TEST(station_line, typing_errors_are_taken_back) {
     TEST_ASSERT_EQUAL_STRING("start 170", line.text);
 }
 
-TEST(station_line, escape_forgets_and_keys_are_no_text) {
+TEST(station_line, escape_discards_the_line) {
     static const char *const keys[] = {"\x1b", "\x1b[A", "\x1bOP", "\x1b[15~", "\x1b[1;5C"};
     for (unsigned i = 0; i < 5; i++) {
         line = (wh_line){.length = 0};

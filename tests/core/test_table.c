@@ -94,7 +94,7 @@ static void test_tables_hold_what_they_were_made_of(void) {
 #endif
 
 /* wh_table_cell() for numbers of cells other than 128: the cell's number, and the distance from its middle. */
-TEST(table, finer_cells_are_parts_of_coarse_ones) {
+TEST(table, finer_cells_divide_coarse_ones) {
     static const wh_real none[1] = {WH_R(0.0)};
     uint64_t seed = 7;
     for (unsigned bits = 7; bits <= (sizeof(size_t) > 2 ? WH_TABLE_BITS_MOST : 12U); bits++) {

@@ -583,7 +583,7 @@ static const poly *sum_of_rates(algebra *a, symbol *rates, int count) {
 
 /* A power of a sum of rates is expanded if the result has up to 64 products. Of the powers of a sum of coordinates,
  * only the square is expanded. */
-TEST(algebra_limits, powers_are_multiplied_out_up_to_a_size) {
+TEST(algebra_limits, powers_expand_up_to_a_size) {
     symbol rates[12];
     for (int count = 2; count <= 12; count++) {
         for (int exponent = 2; exponent <= 7; exponent++) {
@@ -655,7 +655,7 @@ TEST(algebra_limits, very_large_expressions_overflow) {
 
 /* The limit of work must not depend on the host. So each object counts with a fixed size, and each table entry with
  * 48 bytes. */
-TEST(algebra_limits, work_is_counted_alike_on_every_host) {
+TEST(algebra_limits, work_count_is_host_independent) {
     algebra *a = algebra_new();
     enum { ATOM = 72 + 48, MONO = 48 + 48, POLY = 32 + 48, PART = 16, PAIR = 24 + 48, TERM = 2 };
     size_t before = a->work;
@@ -951,7 +951,7 @@ TEST(normal_form, random_expressions_have_normal_form) {
     TEST_ASSERT_GREATER_THAN_INT(forms() / 20, waves);
 }
 
-TEST(normal_form, the_order_of_arguments_does_not_matter) {
+TEST(normal_form, order_of_arguments_changes_nothing) {
     uint64_t seed = 31;
     for (int i = 0; i < 400; i++) {
         algebra *a = algebra_new();

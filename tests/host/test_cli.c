@@ -157,7 +157,7 @@ TEST(counts, times_are_rounded_once) {
 
 /* A --every or --from that was computed in double differs from the end of a step by round-off. Whirl must take it
  * for the end of that step. */
-TEST(counts, spacings_and_begins_are_counted_in_steps) {
+TEST(counts, spacings_are_counted_in_steps) {
     for (int i = 0; i < (int)usual_or(20000, 5000); i++) {
         const whole_ratio step =
             ratio_of((double)(1 + random_below(999)) / (double)(1 + random_below(99999)));

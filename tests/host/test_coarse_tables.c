@@ -11,7 +11,7 @@ static void run(const char *text, const char *form, int cells, const char *step,
                 step, "--quiet");
 }
 
-TEST(coarse_tables, tables_are_named_and_more_cells_cure) {
+TEST(coarse_tables, more_cells_end_the_warning) {
     dice d = dice_of("coarse tables", 14006);
     const unsigned cases = dice_cases(few_or_all(usual_or(2, 1), 40));
     unsigned told = 0;

@@ -40,7 +40,7 @@ static void tell(const way *w, const char *const *changes, int count, said *what
     command_say(w->command, words, what);
 }
 
-TEST(command_changes, a_name_given_twice_is_refused_by_every_command) {
+TEST(command_changes, repeated_names_are_refused) {
     static const char *const names[] = {"th", "th'", "x", "x'", "b", "M"};
     static const char *const units[] = {"rad", "rad/s", "m", "m/s", "kg", "N*m"};
     enum { NAMES = sizeof names / sizeof names[0] };

@@ -177,7 +177,7 @@ static int check_both_names(const scene *s) {
     return 1;
 }
 
-TEST(commands, every_built_in_scene_by_both_names) {
+TEST(commands, built_in_scenes_by_both_names) {
     TEST_ASSERT_TRUE(each_builtin_scene(check_both_names) > 40);
 }
 

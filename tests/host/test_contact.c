@@ -500,10 +500,8 @@ TEST(contact_law, impacts_follow_newtons_law_in_float) {
 
 TEST(contact_law, holds_capture_by_their_law) { check_law(draw_capture, &engine_double, 1e-11); }
 
-TEST(contact_law, forces_share_a_load_by_their_law) { check_law(draw_rest, &engine_double, 1e-11); }
-TEST(contact_law, forces_share_a_load_by_their_law_in_float) {
-    check_law(draw_rest, &engine_float, 1e-4);
-}
+TEST(contact_law, forces_share_the_load) { check_law(draw_rest, &engine_double, 1e-11); }
+TEST(contact_law, forces_share_the_load_in_float) { check_law(draw_rest, &engine_float, 1e-4); }
 
 /* === suite contact_friction =================================================================== */
 /* Blocks that stick and slip (core/models/contacts.whirl). */

@@ -352,7 +352,7 @@ static const char *fill(const char *from, const held *of, const double number[st
 /* A hold begins to act when its expression reaches the limit of its own condition. The hold must act on, with any
  * load and through other events in the same step, until another condition releases the hold. A hold that starts at
  * its limit must act, too, unless its body moves out of the condition. */
-TEST(contact_holds, a_hold_stays_at_its_own_limit) {
+TEST(contact_holds, hold_acts_at_its_own_limit) {
     dice d = dice_of("contact_holds", 1);
     int failures = 0;
     const unsigned cases = dice_cases(few_or_all(usual_or(120, 60), 600));

@@ -83,7 +83,7 @@ static int run(const tangle *of, double *state, uint64_t *overruns) {
 
 /* Touching bodies are thrown at each other, some with friction, loads, holds and a crossing. Every sequence of the
  * statements must give the same motion within round-off. Steps with too many events are excepted. */
-TEST(contact_together, the_order_of_the_file_does_not_matter) {
+TEST(contact_together, order_of_statements_changes_nothing) {
     const long runs = (long)dice_cases(130);
     int over = 0;
     double worst = 0.0;

@@ -166,7 +166,7 @@ TEST(cures, cures_were_tried) {
 /* A body rolls up to the top of a hill, where errors grow as exp(t), beside a spring that needs a shorter step. In
  * float, round-off decides to which side the body rolls down: that is chaos, which is no finding. A remedy in float
  * must still give a right result until the end. */
-TEST(cures, cures_in_float_are_right_to_the_end) {
+TEST(cures, remedies_in_float_are_right) {
     dice d = dice_of("cures_float", 29112026);
     const unsigned cases = dice_cases(few_or_all(12, 60));
     unsigned in_float = 0;

@@ -645,7 +645,7 @@ static horizons one_of(uint64_t *seed, unsigned n, int ms, horizons_setting how)
     return horizons_of(text, "s", how, HORIZON_TOLERANCE);
 }
 
-TEST(trust_kinks, exact_steps_are_right_to_the_end) {
+TEST(trust_kinks, exact_steps_are_trusted) {
     uint64_t seed = 1408;
     double worst = 0.0;
     for (unsigned n = 0; n < few_or_all(12, 48); n++) {

@@ -618,7 +618,7 @@ static void expect_told(const image *im) {
 }
 
 /* If T + V of a built-in scene is its energy integral, the balance must be that of T + V. */
-TEST(energy_integral, where_the_integral_is_the_energy) {
+TEST(energy_integral, integral_equals_the_energy) {
     static const struct {
         const char *text;
         bool integral;

@@ -665,7 +665,7 @@ static double floor_off(double hw, const engine_kind *kind) {
     return most;
 }
 
-TEST(hard_edges, a_floor_stiffer_than_the_step_bears) {
+TEST(hard_edges, stiff_floor_is_right_or_warned) {
     dice d = dice_of("floors", 15002);
     const unsigned cases = dice_cases(few_or_all(10, 80));
     unsigned gone = 0;

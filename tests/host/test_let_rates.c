@@ -125,7 +125,7 @@ static void expect_same_numbers(const derived *a, const derived *b, const char *
 
 /* Both files must give the same numbers, and in nine of ten cases the same C code. Powers of quotients in the other
  * cases have no unique normal form. */
-TEST(let_rates, derivatives_of_lets_are_those_by_hand) {
+TEST(let_rates, derivatives_of_lets_match_manual_ones) {
     dice d = dice_of("let_rates", 4601);
     const unsigned cases = dice_cases(usual_or(120, 20));
     unsigned compared = 0;

@@ -255,7 +255,7 @@ TEST(map, bounded_and_unbounded_runs) {
  * length T these sum to w T z^4/120 of the amplitude (half of that relative to the range) and to w T z^5/72 of the
  * energy. The largest entry of the energy balance is half the RMS momentum times the range of the rate: sqrt(2) of
  * the energy. */
-TEST(map, where_a_tolerance_and_the_energy_end) {
+TEST(map, limits_of_tolerance_and_energy) {
     dice d = dice_of("map tolerance", 1423);
     const unsigned cases = dice_cases(few_or_all(4, 32));
     unsigned seen[MAP_VERDICTS] = {0};

@@ -179,7 +179,7 @@ TEST(method_rows, rows_are_explicit) {
 }
 
 /* The position weights of a method for any system must be b A: the Runge-Kutta method applied to x' = f(x). */
-TEST(method_rows, runge_kutta_methods_have_the_positions_of_their_rates) {
+TEST(method_rows, positions_follow_from_the_rates) {
     for (int m = 0; m < WH_METHODS; m++) {
         const butcher t = row_of(m);
         double off = 0.0;

@@ -179,7 +179,7 @@ TEST(method_order, no_tree_is_missing) {
     }
 }
 
-TEST(method_order, rows_have_their_order_and_no_more) {
+TEST(method_order, rows_have_exactly_their_order) {
     static forest f;
     for (int m = 0; m < WH_METHODS; m++) {
         const wh_method_row *row = &wh_methods[m];

@@ -187,7 +187,7 @@ TEST(missed, flat_ones) {
 }
 
 /* With the warning's remedy, a shorter step or an earlier end, the run must not have this warning. */
-TEST(missed, ways_out) {
+TEST(missed, remedies_end_the_warning) {
     dice d = dice_of("missed", 7);
     const unsigned cases = dice_cases(few_or_all(usual_or(26, 13), 130));
     unsigned ways[2] = {0, 0};

@@ -158,7 +158,7 @@ static void expect_noise(const made_up *m, const mechanism *of, const scene *in)
     free(without);
 }
 
-TEST(noise_measures, measures_have_the_noise_of_the_records) {
+TEST(noise_measures, measures_have_the_records_noise) {
     const char *more = getenv("WHIRL_NOISE_CASES");
     const int cases = more != NULL ? (int)strtol(more, NULL, 10) : 60;
     uint64_t seed = 20261121;

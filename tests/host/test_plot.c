@@ -88,7 +88,7 @@ static void check_bucket(const double *data, unsigned from, unsigned to, int i, 
     TEST_ASSERT_TRUE(second == data[(size_t)late * COLUMNS + (size_t)i]);
 }
 
-TEST(envelope, long_runs_keep_least_and_most_of_every_stretch) {
+TEST(envelope, long_runs_have_minima_and_maxima) {
     dice d = dice_of("long signals", 5102);
     const unsigned cases = dice_cases(25);
     for (unsigned i = 0; i < cases; i++) {

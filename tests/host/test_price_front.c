@@ -34,7 +34,7 @@ static bool beats(const table_row *a, const table_row *b) {
 }
 
 /* The rows have few different values, so that many rows tie. */
-TEST(price_front, drawn_rows_are_sorted_and_their_front_is_marked) {
+TEST(price_front, rows_are_sorted_with_front_marked) {
     dice d = dice_of("price_front", 1);
     for (unsigned n = 0; n < dice_cases(few_or_all(400, 20000)); n++) {
         table_row row[ROWS_MOST];
@@ -68,7 +68,7 @@ TEST(price_front, drawn_rows_are_sorted_and_their_front_is_marked) {
 }
 
 /* The tried paces are 50, 20, 10, 5 and 2 records in a step, then 1, 2, 5, 10, ... steps in a record, up to 5e7. */
-TEST(price_front, the_ladder_goes_down_by_one_two_five) {
+TEST(price_front, steps_decrease_by_1_2_5) {
     double length = 100.0;
     const table_request w = {.rate_Hz = 0.0};
     deviation_pace p;

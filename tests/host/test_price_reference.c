@@ -135,7 +135,7 @@ static double true_error(priced *p, const pair *o, const setting *s, deviation_p
 }
 
 /* A reported error must be within a tenth of the true error. A reported bound must not be below the true error. */
-TEST(price_reference, errors_are_those_of_closed_forms_or_bounds) {
+TEST(price_reference, errors_equal_closed_forms_or_bounds) {
     static const wh_method methods[] = {WH_HEUN, WH_RK4, WH_NYSTROEM5, WH_EULER};
     dice d = dice_of("price_reference errors", 75);
     int figures = 0;

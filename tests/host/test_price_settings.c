@@ -320,7 +320,7 @@ TEST(price_trials, errors_have_their_quantitys_unit) {
 }
 
 /* y' = y^2 becomes infinite at 1/y(0). */
-TEST(price_trials, the_horizon_is_that_of_the_place_that_ends_first) {
+TEST(price_trials, shortest_horizon_counts) {
     static const double from[] = {0.5, 1.25, 0.8};
     for (int turn = 0; turn < 3; turn++) {
         char text[3][200];

@@ -185,7 +185,7 @@ static void print_remedies(FILE *out) {
     priced_close(&p);
 }
 
-TEST(price_words, prices_and_choices_are_printed_as_before) {
+TEST(price_words, printed_prices_and_choices) {
     caught all;
     catch_text(&all);
     print_tables(all.to);

@@ -193,7 +193,7 @@ TEST(rounding, angle_steps_are_rounded_not_cut) {
 }
 
 /* A gear that starts a million turns from zero must move with the same bits as a gear that starts at zero. */
-TEST(rounding, motion_after_a_million_turns_is_the_same) {
+TEST(rounding, motion_after_a_million_turns) {
     static const char *const others[] = {"X", "theta'", "X'"};
     stepping how = IN_FLOAT;
     motion m;

@@ -77,7 +77,7 @@ static double piece(const op_list_tables *t, int k, int cell, double y, int deri
     return value;
 }
 
-TEST(tables, pieces_meet_in_values_and_cubic_ones_in_slopes) {
+TEST(tables, pieces_are_continuous) {
     derived d = derived_builtin("halvorson_smooth");
     for (int f = 0; f < FORMS; f++) {
         image *im = tabled_surely(&d, both[f], 32);
@@ -227,7 +227,7 @@ static double compare(const comparison *c, int coordinates, uint64_t *seed, cons
     return worst;
 }
 
-TEST(tables, generated_accelerations_are_as_near_as_the_tables) {
+TEST(tables, accelerations_are_within_the_tables_error) {
     double worst = 0.0;
     const int cases = (int)dice_cases(few_or_all(8, 40));
     for (int n = 0; n < cases; n++) {
@@ -281,7 +281,7 @@ static int by_size(const void *x, const void *y) {
 
 /* The error of the motion by cell size. Tables have order 2 or 4. At this order, the mean of their error over a cell
  * is zero, so only the cells at the start and end of the motion remain, which gives one order more. */
-TEST(tables, generated_motions_near_the_exact_ones_by_order) {
+TEST(tables, motions_have_the_tables_order) {
     enum { MOST = 300 };
     double order[MOST];
     const int wanted = (int)dice_cases(few_or_all(6, 24));

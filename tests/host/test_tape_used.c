@@ -99,7 +99,7 @@ static void check_finite(scene_list *l) {
     *number = kept;
 }
 
-TEST(tape_used, nan_in_results_is_found) { each_list(200, check_finite); }
+TEST(tape_used, non_finite_results_are_found) { each_list(200, check_finite); }
 
 static const double fits[] = {0.0, -0.0, 0x1p-126, -0x1p-126, 1.0, 0x1.fffffep127, -3e38};
 static const double fits_not[] = {0x1.fffffep-127,   -1e-40,           0x1.ffffffp127, 1e39,

@@ -153,7 +153,7 @@ TEST(trajectory, thomson_device_follows_the_reference) {
     check_lines(":thomson_b_spin | ", 0.25, 1);
 }
 
-TEST(trajectory, thomson_set_b_can_be_followed_for_five_seconds) {
+TEST(trajectory, thomson_set_b_for_five_seconds) {
     const char *part = ":thomson_b | 5.0 | ";
     FILE *file = fopen(REFERENCE, "r");
     TEST_ASSERT_NOT_NULL_MESSAGE(file, REFERENCE " cannot be read: run from the project's root");

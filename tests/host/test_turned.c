@@ -181,7 +181,7 @@ TEST(turned, generated_mechanisms_move_alike) {
 
 /* Rates that exceed the limit of small rotations (up to 100 rad/s here) at the start or later. If lookup runs,
  * rotation must run, too. Both have large errors, because the steps do not resolve the motion. */
-TEST(turned, generated_mechanisms_that_become_fast_go_on) {
+TEST(turned, fast_generated_mechanisms_go_on) {
     TEST_ASSERT_TRUE(share_apart(0.45, 300.0, 250.0) < 0.1);
 }
 

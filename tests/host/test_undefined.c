@@ -196,7 +196,7 @@ TEST(undefined, expressions_that_are_numbers_throughout) {
 
 /* A stop ends the motion at the place where an expression becomes undefined. The step evaluates the expression
  * beyond that place, but the motion does not go there. */
-TEST(undefined, expressions_that_end_where_a_stop_is) {
+TEST(undefined, expressions_that_end_at_a_stop) {
     static const char *const effects[] = {"hold y while sqrt(x/u) > 9",
                                           "when sqrt(x/u) crosses 9 { set y = 1 [m] }",
                                           "stop y + u*sqrt(x/u) >= -9 [m] restitution 0"};

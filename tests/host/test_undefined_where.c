@@ -83,7 +83,7 @@ TEST(undefined_where, the_innermost_part_is_named) {
 
 /* A term is undefined in a window of the step. The term must be found if a sampled place is in the window and not
  * beyond the range `ahead`. */
-TEST(undefined_where, the_places_on_the_way) {
+TEST(undefined_where, undefined_windows_within_a_step) {
     static const double shares[] = {0.0, 0.25, 0.5, 0.75, 1.0, 1.01, 1.5, 2.0};
     for (unsigned c = 0; c < dice_cases(usual_or(150, 40)); c++) {
         char text[700];

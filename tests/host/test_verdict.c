@@ -333,7 +333,7 @@ static bool expect_statuses(dice *d, const char **run, const char **sweep, const
     return !failed && ran->status == 1;
 }
 
-TEST(verdict, a_limit_is_one_of_the_energy) {
+TEST(verdict, strict_limits_the_energy_residual) {
     dice d = dice_of("limit", 15005);
     unsigned of[2] = {0};
     for (unsigned i = 0; i < dice_cases(few_or_all(12, 100)); i++) {
@@ -365,7 +365,7 @@ TEST(verdict, a_limit_is_one_of_the_energy) {
 
 /* A disc with an uneven inertia and a torque of several waves. With coarse tables the finer run must not have the same
  * tables, whether the sweep derives each point (over M) or could share its lists (over a start or the step). */
-TEST(verdict, coarse_tables_are_found_in_every_sweep) {
+TEST(verdict, sweeps_find_coarse_tables) {
     dice d = dice_of("tables", 15006);
     unsigned of[2] = {0};
     for (unsigned i = 0; i < dice_cases(few_or_all(12, 60)); i++) {
