@@ -281,8 +281,8 @@ WH_INLINE int wh_fixed_zeros(uint32_t x) {
 #endif
 }
 
-/* 2^61/d for d >= 2^31, by a table and two Newton steps: the first has 16 bits, the second computes only the bits that
- * it adds. The relative error is below 2^-28. */
+/* 2^61/d for d >= 2^31, by a table and two Newton steps: the first gives 16 bits, and the second
+ * computes only the further ones. The relative error is below 2^-28. */
 WH_INLINE int32_t wh_fixed_reciprocal(uint32_t d) {
     const uint16_t d_high = (uint16_t)(d >> 16);
     const uint16_t d_low = (uint16_t)d;

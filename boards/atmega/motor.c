@@ -41,7 +41,7 @@ void atmega_motor_start(void) {
     driving = false;
 }
 
-/* Returns parts of a PWM step. NaN and a missing supply give 0. */
+/* Returns a voltage as a number of parts of a PWM step. NaN and a missing supply give 0. */
 static uint16_t parts_of(float volts) {
     const float parts = volts * atmega_parts_per_V();
     return !(parts > 0.0f) ? 0U : parts >= (float)ATMEGA_WHOLE ? WHOLE * PARTS : (uint16_t)parts;

@@ -96,7 +96,7 @@ static inline void wh_contact_accel(const void *model, const wh_phase *phase, co
     wh_books_stage(of, w, phase, linear, rate, input);
 }
 
-/* Evaluates the accelerations, forces and signals at state `s`, in the modes of work. */
+/* Evaluates the accelerations, forces and signals at state `s`, with the contacts' modes in `w`. */
 static inline void wh_contact_look(const wh_contact_system *of, wh_contact_work *w,
                                    wh_contact_state *s, const wh_real *input, wh_real *accel,
                                    wh_real *signal) {

@@ -36,7 +36,7 @@ wh_setpoint wh_run_setpoint(const wh_run_config *config, const wh_run *run, uint
     if (!wh_run_drives(run)) {
         return (wh_setpoint){.setpoint_radps = run->off_radps, .limit_radps = run->off_radps};
     }
-    /* At first the speed without load follows the voltage, and soon after the loop has closed the set-point. */
+    /* At first the speed without load follows the voltage. Soon after the loop has closed, it follows the set-point. */
     const wh_real unloaded = run->volts / config->rated_V * config->no_load_radps;
     const wh_real setpoint = run->drive.setpoint_radps;
     const bool opens = run->phase == WH_PHASE_SPIN_UP;

@@ -102,7 +102,7 @@ typedef struct wh_merge {
 typedef struct wh_measured {
     wh_quality quality;
     wh_why why;
-    bool calibrated; /* both floors were entered */
+    bool calibrated; /* the calibration uncertainties of force and angle were entered */
     uint32_t turns;
     uint32_t left_out;
     uint32_t outliers;

@@ -465,10 +465,10 @@ static double taylor_bounds_change(const taylor_bounds *a, int result) {
 #define TOUCH 1e-9
 #define WIDTHS 64.0
 /* An acceleration between the ends of a path is hidden if it exceeds HIDDEN times the sum of those at both ends, and
- * would change the rate by the part TURNS within the path. */
+ * would change the rate within the path by more than TURNS times the rate. */
 #define HIDDEN 2.0
 #define TURNS 0.05
-/* A gap has an edge if its slope changes by the part EDGE within 2^-EDGE_HALVINGS of a path. */
+/* A gap has an edge if its slope changes by more than EDGE times the slope within 2^-EDGE_HALVINGS of a path. */
 #define EDGE 0.05
 #define EDGE_HALVINGS 8
 

@@ -276,7 +276,7 @@ static void say_flat(const nonfinite_at *at, place where, diags *errors) {
     statement_text(where, text, sizeof text);
     diag_error(
         errors, where,
-        "choose lengths with which the linkage cannot lie flat, or hold one more coordinate there",
+        "choose lengths with which the linkage cannot lie flat, or hold one more coordinate in the flat position",
         "%s the holds allow more than one motion, because this hold follows from the others at "
         "this position: %s",
         at->when, text);

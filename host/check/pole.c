@@ -58,7 +58,7 @@ typedef struct looker {
     double *touch; /* [4 * signs] */
 } looker;
 
-/* The kind of growth of value[k * stride] at the distances k, the largest first. */
+/* How values grow towards a place: value[k * stride] is the one at distance k, and the largest distance comes first. */
 static growth growth_of(const double *value, int stride) {
     double least = (double)INFINITY;
     double most = 0.0;

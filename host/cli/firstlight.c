@@ -219,8 +219,8 @@ static const command_usage firstlight_usage = {
         "\n",
     .tail =
         "  --board B            fail if the record is of another board\n"
-        "  --emulated FILE      the emulator's record of the same program: board and compiler must be equal\n"
-        "  --page FILE          the page whose table gets a row, if the record has cycles (default:\n"
+        "  --emulated FILE      the emulator's record of the same program, for the same board and compiler\n"
+        "  --page FILE          add a record with cycles to the table of this page (default:\n"
         "                       " LIGHT_PAGE ")\n"
         "  --keep FILE          keep the record, as it was read\n"
         "  --wait S             seconds to wait for a record on a line (default: 60)\n"

@@ -65,7 +65,7 @@ typedef struct loaded {
     char *contacts; /* contacts in words, whole lines; or "" */
 } loaded;
 
-/* Derives one instance to its image. Returns an exit status (reported); call unload() in any case. */
+/* Derives the equations of an instance and makes its image. Returns an exit status (reported); call unload() in any case. */
 int load(loaded *made, source_model *source, const mechanism *of, const scene *in,
          const overrides *changes, const load_request *request);
 /* Warns of values that float cannot represent. */

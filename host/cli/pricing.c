@@ -87,7 +87,7 @@ static int run_command(const pricing_command *c, int count, char **words) {
 static void says_missing(const pricing *p, const char *why) {
     fprintf(
         stderr,
-        "whirl %s: error: --measure: whirl cannot count on %s: %s\n"
+        "whirl %s: error: --measure: whirl cannot count costs on %s: %s\n"
         "hint: leave out --measure to predict costs, or run `make deps` to install compilers and emulators\n",
         p->command, p->board->name, why);
 }

@@ -128,7 +128,7 @@ const poly *equations_fold(const equations *e, const poly *p);
  * algebra, so that the generated code does not change. */
 const poly *energy_integral(const equations *e);
 
-/* Returns the power of the drive of unknown i, which is an input with a rate. Contacts are not included. */
+/* Unknown i is driven, that is, an input with a rate. Returns the power of its drive. Contacts are not included. */
 const poly *energy_drive(const equations *e, int i);
 
 /* Is p_i = sum_j m_ij q_j'? */

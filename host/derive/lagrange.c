@@ -105,7 +105,8 @@ bool rank_is_positive(double *m, int n) {
 /* The last tried state is the start of the run, because some mass matrices are defined only there. */
 #define TRY_START TRIES
 #define ENTRY_ROUNDING 4e-16 /* of an entry, relative to the sum of its terms' sizes */
-#define MASS_BLUR_FINE 1e-10 /* below this, no state with a smaller mass_blur is searched for */
+#define MASS_BLUR_FINE \
+    1e-10 /* if mass_blur is below this, the search for a state with a smaller one ends */
 
 enum { HINT_SIZE = 320 };
 

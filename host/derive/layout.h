@@ -24,7 +24,7 @@ typedef struct layout {
     int *input;       /* [inputs] number of each input in the mechanism */
     component *angle; /* [angles] */
     component *real;  /* [reals] */
-    /* [unknown] coordinate number in the scene's order, or -1 (second order) */
+    /* [unknown] number of the coordinate in the scene's order, or -1; for scenes of second order only */
     int *place;
     int *angle_number; /* [unknown] turn angle, or -1 */
     int *real_number;  /* [unknown * order_room + primes] real component, or -1 */

@@ -371,7 +371,7 @@ static bool is_possible(const image *im, diags *errors) {
     return false;
 }
 
-/* The operation for a column: a state, an input or the constant. Columns of turn angles have no entries. */
+/* The operation for a column: a state, an input or the constant. A turn angle's column is zero, so it needs none. */
 static int leaf(const image *im, op_list *t, int column) {
     const int real = column - im->angles;
     const int linears = im->form == WH_SECOND_ORDER ? im->coordinates - im->angles : im->reals;

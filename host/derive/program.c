@@ -344,7 +344,8 @@ static void smooth_entries(entries *to) {
     }
 }
 
-/* Finds the inputs in the energies, because their changes between steps are entries. */
+/* Finds the inputs in the energies. A change of such an input between steps changes the energy: the ledger has an entry
+ * for it. */
 static void find_inputs(image_ledger *l, const layout *map) {
     const equations *e = map->equations;
     const poly *kinetic = layout_ready(map, e->kinetic);
@@ -454,7 +455,7 @@ static bool stabilizing_possible(const program *p, diags *errors) {
     } else if (p->layout.form != WH_SECOND_ORDER) {
         diag_error(
             errors, m->at, "add --without conserve, or leave out --stabilized",
-            "--stabilized needs a ledger, which is not possible if a coordinate's rate follows from its conserved momentum");
+            "--stabilized needs a ledger, and a scene that computes a coordinate from its conserved momentum has none");
     } else if (p->integral != NULL) {
         diag_error(
             errors, m->at, no_stabilized,

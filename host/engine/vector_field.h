@@ -10,7 +10,7 @@
 
 typedef struct vector_field {
     int n;           /* components of the state */
-    state_list list; /* IMAGE_BOOKS */
+    state_list list; /* list of the role IMAGE_BOOKS */
     int *
         next; /* [n] component that is the slope of component i; -1 - unknown: a highest derivative */
 } vector_field;

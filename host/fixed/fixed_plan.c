@@ -286,8 +286,8 @@ static bool widen_stages(fixed_plan *p) {
     return enough;
 }
 
-/* Finds the ranges of all values for the current stages. Returns false after an error (reported), such as values that
- * are too large. ranges_alone: the stages are still equal to the ranges. */
+/* Finds the range of every value, from those of the state at a stage (p->stage). Returns false after an error (reported), such as values that
+ * are too large. ranges_alone: these are still the declared ranges. */
 static bool hull_of(fixed_plan *p, bool bits_known, bool ranges_alone, diags *errors) {
     const image *im = p->image;
     const fixed_leaves leaves = leaves_of(p);

@@ -15,7 +15,8 @@ _Static_assert(IMAGE_CELLS_LEAST == 1U << WH_TABLE_BITS_LEAST &&
                    IMAGE_CELLS_MOST == 1U << WH_TABLE_BITS_MOST,
                "the core's tables are what an image may have");
 
-_Static_assert(TURNED_WAVES_MAX == WH_WAVES, "the core's room is what an image may have");
+_Static_assert(TURNED_WAVES_MAX == WH_WAVES,
+               "an image may have as many sines as the core reserves memory for");
 
 bool image_turns(const image *im) {
     const op_list *t = im->list[IMAGE_STEP];

@@ -187,7 +187,8 @@ static void read_name(lexer *in, token *made) {
 static void read_string(lexer *in, token *made) {
     size_t length = 1;
     int c = at_offset(in, length);
-    bool is_clean = true; /* no control characters; carriage returns were reported at the start */
+    bool is_clean =
+        true; /* no control character but tab; the caller has reported carriage returns */
     bool is_utf8 = true;
     while (c > 0 && c != '"' && c != '\n') {
         const size_t left = in->at.source->length - in->at.offset - length;

@@ -146,7 +146,7 @@ typedef struct going {
     flowpipe *tube;
     void *run;
     enclosure step_s; /* length of a step of the run */
-    enclosure next_s; /* time from the tube to the next record of the run */
+    enclosure next_s; /* time from the flowpipe's end to the next record of the run */
     enclosure *exact; /* [states] */
     uint64_t done;    /* completed steps of the run */
 } going;

@@ -301,7 +301,8 @@ static void print_answer(FILE *out, const trials *t, const choice_request *w, co
     }
     for (int i = CHOICE_FLASH; i < CHOICE_LIMITS; i++) {
         if ((by->unknown & CHOICE_BIT(i)) != 0) {
-            fprintf(out, "  %s has a limit, but its size is unknown: count it with --measure\n",
+            fprintf(out,
+                    "  the %s of a row is unknown, so its limit was not tested: add --measure\n",
                     i == CHOICE_FLASH ? "flash" : "RAM");
         }
     }

@@ -99,7 +99,7 @@ typedef struct sweep {
     const engine_kind *kind;
     image_settings engine;
     double from_s; /* measure from this time on */
-    double strict; /* run_checks_fails() */
+    double strict; /* the value of --strict: see run_checks_fails() */
     /* The image whose lists all points share; NULL: parameters or conserved momenta, which lists contain, differ. */
     const image *shared;
 } sweep;

@@ -121,8 +121,8 @@ typedef enum measured_end {
 /* Why counting is impossible on a board, perhaps in `text`. NULL: it is possible, and shared files are compiled. */
 enum { MEASURED_TEXT = 160 };
 const char *measured_missing(const trials *t, const cost_board *board, char text[MEASURED_TEXT]);
-/* Counts the steps of a row for all rows of its setting; with contacts, the row's whole run. Takes seconds. Removes
- * rows that cannot be built, linked or run, and sorts the table again. */
+/* Counts steps with the row's setting, for all rows that have it. With contacts, counts the row's whole run. Takes
+ * seconds. Removes rows that cannot be built, linked or run, and sorts the table again. */
 measured_end measured_count(const trials *t, table *made, int row);
 /* Counts until all rows of the front are counted; nothing with contacts. `shows`: progress on standard error. */
 measured_end measured_front(const trials *t, table *made, bool shows);

@@ -95,8 +95,9 @@ typedef struct trials {
     int worst;             /* the point whose reference ends first, or is least accurate */
     int records;           /* records after the start for which all references are trusted */
     deviation_of_what what;
-    double tolerated; /* with --of: an error up to this is usable, even if the values are smaller */
-    bool reliable;    /* all references are reliable */
+    double
+        tolerated; /* with --of: an error up to this is usable, even if the quantity is smaller */
+    bool reliable; /* all references are reliable */
     bool without_events; /* with contacts, prices are those of a step without an event */
     bool stopped;
 } trials;

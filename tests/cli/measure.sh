@@ -138,7 +138,7 @@ missing() { # missing EXIT-STATUS SCENE TEXT OPTION...: runs choose without the 
     [ $? -eq "$wanted" ] && cat "$scratch/out" "$scratch/err" | grep -q "$text"
     verdict $? "a compiler that is missing, choose $scene $*: exit status $wanted, $text" "$scratch/out"
 }
-missing 2 "$scratch/drawn.whirl:r23_1" "whirl cannot count on mps2-an386: 'no-such-compiler' is missing" --measure
+missing 2 "$scratch/drawn.whirl:r23_1" "whirl cannot count costs on mps2-an386: 'no-such-compiler' is missing" --measure
 missing 0 "$scratch/drawn.whirl:r23_1" "^  prices  *predicted, because the instructions cannot be counted: 'no-such-compiler' is missing"
 missing 1 ball_bounces 'the cost of contacts must be counted'
 choose ball_bounces --error 1e-2 --board host --horizon 1s
